@@ -1,0 +1,87 @@
+//! What can go wrong, and the words for it: every error names its subject, what was found, what was
+//! expected, and what would mend it.
+
+use std::fmt;
+
+/// The cause of an [`Error`]; each has its own exception class in Python.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ErrorKind {
+    /// A volume whose voxels or geometry cannot be used.
+    Volume,
+    /// A vessel or vessel tree whose points or radii cannot be used.
+    VesselTree,
+    /// A camera that defines no view.
+    Camera,
+    /// A setting outside its range.
+    Settings,
+    /// The caller asked to stop.
+    Interrupted,
+}
+
+impl ErrorKind {
+    /// Every kind, for tests that each of them can be met.
+    pub const ALL: [ErrorKind; 5] = [
+        ErrorKind::Volume,
+        ErrorKind::VesselTree,
+        ErrorKind::Camera,
+        ErrorKind::Settings,
+        ErrorKind::Interrupted,
+    ];
+}
+
+/// An error in one line: `subject: found …; expected …; mend`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    /// The cause.
+    pub kind: ErrorKind,
+    /// The argument, file or item that is wrong.
+    pub subject: String,
+    /// What was found.
+    pub found: String,
+    /// What was expected instead.
+    pub expected: String,
+    /// What would mend it; empty where `expected` already says so.
+    pub mend: String,
+}
+
+impl Error {
+    /// An error without a mend of its own.
+    pub fn new(
+        kind: ErrorKind,
+        subject: impl Into<String>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self {
+            kind,
+            subject: subject.into(),
+            found: found.into(),
+            expected: expected.into(),
+            mend: String::new(),
+        }
+    }
+
+    /// The same error with the step that would mend it.
+    #[must_use]
+    pub fn mend(mut self, mend: impl Into<String>) -> Self {
+        self.mend = mend.into();
+        self
+    }
+
+    /// The caller asked to stop.
+    pub fn interrupted() -> Self {
+        Self::new(ErrorKind::Interrupted, "rendering", "a request to stop", "to run to its end")
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: found {}; expected {}", self.subject, self.found, self.expected)?;
+        if self.mend.is_empty() { Ok(()) } else { write!(f, "; {}", self.mend) }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// A result of this crate.
+pub type Result<T> = std::result::Result<T, Error>;

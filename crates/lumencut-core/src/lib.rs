@@ -1,0 +1,13 @@
+//! Curved Surface Reformation (CSR): the lumen of all vessels of an angiography in one freely rotatable view.
+//!
+//! The method of Auzinger et al., "Vessel Visualization using Curved Surface Reformation", IEEE TVCG 19(12),
+//! 2013, doi:10.1109/TVCG.2013.215. This crate knows no file format and no GPU API.
+
+pub mod camera;
+pub mod error;
+pub mod frame;
+pub mod math;
+pub mod phantom;
+pub mod settings;
+pub mod vessel_tree;
+pub mod volume;

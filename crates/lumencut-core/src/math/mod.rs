@@ -1,0 +1,3 @@
+//! The arithmetic that the stages share.
+
+pub mod window;

@@ -1,0 +1,49 @@
+//! The window (level, width) that maps intensities to grey, and the ramp that maps them to opacity.
+
+/// Intensities shown from black to white: `level` ± `width` / 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// The intensity shown as middle grey.
+    pub level: f64,
+    /// The range of intensities from black to white, above 0.
+    pub width: f64,
+}
+
+/// A linear ramp from transparent to opaque; `transparent` may lie above `opaque`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opacity {
+    /// The intensity at which opacity begins to rise from 0.
+    pub transparent: f64,
+    /// The intensity at which opacity reaches 1.
+    pub opaque: f64,
+}
+
+/// Linear map of intensity to [0, 1], ready for one multiplication and one addition per pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Ramp {
+    scale: f32,
+    offset: f32,
+}
+
+impl Ramp {
+    fn between(zero: f64, one: f64) -> Self {
+        let span = if one == zero { f64::EPSILON.max(zero.abs() * 1e-12) } else { one - zero };
+        Self { scale: (1.0 / span) as f32, offset: (-zero / span) as f32 }
+    }
+
+    /// Grey of a window.
+    pub fn grey(window: Window) -> Self {
+        Self::between(window.level - window.width / 2.0, window.level + window.width / 2.0)
+    }
+
+    /// Opacity of a ramp; opaque everywhere without one.
+    pub fn opacity(opacity: Option<Opacity>) -> Self {
+        opacity.map_or(Self { scale: 0.0, offset: 1.0 }, |o| Self::between(o.transparent, o.opaque))
+    }
+
+    /// The ramp at an intensity, in [0, 1].
+    #[inline(always)]
+    pub fn at(&self, intensity: f32) -> f32 {
+        (intensity * self.scale + self.offset).clamp(0.0, 1.0)
+    }
+}

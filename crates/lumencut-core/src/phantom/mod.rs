@@ -1,0 +1,1 @@
+//! Scenes made from formulas, with the truth beside them.

@@ -1,0 +1,103 @@
+//! Vessels and the tree they form: unbranched centerlines in world space (LPS, mm).
+
+use glam::DVec3;
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// One unbranched centerline with optional radii, in world space (LPS, mm).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vessel {
+    points: Vec<DVec3>,
+    radius: Option<Vec<f64>>,
+}
+
+impl Vessel {
+    /// A vessel from at least two finite points and, where given, one finite radius ≥ 0 per point.
+    ///
+    /// # Errors
+    /// [`ErrorKind::VesselTree`] where a count or a value is none of these.
+    pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
+        let wrong = |subject: &str, found: String, expected: &str| {
+            Err(Error::new(ErrorKind::VesselTree, subject, found, expected))
+        };
+        if points.len() < 2 {
+            return wrong("points of the vessel", format!("{} point(s)", points.len()), "at least 2 points");
+        }
+        if let Some(i) = points.iter().position(|p| !p.is_finite()) {
+            return wrong(
+                "points of the vessel",
+                format!("{} at point {i}", points[i]),
+                "finite coordinates in mm",
+            );
+        }
+        if let Some(radius) = &radius {
+            if radius.len() != points.len() {
+                let found = format!("{} radii for {} points", radius.len(), points.len());
+                return wrong("radius of the vessel", found, "one radius per point");
+            }
+            if let Some(i) = radius.iter().position(|r| !r.is_finite() || *r < 0.0) {
+                let found = format!("{} at point {i}", radius[i]);
+                return wrong("radius of the vessel", found, "finite radii of 0 mm or more");
+            }
+        }
+        Ok(Self { points, radius })
+    }
+
+    /// The points (mm, LPS), at least two.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// The radius at each point (mm), where known.
+    pub fn radius(&self) -> Option<&[f64]> {
+        self.radius.as_deref()
+    }
+
+    /// The radius at point `i` (mm), 0 where unknown.
+    pub fn radius_or_zero(&self, i: usize) -> f64 {
+        self.radius.as_ref().map_or(0.0, |r| r[i])
+    }
+}
+
+/// A set of vessels that may share end points; a vessel's index is its id. Forests, cycles and loose
+/// pieces are legal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VesselTree {
+    vessels: Vec<Vessel>,
+}
+
+impl VesselTree {
+    /// A tree of at least one vessel.
+    ///
+    /// # Errors
+    /// [`ErrorKind::VesselTree`] for a tree without vessels, or one with more points than 2³⁰.
+    pub fn new(vessels: Vec<Vessel>) -> Result<Self> {
+        let points: usize = vessels.iter().map(|v| v.points.len()).sum();
+        if vessels.is_empty() || points > 1 << 30 {
+            let found = format!("{} vessels with {points} points", vessels.len());
+            return Err(Error::new(
+                ErrorKind::VesselTree,
+                "vessel tree",
+                found,
+                "1 or more vessels, at most 2^30 points",
+            ));
+        }
+        Ok(Self { vessels })
+    }
+
+    /// The vessels; the index is the vessel's id.
+    pub fn vessels(&self) -> &[Vessel] {
+        &self.vessels
+    }
+
+    /// The number of segments of all vessels.
+    pub fn segment_count(&self) -> usize {
+        self.vessels.iter().map(|v| v.points.len() - 1).sum()
+    }
+
+    /// The corners of the axis-aligned box around all points (mm, LPS).
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let points = self.vessels.iter().flat_map(|v| &v.points);
+        points.fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)))
+    }
+}

@@ -1,0 +1,182 @@
+//! Volumes: borrowed voxels of any integer or float type on any invertible affine grid.
+
+use glam::{DAffine3, DVec3};
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// A voxel type: widened exactly, or to `f32` for half precision, when it is read.
+pub trait Voxel: Copy + Send + Sync + 'static {
+    /// The type that the interpolation computes in: `f32` where it holds every value exactly, else `f64`.
+    type Real: Real;
+    /// The voxel's value.
+    fn real(self) -> Self::Real;
+}
+
+/// The arithmetic that trilinear interpolation needs.
+pub trait Real:
+    Copy
+    + std::ops::Add<Output = Self>
+    + std::ops::Sub<Output = Self>
+    + std::ops::Mul<Output = Self>
+    + Send
+    + Sync
+{
+    /// A weight in [0, 1], narrowed to this type.
+    fn from_weight(weight: f64) -> Self;
+    /// The value as stored in a frame.
+    fn to_f32(self) -> f32;
+}
+
+impl Real for f32 {
+    #[inline(always)]
+    fn from_weight(weight: f64) -> Self {
+        weight as f32
+    }
+    #[inline(always)]
+    fn to_f32(self) -> f32 {
+        self
+    }
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn from_weight(weight: f64) -> Self {
+        weight
+    }
+    #[inline(always)]
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
+}
+
+macro_rules! voxel {
+    ($real:ty: $($type:ty),*) => {$(
+        impl Voxel for $type {
+            type Real = $real;
+            #[inline(always)]
+            fn real(self) -> $real {
+                self as $real
+            }
+        }
+    )*};
+}
+voxel!(f32: i8, u8, i16, u16, f32);
+voxel!(f64: i32, u32, i64, u64, f64);
+
+/// The voxels of a volume, borrowed in their own type.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs)]
+pub enum Voxels<'a> {
+    I8(&'a [i8]),
+    U8(&'a [u8]),
+    I16(&'a [i16]),
+    U16(&'a [u16]),
+    I32(&'a [i32]),
+    U32(&'a [u32]),
+    I64(&'a [i64]),
+    U64(&'a [u64]),
+    F32(&'a [f32]),
+    F64(&'a [f64]),
+}
+
+/// Runs `$body` with `$slice` bound to the voxels in their own type.
+#[macro_export]
+macro_rules! with_voxels {
+    ($voxels:expr, $slice:ident => $body:expr) => {
+        match $voxels {
+            $crate::volume::Voxels::I8($slice) => $body,
+            $crate::volume::Voxels::U8($slice) => $body,
+            $crate::volume::Voxels::I16($slice) => $body,
+            $crate::volume::Voxels::U16($slice) => $body,
+            $crate::volume::Voxels::I32($slice) => $body,
+            $crate::volume::Voxels::U32($slice) => $body,
+            $crate::volume::Voxels::I64($slice) => $body,
+            $crate::volume::Voxels::U64($slice) => $body,
+            $crate::volume::Voxels::F32($slice) => $body,
+            $crate::volume::Voxels::F64($slice) => $body,
+        }
+    };
+}
+
+/// A volume: voxels, the grid they lie on, and the grid's place in world space (LPS, mm).
+#[derive(Clone, Copy, Debug)]
+pub struct Volume<'a> {
+    voxels: Voxels<'a>,
+    size: [usize; 3],
+    strides: [usize; 3],
+    world_from_index: DAffine3,
+    index_from_world: DAffine3,
+}
+
+impl<'a> Volume<'a> {
+    /// A volume over `voxels` with `size` voxels along (i, j, k); the voxel at (i, j, k) is element
+    /// `i·strides[0] + j·strides[1] + k·strides[2]`. `world_from_index` may be oblique, left-handed or sheared.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Volume`] for an empty grid, strides that leave the slice, or an affine that is not
+    /// finite and invertible.
+    pub fn new(
+        voxels: Voxels<'a>,
+        size: [usize; 3],
+        strides: [usize; 3],
+        world_from_index: DAffine3,
+    ) -> Result<Self> {
+        let length = with_voxels!(voxels, slice => slice.len());
+        let wrong = |subject: &str, found: String, expected: &str| {
+            Err(Error::new(ErrorKind::Volume, subject, found, expected))
+        };
+        if size.contains(&0) {
+            return wrong("size of the volume", format!("{size:?}"), "1 or more voxels along each axis");
+        }
+        let last = (0..3).try_fold(0usize, |sum, a| sum.checked_add((size[a] - 1).checked_mul(strides[a])?));
+        if last.is_none_or(|last| last >= length) {
+            let found = format!("size {size:?} with strides {strides:?} over {length} voxels");
+            return wrong("voxels of the volume", found, "every voxel inside the array");
+        }
+        let columns = world_from_index.matrix3;
+        let scale = columns.x_axis.length() * columns.y_axis.length() * columns.z_axis.length();
+        let singular = columns.determinant().abs() <= 1e-9 * scale;
+        if !world_from_index.is_finite() || singular || scale == 0.0 {
+            let found = format!("{world_from_index:?}");
+            return wrong(
+                "world_from_index of the volume",
+                found,
+                "a finite, invertible affine (mm per voxel)",
+            );
+        }
+        Ok(Self { voxels, size, strides, world_from_index, index_from_world: world_from_index.inverse() })
+    }
+
+    /// The voxels in their own type.
+    pub fn voxels(&self) -> Voxels<'a> {
+        self.voxels
+    }
+
+    /// The number of voxels along (i, j, k).
+    pub fn size(&self) -> [usize; 3] {
+        self.size
+    }
+
+    /// The distance in elements between neighbours along (i, j, k).
+    pub fn strides(&self) -> [usize; 3] {
+        self.strides
+    }
+
+    /// World position (LPS, mm) of a continuous index; (0, 0, 0) is the centre of the first voxel.
+    pub fn world_from_index(&self) -> DAffine3 {
+        self.world_from_index
+    }
+
+    /// Continuous index of a world position.
+    pub fn index_from_world(&self) -> DAffine3 {
+        self.index_from_world
+    }
+
+    /// The eight outer corners of the grid, half a voxel beyond the outermost centres (mm, LPS).
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|c| {
+            let side = |a: usize| if c >> a & 1 == 0 { -0.5 } else { self.size[a] as f64 - 0.5 };
+            self.world_from_index.transform_point3(DVec3::new(side(0), side(1), side(2)))
+        })
+    }
+}

@@ -1,0 +1,1 @@
+//! Readers of centerline files: one room per format.

@@ -1,0 +1,11 @@
+//! The extension module `lumencut._lumencut`: thin wrappers over `lumencut-core` and `lumencut-io`.
+
+use pyo3::prelude::*;
+
+mod errors;
+
+#[pymodule]
+fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    Ok(())
+}

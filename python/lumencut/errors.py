@@ -1,0 +1,59 @@
+"""What can go wrong: every error names its subject, what was found, what was expected and what would mend it."""
+
+from __future__ import annotations
+
+
+class LumencutError(Exception):
+    """Base of all errors of this package.
+
+    Parameters
+    ----------
+    subject : str
+        The file, argument or item that is wrong.
+    found : str
+        What was found.
+    expected : str
+        What was expected instead.
+    mend : str, optional
+        What would mend it, such as the option to give.
+    """
+
+    def __init__(self, subject: str, found: str, expected: str, mend: str = "") -> None:
+        self.subject, self.found, self.expected, self.mend = subject, found, expected, mend
+        super().__init__(subject, found, expected, mend)
+
+    def __str__(self) -> str:
+        tail = f"; {self.mend}" if self.mend else ""
+        return f"{self.subject}: found {self.found}; expected {self.expected}{tail}"
+
+
+class VolumeError(LumencutError, ValueError):
+    """A volume whose voxels or geometry cannot be used."""
+
+
+class VesselTreeError(LumencutError, ValueError):
+    """A vessel or vessel tree whose points or radii cannot be used."""
+
+
+class CameraError(LumencutError, ValueError):
+    """A camera that defines no view."""
+
+
+class SettingsError(LumencutError, ValueError):
+    """A setting outside its range."""
+
+
+class FormatError(LumencutError, ValueError):
+    """A file whose content is not what its format promises, or a format that is not read."""
+
+
+class FileError(LumencutError, OSError):
+    """A file that cannot be opened, read or written."""
+
+
+class MissingPackageError(LumencutError, RuntimeError):
+    """An optional package that the call needs is not installed."""
+
+
+class SpaceWarning(UserWarning):
+    """Coordinates that fit the volume better in another space than the one stated."""

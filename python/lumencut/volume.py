@@ -1,0 +1,160 @@
+"""Volumes: voxels on an affine grid in world space (LPS, mm)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import VolumeError
+
+
+class Volume:
+    """Voxels of any integer or float type on any invertible affine grid, shared with the caller's array.
+
+    Parameters
+    ----------
+    array : array_like, shape (nk, nj, ni)
+        Voxels in the order [k, j, i], in the volume's own unit (HU for CT). Arrays of a native byte order
+        whose axes are dense in any order are not copied.
+    spacing : sequence of 3 float, default (1, 1, 1)
+        Distance between neighbouring voxels along i, j, k (mm).
+    origin : sequence of 3 float, default (0, 0, 0)
+        Centre of the first voxel (mm, LPS).
+    direction : array_like, shape (3, 3), default identity
+        Columns are the unit vectors of i, j, k in world space.
+    world_from_index : array_like, shape (4, 4), optional
+        The general form instead of the three above: an affine that may be oblique, left-handed or sheared.
+
+    Raises
+    ------
+    VolumeError
+        For arrays that are not 3-dimensional numbers, or a grid that is not finite and invertible.
+    """
+
+    def __init__(
+        self,
+        array: npt.ArrayLike,
+        spacing: npt.ArrayLike = (1.0, 1.0, 1.0),
+        origin: npt.ArrayLike = (0.0, 0.0, 0.0),
+        direction: npt.ArrayLike | None = None,
+        *,
+        world_from_index: npt.ArrayLike | None = None,
+    ) -> None:
+        if world_from_index is None:
+            world_from_index = _affine(spacing, origin, np.eye(3) if direction is None else direction)
+        self._array, flipped = _plain(_checked_voxels(array))
+        self._world_from_index = _checked_affine(world_from_index) @ flipped
+        self._world_from_index.flags.writeable = False
+
+    @property
+    def array(self) -> npt.NDArray[Any]:
+        """The voxels, shape (nk, nj, ni)."""
+        return self._array
+
+    @property
+    def world_from_index(self) -> npt.NDArray[np.float64]:
+        """Affine (4, 4) from continuous index (i, j, k) to world (mm, LPS)."""
+        return self._world_from_index
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """Number of voxels along i, j, k."""
+        nk, nj, ni = self._array.shape
+        return ni, nj, nk
+
+    @property
+    def spacing(self) -> npt.NDArray[np.float64]:
+        """Distance between neighbouring voxels along i, j, k (mm), shape (3,)."""
+        return np.asarray(np.linalg.norm(self._world_from_index[:3, :3], axis=0), dtype=np.float64)
+
+    @property
+    def origin(self) -> npt.NDArray[np.float64]:
+        """Centre of the first voxel (mm, LPS), shape (3,)."""
+        return self._world_from_index[:3, 3]
+
+    @property
+    def direction(self) -> npt.NDArray[np.float64]:
+        """Columns are the unit vectors of i, j, k in world space, shape (3, 3)."""
+        return np.asarray(self._world_from_index[:3, :3] / self.spacing, dtype=np.float64)
+
+    @property
+    def corners(self) -> npt.NDArray[np.float64]:
+        """The eight outer corners, half a voxel beyond the outermost centres (mm, LPS), shape (8, 3)."""
+        ends = np.stack([np.full(3, -0.5), np.asarray(self.size) - 0.5])
+        index = np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(8, 3)
+        return index @ self._world_from_index[:3, :3].T + self._world_from_index[:3, 3]
+
+    def contains(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Tell which world points (n, 3) (mm, LPS) lie inside the grid's outer corners, shape (n,)."""
+        points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+        inverse = np.linalg.inv(self._world_from_index)
+        index = points @ inverse[:3, :3].T + inverse[:3, 3]
+        inside = (index >= -0.5) & (index <= np.asarray(self.size) - 0.5)
+        return np.asarray(inside.all(axis=1), dtype=np.bool_)
+
+    def __repr__(self) -> str:
+        ni, nj, nk = self.size
+        spacing = " × ".join(f"{s:.4g}" for s in self.spacing)
+        return f"Volume({ni} × {nj} × {nk} {self._array.dtype}, spacing {spacing} mm)"
+
+
+def _affine(spacing: npt.ArrayLike, origin: npt.ArrayLike, direction: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Affine (4, 4) from spacing (3,), origin (3,) and direction (3, 3)."""
+    affine = np.eye(4)
+    parts = (("spacing", spacing, (3,)), ("origin", origin, (3,)), ("direction", direction, (3, 3)))
+    values = [_numbers(name, value, shape) for name, value, shape in parts]
+    if not (values[0] > 0).all():
+        raise VolumeError("spacing of the volume", f"{values[0].tolist()}", "3 positive distances in mm")
+    affine[:3, :3] = values[2] * values[0]
+    affine[:3, 3] = values[1]
+    return affine
+
+
+def _numbers(name: str, value: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.shape != shape or not np.isfinite(array).all():
+        raise VolumeError(f"{name} of the volume", f"{value!r}", f"finite numbers of shape {shape}")
+    return array
+
+
+def _checked_affine(world_from_index: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    affine = _numbers("world_from_index", world_from_index, (4, 4))
+    scale = np.prod(np.linalg.norm(affine[:3, :3], axis=0))
+    singular = not abs(np.linalg.det(affine[:3, :3])) > 1e-9 * scale
+    if singular or not np.array_equal(affine[3], [0, 0, 0, 1]):
+        expected = "an invertible affine whose last row is 0 0 0 1"
+        raise VolumeError("world_from_index of the volume", f"{affine.tolist()}", expected)
+    return affine
+
+
+def _checked_voxels(array: npt.ArrayLike) -> npt.NDArray[Any]:
+    voxels = np.asarray(array)
+    if voxels.ndim != 3 or voxels.size == 0:
+        mend = "pick one component or time point" if voxels.ndim > 3 else ""
+        raise VolumeError("array of the volume", f"shape {voxels.shape}", "3 axes [k, j, i], none empty", mend)
+    if voxels.dtype == np.bool_:
+        return voxels.view(np.uint8)
+    if voxels.dtype.kind not in "iuf" or voxels.dtype.itemsize > 8:
+        raise VolumeError("array of the volume", f"voxels of type {voxels.dtype}", "integers or floats up to 64 bits")
+    if voxels.dtype == np.float16:
+        return voxels.astype(np.float32)
+    return voxels.astype(voxels.dtype.newbyteorder("="), copy=False)
+
+
+def _plain(voxels: npt.NDArray[Any]) -> tuple[npt.NDArray[Any], npt.NDArray[np.float64]]:
+    """The voxels as a dense view with positive strides, and the affine old-index-from-new-index."""
+    flipped = np.eye(4)
+    for axis, stride in enumerate(voxels.strides):
+        if stride < 0:
+            voxels = np.flip(voxels, axis)
+            flipped[2 - axis, 2 - axis] = -1.0
+            flipped[2 - axis, 3] = voxels.shape[axis] - 1
+    slowest_first = np.argsort([-s for s in voxels.strides], kind="stable")
+    if not voxels.transpose(slowest_first).flags.c_contiguous:
+        voxels = np.ascontiguousarray(voxels)
+    return voxels, flipped
