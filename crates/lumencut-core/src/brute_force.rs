@@ -8,7 +8,8 @@ use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
 use crate::math::lanes::{ABSENT, FAN, Kernel, PIXELS, TILE, UNSET, dispatch};
-use crate::math::pieces::{Envelope, Tile, lower_distance};
+use crate::math::nearest::lower_distance;
+use crate::math::pieces::{Envelope, Tile};
 use crate::stages::View;
 use crate::stages::depth::{CutSurface, Search, depth_by};
 

@@ -1,5 +1,6 @@
 //! The cost that decides which piece of the cut surface a pixel sees (paper Eq. 2), and its *lumen first* variant.
 
+use super::lanes::larger;
 use crate::settings::Settings;
 
 /// The rule that orders the pieces covering a pixel: the smallest key wins.
@@ -33,7 +34,7 @@ impl Rule {
     #[inline(always)]
     pub fn key<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32) -> f32 {
         let beyond = d - r;
-        let cost = z + self.weight * if beyond > 0.0 { beyond } else { 0.0 };
+        let cost = z + self.weight * larger(beyond, 0.0);
         if LUMEN_FIRST && beyond <= self.margin { z - self.lift } else { cost }
     }
 

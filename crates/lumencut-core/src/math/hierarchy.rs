@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::cost::Rule;
-use super::lanes::{ABSENT, FAN, FAR};
+use super::lanes::{ABSENT, FAN, FAR, gap};
 use super::pieces::{Bundle, Tile};
 
 /// An entry of the order that holds no slot.
@@ -78,10 +78,6 @@ impl Boxes {
         let mut squared = [0.0; FAN];
         let ([cx, cy], [hx, hy]) = (tile.center, tile.half);
         for n in 0..FAN {
-            let gap = |low: f32, high: f32, center: f32, half: f32| {
-                let outside = if low - center > center - high { low - center } else { center - high };
-                if outside > half { outside - half } else { 0.0 }
-            };
             let gx = gap(self.low_x[n], self.high_x[n], cx, hx);
             let gy = gap(self.low_y[n], self.high_y[n], cy, hy);
             squared[n] = gx * gx + gy * gy;

@@ -20,6 +20,82 @@ pub const FAR: f32 = 1e9;
 /// A key that no piece beats: the pixel does not take part.
 pub const SETTLED: f32 = -1e30;
 
+/// The larger of two numbers that are not NaN: one instruction, where `f32::max` needs three.
+#[inline(always)]
+pub fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers that are not NaN.
+#[inline(always)]
+pub fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// An integer that orders as the number does; integers are what the compiler reduces in vectors.
+#[inline(always)]
+fn ordered(number: f32) -> i32 {
+    let bits = number.to_bits() as i32;
+    bits ^ ((bits >> 31) & i32::MAX)
+}
+
+/// The number that [`ordered`] came from.
+#[inline(always)]
+fn number(ordered: i32) -> f32 {
+    f32::from_bits((ordered ^ ((ordered >> 31) & i32::MAX)) as u32)
+}
+
+/// The largest of a tile's numbers, none of them NaN.
+#[inline(always)]
+pub fn largest(numbers: &[f32; PIXELS]) -> f32 {
+    let mut most = i32::MIN;
+    for l in 0..PIXELS {
+        most = most.max(ordered(numbers[l]));
+    }
+    number(most)
+}
+
+/// The smallest of a node's numbers, none of them NaN.
+#[inline(always)]
+pub fn smallest(numbers: &[f32; FAN]) -> f32 {
+    let mut least = i32::MAX;
+    for n in 0..FAN {
+        least = least.min(ordered(numbers[n]));
+    }
+    number(least)
+}
+
+/// Bit n tells whether number n is no larger than `limit`.
+#[inline(always)]
+pub fn within(numbers: &[f32; FAN], limit: f32) -> u32 {
+    let mut bits = [0u32; FAN];
+    for n in 0..FAN {
+        bits[n] = if numbers[n] <= limit { 1 << n } else { 0 };
+    }
+    let mut all = 0;
+    for n in 0..FAN {
+        all |= bits[n];
+    }
+    all
+}
+
+/// The places of the bits set, lowest first.
+#[inline(always)]
+pub fn places(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = bits.trailing_zeros() as usize;
+        let any = bits != 0;
+        bits &= bits.wrapping_sub(1);
+        any.then_some(place)
+    })
+}
+
+/// The distance along one axis from the interval `center` ± `half` to the interval from `low` to `high`.
+#[inline(always)]
+pub fn gap(low: f32, high: f32, center: f32, half: f32) -> f32 {
+    larger(larger(low - center, center - high) - half, 0.0)
+}
+
 /// An instruction set that the kernels are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Isa {

@@ -3,6 +3,7 @@
 pub mod cost;
 pub mod hierarchy;
 pub mod lanes;
+pub mod nearest;
 pub mod pieces;
 pub mod projection;
 pub mod sampling;

@@ -8,7 +8,7 @@
 //! takes the pixel unless (q − p₁)·e₀ > 0, else the wedge at p₁ does unless (q − p₁)·e₁ > 0, and so on.
 
 use super::cost::Rule;
-use super::lanes::{ABSENT, FAN, FAR, PIXELS, SETTLED, TILE, UNSET};
+use super::lanes::{ABSENT, FAN, FAR, PIXELS, SETTLED, TILE, UNSET, gap, larger, smaller};
 use crate::camera::Camera;
 
 /// Sixteen slots in projection, field by field.
@@ -80,6 +80,8 @@ pub struct Tile {
     pub center: [f32; 2],
     /// Half the sides of the box.
     pub half: [f32; 2],
+    /// Half the diagonal of the box.
+    pub radius: f32,
 }
 
 impl Tile {
@@ -95,12 +97,16 @@ impl Tile {
             let (first, last) = (values[0], values[TILE - 1]);
             (last - first).abs() * 0.500_001 + 4e-7 * first.abs().max(last.abs())
         };
-        Self {
-            x: std::array::from_fn(|l| columns[l % TILE]),
-            y: std::array::from_fn(|l| rows[l / TILE]),
-            center: [middle(&columns), middle(&rows)],
-            half: [half(&columns), half(&rows)],
+        let half = [half(&columns), half(&rows)];
+        let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
+        for r in 0..TILE {
+            for c in 0..TILE {
+                x[r * TILE + c] = columns[c];
+                y[r * TILE + c] = rows[r];
+            }
         }
+        let radius = (half[0] * half[0] + half[1] * half[1]).sqrt();
+        Self { x, y, center: [middle(&columns), middle(&rows)], half, radius }
     }
 }
 
@@ -117,29 +123,27 @@ pub struct Envelope {
 }
 
 impl Envelope {
-    /// No winner where `wanted`, settled elsewhere.
+    /// No winner yet where the level has weight, settled elsewhere.
     #[inline(always)]
-    pub fn new(wanted: &[bool; PIXELS]) -> Self {
+    pub fn new(weight: &[f32; PIXELS]) -> Self {
         let mut key = [SETTLED; PIXELS];
         for l in 0..PIXELS {
-            key[l] = if wanted[l] { UNSET } else { SETTLED };
+            key[l] = if weight[l] > 0.0 { UNSET } else { SETTLED };
         }
         Self { key, z: [0.0; PIXELS], piece: [u32::MAX; PIXELS] }
     }
 
-    /// Takes the piece at pixel `l` where it is covered and wins; returns the pixel's key afterwards.
+    /// Takes the piece at pixel `l` where it is covered and wins.
     #[inline(always)]
-    fn offer(&mut self, l: usize, covered: bool, key: f32, z: f32, piece: u32) -> f32 {
+    fn offer(&mut self, l: usize, covered: bool, key: f32, z: f32, piece: u32) {
         let (old_key, old_z, old_piece) = (self.key[l], self.z[l], self.piece[l]);
         let wins = covered & ((key < old_key) | ((key == old_key) & (piece < old_piece)));
-        let new_key = if wins { key } else { old_key };
-        self.key[l] = new_key;
+        self.key[l] = if wins { key } else { old_key };
         self.z[l] = if wins { z } else { old_z };
         self.piece[l] = if wins { piece } else { old_piece };
-        new_key
     }
 
-    /// Offers the stripe of slot `s` to every pixel; returns the largest key afterwards.
+    /// Offers the stripe of slot `s` to every pixel.
     #[inline(always)]
     pub fn offer_stripe<const LUMEN_FIRST: bool>(
         &mut self,
@@ -147,7 +151,7 @@ impl Envelope {
         bundle: &Bundle,
         s: usize,
         rule: &Rule,
-    ) -> f32 {
+    ) {
         let (x, y) = (bundle.x[s], bundle.y[s]);
         let (next_x, next_y) = (bundle.next_x[s], bundle.next_y[s]);
         let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
@@ -157,7 +161,6 @@ impl Envelope {
         let (z0, dz) = (bundle.stripe_z[s], bundle.stripe_dz[s]);
         let (r0, dr) = (bundle.radius[s], bundle.radius_change[s]);
         let piece = bundle.slot[s] * 2 + 1;
-        let mut worst = SETTLED;
         for l in 0..PIXELS {
             let (ux, uy) = (tile.x[l] - x, tile.y[l] - y);
             let after_start = ux * ex + uy * ey;
@@ -167,13 +170,11 @@ impl Envelope {
             let z = z0 + t * dz;
             let key = rule.key::<LUMEN_FIRST>(z, d, r0 + t * dr);
             let covered = (after_start >= 0.0) & (beyond_end <= 0.0);
-            let now = self.offer(l, covered, key, z, piece);
-            worst = if now > worst { now } else { worst };
+            self.offer(l, covered, key, z, piece);
         }
-        worst
     }
 
-    /// Offers the wedge, half-plane or plane of slot `s` to every pixel; returns the largest key afterwards.
+    /// Offers the wedge, half-plane or plane of slot `s` to every pixel.
     #[inline(always)]
     pub fn offer_wedge<const LUMEN_FIRST: bool>(
         &mut self,
@@ -181,13 +182,12 @@ impl Envelope {
         bundle: &Bundle,
         s: usize,
         rule: &Rule,
-    ) -> f32 {
+    ) {
         let (x, y) = (bundle.x[s], bundle.y[s]);
         let (fx, fy) = (bundle.before_x[s], bundle.before_y[s]);
         let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
         let (z, r) = (bundle.wedge_z[s], bundle.radius[s]);
         let piece = bundle.slot[s] * 2;
-        let mut worst = SETTLED;
         for l in 0..PIXELS {
             let (ux, uy) = (tile.x[l] - x, tile.y[l] - y);
             let beyond_before = ux * fx + uy * fy;
@@ -195,10 +195,8 @@ impl Envelope {
             let d = (ux * ux + uy * uy).sqrt();
             let key = rule.key::<LUMEN_FIRST>(z, d, r);
             let covered = (beyond_before >= 0.0) & (after_start <= 0.0);
-            let now = self.offer(l, covered, key, z, piece);
-            worst = if now > worst { now } else { worst };
+            self.offer(l, covered, key, z, piece);
         }
-        worst
     }
 }
 
@@ -230,60 +228,15 @@ pub fn piece_bounds<const LUMEN_FIRST: bool>(
 
         let (z0, z1) = (bundle.stripe_z[s], bundle.stripe_z[s] + bundle.stripe_dz[s]);
         let (r0, r1) = (bundle.radius[s], bundle.radius[s] + bundle.radius_change[s]);
-        let gap = |u: f32, w: f32, half: f32| {
-            let (low, high) = if u < w { (u, w) } else { (w, u) };
-            let outside = if low > -high { low } else { -high };
-            if outside > half { outside - half } else { 0.0 }
-        };
-        let (gx, gy) = (gap(ux, wx, hx), gap(uy, wy, hy));
+        let gx = gap(smaller(ux, wx), larger(ux, wx), 0.0, hx);
+        let gy = gap(smaller(uy, wy), larger(uy, wy), 0.0, hy);
         let along = (gx * gx + gy * gy).sqrt();
-        let (px, py) = (gap(ux, ux, hx), gap(uy, uy, hy));
+        let (px, py) = (gap(ux, ux, 0.0, hx), gap(uy, uy, 0.0, hy));
         let at = (px * px + py * py).sqrt();
-        let near = if z0 < z1 { z0 } else { z1 };
-        let wide = if r0 > r1 { r0 } else { r1 };
-        let stripe_bound = rule.bound::<LUMEN_FIRST>(near, along, wide);
+        let stripe_bound = rule.bound::<LUMEN_FIRST>(smaller(z0, z1), along, larger(r0, r1));
         let wedge_bound = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], at, r0);
         stripe[s] = if in_stripe { stripe_bound } else { ABSENT };
         wedge[s] = if in_wedge { wedge_bound } else { ABSENT };
     }
     (stripe, wedge)
-}
-
-/// Lowers each pixel's squared distance to the segment of slot `s` where it is nearer; returns the largest.
-#[inline(always)]
-pub fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &Bundle, s: usize) -> f32 {
-    let (x, y) = (bundle.x[s], bundle.y[s]);
-    let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
-    let per_square = bundle.inverse_length[s] * bundle.inverse_length[s];
-    let mut worst = 0.0f32;
-    for l in 0..PIXELS {
-        let (ux, uy) = (tile.x[l] - x, tile.y[l] - y);
-        let t = (ux * ex + uy * ey) * per_square;
-        let t = if t > 0.0 { t } else { 0.0 };
-        let t = if t < 1.0 { t } else { 1.0 };
-        let (dx, dy) = (ux - t * ex, uy - t * ey);
-        let here = dx * dx + dy * dy;
-        let now = if here < squared[l] { here } else { squared[l] };
-        squared[l] = now;
-        worst = if now > worst { now } else { worst };
-    }
-    worst
-}
-
-/// The squares of the smallest distances from a tile to the segments of a bundle (mm²).
-#[inline(always)]
-pub fn distance_bounds(tile: &Tile, bundle: &Bundle) -> [f32; FAN] {
-    let mut bounds = [0.0; FAN];
-    let ([cx, cy], [hx, hy]) = (tile.center, tile.half);
-    for s in 0..FAN {
-        let gap = |a: f32, b: f32, c: f32, half: f32| {
-            let (low, high) = if a < b { (a, b) } else { (b, a) };
-            let outside = if low - c > c - high { low - c } else { c - high };
-            if outside > half { outside - half } else { 0.0 }
-        };
-        let gx = gap(bundle.x[s], bundle.next_x[s], cx, hx);
-        let gy = gap(bundle.y[s], bundle.next_y[s], cy, hy);
-        bounds[s] = gx * gx + gy * gy;
-    }
-    bounds
 }

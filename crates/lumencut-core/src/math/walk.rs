@@ -2,8 +2,9 @@
 
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
-use super::lanes::{FAN, PIXELS, SETTLED, UNSET};
-use super::pieces::{Envelope, Tile, distance_bounds, lower_distance, piece_bounds};
+use super::lanes::{FAN, PIXELS, SETTLED, UNSET, largest, places, smaller, within};
+use super::nearest::{NearestPoint, lower_distance};
+use super::pieces::{Envelope, Tile, piece_bounds};
 
 /// Fifteen brothers wait on each of the eight heights that 2³² slots can have.
 const STACK: usize = 8 * FAN;
@@ -23,21 +24,15 @@ impl Stack {
     /// Puts the nodes of one box set within `limit` on the stack, farthest first.
     #[inline(always)]
     fn push_nodes(&mut self, bounds: &[f32; FAN], limit: f32, height: u32, first: u32) {
-        let mut within = 0u32;
-        for (n, bound) in bounds.iter().enumerate() {
-            within |= u32::from(*bound <= limit) << n;
-        }
         let base = self.length;
-        while within != 0 {
-            let n = within.trailing_zeros();
-            within &= within - 1;
-            let bound = bounds[n as usize];
+        for n in places(within(bounds, limit)) {
+            let bound = bounds[n];
             let mut at = self.length;
             while at > base && self.waiting[at - 1].0 < bound {
                 self.waiting[at] = self.waiting[at - 1];
                 at -= 1;
             }
-            self.waiting[at] = (bound, height, first + n);
+            self.waiting[at] = (bound, height, first + n as u32);
             self.length += 1;
         }
     }
@@ -107,41 +102,45 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
         } else if bound == SETTLED || !seeds.contains(node) {
             let bundle = &hierarchy.bundles[node as usize];
             let (stripes, wedges) = piece_bounds::<LUMEN_FIRST>(tile, bundle, rule);
-            for s in 0..FAN {
-                if wedges[s] <= limit {
-                    limit = rule.limit(envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule));
-                }
+            for s in places(within(&stripes, limit)) {
                 if stripes[s] <= limit {
-                    limit = rule.limit(envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule));
+                    envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule);
+                    limit = rule.limit(largest(&envelope.key));
+                }
+            }
+            for s in places(within(&wedges, limit)) {
+                if wedges[s] <= limit {
+                    envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule);
+                    limit = rule.limit(largest(&envelope.key));
                 }
             }
         }
     }
 }
 
-/// Lowers the squared distance of every pixel of the tile to that of the nearest segment; `bound` is known
-/// to be no smaller than the largest of them.
+/// Lowers the squared distance of every pixel of the tile to that of the nearest segment; no pixel is
+/// farther from it than `limit` (mm).
 #[inline(always)]
-pub fn smallest_distances(hierarchy: &Hierarchy, tile: &Tile, bound: f32, squared: &mut [f32; PIXELS]) {
+pub fn smallest_distances(hierarchy: &Hierarchy, tile: &Tile, limit: f32, squared: &mut [f32; PIXELS]) {
     let mut stack = Stack::new();
-    let mut limit = bound;
+    let mut limit = limit;
+    let mut nearest = NearestPoint::unknown();
     stack.waiting[0] = (0.0, hierarchy.heights.len() as u32, 0);
     stack.length = 1;
     while let Some((bound, height, node)) = stack.pop() {
-        if bound > limit {
+        if bound > limit * limit {
             continue;
         }
         if height > 0 {
             let bounds = hierarchy.heights[height as usize - 1][node as usize].squared_distances(tile);
-            stack.push_nodes(&bounds, limit, height - 1, node * FAN as u32);
+            stack.push_nodes(&bounds, limit * limit, height - 1, node * FAN as u32);
         } else {
             let bundle = &hierarchy.bundles[node as usize];
-            let bounds = distance_bounds(tile, bundle);
-            for s in 0..FAN {
-                if bounds[s] <= limit {
-                    let worst = lower_distance(tile, squared, bundle, s) * (1.0 + 1e-5);
-                    limit = if worst < limit { worst } else { limit };
-                }
+            if nearest.approach(tile, bundle) {
+                limit = smaller(limit, nearest.distance + tile.radius);
+            }
+            for s in places(nearest.rivals(tile, bundle)) {
+                lower_distance(tile, squared, bundle, s);
             }
         }
     }

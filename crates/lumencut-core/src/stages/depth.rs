@@ -7,7 +7,7 @@ use super::View;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
-use crate::math::lanes::{Kernel, PIXELS, TILE, dispatch};
+use crate::math::lanes::{Kernel, PIXELS, TILE, dispatch, places, smaller};
 use crate::math::pieces::{Envelope, Tile};
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::walk::{Seeds, lowest_keys};
@@ -48,26 +48,51 @@ impl<'a> CutSurface<'a> {
     }
 }
 
-/// The two levels that a pixel blends, and the weights of their depths.
-#[derive(Clone, Copy, Default)]
+/// The two levels that each pixel of a tile blends, and the weights of their depths.
 struct Blend {
-    fine: usize,
-    coarse: usize,
-    fine_weight: f32,
-    coarse_weight: f32,
+    /// k0, as a number that compares exactly.
+    fine: [f32; PIXELS],
+    fine_weight: [f32; PIXELS],
+    /// The weight of k0 + 1; 0 where k0 = N.
+    coarse_weight: [f32; PIXELS],
 }
 
 impl Blend {
     /// Level selection at distance D: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond.
     #[inline(always)]
-    fn select(selection: f32, coarsest: usize, distance: f32) -> Self {
-        let f = (selection * distance).sqrt();
-        let fine = f as usize;
-        if fine >= coarsest {
-            return Self { fine: coarsest, coarse: coarsest, fine_weight: 1.0, coarse_weight: 0.0 };
+    fn select(selection: f32, coarsest: usize, distance: &[f32; PIXELS]) -> Self {
+        let zero = [0.0; PIXELS];
+        let mut blend = Self { fine: zero, fine_weight: zero, coarse_weight: zero };
+        let last = coarsest as f32;
+        for l in 0..PIXELS {
+            let f = smaller((selection * distance[l]).sqrt(), last);
+            let fine = (f as i32) as f32;
+            blend.fine[l] = fine;
+            blend.fine_weight[l] = fine + 1.0 - f;
+            blend.coarse_weight[l] = f - fine;
         }
-        let coarse = fine + 1;
-        Self { fine, coarse, fine_weight: coarse as f32 - f, coarse_weight: f - fine as f32 }
+        blend
+    }
+
+    /// Bit k tells whether some pixel needs level k.
+    #[inline(always)]
+    fn needed(&self) -> u32 {
+        let (mut bits, mut all) = ([0u32; PIXELS], 0);
+        for l in 0..PIXELS {
+            let pair = if self.coarse_weight[l] > 0.0 { 3 } else { 1 };
+            bits[l] = pair << (self.fine[l] as i32);
+        }
+        for l in 0..PIXELS {
+            all |= bits[l];
+        }
+        all
+    }
+
+    /// The weight of level `k` at pixel `l`; 0 where it is not needed.
+    #[inline(always)]
+    fn weight(&self, k: f32, l: usize) -> f32 {
+        let coarse = if self.fine[l] + 1.0 == k { self.coarse_weight[l] } else { 0.0 };
+        if self.fine[l] == k { self.fine_weight[l] } else { coarse }
     }
 }
 
@@ -184,40 +209,28 @@ impl CutSurface<'_> {
         distance: &[f32; PIXELS],
         search: &mut impl Search,
     ) -> ([f32; PIXELS], [i32; PIXELS]) {
-        let coarsest = self.projected.len() - 1;
-        let mut blends = [Blend::default(); PIXELS];
-        let mut needed = 0u32;
-        for l in 0..PIXELS {
-            blends[l] = Blend::select(self.selection, coarsest, distance[l]);
-            needed |= 1 << blends[l].fine | 1 << blends[l].coarse;
-        }
+        let blend = Blend::select(self.selection, self.projected.len() - 1, distance);
         let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
-        while needed != 0 {
-            let level = needed.trailing_zeros() as usize;
-            needed &= needed - 1;
-            let mut wanted = [false; PIXELS];
+        // The slot that rules each pixel, in the level it belongs to: the one with the larger weight.
+        let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
+        // Finest first: the coarse term is added to the fine one, and a tie stays with the finer level.
+        for level in places(blend.needed()) {
+            let mut weight = [0.0; PIXELS];
             for l in 0..PIXELS {
-                wanted[l] = (blends[l].fine == level) | (blends[l].coarse == level);
+                weight[l] = blend.weight(level as f32, l);
             }
-            let mut envelope = Envelope::new(&wanted);
+            let mut envelope = Envelope::new(&weight);
             search.lowest::<LUMEN_FIRST>(level, tile, &self.rule, &mut envelope);
-            let vessel_of_slot = &self.levels[level].vessel_of_slot;
-            // Levels come finest first: the coarse term is added to the fine one.
             for l in 0..PIXELS {
-                let Blend { fine, fine_weight, coarse_weight, .. } = blends[l];
-                if !wanted[l] {
-                    continue;
-                }
-                let (weight, rules) = if fine == level {
-                    (fine_weight, fine_weight >= coarse_weight)
-                } else {
-                    (coarse_weight, fine_weight < coarse_weight)
-                };
-                depth[l] += weight * envelope.z[l];
-                if rules {
-                    vessel[l] = vessel_of_slot[(envelope.piece[l] / 2) as usize];
-                }
+                depth[l] += weight[l] * envelope.z[l];
+                let rules = weight[l] > ruling_weight[l];
+                ruling_weight[l] = if rules { weight[l] } else { ruling_weight[l] };
+                ruling_level[l] = if rules { level as u32 } else { ruling_level[l] };
+                slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
             }
+        }
+        for l in 0..PIXELS {
+            vessel[l] = self.levels[ruling_level[l] as usize].vessel_of_slot[slot[l] as usize];
         }
         (depth, vessel)
     }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::View;
 use crate::error::Result;
 use crate::math::hierarchy::Hierarchy;
-use crate::math::lanes::{Kernel, PIXELS, TILE, UNSET, dispatch};
+use crate::math::lanes::{FAR, Kernel, PIXELS, TILE, UNSET, dispatch, largest};
 use crate::math::pieces::Tile;
 use crate::math::walk::smallest_distances;
 
@@ -38,19 +38,15 @@ impl Kernel for DistanceRow<'_> {
         let camera = self.view.camera;
         let width = camera.size()[0];
         let step = camera.pixel_spacing() as f32 * TILE as f32;
-        let mut bound = UNSET;
+        let mut limit = FAR;
         for column in (0..width).step_by(TILE) {
             let tile = Tile::new(camera, column, self.row * TILE);
             let mut squared = [UNSET; PIXELS];
-            smallest_distances(self.finest, &tile, bound, &mut squared);
-            let mut worst = 0.0f32;
-            for l in 0..PIXELS {
-                squared[l] = squared[l].sqrt();
-                worst = if squared[l] > worst { squared[l] } else { worst };
-            }
+            smallest_distances(self.finest, &tile, limit, &mut squared);
+            squared = squared.map(f32::sqrt);
+            let worst = largest(&squared);
             // No pixel of the next tile is farther than its counterpart in this one, and one tile's width.
-            let next = (worst + step) * (1.0 + 1e-4);
-            bound = next * next;
+            limit = (worst + step) * 1.000_1;
             for (r, row) in self.pixels.chunks_mut(width).enumerate() {
                 for (c, pixel) in row[column..].iter_mut().take(TILE).enumerate() {
                     *pixel = squared[r * TILE + c];
