@@ -7,7 +7,7 @@ use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
-use crate::math::lanes::{ABSENT, FAN, Kernel, PIXELS, TILE, UNSET, dispatch};
+use crate::math::lanes::{COLUMNS, ABSENT, FAN, Kernel, PIXELS, ROWS, UNSET, dispatch};
 use crate::math::nearest::lower_distance;
 use crate::math::pieces::{Envelope, Tile};
 use crate::stages::View;
@@ -38,8 +38,8 @@ impl Kernel for DistanceRow<'_> {
     #[inline(always)]
     fn run(self) {
         let width = self.camera.size()[0];
-        for column in (0..width).step_by(TILE) {
-            let tile = Tile::new(self.camera, column, self.row * TILE);
+        for column in (0..width).step_by(COLUMNS) {
+            let tile = Tile::new(self.camera, column, self.row * ROWS);
             let mut squared = [UNSET; PIXELS];
             for bundle in &self.finest.bundles {
                 for s in (0..FAN).filter(|s| bundle.slot[*s] != NO_SLOT) {
@@ -47,8 +47,8 @@ impl Kernel for DistanceRow<'_> {
                 }
             }
             for (r, row) in self.pixels.chunks_mut(width).enumerate() {
-                for (c, pixel) in row[column..].iter_mut().take(TILE).enumerate() {
-                    *pixel = squared[r * TILE + c].sqrt();
+                for (c, pixel) in row[column..].iter_mut().take(COLUMNS).enumerate() {
+                    *pixel = squared[r * COLUMNS + c].sqrt();
                 }
             }
         }

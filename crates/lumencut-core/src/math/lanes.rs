@@ -4,10 +4,12 @@
 //! The compiler never fuses a multiplication with an addition here and every square root is correctly
 //! rounded, so all instruction sets give the same bits.
 
-/// The side of a tile of pixels.
-pub const TILE: usize = 8;
+/// The width of a tile (pixels).
+pub const COLUMNS: usize = 16;
+/// The height of a tile (pixels).
+pub const ROWS: usize = 8;
 /// The pixels of a tile, evaluated together.
-pub const PIXELS: usize = TILE * TILE;
+pub const PIXELS: usize = COLUMNS * ROWS;
 /// The children of a node of the hierarchy, tested together.
 pub const FAN: usize = 16;
 

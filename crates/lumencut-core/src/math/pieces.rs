@@ -8,7 +8,7 @@
 //! takes the pixel unless (q − p₁)·e₀ > 0, else the wedge at p₁ does unless (q − p₁)·e₁ > 0, and so on.
 
 use super::cost::Rule;
-use super::lanes::{ABSENT, FAN, FAR, PIXELS, SETTLED, TILE, UNSET, gap, larger, smaller};
+use super::lanes::{ABSENT, COLUMNS, FAN, FAR, PIXELS, ROWS, SETTLED, UNSET, gap, larger, smaller};
 use crate::camera::Camera;
 
 /// Sixteen slots in projection, field by field.
@@ -89,20 +89,20 @@ impl Tile {
     #[inline(always)]
     pub fn new(camera: &Camera, i: usize, j: usize) -> Self {
         let [width, height] = camera.size();
-        let columns: [f32; TILE] = std::array::from_fn(|c| camera.view_x((i + c).min(width - 1)) as f32);
-        let rows: [f32; TILE] = std::array::from_fn(|r| camera.view_y((j + r).min(height - 1)) as f32);
-        let middle = |values: &[f32; TILE]| (values[0] + values[TILE - 1]) * 0.5;
+        let columns: [f32; COLUMNS] = std::array::from_fn(|c| camera.view_x((i + c).min(width - 1)) as f32);
+        let rows: [f32; ROWS] = std::array::from_fn(|r| camera.view_y((j + r).min(height - 1)) as f32);
+        let middle = |values: &[f32]| (values[0] + values[values.len() - 1]) * 0.5;
         // Half the side, and a little more than the rounding of the middle.
-        let half = |values: &[f32; TILE]| {
-            let (first, last) = (values[0], values[TILE - 1]);
+        let half = |values: &[f32]| {
+            let (first, last) = (values[0], values[values.len() - 1]);
             (last - first).abs() * 0.500_001 + 4e-7 * first.abs().max(last.abs())
         };
         let half = [half(&columns), half(&rows)];
         let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
-        for r in 0..TILE {
-            for c in 0..TILE {
-                x[r * TILE + c] = columns[c];
-                y[r * TILE + c] = rows[r];
+        for r in 0..ROWS {
+            for c in 0..COLUMNS {
+                x[r * COLUMNS + c] = columns[c];
+                y[r * COLUMNS + c] = rows[r];
             }
         }
         let radius = (half[0] * half[0] + half[1] * half[1]).sqrt();

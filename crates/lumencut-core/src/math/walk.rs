@@ -2,7 +2,7 @@
 
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
-use super::lanes::{FAN, PIXELS, SETTLED, UNSET, largest, places, smaller, within};
+use super::lanes::{COLUMNS, FAN, PIXELS, SETTLED, UNSET, largest, places, smaller, within};
 use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::{Envelope, Tile, piece_bounds};
 
@@ -56,7 +56,7 @@ impl Seeds {
     #[inline(always)]
     pub fn collect(envelope: &Envelope, bundle_of_slot: &[u32]) -> Self {
         let mut seeds = Self::default();
-        for l in [0, 7, 56, 63] {
+        for l in [0, COLUMNS - 1, PIXELS - COLUMNS, PIXELS - 1] {
             let slot = envelope.piece[l] / 2;
             if let Some(bundle) = bundle_of_slot.get(slot as usize)
                 && !seeds.contains(*bundle)
@@ -103,17 +103,12 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
             let bundle = &hierarchy.bundles[node as usize];
             let (stripes, wedges) = piece_bounds::<LUMEN_FIRST>(tile, bundle, rule);
             for s in places(within(&stripes, limit)) {
-                if stripes[s] <= limit {
-                    envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule);
-                    limit = rule.limit(largest(&envelope.key));
-                }
+                envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule);
             }
             for s in places(within(&wedges, limit)) {
-                if wedges[s] <= limit {
-                    envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule);
-                    limit = rule.limit(largest(&envelope.key));
-                }
+                envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule);
             }
+            limit = rule.limit(largest(&envelope.key));
         }
     }
 }

@@ -7,7 +7,7 @@ use super::View;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
-use crate::math::lanes::{Kernel, PIXELS, TILE, dispatch, places, smaller};
+use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch, places, smaller};
 use crate::math::pieces::{Envelope, Tile};
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::walk::{Seeds, lowest_keys};
@@ -184,16 +184,16 @@ impl DepthRow<'_> {
     fn fill<const LUMEN_FIRST: bool>(self, search: &mut impl Search) {
         let width = self.view.size()[0];
         let height = self.depth.len() / width;
-        for column in (0..width).step_by(TILE) {
-            let tile = Tile::new(self.view.camera, column, self.row * TILE);
+        for column in (0..width).step_by(COLUMNS) {
+            let tile = Tile::new(self.view.camera, column, self.row * ROWS);
             // Pixels beyond the image repeat its last column and row.
-            let pixel = |l: usize| (l / TILE).min(height - 1) * width + (column + l % TILE).min(width - 1);
+            let pixel = |l: usize| (l / COLUMNS).min(height - 1) * width + (column + l % COLUMNS).min(width - 1);
             let distance = std::array::from_fn(|l| self.distance[pixel(l)]);
             let (depth, vessel) = self.surface.blend::<LUMEN_FIRST>(&tile, &distance, search);
             for r in 0..height {
-                for c in 0..TILE.min(width - column) {
-                    self.depth[r * width + column + c] = depth[r * TILE + c];
-                    self.vessel[r * width + column + c] = vessel[r * TILE + c];
+                for c in 0..COLUMNS.min(width - column) {
+                    self.depth[r * width + column + c] = depth[r * COLUMNS + c];
+                    self.vessel[r * width + column + c] = vessel[r * COLUMNS + c];
                 }
             }
         }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::View;
 use crate::error::Result;
-use crate::math::lanes::{Kernel, TILE, dispatch};
+use crate::math::lanes::{Kernel, ROWS, dispatch};
 
 /// Pixels to each side of the middle.
 const REACH: usize = 3;
@@ -27,7 +27,7 @@ pub fn depth_filter(view: &View, image: &[f32], smoothed: &mut [f32]) -> Result<
     let width = view.size()[0];
     smoothed.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
         view.go_on()?;
-        dispatch(view.isa, FilterRows { image, width, first: row * TILE, weights, smoothed });
+        dispatch(view.isa, FilterRows { image, width, first: row * ROWS, weights, smoothed });
         Ok(())
     })
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::View;
 use crate::error::Result;
 use crate::math::hierarchy::Hierarchy;
-use crate::math::lanes::{FAR, Kernel, PIXELS, TILE, UNSET, dispatch, largest};
+use crate::math::lanes::{COLUMNS, FAR, Kernel, PIXELS, ROWS, UNSET, dispatch, largest};
 use crate::math::pieces::Tile;
 use crate::math::walk::smallest_distances;
 
@@ -37,10 +37,10 @@ impl Kernel for DistanceRow<'_> {
     fn run(self) {
         let camera = self.view.camera;
         let width = camera.size()[0];
-        let step = camera.pixel_spacing() as f32 * TILE as f32;
+        let step = camera.pixel_spacing() as f32 * COLUMNS as f32;
         let mut limit = FAR;
-        for column in (0..width).step_by(TILE) {
-            let tile = Tile::new(camera, column, self.row * TILE);
+        for column in (0..width).step_by(COLUMNS) {
+            let tile = Tile::new(camera, column, self.row * ROWS);
             let mut squared = [UNSET; PIXELS];
             smallest_distances(self.finest, &tile, limit, &mut squared);
             squared = squared.map(f32::sqrt);
@@ -48,8 +48,8 @@ impl Kernel for DistanceRow<'_> {
             // No pixel of the next tile is farther than its counterpart in this one, and one tile's width.
             limit = (worst + step) * 1.000_1;
             for (r, row) in self.pixels.chunks_mut(width).enumerate() {
-                for (c, pixel) in row[column..].iter_mut().take(TILE).enumerate() {
-                    *pixel = squared[r * TILE + c];
+                for (c, pixel) in row[column..].iter_mut().take(COLUMNS).enumerate() {
+                    *pixel = squared[r * COLUMNS + c];
                 }
             }
         }

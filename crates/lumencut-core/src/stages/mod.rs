@@ -10,7 +10,7 @@ pub mod surface;
 
 use crate::camera::Camera;
 use crate::error::{Error, Result};
-use crate::math::lanes::{Isa, TILE};
+use crate::math::lanes::{Isa, ROWS};
 
 /// Asked between rows of tiles, from any thread, whether to stop.
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
@@ -34,7 +34,7 @@ impl View<'_> {
 
     /// The pixels of one row of tiles.
     pub fn tile_row(&self) -> usize {
-        TILE * self.camera.size()[0]
+        ROWS * self.camera.size()[0]
     }
 
     /// An error where the caller asks to stop.

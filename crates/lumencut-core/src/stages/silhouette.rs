@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::View;
 use super::depth_filter::depth_filter;
 use crate::error::Result;
-use crate::math::lanes::{Kernel, TILE, dispatch};
+use crate::math::lanes::{Kernel, ROWS, dispatch};
 
 /// How much a leap between the influence zones of two vessels counts beside one within a zone.
 const ZONE_BORDER: f32 = 4.0;
@@ -29,7 +29,7 @@ pub fn silhouette(
     let mut raised = vec![0.0; depth.len()];
     raised.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, raised)| {
         view.go_on()?;
-        dispatch(view.isa, SlopeRows { depth, vessel, width, first: row * TILE, per_slope, raised });
+        dispatch(view.isa, SlopeRows { depth, vessel, width, first: row * ROWS, per_slope, raised });
         Ok(())
     })?;
     depth_filter(view, &raised, strength)?;

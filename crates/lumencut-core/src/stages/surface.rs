@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::View;
 use crate::camera::Camera;
 use crate::error::Result;
-use crate::math::lanes::{Kernel, TILE, dispatch};
+use crate::math::lanes::{Kernel, ROWS, dispatch};
 use crate::math::sampling::Grid;
 use crate::volume::{Volume, Voxel};
 use crate::with_voxels;
@@ -22,7 +22,7 @@ pub fn surface(view: &View, volume: &Volume, depth: &[f32], value: &mut [f32]) -
     value.par_chunks_mut(chunk).zip(depth.par_chunks(chunk)).enumerate().try_for_each(|(row, (value, depth))| {
         view.go_on()?;
         with_voxels!(volume.voxels(), voxels => {
-            let first = row * TILE;
+            let first = row * ROWS;
             dispatch(view.isa, SurfaceRows { camera: view.camera, grid, index_from_view, voxels, first, depth, value });
         });
         Ok(())
