@@ -84,7 +84,7 @@ class Settings:
         Intensities that map to transparent and opaque; everything is opaque where not given.
     silhouettes : bool, default True
         Draw lines where the cut surface leaps.
-    silhouette_slope : float, default 12
+    silhouette_slope : float, default 24
         Slope of the cut surface (mm depth per mm) at which a silhouette has half its strength.
     silhouette_color : (int, int, int), default (255, 220, 0)
         RGB, 0 to 255.
@@ -107,7 +107,7 @@ class Settings:
     window: Window | None = None
     opacity: Opacity | None = None
     silhouettes: bool = True
-    silhouette_slope: float = 12.0
+    silhouette_slope: float = 24.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
 

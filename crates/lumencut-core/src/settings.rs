@@ -50,7 +50,7 @@ impl Default for Settings {
             window: Window { level: 300.0, width: 900.0 },
             opacity: None,
             silhouettes: true,
-            silhouette_slope: 12.0,
+            silhouette_slope: 24.0,
             silhouette_color: [255, 220, 0],
             background: [0, 0, 0, 255],
         }
