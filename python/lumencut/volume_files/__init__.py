@@ -24,7 +24,10 @@ from lumencut.volume_files.opened import Progress, VolumeFile, refusing
 __all__ = ["VolumeReport", "as_volume", "inspect_volume", "read_volume"]
 
 _log = logging.getLogger("lumencut")
-_KNOWN = "a DICOM folder or file, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)"
+_KNOWN = (
+    "a DICOM folder or file, NIfTI (.nii, .nii.gz, .hdr + .img), "
+    "NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)"
+)
 
 
 @dataclass(frozen=True, eq=False)

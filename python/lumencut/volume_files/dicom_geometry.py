@@ -1,7 +1,8 @@
 """Where the slices of one DICOM series lie: one affine for the whole stack, shear kept, or a refusal by name.
 
-Tolerances: orientations alike within 1e-3 per cosine, spacings within 0.1 %, every slice within 0.01 mm or 1 % of the
-slice distance (whichever is larger) of its place on an evenly spaced straight line, duplicates closer than 0.01 mm.
+Tolerances: orientations alike within 1e-3 per cosine, spacings within 0.1 %, every slice within 0.01 mm or
+1 % of the slice distance (whichever is larger) of its place on an evenly spaced straight line, duplicates closer
+than 0.01 mm.
 """
 
 from __future__ import annotations
@@ -19,9 +20,16 @@ from lumencut.volume_files.dicom_headers import Header, listed
 
 _COSINE, _RELATIVE, _MILLIMETRE, _OF_STEP = 1e-3, 1e-3, 0.01, 0.01
 _PHASE_KEYWORDS = (
-    "TemporalPositionIdentifier NominalPercentageOfCardiacPhase TriggerTime EchoNumbers EchoTime AcquisitionNumber "
-    "ImageType AcquisitionTime ContentTime"
-).split()
+    "TemporalPositionIdentifier",
+    "NominalPercentageOfCardiacPhase",
+    "TriggerTime",
+    "EchoNumbers",
+    "EchoTime",
+    "AcquisitionNumber",
+    "ImageType",
+    "AcquisitionTime",
+    "ContentTime",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +111,8 @@ def _alike(
     if odd:
         found = (
             f"slices of different {what}: {_shown(value(slices[0]))} in {slices[0].path.name} and "
-            f"{len(slices) - len(odd) - 1} more, {_shown(value(odd[0]))} in {listed([s.path.name for s in odd])}"
+            f"{len(slices) - len(odd) - 1} more, {_shown(value(odd[0]))} in "
+            f"{listed([s.path.name for s in odd])}"
         )
         raise FormatError(
             str(folder), found, "one stack of equal slices", "move the others to a folder of their own"
@@ -150,7 +159,10 @@ def _step(folder: Path, ordered: Sequence[Slice], notes: list[str]) -> npt.NDArr
     tolerance = max(_MILLIMETRE, _OF_STEP * float(np.linalg.norm(step)))
     if off.max() > tolerance:
         worst = ordered[int(off.argmax())]
-        found = f"uneven slices: distances {gaps.min():.4g} to {gaps.max():.4g} mm, {worst.path.name} is {off.max():.3g} mm off"
+        found = (
+            f"uneven slices: distances {gaps.min():.4g} to {gaps.max():.4g} mm, "
+            f"{worst.path.name} is {off.max():.3g} mm off"
+        )
         raise FormatError(str(folder), found, f"slices on a straight, even line within {tolerance:.3g} mm")
     _note_tilt(ordered, step, normal, tolerance, notes)
     return step
@@ -163,7 +175,7 @@ def _note_tilt(
     tolerance: float,
     notes: list[str],
 ) -> None:
-    """Note a sheared stack (gantry tilt), which is read as it is, and a stated tilt that the positions lack."""
+    """Note a sheared stack (gantry tilt), read as it is, and a stated tilt that the positions lack."""
     drift = np.linalg.norm(step - (step @ normal) * normal)
     angle = np.degrees(np.arctan2(drift, step @ normal))
     stated = ordered[0].header.get("GantryDetectorTilt")
@@ -195,13 +207,13 @@ def _refuse_duplicates(folder: Path, ordered: Sequence[Slice], gaps: npt.NDArray
 
 def _refuse_gaps(folder: Path, ordered: Sequence[Slice], gaps: npt.NDArray[np.float64]) -> None:
     usual = float(np.median(gaps))
-    holes = np.flatnonzero(gaps > 1.5 * usual)
-    if not len(holes):
+    holes = np.flatnonzero(gaps > 1.5 * usual).tolist()
+    if not holes:
         return
     missing = [max(round(float(gaps[hole]) / usual) - 1, 1) for hole in holes]
     places = [
-        f"{count} between {ordered[hole].path.name} and {ordered[hole + 1].path.name} ({gaps[hole]:.4g} mm apart at "
-        f"{_shown(ordered[hole].position)})"
+        f"{count} between {ordered[hole].path.name} and {ordered[hole + 1].path.name} "
+        f"({gaps[hole]:.4g} mm apart at {_shown(ordered[hole].position)})"
         for hole, count in zip(holes, missing, strict=True)
     ]
     found = f"{sum(missing)} missing slices: {listed(places)}"

@@ -12,14 +12,18 @@ from lumencut.volume_files.opened import refusing
 Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
 
+# fmt: off
 _KEYWORDS = (
-    "SOPClassUID SOPInstanceUID ImageType Modality SeriesDescription SeriesInstanceUID SeriesNumber InstanceNumber "
-    "Rows Columns NumberOfFrames SamplesPerPixel PhotometricInterpretation BitsAllocated BitsStored "
-    "PixelRepresentation PixelPaddingValue RescaleSlope RescaleIntercept ModalityLUTSequence "
-    "LossyImageCompression PixelSpacing ImagePositionPatient ImageOrientationPatient SliceThickness "
-    "SpacingBetweenSlices GantryDetectorTilt SharedFunctionalGroupsSequence AcquisitionNumber AcquisitionTime "
-    "ContentTime TriggerTime NominalPercentageOfCardiacPhase TemporalPositionIdentifier EchoNumbers EchoTime"
-).split()
+    "SOPClassUID", "SOPInstanceUID", "ImageType", "Modality", "SeriesDescription", "SeriesInstanceUID",
+    "SeriesNumber", "InstanceNumber", "Rows", "Columns", "NumberOfFrames", "SamplesPerPixel",
+    "PhotometricInterpretation", "BitsAllocated", "BitsStored", "PixelRepresentation",
+    "PixelPaddingValue", "RescaleSlope", "RescaleIntercept", "ModalityLUTSequence",
+    "LossyImageCompression", "PixelSpacing", "ImagePositionPatient", "ImageOrientationPatient",
+    "SliceThickness", "SpacingBetweenSlices", "GantryDetectorTilt", "SharedFunctionalGroupsSequence",
+    "AcquisitionNumber", "AcquisitionTime", "ContentTime", "TriggerTime",
+    "NominalPercentageOfCardiacPhase", "TemporalPositionIdentifier", "EchoNumbers", "EchoTime",
+)
+# fmt: on
 _MENTIONED = 4
 
 

@@ -1,6 +1,6 @@
-"""Images of other packages in memory → volumes, without importing any package and without a copy where it permits.
+"""Images of other packages in memory → volumes, without an import and, where the package permits, a copy.
 
-An image can only exist if its package is loaded already, so whatever is needed from it is found in `sys.modules`.
+An image only exists where its package is loaded: whatever is needed from it is found in `sys.modules`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def as_volume(image: Any) -> Volume:
     Raises
     ------
     VolumeError
-        For anything else, for bare arrays (which have no grid) and for colour, vectors or several time points.
+        For anything else, bare arrays (which have no grid), colour, vectors or several time points.
     """
     if isinstance(image, Volume):
         return image
@@ -54,7 +54,7 @@ def _package(cls: type) -> str:
 
 
 def _affine(spacing: Any, origin: Any, direction: Any, first: Any) -> npt.NDArray[np.float64]:
-    """World from index, where `first` is the index of the first voxel on the grid that the origin belongs to."""
+    """World from index, where `first` is the first voxel's index on the grid that the origin belongs to."""
     affine = np.eye(4)
     affine[:3, :3] = np.asarray(direction, dtype=np.float64).reshape(3, 3) * np.asarray(
         spacing, dtype=np.float64

@@ -1,4 +1,4 @@
-"""NIfTI-1 and NIfTI-2, single files and pairs, gzipped or not: the RAS+ affine becomes LPS, voxels stay as they are."""
+"""NIfTI-1 and -2, single files and pairs, gzipped or not: the RAS+ affine becomes LPS, voxels stay."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def _size(path: Path, header: Any) -> tuple[int, int, int]:
 
 
 def _dtype(path: Path, header: Any) -> np.dtype[Any]:
-    dtype = np.dtype(header.get_data_dtype())
+    dtype: np.dtype[Any] = np.dtype(header.get_data_dtype())
     if dtype.fields or dtype.kind not in "iuf" or dtype.itemsize > 8:
         names = {"c": "complex voxels", "f": "128-bit floats"}
         found = "colour voxels" if dtype.fields else names.get(dtype.kind, f"voxels of type {dtype}")
@@ -151,7 +151,7 @@ def _note_forms(header: Any, size: tuple[int, int, int], notes: list[str]) -> No
     by_sform, by_qform = int(header["sform_code"]) > 0, int(header["qform_code"]) > 0
     if not by_sform and not by_qform:
         notes.append(
-            "no placement (qform_code = sform_code = 0): centred at the origin, i to the left, as nibabel does"
+            "no placement (qform_code = sform_code = 0): centred at the origin, i to the left, like nibabel"
         )
     if by_sform and by_qform:
         ends = np.array([[i, j, k, 1.0] for i in (0, size[0]) for j in (0, size[1]) for k in (0, size[2])])

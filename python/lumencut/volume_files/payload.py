@@ -73,9 +73,7 @@ def _plain(path: Path, file: BinaryIO, skip: int, needed: int) -> bytearray:
     if available < needed:
         raise _too_short(path, max(available, 0), needed)
     file.seek(skip, 1)
-    data = bytearray(needed)
-    file.readinto(data)
-    return data
+    return bytearray(file.read(needed))
 
 
 def _decompressed(path: Path, file: BinaryIO, codec: Codec, skip: int, needed: int) -> bytearray:

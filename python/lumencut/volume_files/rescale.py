@@ -20,7 +20,7 @@ def holding(low: int, high: int, first: np.dtype[Any] | None = None) -> np.dtype
     for dtype in (*((first,) if first is not None else ()), *_INTEGERS):
         limits = np.iinfo(dtype)
         if limits.min <= low and high <= limits.max:
-            return dtype.newbyteorder("=")
+            return np.dtype(dtype.newbyteorder("="))
     return None
 
 
