@@ -149,7 +149,8 @@ def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 def _checked_affine(world_from_index: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     affine = _numbers("world_from_index", world_from_index, (4, 4))
-    reach = np.abs(affine[:3, :3]) @ np.asarray(shape[::-1], dtype=np.float64) + np.abs(affine[:3, 3])
+    with np.errstate(over="ignore"):
+        reach = np.abs(affine[:3, :3]) @ np.asarray(shape[::-1], dtype=np.float64) + np.abs(affine[:3, 3])
     if not (reach < _FARTHEST).all():
         raise VolumeError(
             "world_from_index of the volume", f"{affine.tolist()}", f"a grid within {_FARTHEST:g} mm"

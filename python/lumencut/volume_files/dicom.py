@@ -43,6 +43,8 @@ def open_dicom(path: Path, series: str | None = None) -> VolumeFile:
 
 def _require_grey(path: Path, header: Header) -> None:
     """Refuse every kind of image that is not one slice of single numbers."""
+    if not all(isinstance(length, int) for length in (header.Rows, header.Columns)):
+        raise FormatError(str(path), f"Rows {header.Rows}, Columns {header.Columns}", "a number each")
     frames = int(header.get("NumberOfFrames") or 1)
     if frames != 1 or "SharedFunctionalGroupsSequence" in header:
         found = f"a multi-frame image of {frames} frames"

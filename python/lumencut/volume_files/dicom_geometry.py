@@ -1,8 +1,8 @@
 """Where the slices of one DICOM series lie: one affine for the whole stack, shear kept, or a refusal by name.
 
 Tolerances: orientations alike within 1e-3 per cosine, spacings within 0.1 %, every slice within 0.01 mm or
-1 % of the slice distance (whichever is larger) of its place on an evenly spaced straight line, duplicates closer
-than 0.01 mm.
+1 % of the slice distance (whichever is larger) of its place on an evenly spaced straight line, duplicates
+closer than 0.01 mm.
 """
 
 from __future__ import annotations
@@ -79,17 +79,12 @@ def _numbers(path: Path, header: Header, keyword: str, count: int) -> npt.NDArra
 
 def require_alike(folder: Path, slices: Sequence[Slice]) -> None:
     """Refuse a series whose images differ in anything that all slices of one stack share."""
-    first = slices[0]
     _alike(folder, slices, "size", lambda s: (s.header.Columns, s.header.Rows), _same_values)
     _alike(
         folder, slices, "spacing", lambda s: s.spacing, lambda a, b: np.allclose(a, b, rtol=_RELATIVE, atol=0)
     )
     for name in ("along_i", "along_j"):
         _alike(folder, slices, "orientation", lambda s, name=name: getattr(s, name), _near)  # type: ignore[misc]
-    if first.header.Rows < 1 or first.header.Columns < 1:
-        raise FormatError(
-            str(first.path), f"{first.header.Columns} × {first.header.Rows} pixels", "at least one"
-        )
 
 
 def _same_values(a: Any, b: Any) -> bool:

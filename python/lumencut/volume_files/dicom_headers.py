@@ -39,7 +39,7 @@ def image_headers(path: Path, series: str | None, notes: list[str]) -> list[tupl
     foreign: list[str] = []
     for file in files:
         header = _header(file, notes)
-        if header is not None and "Rows" in header and "Columns" in header:
+        if header is not None and header.get("Rows") and header.get("Columns"):
             images.append((file, header))
         elif header is not None and _kind(header).endswith("Image Storage"):
             raise FormatError(

@@ -62,18 +62,16 @@ def read_voxels(
     with path.open("rb") as file:
         file.seek(start)
         if codec == "raw":
-            data = _plain(path, file, skip, needed)
-        else:
-            data = _decompressed(path, file, codec, skip, needed)
-    return np.frombuffer(data, dtype).reshape(shape)
+            return _plain(path, file, skip, needed).view(dtype).reshape(shape)
+        return np.frombuffer(_decompressed(path, file, codec, skip, needed), dtype).reshape(shape)
 
 
-def _plain(path: Path, file: BinaryIO, skip: int, needed: int) -> bytearray:
+def _plain(path: Path, file: BinaryIO, skip: int, needed: int) -> npt.NDArray[np.uint8]:
     available = path.stat().st_size - file.tell() - skip
     if available < needed:
         raise _too_short(path, max(available, 0), needed)
     file.seek(skip, 1)
-    return bytearray(file.read(needed))
+    return np.fromfile(file, np.uint8, needed)
 
 
 def _decompressed(path: Path, file: BinaryIO, codec: Codec, skip: int, needed: int) -> bytearray:

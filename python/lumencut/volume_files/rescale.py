@@ -17,10 +17,11 @@ def is_integral(slope: float, intercept: float) -> bool:
 
 def holding(low: int, high: int, first: np.dtype[Any] | None = None) -> np.dtype[Any] | None:
     """Give the first integer type that holds every value from low to high, None if there is none."""
-    for dtype in (*((first,) if first is not None else ()), *_INTEGERS):
-        limits = np.iinfo(dtype)
+    for candidate in (*((first,) if first is not None else ()), *_INTEGERS):
+        limits = np.iinfo(candidate)
         if limits.min <= low and high <= limits.max:
-            return np.dtype(dtype.newbyteorder("="))
+            dtype: np.dtype[Any] = candidate.newbyteorder("=")
+            return dtype
     return None
 
 
