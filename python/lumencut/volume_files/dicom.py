@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom_geometry import Slice, placed, require_alike, stacked
-from lumencut.volume_files.dicom_headers import Header, image_headers
+from lumencut.volume_files.dicom_headers import BoundedFile, Header, image_headers
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
 from lumencut.volume_files.rescale import holding, is_integral, rescaled
 
@@ -135,7 +135,8 @@ def _pixels(one: Slice) -> npt.NDArray[Any]:
     import pydicom
     from pydicom.uid import ExplicitVRLittleEndian, ImplicitVRLittleEndian
 
-    dataset = pydicom.dcmread(one.path, force=True)
+    with BoundedFile(one.path) as stream:
+        dataset = pydicom.dcmread(stream, force=True)
     if "TransferSyntaxUID" not in dataset.file_meta:
         implicit = dataset.original_encoding[0]
         dataset.file_meta.TransferSyntaxUID = ImplicitVRLittleEndian if implicit else ExplicitVRLittleEndian

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections import defaultdict
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,19 @@ _KEYWORDS = (
 )
 # fmt: on
 _MENTIONED = 4
+
+
+class BoundedFile(io.BufferedReader):
+    """A file that never sets aside more memory than it has bytes left, whatever length an element claims."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(io.FileIO(path))
+        self._size = path.stat().st_size
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Read up to size bytes, or all that is left."""
+        left = max(self._size - self.tell(), 0)
+        return super().read(left if size is None or size < 0 else min(size, left))
 
 
 def is_dicom(head: bytes) -> bool:
@@ -65,10 +79,13 @@ def _header(file: Path, notes: list[str]) -> Header | None:
     import pydicom
 
     with refusing(file, "DICOM", notes):
-        with file.open("rb") as stream:
+        with BoundedFile(file) as stream:
             if not is_dicom(stream.read(132)):
                 return None
-        header = pydicom.dcmread(file, stop_before_pixels=True, force=True, specific_tags=list(_KEYWORDS))
+            stream.seek(0)
+            header = pydicom.dcmread(
+                stream, stop_before_pixels=True, force=True, specific_tags=list(_KEYWORDS)
+            )
         for keyword in _KEYWORDS:
             header.get(keyword)
         return header

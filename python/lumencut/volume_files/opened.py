@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -69,9 +70,13 @@ def refusing(path: Path, kind: str, notes: list[str]) -> Iterator[None]:
         if isinstance(error, OSError) and error.errno is not None:
             found = error.strerror or type(error).__name__
             raise FileError(str(error.filename or path), found, "a readable file") from error
-        message = " ".join(str(error).split())
-        raise FormatError(str(path), message or type(error).__name__, f"a sound {kind} file") from error
+        raise FormatError(str(path), _brief(error), f"a sound {kind} file") from error
     for warning in caught:
-        text = " ".join(str(warning.message).split())
-        if text not in notes:
+        if (text := _brief(warning.message)) not in notes:
             notes.append(text)
+
+
+def _brief(message: object) -> str:
+    """One line, printable and not too long, of a message that may quote the file's bytes."""
+    text = "".join(letter if letter.isprintable() else " " for letter in str(message))
+    return textwrap.shorten(text, 200, placeholder=" …") or type(message).__name__
