@@ -13,12 +13,10 @@ import numpy.typing as npt
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom_geometry import Slice, placed, require_alike, stacked
-from lumencut.volume_files.dicom_headers import BoundedFile, Header, image_headers
+from lumencut.volume_files.dicom_headers import Header, image_headers
+from lumencut.volume_files.dicom_pixels import PixelReader
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
 from lumencut.volume_files.rescale import holding, is_integral, rescaled
-
-_COMPRESSION_LIMIT = 10_000
-"""No codec makes a real slice this much smaller; a header that claims more lies."""
 
 
 def open_dicom(path: Path, series: str | None = None) -> VolumeFile:
@@ -99,15 +97,16 @@ def _load(ordered: list[Slice], notes: list[str], progress: Progress) -> npt.NDA
     """Read slice after slice into the narrowest type that has held all values so far."""
     exact = all(is_integral(*_scaling(s.header)) for s in ordered)
     volume: npt.NDArray[Any] | None = None
-    for number, one in enumerate(ordered):
-        with refusing(one.path, "DICOM", notes):
-            values = rescaled(_pixels(one), *_scaling(one.header))
-        if volume is None:
-            start = np.int16 if exact and values.dtype.kind in "iu" else np.float32
-            volume = np.empty((len(ordered), *values.shape), start)
-        volume = _widened(volume, number, values)
-        volume[number] = values
-        progress(number + 1, len(ordered))
+    with PixelReader() as reader:
+        for number, one in enumerate(ordered):
+            with refusing(one.path, "DICOM", notes):
+                values = rescaled(reader.read(one.path, one.header), *_scaling(one.header))
+            if volume is None:
+                start = np.int16 if exact and values.dtype.kind in "iu" else np.float32
+                volume = np.empty((len(ordered), *values.shape), start)
+            volume = _widened(volume, number, values)
+            volume[number] = values
+            progress(number + 1, len(ordered))
     assert volume is not None, "a series has at least one slice"
     return volume
 
@@ -128,28 +127,3 @@ def _widened(volume: npt.NDArray[Any], filled: int, values: npt.NDArray[Any]) ->
     wider = np.empty(volume.shape, wide)
     wider[:filled] = volume[:filled]
     return wider
-
-
-def _pixels(one: Slice) -> npt.NDArray[Any]:
-    """Decode the pixels of one slice as they are stored."""
-    import pydicom
-    from pydicom.uid import ExplicitVRLittleEndian, ImplicitVRLittleEndian
-
-    with BoundedFile(one.path) as stream:
-        dataset = pydicom.dcmread(stream, force=True)
-    if "TransferSyntaxUID" not in dataset.file_meta:
-        implicit = dataset.original_encoding[0]
-        dataset.file_meta.TransferSyntaxUID = ImplicitVRLittleEndian if implicit else ExplicitVRLittleEndian
-    rows, columns = int(one.header.Rows), int(one.header.Columns)
-    claimed = rows * columns * int(one.header.BitsAllocated) // 8
-    limit = _COMPRESSION_LIMIT if dataset.file_meta.TransferSyntaxUID.is_compressed else 1
-    if claimed > limit * one.path.stat().st_size:
-        found = f"{one.path.stat().st_size} bytes"
-        raise FormatError(
-            str(one.path), found, f"{columns} × {rows} pixels as the header says", "copy the file again"
-        )
-    pixels = np.asarray(dataset.pixel_array)
-    if pixels.shape != (rows, columns) or pixels.dtype.kind not in "iuf":
-        found = f"pixels of shape {pixels.shape} and type {pixels.dtype}"
-        raise FormatError(str(one.path), found, f"{rows} rows of {columns} numbers")
-    return pixels
