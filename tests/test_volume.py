@@ -92,6 +92,7 @@ BAD_ARRAYS = {
     "objects": np.full((2, 2, 2), None),
     "records": np.zeros((2, 2, 2), [("r", "u1"), ("g", "u1")]),
     "dates": np.zeros((2, 2, 2), "M8[s]"),
+    "masked": np.ma.masked_less(np.zeros((2, 2, 2)), 1),
     "ragged": [[[1, 2], [3]]],
     "long double": np.zeros((2, 2, 2), np.longdouble),
 }

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from lumencut.errors import FormatError, LumencutError
 from lumencut.volume import Volume
 from lumencut.volume_files import inspect_volume, read_volume
+from test_dicom import transcode
 from test_volume_files import save_meta, save_nifti, save_nrrd
 from volume_samples import coded, oblique, save, slice_of
 
@@ -128,3 +129,40 @@ def test_nrrd_and_dicom_that_lie_about_their_size(tmp_path, sound):
     path = save(slice_of(coded(), oblique(), 0, Rows=65535, Columns=65535), tmp_path / "x.dcm")
     with pytest.raises(FormatError, match="65535 × 65535 pixels as the header says"):
         read_volume(path)
+
+
+@pytest.fixture(scope="module")
+def compressed(tmp_path_factory):
+    """The bytes of one sound compressed slice per codec."""
+    folder, array = tmp_path_factory.mktemp("compressed"), coded((20, 24, 1), np.uint16)
+    result = {}
+    for syntax in ("RLELossless", "JPEG2000Lossless", "JPEGLosslessProcess14_1", "JPEGLSLossless"):
+        path = save(slice_of(array, oblique(), 0), folder / f"{syntax}.dcm")
+        transcode(path, syntax)
+        result[syntax] = path.read_bytes()
+    return result
+
+
+def damage(data, seed):
+    """Change a few bytes of the pixels."""
+    random, start = np.random.default_rng(seed), data.index(b"\xe0\x7f\x10\x00") + 8
+    changed = bytearray(data)
+    for place in random.integers(start, min(start + 150, len(data)), random.integers(1, 7)):
+        changed[place] = random.choice([0, 1, 127, 128, 255])
+    return changed
+
+
+@pytest.mark.parametrize(
+    ("syntax", "count"),
+    [
+        ("RLELossless", 100),
+        ("JPEG2000Lossless", 100),
+        ("JPEGLosslessProcess14_1", 12),
+        ("JPEGLSLossless", 12),
+    ],
+)
+def test_damaged_compressed_pixels(tmp_path, compressed, syntax, count):
+    path = tmp_path / "x.dcm"
+    for seed in range(count):
+        path.write_bytes(damage(compressed[syntax], seed))
+        volume_or_refusal(path)

@@ -164,6 +164,9 @@ def _checked_affine(world_from_index: npt.ArrayLike, shape: tuple[int, ...]) -> 
 
 
 def _checked_voxels(array: npt.ArrayLike) -> npt.NDArray[Any]:
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        mend = "give array.filled(value)"
+        raise VolumeError("array of the volume", "masked voxels", "a value in every voxel", mend)
     try:
         voxels = np.asarray(array)
     except ValueError as error:
