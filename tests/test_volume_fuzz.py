@@ -166,3 +166,13 @@ def test_damaged_compressed_pixels(tmp_path, compressed, syntax, count):
     for seed in range(count):
         path.write_bytes(damage(compressed[syntax], seed))
         volume_or_refusal(path)
+
+
+def test_codestream_that_lies_about_its_size(tmp_path, compressed):
+    data = bytearray(compressed["JPEG2000Lossless"])
+    start = data.index(b"\xff\x4f\xff\x51") + 8
+    data[start : start + 8] = (30000).to_bytes(4, "big") * 2
+    path = tmp_path / "x.dcm"
+    path.write_bytes(data)
+    with pytest.raises(FormatError, match=r"x\.dcm: found a codestream of 30000 × 30000 pixels"):
+        read_volume(path)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -22,6 +23,7 @@ from lumencut.volume_files.dicom_headers import BoundedFile, Header
 
 _COMPRESSION_LIMIT = 10_000
 """No codec makes a real slice this much smaller; a header that claims more lies."""
+_SIZ_MARKER = b"\xff\x4f\xff\x51"
 _RLE = "1.2.840.10008.1.2.5"
 _JPEG_2000 = ("1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.91")
 _HTJ2K = ("1.2.840.10008.1.2.4.201", "1.2.840.10008.1.2.4.202", "1.2.840.10008.1.2.4.203")
@@ -42,9 +44,27 @@ def decoded(path: Path, plugin: str) -> npt.NDArray[Any]:
 
     with BoundedFile(path) as stream:
         dataset = pydicom.dcmread(stream, force=True)
-    dataset.file_meta.TransferSyntaxUID = transfer_syntax(dataset)
+    dataset.file_meta.TransferSyntaxUID = syntax = transfer_syntax(dataset)
+    if syntax in _JPEG_2000 + _HTJ2K:
+        _require_codestream(path, dataset)
     dataset.pixel_array_options(decoding_plugin=plugin)
     return np.asarray(dataset.pixel_array)
+
+
+def _require_codestream(path: Path, dataset: Any) -> None:
+    """Refuse a codestream of another size than the header's before its decoder sets memory aside."""
+    from pydicom.encaps import get_frame
+
+    frame = get_frame(dataset.PixelData, 0, number_of_frames=1)
+    start = frame.find(_SIZ_MARKER)
+    fields = frame[start + 8 : start + 42]
+    if start < 0 or len(fields) < 34:
+        raise FormatError(str(path), "pixels without a codestream", "JPEG 2000", "copy the file again")
+    right, bottom, left, top = struct.unpack(">4I", fields[:16])
+    components = int.from_bytes(fields[32:34], "big")
+    if (right - left, bottom - top, components) != (dataset.Columns, dataset.Rows, 1):
+        found = f"a codestream of {right - left} × {bottom - top} pixels, {components} values each"
+        raise FormatError(str(path), found, f"{dataset.Columns} × {dataset.Rows} as the header says")
 
 
 class PixelReader:
@@ -102,10 +122,11 @@ class PixelReader:
 
 
 def _started() -> subprocess.Popen[bytes]:
+    path = os.pathsep.join(entry for entry in sys.path if entry)
     return subprocess.Popen(
         [sys.executable, "-m", "lumencut.volume_files.dicom_worker"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(entry for entry in sys.path if entry)},
+        env=os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"},
     )

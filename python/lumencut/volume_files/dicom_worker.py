@@ -11,9 +11,23 @@ import numpy as np
 
 from lumencut.volume_files.dicom_pixels import decoded
 
+_MEMORY = 4 << 30
+"""Far above what one slice needs, far below what a damaged one may ask for."""
+
+
+def _limit_memory() -> None:
+    try:
+        import resource
+    except ImportError:  # Windows has no such limit
+        return
+    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+    limit = _MEMORY if hard == resource.RLIM_INFINITY else min(_MEMORY, hard)
+    resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+
 
 def main() -> None:
     """Decode until the input ends."""
+    _limit_memory()
     # GDCM may print; nothing but answers may reach the pipe.
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
