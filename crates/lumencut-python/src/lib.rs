@@ -3,9 +3,11 @@
 use pyo3::prelude::*;
 
 mod errors;
+mod phantom;
 
 #[pymodule]
 fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
     Ok(())
 }

@@ -1,1 +1,99 @@
 //! Scenes made from formulas, with the truth beside them.
+//!
+//! Small phantoms have answers in closed form: [`straight_tube`], [`helix`], [`y_junction`], [`crossing`],
+//! [`trefoil`], [`collinear_run`], [`stenosis`], [`calcified_wall`]. Three workloads have the sizes of the
+//! paper's Table 2: [`aorta`], [`runoff`], [`cervical`]; their anatomy is drawn from way points and simple
+//! solids, and looks enough like CT to be read like one.
+//!
+//! In every phantom the lumen has 350 HU, the vessel wall 60 HU, soft plaque 40 HU, calcifications
+//! 1000 HU; edges are ramps one voxel wide whose middle lies on the true surface. A lumen is the union of
+//! its vessel's segments, each a rod whose radius runs linearly from one point's to the next one's, with
+//! round ends.
+
+mod anatomy;
+mod curve;
+mod lesion;
+mod network;
+mod paint;
+mod random;
+mod shape;
+mod small;
+mod tissue;
+mod workload;
+
+use glam::DAffine3;
+
+use crate::error::Result;
+use crate::vessel_tree::{Vessel, VesselTree};
+use crate::volume::{Volume, Voxels};
+
+pub use lesion::{Plaque, PlaqueKind, Stenosis};
+pub use small::{
+    calcified_wall, collinear_run, crossing, helix, stenosis, straight_tube, trefoil, y_junction,
+};
+pub use workload::{aorta, cervical, runoff};
+
+/// A volume and its vessel tree, with everything known about them.
+#[derive(Clone, Debug)]
+pub struct Phantom {
+    /// What it is called, the same as the function that makes it.
+    pub name: &'static str,
+    /// The voxels (HU), i fastest, then j, then k.
+    pub voxels: Vec<i16>,
+    /// Number of voxels along (i, j, k).
+    pub size: [usize; 3],
+    /// World position (mm, LPS) of a continuous index.
+    pub world_from_index: DAffine3,
+    /// The vessels with the true radius of their lumen (mm).
+    pub tree: VesselTree,
+    /// The name of each vessel.
+    pub vessel_names: Vec<String>,
+    /// The radius of each vessel's healthy lumen (mm), point by point.
+    pub reference_radius: Vec<Vec<f64>>,
+    /// Every narrowing of a lumen.
+    pub stenoses: Vec<Stenosis>,
+    /// Every plaque.
+    pub plaques: Vec<Plaque>,
+}
+
+impl Phantom {
+    /// The phantom's volume.
+    ///
+    /// # Errors
+    /// None for a phantom as it was made; [`crate::error::ErrorKind::Volume`] where its fields were
+    /// changed to contradict each other.
+    pub fn volume(&self) -> Result<Volume<'_>> {
+        let [ni, nj, _] = self.size;
+        Volume::new(Voxels::I16(&self.voxels), self.size, [1, ni, ni * nj], self.world_from_index)
+    }
+
+    /// Paints the scene and puts the truth beside it.
+    fn of(
+        name: &'static str,
+        grid: &paint::Grid,
+        scene: &paint::Scene,
+        vasculature: network::Vasculature,
+    ) -> Result<Self> {
+        let voxels = paint::paint(grid, scene, &vasculature);
+        let vessel_names = vasculature.vessels.iter().map(|v| v.name.clone()).collect();
+        let reference_radius = vasculature.vessels.iter().map(|v| v.reference.clone()).collect();
+        let vessel = |v: network::KnownVessel| Vessel::new(v.points, Some(v.lumen));
+        let vessels = vasculature.vessels.into_iter().map(vessel).collect::<Result<Vec<_>>>()?;
+        Ok(Self {
+            name,
+            voxels,
+            size: grid.size,
+            world_from_index: grid.world_from_index(),
+            tree: VesselTree::new(vessels)?,
+            vessel_names,
+            reference_radius,
+            stenoses: vasculature.stenoses,
+            plaques: vasculature.plaques,
+        })
+    }
+}
+
+/// How thick a phantom draws the wall of a vessel whose healthy lumen has radius `reference` (mm).
+pub fn wall_thickness(reference: f64) -> f64 {
+    0.5 + 0.08 * reference
+}
