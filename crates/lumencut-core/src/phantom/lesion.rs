@@ -106,10 +106,11 @@ impl Calcification {
         let pieces = (self.length / 1.5).ceil().max(2.0) as usize;
         // From −1 to 1, so that the rods' own ends stay within the stated extent.
         let grid = |n: usize, of: usize| 2.0 * n as f64 / of as f64 - 1.0;
-        let arc_half = (self.angular_extent / 2.0 - self.thickness / 2.0 / radius).max(0.0);
-        let length_half = (self.length / 2.0 - self.thickness / 2.0).max(0.0);
+        let rim = 0.2 * self.thickness;
+        let arc_half = (self.angular_extent / 2.0 - rim / radius).max(0.0);
+        let length_half = (self.length / 2.0 - rim).max(0.0);
         let knob = |u: f64, v: f64| {
-            let half = self.thickness / 2.0 * (1.0 - 0.6 * (u * u + v * v).min(1.0));
+            let half = self.thickness / 2.0 + (rim - self.thickness / 2.0) * (u * u + v * v).min(1.0);
             let s = self.arc_length + u * length_half;
             let direction = across(curve.tangent(s), self.angle + v * arc_half);
             (curve.at(s).0 + direction * (lumen(s) + half), half)

@@ -74,7 +74,10 @@ impl Tissue {
             Tissue::Muscle => {
                 let seam = (patterns.seams.at(x, y) - 0.5).abs() / 0.035;
                 let grain = 14.0 * (patterns.fine.at(x, y) - 0.5);
-                mix(FAT + 20.0, MUSCLE + grain, smooth_step(seam))
+                // Seams fade in and out, as the planes between muscles do.
+                let faded = smooth_step((patterns.loops.at(x, y) - 0.3) / 0.35);
+                let seam = 1.0 - faded * (1.0 - smooth_step(seam));
+                mix(FAT + 25.0, MUSCLE + grain, seam)
             }
             Tissue::Bowel => bowel(patterns.loops.at(x, y), patterns.fine.at(x, y)),
             Tissue::Bone { cortex, marrow } => {
@@ -98,9 +101,9 @@ impl Tissue {
 fn bowel(n: f32, fine: f32) -> f32 {
     let fat = FAT - 5.0 + 10.0 * fine;
     let content = 25.0 + 30.0 * fine;
-    let wall = mix(fat, 70.0, smooth_step((n - 0.52) / 0.03));
-    let filled = mix(wall, content, smooth_step((n - 0.58) / 0.04));
-    mix(filled, AIR, smooth_step((n - 0.86) / 0.03))
+    let wall = mix(fat, 70.0, smooth_step((n - 0.42) / 0.03));
+    let filled = mix(wall, content, smooth_step((n - 0.49) / 0.04));
+    mix(filled, AIR, smooth_step((n - 0.84) / 0.03))
 }
 
 /// From `a` at 0 to `b` at 1.

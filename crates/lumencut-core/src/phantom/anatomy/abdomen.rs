@@ -67,12 +67,15 @@ fn sacrum() -> Vec<Shape> {
 fn hip_bone() -> Vec<Shape> {
     let (joint, back) = ([55.0, 74.0, -66.0], [62.0, 84.0, -28.0]);
     let (crest, spine) = ([104.0, 38.0, 2.0], [122.0, -30.0, -44.0]);
+    let fossa = [99.0, 30.0, -50.0];
     let (notch, roof) = ([62.0, 56.0, -100.0], [90.0, 6.0, -122.0]);
     let mut shapes = vec![
         plate([joint, back, crest], 5.5),
-        plate([joint, crest, roof], 4.0),
+        plate([joint, crest, fossa], 3.4),
+        plate([crest, spine, fossa], 3.4),
+        plate([spine, roof, fossa], 3.8),
+        plate([roof, joint, fossa], 3.8),
         plate([joint, notch, roof], 6.5),
-        plate([crest, spine, roof], 4.2),
         rod(back, crest, [7.0, 7.0]),
         rod(crest, spine, [7.5, 6.5]),
         ellipsoid([84.0, 8.0, -143.0], [31.0, 31.0, 31.0]),

@@ -12,8 +12,8 @@ pub(super) fn head() -> Vec<Solid> {
     let skull = [ellipsoid([0.0, 16.0, 256.0], [73.0, 91.0, 73.0])];
     solids.push(Solid::within(&skull, 0.0, Tissue::Bone { cortex: 2.0, marrow: 420.0 }));
     solids.push(Solid::new(FACIAL_BONE, skull_base()));
-    solids.push(Solid::within(&skull, 6.5, Tissue::Even(900.0)));
-    solids.push(Solid::within(&skull, 7.5, Tissue::Even(12.0)));
+    solids.push(Solid::within(&skull, 5.5, Tissue::Even(900.0)));
+    solids.push(Solid::within(&skull, 6.5, Tissue::Even(12.0)));
     solids.extend(brain(&skull));
     solids.push(Solid::new(FACIAL_BONE, inner_base()));
     let foramen = vec![rod([0.0, 26.0, 176.0], [0.0, 24.0, 206.0], [13.0, 14.0])];
@@ -33,7 +33,7 @@ fn brain(skull: &[Shape]) -> Vec<Solid> {
     ]);
     let falx = vec![plate([[0.0, -70.0, 240.0], [0.0, 100.0, 245.0], [0.0, 16.0, 330.0]], 0.8)];
     vec![
-        Solid::within(skull, 9.5, Tissue::Rim { width: 4.0, rim: 42.0, core: 33.0 }),
+        Solid::within(skull, 8.0, Tissue::Rim { width: 4.0, rim: 42.0, core: 33.0 }),
         Solid::new(Tissue::Even(8.0), ventricles),
         Solid::new(Tissue::Even(60.0), falx),
         Solid::new(Tissue::Even(10.0), vec![ellipsoid([0.0, -18.0, 234.0], [24.0, 13.0, 8.0])]),
@@ -64,8 +64,8 @@ fn inner_base() -> Vec<Shape> {
 
 /// Jaws, teeth, orbits and airways of the face.
 fn face() -> Vec<Solid> {
-    let orbit = both_sides(vec![ellipsoid([32.0, -70.0, 226.0], [20.0, 24.0, 19.0])]);
-    let globe = both_sides(vec![ellipsoid([32.0, -78.0, 226.0], [12.0; 3])]);
+    let orbit = both_sides(vec![ellipsoid([32.0, -64.0, 226.0], [20.0, 23.0, 19.0])]);
+    let globe = both_sides(vec![ellipsoid([32.0, -73.0, 226.0], [12.0; 3])]);
     let sinus = both_sides(vec![ellipsoid([27.0, -62.0, 198.0], [14.0, 16.0, 16.0])]);
     let nose = both_sides(vec![ellipsoid([6.0, -66.0, 202.0], [4.5, 26.0, 17.0])]);
     let tongue = vec![ellipsoid([0.0, -52.0, 168.0], [26.0, 30.0, 18.0])];
