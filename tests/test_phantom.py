@@ -123,6 +123,7 @@ def test_calcification_lies_where_it_is_stated():
     bright = np.argwhere(made.volume.array > 500)[:, ::-1] @ made.volume.world_from_index[:3, :3].T
     bright += made.volume.origin
     np.testing.assert_allclose(bright.mean(axis=0), plaque.position, atol=0.5)
+    assert isinstance(plaque.position, tuple)
     assert plaque.position == pytest.approx((5.0, 0.0, 0.0))
     assert np.ptp(bright[:, 2]) == pytest.approx(plaque.length, abs=1.1)
     angles = np.arctan2(bright[:, 1], bright[:, 0])

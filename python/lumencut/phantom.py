@@ -208,7 +208,7 @@ def calcified_wall() -> Phantom:
 def aorta(seed: int = 0, *, scale: float = 1.0) -> Phantom:
     """Abdominal aorta with coeliac, mesenteric, renal and iliac arteries (paper Fig. 1).
 
-    512 x 512 x 256 voxels of 0.75×0.75×1 mm, about 800 segments.
+    512 x 512 x 256 voxels of 0.75 x 0.75 x 1 mm, about 800 segments.
 
     Parameters
     ----------
@@ -230,8 +230,8 @@ def aorta(seed: int = 0, *, scale: float = 1.0) -> Phantom:
 def runoff(seed: int = 0, *, scale: float = 1.0) -> Phantom:
     """Arteries of the lower extremities with a femoro-femoral cross-over bypass (paper Fig. 7).
 
-    512 x 512 x 1305 voxels of 0.75×0.75×1 mm (684 MB), about 2,200 segments, from the abdominal aorta to the feet.
-    The bypass goes around an occlusive stenosis of the left iliac artery and closes a cycle in the vessel tree.
+    512 x 512 x 1305 voxels of 0.75 x 0.75 x 1 mm (684 MB), about 2,200 segments, from the aorta to the
+    feet. The bypass goes around an occlusive stenosis of the left iliac artery and closes a cycle.
 
     Parameters
     ----------
@@ -250,8 +250,8 @@ def runoff(seed: int = 0, *, scale: float = 1.0) -> Phantom:
 def cervical(seed: int = 0, *, scale: float = 1.0) -> Phantom:
     """Cervical arteries from the aortic arch to the circle of Willis (paper Fig. 8).
 
-    512 x 512 x 575 voxels of 0.75×0.75×0.7 mm, about 1,100 segments. Both vertebral arteries meet in the basilar
-    artery.
+    512 x 512 x 575 voxels of 0.75 x 0.75 x 0.7 mm, about 1,100 segments. Both vertebral arteries meet in
+    the basilar artery.
 
     Parameters
     ----------

@@ -90,6 +90,6 @@ fn plaque<'py>(py: Python<'py>, plaque: &Plaque) -> PyResult<Bound<'py, PyDict>>
     dict.set_item("length", plaque.length)?;
     dict.set_item("angular_extent", plaque.angular_extent)?;
     dict.set_item("thickness", plaque.thickness)?;
-    dict.set_item("position", plaque.position.to_array())?;
+    dict.set_item("position", <(f64, f64, f64)>::from(plaque.position))?;
     Ok(dict)
 }

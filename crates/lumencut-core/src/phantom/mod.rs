@@ -97,3 +97,87 @@ impl Phantom {
 pub fn wall_thickness(reference: f64) -> f64 {
     0.5 + 0.08 * reference
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::error::ErrorKind;
+
+    type Workload = fn(u64, f64) -> Result<Phantom>;
+
+    const WORKLOADS: [(Workload, usize); 3] = [(aorta, 800), (runoff, 2200), (cervical, 1100)];
+
+    /// The voxel nearest to a world point.
+    fn hu(phantom: &Phantom, x: f64, y: f64, z: f64) -> i16 {
+        let index = phantom.world_from_index.inverse().transform_point3(DVec3::new(x, y, z)).round();
+        let [i, j, k] = index.to_array().map(|n| n as usize);
+        phantom.voxels[(k * phantom.size[1] + j) * phantom.size[0] + i]
+    }
+
+    #[test]
+    fn lumen_and_fat_have_their_values() {
+        let tube = straight_tube().unwrap();
+        assert_eq!(hu(&tube, 0.0, 0.0, 0.0), 350);
+        assert_eq!(hu(&tube, 3.5, 0.0, 12.0), 350);
+        assert_eq!(hu(&tube, 6.0, 0.0, 12.0), -100);
+        tube.volume().unwrap();
+    }
+
+    #[test]
+    fn soft_plaque_fills_a_stenosis() {
+        let tube = stenosis(70.0).unwrap();
+        assert_eq!(hu(&tube, 0.5, 0.0, 0.0), 350);
+        assert_eq!(hu(&tube, 2.5, 0.0, 0.0), 40);
+        assert_eq!(hu(&tube, 2.5, 0.0, 20.0), 350);
+        assert_eq!(tube.stenoses[0].percent, 70.0);
+    }
+
+    #[test]
+    fn calcium_lies_on_its_side_of_the_wall() {
+        let tube = calcified_wall().unwrap();
+        assert_eq!(hu(&tube, 5.0, 0.0, 0.0), 1000);
+        assert!(hu(&tube, -5.0, 0.0, 0.0) < 100);
+        assert!(tube.plaques[0].position.distance(DVec3::X * 5.0) < 1e-9);
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_no_voxel() {
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| cervical(4, 0.06).unwrap().voxels)
+        };
+        assert!(with(1) == with(3));
+    }
+
+    #[test]
+    fn the_seed_changes_voxels_and_vessels() {
+        let [a, b] = [1, 2].map(|seed| aorta(seed, 0.05).unwrap());
+        assert!(a.voxels != b.voxels);
+        assert!(a.tree != b.tree);
+    }
+
+    #[test]
+    fn workloads_have_their_segments_inside_their_volume() {
+        for (make, segments) in WORKLOADS {
+            let phantom = make(0, 0.04).unwrap();
+            let count = phantom.tree.segment_count();
+            assert!(count.abs_diff(segments) * 100 <= 3 * segments, "{}: {count}", phantom.name);
+            let corners = phantom.volume().unwrap().corners();
+            let (low, high) = phantom.tree.bounds();
+            assert!(low.cmpge(corners[0]).all() && high.cmple(corners[7]).all(), "{}", phantom.name);
+            assert!(phantom.voxels.iter().all(|v| (-1024..=3071).contains(v)));
+        }
+    }
+
+    #[test]
+    fn arguments_outside_their_range_are_named() {
+        for scale in [0.0, -1.0, 2.1, f64::NAN] {
+            assert_eq!(aorta(0, scale).unwrap_err().kind, ErrorKind::Settings);
+        }
+        for percent in [-0.1, 100.0, f64::NAN] {
+            assert_eq!(stenosis(percent).unwrap_err().subject, "percent");
+        }
+    }
+}

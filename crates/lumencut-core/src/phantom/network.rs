@@ -84,7 +84,8 @@ impl Network {
         self.trunk(name, &way, winding)
     }
 
-    /// A line that starts on `from` and ends on `to`, where these come nearest to its first and last way points.
+    /// A line that starts on `from` and ends on `to`, where these come nearest to its first and last way
+    /// points.
     pub(super) fn bridge(
         &mut self,
         from: TrunkId,

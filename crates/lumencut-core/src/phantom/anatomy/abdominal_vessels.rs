@@ -1,6 +1,7 @@
 //! Abdominal aorta and its branches down to the iliac arteries; z = 0 at the aortic bifurcation.
 
-use super::{SIDES, on_side};
+use super::{Branch, SIDES, on_side};
+use crate::phantom::curve::WayPoint;
 use crate::phantom::network::{Network, TrunkId};
 
 /// The lines that other regions go on from.
@@ -11,8 +12,8 @@ pub(super) struct AbdominalVessels {
 
 /// Draws the aorta from height `top` down, and the external iliac arteries along `external_iliac`
 /// (way points for the left side, from the common iliac's end).
-pub(super) fn draw(network: &mut Network, top: f64, external_iliac: &[[f64; 4]]) -> AbdominalVessels {
-    let way: Vec<[f64; 4]> = [
+pub(super) fn draw(network: &mut Network, top: f64, external_iliac: &[WayPoint]) -> AbdominalVessels {
+    let way: Vec<WayPoint> = [
         [2.0, 24.0, 168.0, 12.0],
         [5.0, 15.5, 125.0, 11.3],
         [8.0, 12.0, 98.0, 10.8],
@@ -90,7 +91,7 @@ fn superior_mesenteric(network: &mut Network, aorta: TrunkId) {
         1.5,
     );
     network.stenosis(sma, 0.13, 12.0, 55.0);
-    let branches: [(&str, [[f64; 4]; 3]); 5] = [
+    let branches: [Branch<3>; 5] = [
         ("middle colic artery", [[8.0, -15.0, 66.0, 1.8], [0.0, -34.0, 58.0, 1.6], [-6.0, -52.0, 66.0, 1.2]]),
         ("jejunal artery 1", [[6.0, -17.0, 54.0, 1.9], [26.0, -24.0, 46.0, 1.7], [52.0, -34.0, 42.0, 1.2]]),
         ("jejunal artery 2", [[3.0, -20.0, 36.0, 1.8], [24.0, -28.0, 22.0, 1.6], [48.0, -40.0, 8.0, 1.2]]),
@@ -161,7 +162,7 @@ fn lumbars(network: &mut Network, aorta: TrunkId) {
 }
 
 /// Common, internal and external iliac artery of one side.
-fn iliacs(network: &mut Network, aorta: TrunkId, side: f64, name: &str, external: &[[f64; 4]]) -> TrunkId {
+fn iliacs(network: &mut Network, aorta: TrunkId, side: f64, name: &str, external: &[WayPoint]) -> TrunkId {
     let mut way = on_side(
         side,
         [[0.0, 7.0, 0.0, 6.2], [14.0, 12.0, -17.0, 5.8], [31.0, 23.0, -41.0, 5.4], [40.0, 34.0, -60.0, 5.0]],
@@ -187,7 +188,7 @@ fn iliacs(network: &mut Network, aorta: TrunkId, side: f64, name: &str, external
         on_side(side, [[46.0, 59.0, -86.0, 2.2], [44.0, 56.0, -102.0, 1.9], [46.0, 48.0, -120.0, 1.5]]);
     network.branch(internal, &format!("{name} internal iliac artery, anterior trunk"), &anterior, 0.6);
 
-    let mut way: Vec<[f64; 4]> = external.iter().map(|p| [side * p[0], p[1], p[2], p[3]]).collect();
+    let mut way: Vec<WayPoint> = external.iter().map(|p| [side * p[0], p[1], p[2], p[3]]).collect();
     way.insert(0, [end[0], end[1], end[2], 4.6]);
     let external = network.branch(common, &format!("{name} external iliac artery"), &way, 1.2);
     network.scatter_calcium(external, 3, [0.1, 0.9]);

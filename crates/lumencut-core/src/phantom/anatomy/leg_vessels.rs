@@ -1,10 +1,11 @@
 //! Arteries of the lower extremities from the groin to the foot, and the bypass between them.
 
-use super::{SIDES, on_side};
+use super::{Branch, SIDES, on_side};
+use crate::phantom::curve::WayPoint;
 use crate::phantom::network::{Network, TrunkId};
 
 /// Way points of the left external iliac and common femoral artery down to its fork.
-pub(super) const EXTERNAL_ILIAC: [[f64; 4]; 6] = [
+pub(super) const EXTERNAL_ILIAC: [WayPoint; 6] = [
     [50.0, 21.0, -84.0, 4.5],
     [62.0, 0.0, -108.0, 4.4],
     [70.0, -27.0, -138.0, 4.3],
@@ -50,13 +51,13 @@ fn groin(network: &mut Network, iliac: TrunkId, side: f64, name: &str) {
         [
             [77.0, -44.0, -206.0, 3.6],
             [87.0, -33.0, -236.0, 3.3],
-            [96.0, -16.0, -290.0, 2.8],
-            [99.0, 0.0, -360.0, 2.2],
-            [96.0, 14.0, -430.0, 1.5],
+            [92.0, -16.0, -290.0, 2.8],
+            [86.0, 6.0, -360.0, 2.2],
+            [82.0, 18.0, -430.0, 1.5],
         ],
     );
     let profunda = network.branch(iliac, &format!("{name} deep femoral artery"), &profunda, 1.5);
-    let branches: [(&str, [[f64; 4]; 3]); 4] = [
+    let branches: [Branch<3>; 4] = [
         (
             "lateral circumflex artery",
             [[86.0, -35.0, -232.0, 2.2], [112.0, -34.0, -244.0, 1.9], [128.0, -24.0, -330.0, 1.3]],
@@ -67,11 +68,11 @@ fn groin(network: &mut Network, iliac: TrunkId, side: f64, name: &str) {
         ),
         (
             "perforating artery 1",
-            [[94.0, -20.0, -278.0, 1.6], [108.0, 14.0, -296.0, 1.4], [116.0, 40.0, -316.0, 1.0]],
+            [[91.0, -18.0, -282.0, 1.6], [98.0, 22.0, -300.0, 1.4], [114.0, 44.0, -318.0, 1.0]],
         ),
         (
             "perforating artery 2",
-            [[99.0, -2.0, -352.0, 1.5], [108.0, 22.0, -372.0, 1.3], [112.0, 46.0, -396.0, 1.0]],
+            [[87.0, 4.0, -352.0, 1.5], [96.0, 24.0, -372.0, 1.3], [110.0, 48.0, -396.0, 1.0]],
         ),
     ];
     for (part, way) in branches {
@@ -79,7 +80,7 @@ fn groin(network: &mut Network, iliac: TrunkId, side: f64, name: &str) {
     }
 }
 
-/// Superficial femoral and popliteal artery, one line; the popliteal end is at the origin of the calf arteries.
+/// Superficial femoral and popliteal artery, one line down to the origin of the calf arteries.
 fn femoral(network: &mut Network, iliac: TrunkId, side: f64, name: &str) -> TrunkId {
     let way = on_side(
         side,
@@ -98,7 +99,7 @@ fn femoral(network: &mut Network, iliac: TrunkId, side: f64, name: &str) -> Trun
     network.scatter_calcium(femoral, 12, [0.08, 0.8]);
     network.stenosis(femoral, 0.55, 24.0, if side < 0.0 { 75.0 } else { 55.0 });
     network.stenosis(femoral, 0.3, 14.0, 40.0);
-    let geniculate: [(&str, [[f64; 4]; 3]); 2] = [
+    let geniculate: [Branch<3>; 2] = [
         (
             "medial geniculate artery",
             [[81.0, 30.0, -570.0, 1.3], [56.0, 26.0, -566.0, 1.1], [46.0, -2.0, -572.0, 0.9]],
@@ -117,14 +118,14 @@ fn femoral(network: &mut Network, iliac: TrunkId, side: f64, name: &str) -> Trun
     femoral
 }
 
-/// Anterior tibial, peroneal and posterior tibial artery.
+/// The three arteries of the calf.
 fn calf(network: &mut Network, popliteal: TrunkId, side: f64, name: &str) {
     let anterior = on_side(
         side,
         [
             [88.0, 33.0, -665.0, 1.9],
-            [97.0, 18.0, -682.0, 1.8],
-            [101.0, 3.0, -720.0, 1.8],
+            [101.0, 17.0, -688.0, 1.8],
+            [104.0, 3.0, -722.0, 1.8],
             [98.0, -4.0, -820.0, 1.7],
             [91.0, -10.0, -940.0, 1.6],
             [85.0, -15.0, -1020.0, 1.5],
@@ -134,6 +135,11 @@ fn calf(network: &mut Network, popliteal: TrunkId, side: f64, name: &str) {
     );
     let anterior = network.branch(popliteal, &format!("{name} anterior tibial artery"), &anterior, 1.2);
     network.stenosis(anterior, 0.4, 18.0, 60.0);
+    tibioperoneal(network, popliteal, side, name);
+}
+
+/// Peroneal and posterior tibial artery, from their common trunk.
+fn tibioperoneal(network: &mut Network, popliteal: TrunkId, side: f64, name: &str) {
     let trunk =
         on_side(side, [[88.0, 33.0, -665.0, 2.4], [88.0, 33.0, -682.0, 2.3], [87.0, 32.0, -702.0, 2.2]]);
     let trunk = network.branch(popliteal, &format!("{name} tibioperoneal trunk"), &trunk, 0.3);

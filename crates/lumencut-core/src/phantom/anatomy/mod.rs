@@ -15,6 +15,7 @@ mod torso;
 
 use glam::{Vec2, Vec3};
 
+use super::curve::WayPoint;
 use super::network::Vasculature;
 use super::shape::{Section, Shape};
 use super::tissue::Solid;
@@ -31,6 +32,9 @@ pub(super) struct Anatomy {
     /// What surrounds the patient (HU).
     pub(super) background: f32,
 }
+
+/// A name and the way points of a branch of the left side.
+type Branch<const N: usize> = (&'static str, [WayPoint; N]);
 
 /// The patient's right (x < 0) and left.
 const SIDES: [(f64, &str); 2] = [(-1.0, "right"), (1.0, "left")];
@@ -80,6 +84,6 @@ fn both_sides(shapes: Vec<Shape>) -> Vec<Shape> {
 }
 
 /// The way points on the patient's side `side` (−1 right, 1 left) of those given for the left.
-fn on_side<const N: usize>(side: f64, way: [[f64; 4]; N]) -> [[f64; 4]; N] {
+fn on_side<const N: usize>(side: f64, way: [WayPoint; N]) -> [WayPoint; N] {
     way.map(|[x, y, z, radius]| [side * x, y, z, radius])
 }

@@ -159,7 +159,7 @@ pub(super) fn table(low: f32, high: f32, y: f32) -> [Solid; 2] {
     };
     let shell = slab(9.0);
     let mattress = slab(4.0);
-    [Solid::within(&mattress, -2.5, Tissue::Mottled(-930.0, 20.0)), Solid::new(Tissue::Even(-350.0), shell)]
+    [Solid::within(&mattress, -2.5, Tissue::Mottled(-930.0, 20.0)), Solid::new(Tissue::Even(-120.0), shell)]
 }
 
 /// Femoral veins of both sides, in the groin and the thigh.
