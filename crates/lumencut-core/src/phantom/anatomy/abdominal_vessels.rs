@@ -71,7 +71,7 @@ fn coeliac(network: &mut Network, aorta: TrunkId) {
             [84.0, 38.0, 111.0, 2.4],
             [104.0, 44.0, 108.0, 1.9],
         ],
-        3.0,
+        1.8,
     );
 }
 
