@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{at, by_hierarchy, pixel, plain, trefoil, tree, vessel, view};
+use common::{at, by_hierarchy, pixel, plain, tree, trefoil, vessel, view};
 use glam::{DQuat, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::phantom::random_tree::random_tree;
@@ -151,7 +151,10 @@ fn the_order_of_the_vessels_does_not_matter() {
         // Vessels that share an end point tie around it; elsewhere nothing differs.
         let differ = (0..a.depth.len()).filter(|p| a.depth[*p] != b.depth[*p]).count();
         let ids = (0..a.depth.len()).filter(|p| a.vessel[*p] != last - b.vessel[*p]).count();
-        assert!(differ <= a.depth.len() / 200 && ids <= a.depth.len() / 20, "{differ} depths, {ids} ids differ");
+        assert!(
+            differ <= a.depth.len() / 200 && ids <= a.depth.len() / 20,
+            "{differ} depths, {ids} ids differ"
+        );
         assert_eq!(a.distance, b.distance);
     }
 }
@@ -184,7 +187,10 @@ fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> f64 {
         for i in 0..points.len() {
             let last = i + 1 == points.len();
             let after_before = i == 0 || to(i).dot(edge(i - 1)) >= 0.0;
-            if after_before && (last || to(i).dot(edge(i)) <= 0.0) && to(i).length() <= vessel.radius_or_zero(i) {
+            if after_before
+                && (last || to(i).dot(edge(i)) <= 0.0)
+                && to(i).length() <= vessel.radius_or_zero(i)
+            {
                 nearest = nearest.min(points[i].z);
             }
             if !last {

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{by_brute_force, by_hierarchy, differences, plain, trefoil, tree, vessel, view};
+use common::{by_brute_force, by_hierarchy, differences, plain, tree, trefoil, vessel, view};
 use lumencut_core::phantom::random_tree::{Random, random_tree};
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{trefoil, tree, vessel, view};
+use common::{tree, trefoil, vessel, view};
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::math::lanes::Isa;
@@ -171,7 +171,10 @@ fn silhouettes_mark_leaps_and_nothing_else() {
     let (same, border) = (strength(&leap, &[0; 2400]), strength(&leap, &zones));
     assert!(border[20 * 60 + 30] > 0.9 && border[20 * 60 + 30] > same[20 * 60 + 30]);
     assert!(border[20 * 60 + 10] < 1e-6 && border[20 * 60 + 50] < 1e-6);
-    assert!(strength(&[3.0; 2400], &zones).iter().all(|s| *s == 0.0), "a border without a leap is no silhouette");
+    assert!(
+        strength(&[3.0; 2400], &zones).iter().all(|s| *s == 0.0),
+        "a border without a leap is no silhouette"
+    );
 }
 
 #[test]

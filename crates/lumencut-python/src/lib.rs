@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod arguments;
 mod errors;
+mod phantom;
 mod renderer;
 mod tree;
 mod volume;
@@ -17,5 +18,6 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
+    module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
     Ok(())
 }

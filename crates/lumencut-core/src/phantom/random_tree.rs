@@ -2,26 +2,27 @@
 
 use glam::DVec3;
 
+use super::random::{hash, uniform};
 use crate::error::Result;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// A small counter-based generator (SplitMix64).
+/// The random numbers of a seed, one after the other.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct Random {
+    seed: u64,
+    place: u64,
+}
 
 impl Random {
-    /// The generator of a seed.
+    /// The numbers of a seed.
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self { seed: hash(seed, 1), place: 0 }
     }
 
     /// The next number in [0, 1).
     pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        self.place += 1;
+        uniform(self.seed, self.place)
     }
 
     /// The next point in the cube [−1, 1)³.
