@@ -71,16 +71,20 @@ fn each<const N: usize>(bytes: &[u8], order: ByteOrder, number: impl Fn([u8; N])
 ///
 /// # Errors
 /// Naming `subject` where a word is no number.
-pub fn numbers_of_text(subject: &str, text: &str) -> Result<Vec<f64>> {
-    text.split_ascii_whitespace().map(|word| number_of_word(subject, word)).collect()
+pub fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Vec<f64>> {
+    text.split_ascii_whitespace().map(|word| number_of_word(subject, word, kind)).collect()
 }
 
-/// The number that `word` writes.
+/// The number that `word` writes. A 32-bit float is rounded to one, so that text and binary files give the same.
 ///
 /// # Errors
 /// Naming `subject` where it is none.
-pub fn number_of_word(subject: &str, word: &str) -> Result<f64> {
-    word.parse().map_err(|_| Error::new(subject, excerpt(word), "a number"))
+pub fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
+    let number = match kind {
+        NumberType::F32 => word.parse::<f32>().map(f64::from),
+        _ => word.parse::<f64>(),
+    };
+    number.map_err(|_| Error::new(subject, excerpt(word), "a number"))
 }
 
 /// `number` as an index or count below `limit`.

@@ -107,17 +107,18 @@ impl<'a> Cursor<'a> {
                 let bytes = self.bytes(subject, count.saturating_mul(number.size()))?;
                 Ok(number.numbers(bytes, ByteOrder::Big))
             }
-            ValueType::Bits | ValueType::Number(_) => self.numbers_of_words(subject, count),
+            ValueType::Bits => self.numbers_of_words(subject, NumberType::U8, count),
+            ValueType::Number(number) => self.numbers_of_words(subject, number, count),
         }
     }
 
-    fn numbers_of_words(&mut self, subject: &str, count: usize) -> Result<Vec<f64>> {
+    fn numbers_of_words(&mut self, subject: &str, kind: NumberType, count: usize) -> Result<Vec<f64>> {
         let mut out = Vec::new();
         for read in 0..count {
             let word = self.next_word().ok_or_else(|| {
                 Error::truncated(subject, format!("{read} numbers"), format!("{count} numbers"))
             })?;
-            out.push(number_of_word(subject, &word)?);
+            out.push(number_of_word(subject, &word, kind)?);
         }
         Ok(out)
     }

@@ -145,7 +145,7 @@ impl Arrays<'_> {
         let name = format!("array '{}'", attributes.get("Name").unwrap_or(&array.section));
         let kind = number_type(&name, attributes.get("type").unwrap_or_default())?;
         let bytes = match attributes.get("format").unwrap_or("ascii") {
-            "ascii" => return numbers_of_text(&name, &array.text),
+            "ascii" => return numbers_of_text(&name, &array.text, kind),
             "binary" => Bytes::base64(array.text.as_bytes()),
             "appended" => {
                 let missing =

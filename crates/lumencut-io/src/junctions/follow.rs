@@ -16,7 +16,7 @@ const SHORTEST_STRETCH: f64 = 10.0;
 /// Lets the ends of paths follow earlier paths; returns how many ends do.
 pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> usize {
     let mut followed = 0;
-    // A path that follows another one to its end leaves its own end behind, where a third path may go on from.
+    // A path that follows another one leaves its own end behind, where a third path may begin.
     let mut moved: Vec<(usize, usize)> = Vec::new();
     for i in 1..paths.len() {
         let (earlier, rest) = paths.split_at_mut(i);
@@ -50,18 +50,17 @@ struct Shared {
     length: f64,
 }
 
+/// The longest stretch at the beginning of `path` beside one of the `earlier` paths. None where the path shares
+/// its first step with one of them: points that coincide say where lines part better than any tolerance does.
 fn longest(points: &[DVec3], path: &Path, earlier: &[Path], spacing: f64) -> Option<Shared> {
-    let first_step = [path.nodes[0], path.nodes[1]];
-    let shares_points = |other: &Path| {
-        let begins = |pair: &[usize]| pair == first_step || [pair[1], pair[0]] == first_step;
-        begins(&other.nodes[..2]) || begins(&other.nodes[other.nodes.len() - 2..])
-    };
-    if earlier.iter().any(shares_points) {
+    let count = path.nodes.len();
+    if earlier.iter().any(|other| shares_end(other, &path.nodes[..2])) {
         return None;
     }
     let mut best: Option<Shared> = None;
     for (other, candidate) in earlier.iter().enumerate() {
-        if candidate.radius.is_some() != path.radius.is_some() {
+        let unlike = candidate.radius.is_some() != path.radius.is_some();
+        if unlike || shares_end(candidate, &path.nodes[count - 2..]) {
             continue;
         }
         for backwards in [false, true] {
@@ -79,6 +78,12 @@ fn longest(points: &[DVec3], path: &Path, earlier: &[Path], spacing: f64) -> Opt
         }
     }
     best
+}
+
+/// Whether `other` begins or ends with this step, in either direction.
+fn shares_end(other: &Path, step: &[usize]) -> bool {
+    let is_step = |pair: &[usize]| pair == step || [pair[1], pair[0]] == step;
+    is_step(&other.nodes[..2]) || is_step(&other.nodes[other.nodes.len() - 2..])
 }
 
 /// A path and another one that it may run along, both from one end.
@@ -158,20 +163,22 @@ impl Walk<'_> {
 }
 
 impl Shared {
-    /// Gives `path` the other's points; returns its own last point and what stands for it if all were replaced.
-    fn replace(self, path: &mut Path, earlier: &[Path]) -> Option<(usize, usize)> {
+    /// Gives `path` the other's points; returns the ends of the path that were replaced, and by what.
+    fn replace(self, path: &mut Path, earlier: &[Path]) -> Vec<(usize, usize)> {
         let other = &earlier[self.other];
         let count = other.nodes.len();
         let index = |i: usize| if self.backwards { count - 1 - i } else { i };
-        let whole = self.last + 1 == path.nodes.len();
-        let end = path.nodes[self.last];
+        let mut moved = vec![(path.nodes[0], other.nodes[index(0)])];
+        if self.last + 1 == path.nodes.len() {
+            moved.push((path.nodes[self.last], other.nodes[index(self.other_last)]));
+        }
         let taken = (0..=self.other_last).map(index);
         path.nodes.splice(..=self.last, taken.clone().map(|i| other.nodes[i]));
         if let (Some(own), Some(radius)) = (&mut path.radius, &other.radius) {
             own.splice(..=self.last, taken.map(|i| radius[i]));
         }
-        let stand_in = other.nodes[index(self.other_last)];
-        (whole && end != stand_in).then_some((end, stand_in))
+        moved.retain(|(from, to)| from != to);
+        moved
     }
 }
 

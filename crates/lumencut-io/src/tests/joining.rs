@@ -184,6 +184,28 @@ fn lines_of_one_group_are_merged_within_half_the_radius() {
 }
 
 #[test]
+fn a_line_goes_on_where_the_copy_it_began_at_was_merged() {
+    let beside: Vec<DVec3> = straight([0.1, 0.0, 0.0], [0.1, 0.0, 20.0]);
+    let branch = straight([0.1, 0.0, 20.0], [0.1, 9.0, 20.0]);
+    let joined = join(vec![y()[0].clone(), line(&[beside]), line(&[branch])]);
+    assert_eq!(lengths(&joined), [21, 16, 10]);
+    assert_eq!(joined[2].points[0], DVec3::from(FORK));
+}
+
+#[test]
+fn cut_lines_whose_shared_points_say_where_they_part_are_not_merged_further() {
+    let [a, b] = y();
+    let cells = [(&a, 0..24, 0), (&a, 23..36, 1), (&b, 0..24, 0), (&b, 23..36, 2)];
+    let cut = cells.map(|(line, range, group)| Line {
+        points: line.points[range.clone()].to_vec(),
+        radius: line.radius.as_ref().map(|radius| radius[range].to_vec()),
+        group: Some(group),
+        name: None,
+    });
+    assert_eq!(lengths(&join(cut.to_vec())), [21, 16, 16]);
+}
+
+#[test]
 fn vessels_that_part_at_a_small_angle_at_a_shared_point_stay_apart() {
     let lines =
         vec![line(&[straight([0.0; 3], [0.0, 0.0, 30.0])]), line(&[straight([0.0; 3], [0.0, 4.0, 30.0])])];
