@@ -1,1 +1,97 @@
-"""Curved Surface Reformation: the lumen of all vessels of an angiography in one freely rotatable view."""
+"""Curved Surface Reformation: the lumen of all vessels of an angiography in one freely rotatable view.
+
+>>> import lumencut
+>>> volume = lumencut.read_volume("ct.nii.gz")
+>>> tree = lumencut.read_centerlines("centerlines.vtp")
+>>> lumencut.render(volume, tree).save("anterior.png")
+
+Lumencut is not a medical device.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lumencut._lumencut import __version__
+    from lumencut.camera import VIEWS, Camera
+    from lumencut.centerlines import read_centerlines
+    from lumencut.errors import (
+        CameraError,
+        FileError,
+        FormatError,
+        LumencutError,
+        MissingPackageError,
+        SettingsError,
+        SpaceWarning,
+        VesselTreeError,
+        VolumeError,
+    )
+    from lumencut.frame import Frame
+    from lumencut.renderer import Renderer, render
+    from lumencut.settings import Opacity, Settings, Window
+    from lumencut.vessel_tree import Vessel, VesselTree
+    from lumencut.volume import Volume
+    from lumencut.volume_files import read_volume
+
+#: Where each public name lives; modules are imported on first use, so that ``import lumencut`` is quick.
+_HOME = {
+    "_lumencut": ("__version__",),
+    "camera": ("VIEWS", "Camera"),
+    "centerlines": ("read_centerlines",),
+    "errors": (
+        "CameraError",
+        "FileError",
+        "FormatError",
+        "LumencutError",
+        "MissingPackageError",
+        "SettingsError",
+        "SpaceWarning",
+        "VesselTreeError",
+        "VolumeError",
+    ),
+    "frame": ("Frame",),
+    "renderer": ("Renderer", "render"),
+    "settings": ("Opacity", "Settings", "Window"),
+    "vessel_tree": ("Vessel", "VesselTree"),
+    "volume": ("Volume",),
+    "volume_files": ("read_volume",),
+}
+_MODULE = {name: module for module, names in _HOME.items() for name in names}
+
+__all__ = [
+    "VIEWS",
+    "Camera",
+    "CameraError",
+    "FileError",
+    "FormatError",
+    "Frame",
+    "LumencutError",
+    "MissingPackageError",
+    "Opacity",
+    "Renderer",
+    "Settings",
+    "SettingsError",
+    "SpaceWarning",
+    "Vessel",
+    "VesselTree",
+    "VesselTreeError",
+    "Volume",
+    "VolumeError",
+    "Window",
+    "__version__",
+    "read_centerlines",
+    "read_volume",
+    "render",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _MODULE:
+        raise AttributeError(f"module 'lumencut' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"lumencut.{_MODULE[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

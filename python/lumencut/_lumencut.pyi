@@ -1,12 +1,26 @@
-"""The extension module: see the Rust crates for the method and the readers."""
+"""The compiled part of the package."""
+
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
 
+_Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
+
 __version__: str
 
+@final
+class Renderer:
+    def __new__(cls, vessels: list[_Arrays]) -> Renderer: ...
+    def render(self, volume: Any, camera: Any, settings: Any) -> dict[str, Any]: ...
+
+def check_camera(camera: Any) -> list[list[float]]: ...
+def check_settings(settings: Any) -> None: ...
+def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
+def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
 def read_centerlines(
     content: bytes, name: str
 ) -> tuple[
     list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], str | None, list[str]
 ]: ...
+def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...

@@ -86,6 +86,29 @@ class Volume:
         index = np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(8, 3)
         return index @ self._world_from_index[:3, :3].T + self._world_from_index[:3, 3]
 
+    def sample(self, points: npt.ArrayLike) -> npt.NDArray[np.float32]:
+        """Return the volume at world points (n, 3) (mm, LPS), trilinear, NaN outside, shape (n,)."""
+        from lumencut import _lumencut
+
+        return _lumencut.sample(self, np.asarray(points, dtype=np.float64).reshape(-1, 3))
+
+    @property
+    def _voxels(self) -> npt.NDArray[Any]:
+        """The voxels in memory order, a view of shape (n,)."""
+        slowest_first = np.argsort([-s for s in self._array.strides], kind="stable")
+        return self._array.transpose(slowest_first).reshape(-1)
+
+    @property
+    def _strides(self) -> tuple[int, ...]:
+        """Distance between neighbours along i, j, k in elements."""
+        pairs = zip(self._array.strides, self._array.shape, strict=True)
+        return tuple(s // self._array.itemsize if n > 1 else 0 for s, n in pairs)[::-1]
+
+    @property
+    def _affine_rows(self) -> list[list[float]]:
+        rows: list[list[float]] = self._world_from_index[:3].tolist()
+        return rows
+
     def contains(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Tell which world points (n, 3) (mm, LPS) lie inside the grid's outer corners, shape (n,)."""
         points = np.asarray(points, dtype=np.float64).reshape(-1, 3)

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::vessel_tree::MAX_COORDINATE;
 
 /// The most pixels along one side of an image.
 pub const MAX_SIZE: usize = 32_768;
@@ -35,8 +36,8 @@ impl Camera {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::Camera, subject, found, expected))
         };
-        if !center.is_finite() {
-            return wrong("center of the camera", format!("{center}"), "finite coordinates in mm");
+        if !center.is_finite() || center.abs().max_element() > MAX_COORDINATE {
+            return wrong("center of the camera", format!("{center}"), "finite coordinates within 1e6 mm of the origin");
         }
         let Some(unit) = direction.try_normalize() else {
             return wrong(

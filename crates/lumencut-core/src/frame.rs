@@ -29,3 +29,19 @@ pub struct Frame {
     /// How long each stage took, in the order they ran.
     pub timings: Vec<Timing>,
 }
+
+impl Frame {
+    /// A frame of `camera` with depth, vessel and distance still zero; `value` and `image` have no pixels yet.
+    pub(crate) fn empty(camera: Camera) -> Self {
+        let pixels = camera.size()[0] * camera.size()[1];
+        Self {
+            camera,
+            image: Vec::new(),
+            depth: vec![0.0; pixels],
+            vessel: vec![0; pixels],
+            distance: vec![0.0; pixels],
+            value: Vec::new(),
+            timings: Vec::new(),
+        }
+    }
+}

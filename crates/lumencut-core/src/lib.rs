@@ -3,11 +3,14 @@
 //! The method of Auzinger et al., "Vessel Visualization using Curved Surface Reformation", IEEE TVCG 19(12),
 //! 2013, doi:10.1109/TVCG.2013.215. This crate knows no file format and no GPU API.
 
+pub mod brute_force;
 pub mod camera;
 pub mod error;
 pub mod frame;
 pub mod math;
 pub mod phantom;
+pub mod pipeline;
 pub mod settings;
+pub mod stages;
 pub mod vessel_tree;
 pub mod volume;

@@ -4,6 +4,9 @@ use glam::DVec3;
 
 use crate::error::{Error, ErrorKind, Result};
 
+/// The largest coordinate (mm) of points and cameras: one kilometre.
+pub const MAX_COORDINATE: f64 = 1e6;
+
 /// One unbranched centerline with optional radii, in world space (LPS, mm).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vessel {
@@ -23,24 +26,26 @@ impl Vessel {
         if points.len() < 2 {
             return wrong("points of the vessel", format!("{} point(s)", points.len()), "at least 2 points");
         }
-        if let Some(i) = points.iter().position(|p| !p.is_finite()) {
-            return wrong(
-                "points of the vessel",
-                format!("{} at point {i}", points[i]),
-                "finite coordinates in mm",
-            );
+        if let Some(i) = points.iter().position(|p| !p.is_finite() || p.abs().max_element() > MAX_COORDINATE) {
+            let found = format!("{} at point {i}", points[i]);
+            return wrong("points of the vessel", found, "finite coordinates within 1e6 mm of the origin");
         }
         if let Some(radius) = &radius {
             if radius.len() != points.len() {
                 let found = format!("{} radii for {} points", radius.len(), points.len());
                 return wrong("radius of the vessel", found, "one radius per point");
             }
-            if let Some(i) = radius.iter().position(|r| !r.is_finite() || *r < 0.0) {
+            if let Some(i) = radius.iter().position(|r| !(0.0..=MAX_COORDINATE).contains(r)) {
                 let found = format!("{} at point {i}", radius[i]);
-                return wrong("radius of the vessel", found, "finite radii of 0 mm or more");
+                return wrong("radius of the vessel", found, "finite radii between 0 and 1e6 mm");
             }
         }
         Ok(Self { points, radius })
+    }
+
+    /// A vessel from parts that satisfy [`Vessel::new`] by construction.
+    pub(crate) fn from_checked(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Self {
+        Self { points, radius }
     }
 
     /// The points (mm, LPS), at least two.
@@ -83,6 +88,11 @@ impl VesselTree {
             ));
         }
         Ok(Self { vessels })
+    }
+
+    /// A tree from vessels that satisfy [`VesselTree::new`] by construction.
+    pub(crate) fn from_checked(vessels: Vec<Vessel>) -> Self {
+        Self { vessels }
     }
 
     /// The vessels; the index is the vessel's id.

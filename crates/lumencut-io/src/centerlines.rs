@@ -37,8 +37,9 @@ pub struct Centerlines {
     pub notes: Vec<String>,
 }
 
-/// Beyond this no coordinate (mm) is a place in a patient: a damaged file, or binary data read the wrong way.
-const LARGEST_COORDINATE: f64 = 1e9;
+/// Beyond this no coordinate or radius (mm) belongs to a patient: a damaged file, or binary data read the wrong
+/// way. The core draws the same line.
+const LARGEST_COORDINATE: f64 = 1e6;
 
 impl Centerlines {
     /// Checks every line, drops repeated points and lines that are no lines, and notes both.
@@ -75,14 +76,14 @@ fn check(line: &Line, index: usize) -> Result<()> {
     if let Some(i) = line.points.iter().position(|p| p.is_nan() || p.abs().max_element() > LARGEST_COORDINATE)
     {
         let found = format!("{} at point {i}", line.points[i]);
-        return Err(Error::new(format!("points of line {index}"), found, "finite coordinates in mm"));
+        return Err(Error::new(format!("points of line {index}"), found, "coordinates of at most 1e6 mm"));
     }
     let Some(radius) = &line.radius else { return Ok(()) };
     match radius.iter().position(|r| !(0.0..=LARGEST_COORDINATE).contains(r)) {
         None => Ok(()),
         Some(i) => {
             let found = format!("{} at point {i}", radius[i]);
-            Err(Error::new(format!("radius of line {index}"), found, "finite radii of 0 mm or more"))
+            Err(Error::new(format!("radius of line {index}"), found, "radii from 0 to 1e6 mm"))
         }
     }
 }

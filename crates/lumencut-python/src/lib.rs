@@ -2,12 +2,22 @@
 
 use pyo3::prelude::*;
 
+mod arguments;
 mod centerlines;
 mod errors;
+mod renderer;
+mod tree;
+mod volume;
 
 #[pymodule]
 fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<renderer::Renderer>()?;
+    module.add_function(wrap_pyfunction!(arguments::check_camera, module)?)?;
+    module.add_function(wrap_pyfunction!(arguments::check_settings, module)?)?;
+    module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
+    module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
+    module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(centerlines::read_centerlines, module)?)?;
     Ok(())
 }

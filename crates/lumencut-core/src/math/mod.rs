@@ -1,3 +1,11 @@
 //! The arithmetic that the stages share.
 
+pub mod cost;
+pub mod hierarchy;
+pub mod lanes;
+pub mod nearest;
+pub mod pieces;
+pub mod projection;
+pub mod sampling;
+pub mod walk;
 pub mod window;

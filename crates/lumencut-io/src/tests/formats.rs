@@ -121,7 +121,7 @@ fn nan_points_wild_ids_and_negative_radii_are_named() {
     let nan = replaced(ascii_vtp(), "-4\n 2\n 8.125", "-4\n nan\n 8.125");
     assert!(message(&nan, "a.vtp").contains("points of line 0: found [-4, NaN, 8.125] at point 2"));
     let far = replaced(ascii_vtp(), "-4\n 2\n 8.125", "-4\n 2e300\n 8.125");
-    assert!(message(&far, "a.vtp").contains("at point 2; expected finite coordinates"));
+    assert!(message(&far, "a.vtp").contains("at point 2; expected coordinates of at most 1e6 mm"));
     let id = replaced(ascii_vtp(), ">0\n 1\n 2\n", ">0\n 7\n 2\n");
     assert!(
         message(&id, "a.vtp")

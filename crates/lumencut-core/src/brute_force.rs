@@ -1,0 +1,88 @@
+//! The reference: every pixel against every piece of every level it needs. Vectorised and parallel like the
+//! product, without its hierarchy; for tests and benches only.
+
+use rayon::prelude::*;
+
+use crate::camera::Camera;
+use crate::error::Result;
+use crate::math::cost::Rule;
+use crate::math::hierarchy::{Hierarchy, NO_SLOT};
+use crate::math::lanes::{COLUMNS, ABSENT, FAN, Kernel, PIXELS, ROWS, UNSET, dispatch};
+use crate::math::nearest::lower_distance;
+use crate::math::pieces::{Envelope, Tile};
+use crate::stages::View;
+use crate::stages::depth::{CutSurface, Search, depth_by};
+
+/// [`crate::stages::distance::distance`] against every segment.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Interrupted`].
+pub fn distance(view: &View, finest: &Hierarchy, distance: &mut [f32]) -> Result<()> {
+    distance.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, pixels)| {
+        view.go_on()?;
+        dispatch(view.isa, DistanceRow { camera: view.camera, finest, row, pixels });
+        Ok(())
+    })
+}
+
+struct DistanceRow<'a> {
+    camera: &'a Camera,
+    finest: &'a Hierarchy,
+    row: usize,
+    pixels: &'a mut [f32],
+}
+
+impl Kernel for DistanceRow<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let width = self.camera.size()[0];
+        for column in (0..width).step_by(COLUMNS) {
+            let tile = Tile::new(self.camera, column, self.row * ROWS);
+            let mut squared = [UNSET; PIXELS];
+            for bundle in &self.finest.bundles {
+                for s in (0..FAN).filter(|s| bundle.slot[*s] != NO_SLOT) {
+                    lower_distance(&tile, &mut squared, bundle, s);
+                }
+            }
+            for (r, row) in self.pixels.chunks_mut(width).enumerate() {
+                for (c, pixel) in row[column..].iter_mut().take(COLUMNS).enumerate() {
+                    *pixel = squared[r * COLUMNS + c].sqrt();
+                }
+            }
+        }
+    }
+}
+
+struct Exhaustive<'a>(&'a CutSurface<'a>);
+
+impl Search for Exhaustive<'_> {
+    #[inline(always)]
+    fn lowest<const LUMEN_FIRST: bool>(&mut self, level: usize, tile: &Tile, rule: &Rule, envelope: &mut Envelope) {
+        for bundle in &self.0.hierarchy(level).bundles {
+            for s in 0..FAN {
+                if bundle.wedge_z[s] < ABSENT {
+                    envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule);
+                }
+                if bundle.stripe_z[s] < ABSENT {
+                    envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule);
+                }
+            }
+        }
+    }
+}
+
+/// [`crate::stages::depth::depth`] against every piece.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Interrupted`].
+pub fn depth(
+    view: &View,
+    surface: &CutSurface,
+    distance: &[f32],
+    depth: &mut [f32],
+    vessel: &mut [i32],
+) -> Result<()> {
+    depth_by(view, surface, distance, depth, vessel, || Exhaustive(surface))
+}

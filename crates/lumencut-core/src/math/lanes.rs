@@ -1,0 +1,190 @@
+//! Lanes and instruction sets: the kernels are written once over small arrays, compiled once per instruction
+//! set, and picked at run time.
+//!
+//! The compiler never fuses a multiplication with an addition here and every square root is correctly
+//! rounded, so all instruction sets give the same bits.
+
+/// The width of a tile (pixels).
+pub const COLUMNS: usize = 16;
+/// The height of a tile (pixels).
+pub const ROWS: usize = 8;
+/// The pixels of a tile, evaluated together.
+pub const PIXELS: usize = COLUMNS * ROWS;
+/// The children of a node of the hierarchy, tested together.
+pub const FAN: usize = 16;
+
+/// A key no piece reaches: the pixel has no winner yet. Finite, so that no kernel ever meets inf or NaN.
+pub const UNSET: f32 = 1e30;
+/// The depth of a piece that is not there; beyond [`UNSET`] whatever is added.
+pub const ABSENT: f32 = 3e30;
+/// Where slots without a point lie (mm): beyond every scene, and its square is still finite.
+pub const FAR: f32 = 1e9;
+/// A key that no piece beats: the pixel does not take part.
+pub const SETTLED: f32 = -1e30;
+
+/// The larger of two numbers that are not NaN: one instruction, where `f32::max` needs three.
+#[inline(always)]
+pub fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers that are not NaN.
+#[inline(always)]
+pub fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// An integer that orders as the number does; integers are what the compiler reduces in vectors.
+#[inline(always)]
+fn ordered(number: f32) -> i32 {
+    let bits = number.to_bits() as i32;
+    bits ^ ((bits >> 31) & i32::MAX)
+}
+
+/// The number that [`ordered`] came from.
+#[inline(always)]
+fn number(ordered: i32) -> f32 {
+    f32::from_bits((ordered ^ ((ordered >> 31) & i32::MAX)) as u32)
+}
+
+/// The largest of a tile's numbers, none of them NaN.
+#[inline(always)]
+pub fn largest(numbers: &[f32; PIXELS]) -> f32 {
+    let mut most = i32::MIN;
+    for l in 0..PIXELS {
+        most = most.max(ordered(numbers[l]));
+    }
+    number(most)
+}
+
+/// The smallest of a node's numbers, none of them NaN.
+#[inline(always)]
+pub fn smallest(numbers: &[f32; FAN]) -> f32 {
+    let mut least = i32::MAX;
+    for n in 0..FAN {
+        least = least.min(ordered(numbers[n]));
+    }
+    number(least)
+}
+
+/// Bit n tells whether number n is no larger than `limit`.
+#[inline(always)]
+pub fn within(numbers: &[f32; FAN], limit: f32) -> u32 {
+    let mut bits = [0u32; FAN];
+    for n in 0..FAN {
+        bits[n] = if numbers[n] <= limit { 1 << n } else { 0 };
+    }
+    let mut all = 0;
+    for n in 0..FAN {
+        all |= bits[n];
+    }
+    all
+}
+
+/// The places of the bits set, lowest first.
+#[inline(always)]
+pub fn places(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = bits.trailing_zeros() as usize;
+        let any = bits != 0;
+        bits &= bits.wrapping_sub(1);
+        any.then_some(place)
+    })
+}
+
+/// The distance along one axis from the interval `center` ± `half` to the interval from `low` to `high`.
+#[inline(always)]
+pub fn gap(low: f32, high: f32, center: f32, half: f32) -> f32 {
+    larger(larger(low - center, center - high) - half, 0.0)
+}
+
+/// An instruction set that the kernels are compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Isa {
+    /// What every processor of the target has (SSE2, NEON, wasm simd128 where enabled).
+    Baseline,
+    /// x86-64 with AVX2.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// x86-64 with AVX-512 F, BW, DQ and VL.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Isa {
+    /// The instruction sets this processor has, the widest last.
+    pub fn available() -> Vec<Self> {
+        #[allow(unused_mut)]
+        let mut sets = vec![Self::Baseline];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("bmi2") {
+                sets.push(Self::Avx2);
+            }
+            if ["avx512f", "avx512bw", "avx512dq", "avx512vl"].iter().all(|f| has(f)) {
+                sets.push(Self::Avx512);
+            }
+        }
+        sets
+    }
+
+    /// The widest instruction set this processor has.
+    pub fn widest() -> Self {
+        static WIDEST: std::sync::OnceLock<Isa> = std::sync::OnceLock::new();
+        *WIDEST.get_or_init(|| Self::available().pop().unwrap_or(Self::Baseline))
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn has(feature: &str) -> bool {
+    match feature {
+        "avx512f" => std::is_x86_feature_detected!("avx512f"),
+        "avx512bw" => std::is_x86_feature_detected!("avx512bw"),
+        "avx512dq" => std::is_x86_feature_detected!("avx512dq"),
+        _ => std::is_x86_feature_detected!("avx512vl"),
+    }
+}
+
+/// Work to be compiled for every instruction set; `run` and all it calls must be `#[inline(always)]`.
+pub trait Kernel {
+    /// What the work gives.
+    type Output;
+    /// Does the work.
+    fn run(self) -> Self::Output;
+}
+
+/// Runs `kernel` as compiled for `isa`, which must be one of [`Isa::available`] (others run as baseline).
+pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
+    match isa {
+        Isa::Baseline => kernel.run(),
+        #[cfg(target_arch = "x86_64")]
+        Isa::Avx2 | Isa::Avx512 => x86::dispatch(isa, kernel),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::{Isa, Kernel};
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn avx2<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+
+    #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
+    fn avx512<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+
+    /// The one place where the crate promises the compiler something it cannot check.
+    #[allow(unsafe_code)]
+    pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
+        let widest = Isa::widest();
+        match isa {
+            // SAFETY: `widest` was detected on this processor and includes the narrower sets.
+            Isa::Avx512 if widest == Isa::Avx512 => unsafe { avx512(kernel) },
+            Isa::Avx2 if widest != Isa::Baseline => unsafe { avx2(kernel) },
+            _ => kernel.run(),
+        }
+    }
+}

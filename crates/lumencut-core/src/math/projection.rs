@@ -1,0 +1,165 @@
+//! The projection of a level's slots for one view: edges, depths, and what stands at each point.
+
+use glam::DVec3;
+
+use super::hierarchy::{Hierarchy, NO_SLOT, spatial_order};
+use super::lanes::{ABSENT, FAN};
+use crate::camera::Camera;
+use crate::vessel_tree::VesselTree;
+
+/// A segment whose projection is shorter than this (mm) is collinear with the view direction: it gives no
+/// stripe. A thousandth of a millimetre is far below any voxel and well above the rounding of `f32`.
+pub const COLLINEAR_LENGTH: f32 = 1e-3;
+
+/// One level of detail, made once per tree: its distinct points as slots, and their order in space.
+#[derive(Debug)]
+pub struct Level {
+    /// The first slot of each vessel, and the number of slots at the end.
+    first_slot: Vec<u32>,
+    points: Vec<DVec3>,
+    radii: Vec<f32>,
+    /// The slot in each place of the bundles.
+    order: Vec<u32>,
+    /// The bundle of each slot.
+    pub bundle_of_slot: Vec<u32>,
+    /// The vessel of each slot.
+    pub vessel_of_slot: Vec<i32>,
+}
+
+impl Level {
+    /// The slots of `tree`. A point that repeats the one before it adds nothing and gets no slot.
+    pub fn new(tree: &VesselTree) -> Self {
+        let slots = tree.segment_count() + tree.vessels().len();
+        let (mut points, mut radii) = (Vec::with_capacity(slots), Vec::with_capacity(slots));
+        let mut vessel_of_slot = Vec::with_capacity(slots);
+        let mut first_slot = vec![0];
+        for (id, vessel) in tree.vessels().iter().enumerate() {
+            for (i, point) in vessel.points().iter().enumerate() {
+                if i == 0 || *point != vessel.points()[i - 1] {
+                    points.push(*point);
+                    radii.push(vessel.radius_or_zero(i) as f32);
+                    vessel_of_slot.push(id as i32);
+                }
+            }
+            first_slot.push(points.len() as u32);
+        }
+        let last = |slot: usize| vessel_of_slot.get(slot + 1) != Some(&vessel_of_slot[slot]);
+        let middle = |slot: usize| (points[slot] + points[if last(slot) { slot } else { slot + 1 }]) * 0.5;
+        let order = spatial_order(&(0..points.len()).map(middle).collect::<Vec<_>>());
+        let mut bundle_of_slot = vec![0; points.len()];
+        for (place, slot) in order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
+            bundle_of_slot[*slot as usize] = (place / FAN) as u32;
+        }
+        Self { first_slot, points, radii, order, bundle_of_slot, vessel_of_slot }
+    }
+
+    /// The number of bundles that hold the slots.
+    pub fn bundle_count(&self) -> usize {
+        self.order.len() / FAN
+    }
+}
+
+/// A point in projection and what stands there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Projected {
+    /// View coordinates (mm).
+    point: [f32; 3],
+    /// e, zero where collinear or not there.
+    edge: [f32; 2],
+    /// f of what stands at the point.
+    before: [f32; 2],
+    stands: bool,
+}
+
+/// A level in one view; the buffers are kept from view to view.
+#[derive(Debug)]
+pub struct ProjectedLevel {
+    projected: Vec<Projected>,
+    /// The slots in bundles, in projection.
+    pub hierarchy: Hierarchy,
+}
+
+impl ProjectedLevel {
+    /// Buffers for `level`.
+    pub fn new(level: &Level) -> Self {
+        let projected = vec![Projected::default(); level.points.len()];
+        Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
+    }
+
+    /// Projects all slots of `level` into the view of `camera`; radii count only with `preserve_lumen`.
+    pub fn project(&mut self, level: &Level, camera: &Camera, preserve_lumen: bool) {
+        for (projected, point) in self.projected.iter_mut().zip(&level.points) {
+            projected.point = camera.view_from_world(*point).as_vec3().to_array();
+        }
+        for ends in level.first_slot.windows(2) {
+            stand(&mut self.projected[ends[0] as usize..ends[1] as usize]);
+        }
+        let scale = f32::from(u8::from(preserve_lumen));
+        for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
+            self.place(level, place, *slot as usize, scale);
+        }
+        self.hierarchy.enclose();
+    }
+
+    /// Writes a slot into its place in the bundles.
+    fn place(&mut self, level: &Level, place: usize, slot: usize, radius_scale: f32) {
+        let (bundle, s) = (&mut self.hierarchy.bundles[place / FAN], place % FAN);
+        let here = self.projected[slot];
+        let [ex, ey] = here.edge;
+        let square = ex * ex + ey * ey;
+        let stripe = square > 0.0;
+        // A collinear segment keeps no extent: its other end has a slot of its own.
+        let next = slot + usize::from(stripe);
+        let end = self.projected[next].point;
+        let radius = level.radii[slot] * radius_scale;
+        bundle.slot[s] = slot as u32;
+        (bundle.x[s], bundle.y[s]) = (here.point[0], here.point[1]);
+        (bundle.next_x[s], bundle.next_y[s]) = (end[0], end[1]);
+        (bundle.edge_x[s], bundle.edge_y[s]) = (ex, ey);
+        (bundle.before_x[s], bundle.before_y[s]) = (here.before[0], here.before[1]);
+        bundle.inverse_length[s] = if stripe { 1.0 / square.sqrt() } else { 0.0 };
+        bundle.stripe_z[s] = if stripe { here.point[2] } else { ABSENT };
+        bundle.stripe_dz[s] = if stripe { end[2] - here.point[2] } else { 0.0 };
+        bundle.wedge_z[s] = if here.stands { here.point[2] } else { ABSENT };
+        bundle.radius[s] = radius;
+        bundle.radius_change[s] = level.radii[next] * radius_scale - radius;
+    }
+
+    /// The largest absolute view coordinate of all slots (mm).
+    pub fn reach(&self) -> f32 {
+        let coordinates = self.projected.iter().flat_map(|p| p.point);
+        coordinates.fold(0.0, |reach, c| reach.max(c.abs()))
+    }
+}
+
+/// Decides for one vessel which segments are collinear and what stands at each point: a wedge at inner
+/// points, half-planes at the ends and before a collinear run, a full plane at an end that a run reaches.
+fn stand(vessel: &mut [Projected]) {
+    let last = vessel.len() - 1;
+    for i in 0..=last {
+        let next = vessel[(i + 1).min(last)].point;
+        let here = vessel[i].point;
+        let edge = [next[0] - here[0], next[1] - here[1]];
+        let collinear = edge[0] * edge[0] + edge[1] * edge[1] < COLLINEAR_LENGTH * COLLINEAR_LENGTH;
+        vessel[i].edge = if collinear { [0.0; 2] } else { edge };
+        vessel[i].before = [0.0; 2];
+        vessel[i].stands = false;
+    }
+    let is_stripe = |p: &Projected| p.edge != [0.0; 2];
+    let Some(first_stripe) = vessel.iter().position(is_stripe) else {
+        let nearest = (0..=last).min_by(|a, b| vessel[*a].point[2].total_cmp(&vessel[*b].point[2]));
+        vessel[nearest.unwrap_or(0)].stands = true;
+        return;
+    };
+    let last_stripe = vessel.iter().rposition(is_stripe).unwrap_or(first_stripe);
+    // With no edge before it, what stands at the first point is a half-plane, or a plane before a run.
+    vessel[0].stands = true;
+    for i in first_stripe + 1..=last_stripe {
+        // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.
+        vessel[i].stands = is_stripe(&vessel[i - 1]);
+        vessel[i].before = vessel[i - 1].edge;
+    }
+    // The last point: a half-plane, or a plane where a run ends the vessel.
+    vessel[last].stands = true;
+    vessel[last].before = if last_stripe + 1 == last { vessel[last_stripe].edge } else { [0.0; 2] };
+}

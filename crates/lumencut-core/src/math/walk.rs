@@ -1,0 +1,142 @@
+//! The walk through a hierarchy for one tile of pixels: near nodes first, cut off by the tile's worst key so far.
+
+use super::cost::Rule;
+use super::hierarchy::{Boxes, Hierarchy};
+use super::lanes::{COLUMNS, FAN, PIXELS, SETTLED, UNSET, largest, places, smaller, within};
+use super::nearest::{NearestPoint, lower_distance};
+use super::pieces::{Envelope, Tile, piece_bounds};
+
+/// Fifteen brothers wait on each of the eight heights that 2³² slots can have.
+const STACK: usize = 8 * FAN;
+
+/// Nodes that wait for their visit, the nearest on top.
+struct Stack {
+    waiting: [(f32, u32, u32); STACK],
+    length: usize,
+}
+
+impl Stack {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { waiting: [(0.0, 0, 0); STACK], length: 0 }
+    }
+
+    /// Puts the nodes of one box set within `limit` on the stack, farthest first.
+    #[inline(always)]
+    fn push_nodes(&mut self, bounds: &[f32; FAN], limit: f32, height: u32, first: u32) {
+        let base = self.length;
+        for n in places(within(bounds, limit)) {
+            let bound = bounds[n];
+            let mut at = self.length;
+            while at > base && self.waiting[at - 1].0 < bound {
+                self.waiting[at] = self.waiting[at - 1];
+                at -= 1;
+            }
+            self.waiting[at] = (bound, height, first + n as u32);
+            self.length += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<(f32, u32, u32)> {
+        self.length = self.length.checked_sub(1)?;
+        Some(self.waiting[self.length])
+    }
+}
+
+/// Bundles that held winners in the tile before: most of this tile's winners are there too.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seeds {
+    bundles: [u32; 4],
+    count: usize,
+}
+
+impl Seeds {
+    /// The bundles of the winners at the corners of a tile.
+    #[inline(always)]
+    pub fn collect(envelope: &Envelope, bundle_of_slot: &[u32]) -> Self {
+        let mut seeds = Self::default();
+        for l in [0, COLUMNS - 1, PIXELS - COLUMNS, PIXELS - 1] {
+            let slot = envelope.piece[l] / 2;
+            if let Some(bundle) = bundle_of_slot.get(slot as usize)
+                && !seeds.contains(*bundle)
+            {
+                seeds.bundles[seeds.count] = *bundle;
+                seeds.count += 1;
+            }
+        }
+        seeds
+    }
+
+    #[inline(always)]
+    fn contains(&self, bundle: u32) -> bool {
+        self.bundles[..self.count].contains(&bundle)
+    }
+}
+
+/// Finds the winner of every wanted pixel of the tile among all pieces of the hierarchy.
+#[inline(always)]
+pub fn lowest_keys<const LUMEN_FIRST: bool>(
+    hierarchy: &Hierarchy,
+    tile: &Tile,
+    rule: &Rule,
+    seeds: &Seeds,
+    envelope: &mut Envelope,
+) {
+    let mut stack = Stack::new();
+    let mut limit = rule.limit(UNSET);
+    let root = hierarchy.heights.len() as u32;
+    stack.waiting[0] = (SETTLED, root, 0);
+    for s in 0..seeds.count {
+        stack.waiting[s + 1] = (SETTLED, 0, seeds.bundles[s]);
+    }
+    stack.length = seeds.count + 1;
+    while let Some((bound, height, node)) = stack.pop() {
+        if bound > limit {
+            continue;
+        }
+        if height > 0 {
+            let boxes: &Boxes = &hierarchy.heights[height as usize - 1][node as usize];
+            let bounds = boxes.key_bounds::<LUMEN_FIRST>(tile, rule);
+            stack.push_nodes(&bounds, limit, height - 1, node * FAN as u32);
+        } else if bound == SETTLED || !seeds.contains(node) {
+            let bundle = &hierarchy.bundles[node as usize];
+            let (stripes, wedges) = piece_bounds::<LUMEN_FIRST>(tile, bundle, rule);
+            for s in places(within(&stripes, limit)) {
+                envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule);
+            }
+            for s in places(within(&wedges, limit)) {
+                envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule);
+            }
+            limit = rule.limit(largest(&envelope.key));
+        }
+    }
+}
+
+/// Lowers the squared distance of every pixel of the tile to that of the nearest segment; no pixel is
+/// farther from it than `limit` (mm).
+#[inline(always)]
+pub fn smallest_distances(hierarchy: &Hierarchy, tile: &Tile, limit: f32, squared: &mut [f32; PIXELS]) {
+    let mut stack = Stack::new();
+    let mut limit = limit;
+    let mut nearest = NearestPoint::unknown();
+    stack.waiting[0] = (0.0, hierarchy.heights.len() as u32, 0);
+    stack.length = 1;
+    while let Some((bound, height, node)) = stack.pop() {
+        if bound > limit * limit {
+            continue;
+        }
+        if height > 0 {
+            let bounds = hierarchy.heights[height as usize - 1][node as usize].squared_distances(tile);
+            stack.push_nodes(&bounds, limit * limit, height - 1, node * FAN as u32);
+        } else {
+            let bundle = &hierarchy.bundles[node as usize];
+            if nearest.approach(tile, bundle) {
+                limit = smaller(limit, nearest.distance + tile.radius);
+            }
+            for s in places(nearest.rivals(tile, bundle)) {
+                lower_distance(tile, squared, bundle, s);
+            }
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! The depth of the cut surface: per level the piece with the smallest cost, blended between the two levels
+//! that the distance selects (paper section 3.2 and 3.3; Eq. 2).
+
+use rayon::prelude::*;
+
+use super::View;
+use crate::error::Result;
+use crate::math::cost::Rule;
+use crate::math::hierarchy::Hierarchy;
+use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch, places, smaller};
+use crate::math::pieces::{Envelope, Tile};
+use crate::math::projection::{Level, ProjectedLevel};
+use crate::math::walk::{Seeds, lowest_keys};
+use crate::settings::{MAX_LEVELS, Settings};
+
+/// The levels of a tree in one view, the rule that orders their pieces, and how levels are selected.
+pub struct CutSurface<'a> {
+    levels: &'a [Level],
+    projected: &'a [ProjectedLevel],
+    rule: Rule,
+    lumen_first: bool,
+    /// N / σ (levels² per mm): f² = this · D.
+    selection: f32,
+}
+
+impl<'a> CutSurface<'a> {
+    /// The cut surface of `projected`, which are the `levels` in one view, finest first.
+    pub fn new(levels: &'a [Level], projected: &'a [ProjectedLevel], settings: &Settings) -> Self {
+        let reach = projected.iter().map(ProjectedLevel::reach).fold(0.0, f32::max);
+        Self {
+            levels,
+            projected,
+            rule: Rule::new(settings, reach),
+            lumen_first: settings.lumen_first,
+            selection: ((projected.len() - 1) as f64 / settings.level_distance) as f32,
+        }
+    }
+
+    /// The finest level in projection.
+    pub fn finest(&self) -> &'a Hierarchy {
+        self.hierarchy(0)
+    }
+
+    /// A level in projection.
+    #[inline(always)]
+    pub(crate) fn hierarchy(&self, level: usize) -> &'a Hierarchy {
+        &self.projected[level].hierarchy
+    }
+}
+
+/// The two levels that each pixel of a tile blends, and the weights of their depths.
+struct Blend {
+    /// k0, as a number that compares exactly.
+    fine: [f32; PIXELS],
+    fine_weight: [f32; PIXELS],
+    /// The weight of k0 + 1; 0 where k0 = N.
+    coarse_weight: [f32; PIXELS],
+}
+
+impl Blend {
+    /// Level selection at distance D: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond.
+    #[inline(always)]
+    fn select(selection: f32, coarsest: usize, distance: &[f32; PIXELS]) -> Self {
+        let zero = [0.0; PIXELS];
+        let mut blend = Self { fine: zero, fine_weight: zero, coarse_weight: zero };
+        let last = coarsest as f32;
+        for l in 0..PIXELS {
+            let f = smaller((selection * distance[l]).sqrt(), last);
+            let fine = (f as i32) as f32;
+            blend.fine[l] = fine;
+            blend.fine_weight[l] = fine + 1.0 - f;
+            blend.coarse_weight[l] = f - fine;
+        }
+        blend
+    }
+
+    /// Bit k tells whether some pixel needs level k.
+    #[inline(always)]
+    fn needed(&self) -> u32 {
+        let (mut bits, mut all) = ([0u32; PIXELS], 0);
+        for l in 0..PIXELS {
+            let pair = if self.coarse_weight[l] > 0.0 { 3 } else { 1 };
+            bits[l] = pair << (self.fine[l] as i32);
+        }
+        for l in 0..PIXELS {
+            all |= bits[l];
+        }
+        all
+    }
+
+    /// The weight of level `k` at pixel `l`; 0 where it is not needed.
+    #[inline(always)]
+    fn weight(&self, k: f32, l: usize) -> f32 {
+        let coarse = if self.fine[l] + 1.0 == k { self.coarse_weight[l] } else { 0.0 };
+        if self.fine[l] == k { self.fine_weight[l] } else { coarse }
+    }
+}
+
+/// How the winners of one level over a tile are found.
+pub(crate) trait Search {
+    fn lowest<const LUMEN_FIRST: bool>(&mut self, level: usize, tile: &Tile, rule: &Rule, envelope: &mut Envelope);
+}
+
+/// By the walk through the hierarchy, seeded with the winners of the tile before.
+struct Walk<'a> {
+    surface: &'a CutSurface<'a>,
+    seeds: [Seeds; MAX_LEVELS + 1],
+}
+
+impl Search for Walk<'_> {
+    #[inline(always)]
+    fn lowest<const LUMEN_FIRST: bool>(&mut self, level: usize, tile: &Tile, rule: &Rule, envelope: &mut Envelope) {
+        let hierarchy = self.surface.hierarchy(level);
+        lowest_keys::<LUMEN_FIRST>(hierarchy, tile, rule, &self.seeds[level], envelope);
+        self.seeds[level] = Seeds::collect(envelope, &self.surface.levels[level].bundle_of_slot);
+    }
+}
+
+/// Writes depth (mm) and vessel id of the cut surface at each pixel of the view, given the distances.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Interrupted`].
+pub fn depth(
+    view: &View,
+    surface: &CutSurface,
+    distance: &[f32],
+    depth: &mut [f32],
+    vessel: &mut [i32],
+) -> Result<()> {
+    let seeds = [Seeds::default(); MAX_LEVELS + 1];
+    depth_by(view, surface, distance, depth, vessel, || Walk { surface, seeds })
+}
+
+/// [`depth`] with a search of its own for each row of tiles.
+pub(crate) fn depth_by<S: Search>(
+    view: &View,
+    surface: &CutSurface,
+    distance: &[f32],
+    depth: &mut [f32],
+    vessel: &mut [i32],
+    search: impl Fn() -> S + Sync,
+) -> Result<()> {
+    let chunk = view.tile_row();
+    let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(distance.par_chunks(chunk));
+    rows.enumerate().try_for_each(|(row, ((depth, vessel), distance))| {
+        view.go_on()?;
+        let (row, search) = (DepthRow { view, surface, row, distance, depth, vessel }, search());
+        if surface.lumen_first {
+            dispatch(view.isa, DepthKernel::<S, true> { row, search });
+        } else {
+            dispatch(view.isa, DepthKernel::<S, false> { row, search });
+        }
+        Ok(())
+    })
+}
+
+/// One row of tiles.
+struct DepthRow<'a> {
+    view: &'a View<'a>,
+    surface: &'a CutSurface<'a>,
+    row: usize,
+    distance: &'a [f32],
+    depth: &'a mut [f32],
+    vessel: &'a mut [i32],
+}
+
+struct DepthKernel<'a, S: Search, const LUMEN_FIRST: bool> {
+    row: DepthRow<'a>,
+    search: S,
+}
+
+impl<S: Search, const LUMEN_FIRST: bool> Kernel for DepthKernel<'_, S, LUMEN_FIRST> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        self.row.fill::<LUMEN_FIRST>(&mut self.search);
+    }
+}
+
+impl DepthRow<'_> {
+    /// Fills the row, tile by tile.
+    #[inline(always)]
+    fn fill<const LUMEN_FIRST: bool>(self, search: &mut impl Search) {
+        let width = self.view.size()[0];
+        let height = self.depth.len() / width;
+        for column in (0..width).step_by(COLUMNS) {
+            let tile = Tile::new(self.view.camera, column, self.row * ROWS);
+            // Pixels beyond the image repeat its last column and row.
+            let pixel = |l: usize| (l / COLUMNS).min(height - 1) * width + (column + l % COLUMNS).min(width - 1);
+            let distance = std::array::from_fn(|l| self.distance[pixel(l)]);
+            let (depth, vessel) = self.surface.blend::<LUMEN_FIRST>(&tile, &distance, search);
+            for r in 0..height {
+                for c in 0..COLUMNS.min(width - column) {
+                    self.depth[r * width + column + c] = depth[r * COLUMNS + c];
+                    self.vessel[r * width + column + c] = vessel[r * COLUMNS + c];
+                }
+            }
+        }
+    }
+}
+
+impl CutSurface<'_> {
+    /// Depth and vessel id over one tile.
+    #[inline(always)]
+    fn blend<const LUMEN_FIRST: bool>(
+        &self,
+        tile: &Tile,
+        distance: &[f32; PIXELS],
+        search: &mut impl Search,
+    ) -> ([f32; PIXELS], [i32; PIXELS]) {
+        let blend = Blend::select(self.selection, self.projected.len() - 1, distance);
+        let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
+        // The slot that rules each pixel, in the level it belongs to: the one with the larger weight.
+        let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
+        // Finest first: the coarse term is added to the fine one, and a tie stays with the finer level.
+        for level in places(blend.needed()) {
+            let mut weight = [0.0; PIXELS];
+            for l in 0..PIXELS {
+                weight[l] = blend.weight(level as f32, l);
+            }
+            let mut envelope = Envelope::new(&weight);
+            search.lowest::<LUMEN_FIRST>(level, tile, &self.rule, &mut envelope);
+            for l in 0..PIXELS {
+                depth[l] += weight[l] * envelope.z[l];
+                let rules = weight[l] > ruling_weight[l];
+                ruling_weight[l] = if rules { weight[l] } else { ruling_weight[l] };
+                ruling_level[l] = if rules { level as u32 } else { ruling_level[l] };
+                slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
+            }
+        }
+        for l in 0..PIXELS {
+            vessel[l] = self.levels[ruling_level[l] as usize].vessel_of_slot[slot[l] as usize];
+        }
+        (depth, vessel)
+    }
+}

@@ -1,0 +1,75 @@
+//! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that takes the steps of the pixel grid out of
+//! the cut surface (paper section 3.3, "Depth Filtering").
+
+use rayon::prelude::*;
+
+use super::View;
+use crate::error::Result;
+use crate::math::lanes::{Kernel, ROWS, dispatch};
+
+/// Pixels to each side of the middle.
+const REACH: usize = 3;
+
+/// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
+fn weights() -> [f32; REACH + 1] {
+    let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
+    let bell: [f64; REACH + 1] = std::array::from_fn(|n| (-((n * n) as f64) / (2.0 * sigma * sigma)).exp());
+    let sum = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
+    bell.map(|w| (w / sum) as f32)
+}
+
+/// Writes the smoothed `image`, continued beyond its border by the border's own pixels.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Interrupted`].
+pub fn depth_filter(view: &View, image: &[f32], smoothed: &mut [f32]) -> Result<()> {
+    let weights = weights();
+    let width = view.size()[0];
+    smoothed.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
+        view.go_on()?;
+        dispatch(view.isa, FilterRows { image, width, first: row * ROWS, weights, smoothed });
+        Ok(())
+    })
+}
+
+struct FilterRows<'a> {
+    image: &'a [f32],
+    width: usize,
+    first: usize,
+    weights: [f32; REACH + 1],
+    smoothed: &'a mut [f32],
+}
+
+impl Kernel for FilterRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (width, weights) = (self.width, self.weights);
+        let height = self.image.len() / width;
+        let row = |j: usize| &self.image[j * width..(j + 1) * width];
+        let mut padded = vec![0.0; width + 2 * REACH];
+        for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
+            let above: [&[f32]; REACH + 1] = std::array::from_fn(|n| row(j.saturating_sub(n)));
+            let below: [&[f32]; REACH + 1] = std::array::from_fn(|n| row((j + n).min(height - 1)));
+            for i in 0..width {
+                let mut sum = weights[0] * above[0][i];
+                for n in 1..=REACH {
+                    sum += weights[n] * (above[n][i] + below[n][i]);
+                }
+                padded[REACH + i] = sum;
+            }
+            let (first, last) = (padded[REACH], padded[REACH + width - 1]);
+            padded[..REACH].fill(first);
+            padded[REACH + width..].fill(last);
+            for i in 0..width {
+                let middle = i + REACH;
+                let mut sum = weights[0] * padded[middle];
+                for n in 1..=REACH {
+                    sum += weights[n] * (padded[middle - n] + padded[middle + n]);
+                }
+                smoothed[i] = sum;
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Cameras and settings, read from the attributes of their Python classes.
+
+use glam::DVec3;
+use lumencut_core::camera::Camera;
+use lumencut_core::math::window::{Opacity, Window};
+use lumencut_core::settings::Settings;
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+
+/// The attributes of `lumencut.Camera`.
+#[derive(FromPyObject)]
+pub struct CameraArgument {
+    center: [f64; 3],
+    direction: [f64; 3],
+    up: [f64; 3],
+    size: [usize; 2],
+    pixel_spacing: f64,
+}
+
+impl CameraArgument {
+    /// The camera of the core.
+    pub fn camera(&self) -> PyResult<Camera> {
+        let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
+        Camera::new(center, direction, up, self.size, self.pixel_spacing).map_err(to_python)
+    }
+}
+
+/// Checks a camera and returns its unit vectors (direction, right, up).
+#[pyfunction]
+pub fn check_camera(camera: CameraArgument) -> PyResult<[[f64; 3]; 3]> {
+    let camera = camera.camera()?;
+    Ok([camera.direction(), camera.right(), camera.up()].map(|v| v.to_array()))
+}
+
+#[derive(FromPyObject)]
+struct WindowArgument {
+    level: f64,
+    width: f64,
+}
+
+#[derive(FromPyObject)]
+struct OpacityArgument {
+    transparent: f64,
+    opaque: f64,
+}
+
+/// The attributes of `lumencut.Settings`.
+#[derive(FromPyObject)]
+pub struct SettingsArgument {
+    cost_weight: f64,
+    preserve_lumen: bool,
+    lumen_first: bool,
+    lumen_margin: f64,
+    levels: usize,
+    level_distance: f64,
+    depth_filter: bool,
+    window: Option<WindowArgument>,
+    opacity: Option<OpacityArgument>,
+    silhouettes: bool,
+    silhouette_slope: f64,
+    silhouette_color: [u8; 3],
+    background: [u8; 4],
+}
+
+impl SettingsArgument {
+    /// The settings of the core, checked.
+    pub fn settings(self) -> PyResult<Settings> {
+        let default = Settings::default();
+        let window = self.window.map_or(default.window, |w| Window { level: w.level, width: w.width });
+        let settings = Settings {
+            cost_weight: self.cost_weight,
+            preserve_lumen: self.preserve_lumen,
+            lumen_first: self.lumen_first,
+            lumen_margin: self.lumen_margin,
+            levels: self.levels,
+            level_distance: self.level_distance,
+            depth_filter: self.depth_filter,
+            window,
+            opacity: self.opacity.map(|o| Opacity { transparent: o.transparent, opaque: o.opaque }),
+            silhouettes: self.silhouettes,
+            silhouette_slope: self.silhouette_slope,
+            silhouette_color: self.silhouette_color,
+            background: self.background,
+        };
+        settings.check().map_err(to_python)?;
+        Ok(settings)
+    }
+}
+
+/// Checks settings against their ranges.
+#[pyfunction]
+pub fn check_settings(settings: SettingsArgument) -> PyResult<()> {
+    settings.settings().map(drop)
+}

@@ -1,0 +1,120 @@
+//! The renderer: runs without the GIL, and stops at Ctrl-C.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use lumencut_core::error::Result;
+use lumencut_core::frame::Frame;
+use lumencut_core::pipeline;
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arguments::{CameraArgument, SettingsArgument};
+use crate::errors::to_python;
+use crate::tree::{VesselArrays, tree};
+use crate::volume::VolumeArgument;
+
+/// How often a rendering asks Python for signals such as Ctrl-C.
+const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
+
+/// Renders views of one tree; the buffers of the projected tree are kept from view to view.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct Renderer {
+    core: Mutex<pipeline::Renderer>,
+}
+
+#[pymethods]
+impl Renderer {
+    #[new]
+    #[allow(clippy::needless_pass_by_value)]
+    fn new(vessels: Vec<VesselArrays<'_>>) -> PyResult<Self> {
+        Ok(Self { core: Mutex::new(pipeline::Renderer::new(tree(&vessels)?)) })
+    }
+
+    /// The buffers of one view by name: all with a volume, those of the cut surface without.
+    #[pyo3(signature = (volume, camera, settings))]
+    #[allow(clippy::needless_pass_by_value)]
+    fn render<'py>(
+        &self,
+        py: Python<'py>,
+        volume: Option<VolumeArgument<'py>>,
+        camera: CameraArgument,
+        settings: SettingsArgument,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (camera, settings) = (camera.camera()?, settings.settings()?);
+        let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
+        let volume = match (&volume, &borrowed) {
+            (Some(volume), Some(borrowed)) => Some(volume.volume(borrowed)?),
+            _ => None,
+        };
+        let frame = interruptible(py, |stop| {
+            // A rendering that stopped early leaves nothing behind that the next one does not write anew.
+            let mut core = self.core.lock().unwrap_or_else(PoisonError::into_inner);
+            match &volume {
+                Some(volume) => core.render(volume, &camera, &settings, stop),
+                None => core.cut_surface(&camera, &settings, stop),
+            }
+        })?;
+        buffers(py, frame)
+    }
+}
+
+/// Runs `work` on a thread of its own without the GIL while this one listens for signals.
+fn interruptible(
+    py: Python<'_>,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<Frame> + Send,
+) -> PyResult<Frame> {
+    let stopped = AtomicBool::new(false);
+    let stop = || stopped.load(Ordering::Relaxed);
+    py.detach(|| {
+        let (done, finished) = mpsc::sync_channel(1);
+        std::thread::scope(|scope| {
+            let stop = &stop;
+            let worker = scope.spawn(move || {
+                let result = work(stop);
+                // The receiver outlives this thread: sending cannot fail.
+                let _ = done.send(());
+                result
+            });
+            let mut signal = Ok(());
+            while !worker.is_finished() && signal.is_ok() {
+                if finished.recv_timeout(SIGNAL_PERIOD).is_err() {
+                    signal = Python::attach(|py| py.check_signals());
+                } else {
+                    break;
+                }
+            }
+            stopped.store(signal.is_err(), Ordering::Relaxed);
+            let result = worker.join();
+            signal?;
+            match result {
+                Ok(result) => result.map_err(to_python),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        })
+    })
+}
+
+/// The buffers of a frame as arrays, moved and not copied.
+fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
+    let [width, height] = frame.camera.size();
+    let shape = [height, width];
+    let all = PyDict::new(py);
+    all.set_item("depth", PyArray1::from_vec(py, frame.depth).reshape(shape)?)?;
+    all.set_item("vessel", PyArray1::from_vec(py, frame.vessel).reshape(shape)?)?;
+    all.set_item("distance", PyArray1::from_vec(py, frame.distance).reshape(shape)?)?;
+    if !frame.image.is_empty() {
+        let bytes = frame.image.into_flattened();
+        all.set_item("image", PyArray1::from_vec(py, bytes).reshape([height, width, 4])?)?;
+        all.set_item("value", PyArray1::from_vec(py, frame.value).reshape(shape)?)?;
+    }
+    let timings = PyDict::new(py);
+    for timing in frame.timings {
+        timings.set_item(timing.stage, timing.milliseconds)?;
+    }
+    all.set_item("timings", timings)?;
+    Ok(all)
+}

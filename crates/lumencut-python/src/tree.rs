@@ -1,0 +1,62 @@
+//! Vessel trees from and to lists of arrays.
+
+use glam::DVec3;
+use lumencut_core::stages;
+use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use crate::errors::{exception, to_python};
+
+/// Points (n, 3) and radii (n,) of one vessel.
+pub type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
+
+/// Points (n, 3) and radii (n,) of one vessel, made by this module.
+type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
+
+fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
+    let shape = points.shape();
+    if shape[1] != 3 {
+        let found = format!("shape {shape:?}");
+        return Err(exception("VesselTreeError", "points of the vessel", &found, "shape (n, 3)", ""));
+    }
+    let rows = points.as_array();
+    let points = rows.rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect();
+    let radius = radius.as_ref().map(|r| r.as_array().to_vec());
+    Vessel::new(points, radius).map_err(to_python)
+}
+
+/// The tree of the core.
+pub fn tree(vessels: &[VesselArrays]) -> PyResult<VesselTree> {
+    let vessels = vessels.iter().map(vessel).collect::<PyResult<Vec<_>>>()?;
+    VesselTree::new(vessels).map_err(to_python)
+}
+
+/// Checks the points (n, 3) and radii (n,) of a vessel.
+#[pyfunction]
+#[pyo3(signature = (points, radius=None))]
+pub fn check_vessel(
+    points: PyReadonlyArray2<'_, f64>,
+    radius: Option<PyReadonlyArray1<'_, f64>>,
+) -> PyResult<()> {
+    vessel(&(points, radius)).map(drop)
+}
+
+/// The tree and its `count` levels of detail, finest first, each a list of (points, radius).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn levels<'py>(
+    py: Python<'py>,
+    vessels: Vec<VesselArrays<'py>>,
+    count: usize,
+) -> PyResult<Vec<Vec<NewVesselArrays<'py>>>> {
+    let tree = tree(&vessels)?;
+    let levels = py.detach(|| stages::levels::levels(&tree, count));
+    levels.iter().map(|level| level.vessels().iter().map(|v| arrays(py, v)).collect()).collect()
+}
+
+fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py>> {
+    let flat: Vec<f64> = vessel.points().iter().flat_map(|p| p.to_array()).collect();
+    let points = PyArray1::from_vec(py, flat).reshape([vessel.points().len(), 3])?;
+    Ok((points, vessel.radius().map(|r| PyArray1::from_slice(py, r))))
+}

@@ -1,0 +1,47 @@
+"""Arguments as arrays of a known shape, or an error that names the argument."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import LumencutError
+
+
+def numbers(
+    error: type[LumencutError], subject: str, value: Any, shape: tuple[int, ...]
+) -> npt.NDArray[np.float64]:
+    """Return ``value`` as a read-only float64 array of ``shape``, in which -1 stands for any length."""
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    fits = array.ndim == len(shape) and all(want in (-1, have) for want, have in zip(shape, array.shape, strict=True))
+    if not fits or value is None:
+        wanted = " × ".join("n" if n < 0 else str(n) for n in shape) or "one number"
+        raise error(subject, _short(value), f"numbers of shape {wanted}")
+    array.flags.writeable = False
+    return array
+
+
+def number(error: type[LumencutError], subject: str, value: Any) -> float:
+    """Return ``value`` as a float."""
+    return float(numbers(error, subject, value, ()))
+
+
+def integers(error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int) -> tuple[int, ...]:
+    """Return ``value`` as ``count`` whole numbers from ``low`` to ``high``."""
+    array = numbers(error, subject, value, (count,))
+    if not ((array >= low) & (array <= high) & (array == np.floor(array))).all():
+        raise error(subject, _short(value), f"{count} whole numbers from {low} to {high}")
+    return tuple(int(n) for n in array)
+
+
+def _short(value: Any) -> str:
+    shape = getattr(value, "shape", None)
+    if shape is not None and len(shape) > 0 and np.prod(shape) > 16:
+        return f"an array of shape {tuple(shape)}"
+    text = repr(value)
+    return text if len(text) <= 80 else text[:77] + "..."

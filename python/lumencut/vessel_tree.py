@@ -1,0 +1,147 @@
+"""Vessels and the tree they form: unbranched centerlines in world space (LPS, mm)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import numbers
+from lumencut.errors import VesselTreeError
+
+
+class Vessel:
+    """One unbranched centerline.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        At least two points (mm, LPS), at most 1e6 mm from the origin along each axis.
+    radius : array_like, shape (n,) or scalar, optional
+        Radius of the lumen at each point (mm), 0 or more; without it the wall is taken to lie on the centerline.
+    name : str, optional
+        The vessel's name.
+
+    Raises
+    ------
+    VesselTreeError
+        For points or radii of another shape or value.
+    """
+
+    def __init__(self, points: npt.ArrayLike, radius: npt.ArrayLike | None = None, name: str | None = None) -> None:
+        self._points = numbers(VesselTreeError, "points of the vessel", points, (-1, 3))
+        self._radius = None if radius is None else _radii(radius, len(self._points))
+        self._name = name
+        _lumencut.check_vessel(self._points, self._radius)
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """The points, shape (n, 3), mm, LPS."""
+        return self._points
+
+    @property
+    def radius(self) -> npt.NDArray[np.float64] | None:
+        """The radius at each point, shape (n,), mm, where known."""
+        return self._radius
+
+    @property
+    def name(self) -> str | None:
+        """The vessel's name, where known."""
+        return self._name
+
+    @property
+    def length(self) -> float:
+        """Arc length (mm)."""
+        return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
+
+    def __len__(self) -> int:
+        return len(self._points)
+
+    def __repr__(self) -> str:
+        name = "" if self._name is None else f"{self._name!r}, "
+        return f"Vessel({name}{len(self)} points, {self.length:.1f} mm)"
+
+
+class VesselTree:
+    """A set of vessels that may share end points; a vessel's index is its id.
+
+    Forests, cycles and loose pieces are legal.
+
+    Parameters
+    ----------
+    vessels : iterable of Vessel
+        At least one vessel.
+
+    Raises
+    ------
+    VesselTreeError
+        For a tree without vessels, or members that are not vessels.
+    """
+
+    def __init__(self, vessels: Iterable[Vessel]) -> None:
+        self._vessels = tuple(vessels)
+        if not self._vessels:
+            raise VesselTreeError("vessel tree", "no vessels", "at least one vessel")
+        for vessel in self._vessels:
+            if not isinstance(vessel, Vessel):
+                raise VesselTreeError("vessel tree", f"a member of type {type(vessel).__name__}", "only Vessel objects")
+
+    def levels(self, count: int = 6) -> list[VesselTree]:
+        """Return this tree and its levels of detail, finest first.
+
+        Level k + 1 is the clamped cubic B-spline over the points of level k, evaluated at half as many
+        parameters; end points stay where they are (Auzinger et al. 2013, section 3.3).
+
+        Parameters
+        ----------
+        count : int, default 6
+            How many levels beyond the finest.
+        """
+        if not 0 <= count <= 64:
+            raise VesselTreeError("count of levels", f"{count}", "a whole number from 0 to 64")
+        made = _lumencut.levels(self._arrays(), count)
+        names = [vessel.name for vessel in self._vessels]
+        return [
+            VesselTree(Vessel(points, radius, name) for (points, radius), name in zip(level, names, strict=True))
+            for level in made
+        ]
+
+    @property
+    def bounds(self) -> npt.NDArray[np.float64]:
+        """Corners of the axis-aligned box around all points, shape (2, 3), mm, LPS."""
+        points = self.points
+        return np.stack([points.min(axis=0), points.max(axis=0)])
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """The points of all vessels, one vessel after the other, shape (n, 3), mm, LPS."""
+        return np.concatenate([vessel.points for vessel in self._vessels])
+
+    @property
+    def segment_count(self) -> int:
+        """Number of segments of all vessels."""
+        return sum(len(vessel) - 1 for vessel in self._vessels)
+
+    def _arrays(self) -> list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]]:
+        return [(vessel.points, vessel.radius) for vessel in self._vessels]
+
+    def __len__(self) -> int:
+        return len(self._vessels)
+
+    def __getitem__(self, vessel_id: int) -> Vessel:
+        return self._vessels[vessel_id]
+
+    def __iter__(self) -> Iterator[Vessel]:
+        return iter(self._vessels)
+
+    def __repr__(self) -> str:
+        return f"VesselTree({len(self)} vessels, {self.segment_count} segments)"
+
+
+def _radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
+    if np.ndim(radius) == 0:
+        radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
+    return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))
