@@ -145,8 +145,6 @@ def _warn_if_flipped_fits(tree: VesselTree, volume: Volume, subject: str, mend: 
     as_read = int(volume.contains(points).sum())
     flipped = int(volume.contains(points * _FLIP).sum())
     if flipped >= 2 * as_read and flipped - as_read >= max(1, len(points) // 10):
-        text = (
-            f"{subject}: {as_read} of {len(points)} points lie inside the volume as read, but {flipped} with x "
-            f"and y negated (LPS and RAS mixed up?); {mend}"
-        )
+        counts = f"{as_read} of {len(points)} points lie inside the volume as read, but {flipped}"
+        text = f"{subject}: {counts} with x and y negated (LPS and RAS mixed up?); {mend}"
         warnings.warn(text, SpaceWarning, stacklevel=3)

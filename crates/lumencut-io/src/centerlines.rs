@@ -37,8 +37,8 @@ pub struct Centerlines {
     pub notes: Vec<String>,
 }
 
-/// Beyond this no coordinate or radius (mm) belongs to a patient: a damaged file, or binary data read the wrong
-/// way. The core draws the same line.
+/// Beyond this no coordinate or radius (mm) belongs to a patient: a damaged file, or binary data read the
+/// wrong way. The core draws the same line.
 const LARGEST_COORDINATE: f64 = 1e6;
 
 impl Centerlines {

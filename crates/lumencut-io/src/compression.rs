@@ -76,8 +76,8 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// 16 MiB and 64 times the size of the file: many times what centerlines compress to, and far from the ratio
-    /// of a decompression bomb.
+    /// 16 MiB and 64 times the size of the file: many times what centerlines compress to, and far from the
+    /// ratio of a decompression bomb.
     pub fn of_file(size: usize) -> Self {
         Self { left: (size as u64).saturating_mul(64).saturating_add(16 << 20) }
     }

@@ -35,8 +35,8 @@ impl NumberType {
         }
     }
 
-    /// The numbers in `bytes`; bytes beyond the last whole number are ignored. Integers beyond 2⁵³ are rounded,
-    /// which no index or coordinate of a readable file needs.
+    /// The numbers in `bytes`; bytes beyond the last whole number are ignored. Integers beyond 2⁵³ are
+    /// rounded, which no index or coordinate of a readable file needs.
     pub fn numbers(self, bytes: &[u8], order: ByteOrder) -> Vec<f64> {
         match self {
             Self::I8 => bytes.iter().map(|b| f64::from(b.cast_signed())).collect(),
@@ -75,7 +75,8 @@ pub fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Ve
     text.split_ascii_whitespace().map(|word| number_of_word(subject, word, kind)).collect()
 }
 
-/// The number that `word` writes. A 32-bit float is rounded to one, so that text and binary files give the same.
+/// The number that `word` writes. A 32-bit float is rounded to one, so that text and binary files give the
+/// same.
 ///
 /// # Errors
 /// Naming `subject` where it is none.

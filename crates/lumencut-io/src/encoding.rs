@@ -16,8 +16,8 @@ pub struct Layout {
 /// Bytes in the file, read from front to back.
 pub enum Bytes<'a> {
     Raw(&'a [u8]),
-    /// Base64 text and the bytes decoded ahead of the reader. Writers may end the header with padding of its own;
-    /// groups of four characters are decoded one by one, so padding may stand anywhere between groups.
+    /// Base64 text and the bytes decoded ahead of the reader. Writers may end the header with padding of its
+    /// own; groups of four characters are decoded one by one, so padding may stand anywhere between groups.
     Base64 {
         text: &'a [u8],
         ahead: Vec<u8>,

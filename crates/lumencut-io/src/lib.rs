@@ -3,8 +3,9 @@
 //! [`read`] turns the bytes of a file into the [`Centerlines`] that stand in it, in the file's own space;
 //! [`junctions::vessels`] turns lines that repeat a trunk into vessels that meet at shared end points.
 //!
-//! Every reader is bounded by its input: no count or offset that a file states is believed before the bytes that
-//! it speaks of are there, and what is unpacked stays within a budget that grows with the size of the file.
+//! Every reader is bounded by its input: no count or offset that a file states is believed before the bytes
+//! that it speaks of are there, and what is unpacked stays within a budget that grows with the size of the
+//! file.
 
 mod centerlines;
 mod compression;
@@ -27,11 +28,10 @@ pub use error::{Error, Result};
 
 /// The centerlines of a `.vtp`, legacy `.vtk` or `.mrk.json` file, in mm, in the file's own space.
 ///
-/// The format is told by the ending of `file_name`, else by how the content begins.
+/// The format is told by how the content begins; `file_name` is for the error messages.
 ///
-/// # Errors
-/// An [`Error`] that names the file and place: an unknown format, content that is not what the format promises, or
-/// a file without lines.
+/// # Errors An [`Error`] that names the file and place: an unknown format, content that is not what the
+/// format promises, or a file without lines.
 pub fn read(bytes: &[u8], file_name: &str) -> Result<Centerlines> {
     read_unnamed(bytes, file_name).map_err(|error| error.in_file(file_name))
 }

@@ -147,7 +147,8 @@ fn one_value_each(array: &Array, count: usize, of: &str) -> Result<()> {
     Err(Error::new(format!("{of} array '{}'", array.name), found, format!("one value per {of}")))
 }
 
-/// The stretches of a line that lie in one group each; a stretch begins with the last point of the one before.
+/// The stretches of a line that lie in one group each; a stretch begins with the last point of the one
+/// before.
 fn runs<'a>(ids: &'a [usize], groups: &'a [f64]) -> impl Iterator<Item = (&'a [usize], i64)> {
     let mut start = 0;
     std::iter::from_fn(move || {

@@ -1,4 +1,5 @@
-//! The elements of a VTK XML file: what arrays it declares and where their content stands. No content is decoded.
+//! The elements of a VTK XML file: what arrays it declares and where their content stands. No content is
+//! decoded.
 
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};

@@ -8,8 +8,9 @@ use crate::errors::exception;
 
 type Vessel<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>, Option<String>);
 
-/// The vessels of a centerline file: `(vessels, space, notes)`, each vessel `(points (n, 3), radius (n,) or None,
-/// name or None)` in mm in the file's own space, which is `"lps"`, `"ras"` or None where the file states none.
+/// The vessels of a centerline file: `(vessels, space, notes)`, each vessel `(points (n, 3), radius (n,) or
+/// None, name or None)` in mm in the file's own space, which is `"lps"`, `"ras"` or None where the file
+/// states none.
 #[pyfunction]
 pub fn read_centerlines<'py>(
     py: Python<'py>,

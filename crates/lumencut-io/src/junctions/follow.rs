@@ -10,6 +10,8 @@ const PART_OF_RADIUS: f64 = 0.1;
 const PART_OF_RADIUS_IN_GROUP: f64 = 0.5;
 /// The same where no radius is known, as a part of the median spacing.
 const PART_OF_SPACING: f64 = 0.5;
+/// The most of the latter (mm), so that coarse control points do not reach over to a neighbour.
+const MOST_BY_SPACING: f64 = 0.5;
 /// How long the shared stretch must be, as a multiple of the distance allowed beside it.
 const SHORTEST_STRETCH: f64 = 10.0;
 
@@ -50,8 +52,9 @@ struct Shared {
     length: f64,
 }
 
-/// The longest stretch at the beginning of `path` beside one of the `earlier` paths. None where the path shares
-/// its first step with one of them: points that coincide say where lines part better than any tolerance does.
+/// The longest stretch at the beginning of `path` beside one of the `earlier` paths. None where the path
+/// shares its first step with one of them: points that coincide say where lines part better than any
+/// tolerance does.
 fn longest(points: &[DVec3], path: &Path, earlier: &[Path], spacing: f64) -> Option<Shared> {
     let count = path.nodes.len();
     if earlier.iter().any(|other| shares_end(other, &path.nodes[..2])) {
@@ -109,7 +112,7 @@ impl Walk<'_> {
         let part = if in_group { PART_OF_RADIUS_IN_GROUP } else { PART_OF_RADIUS };
         match &self.other.radius {
             Some(radius) => part * radius[self.other_index(i)],
-            None => PART_OF_SPACING * self.spacing,
+            None => (PART_OF_SPACING * self.spacing).min(MOST_BY_SPACING),
         }
     }
 
@@ -132,7 +135,8 @@ impl Walk<'_> {
             (at, last, length, before) = (segment, i, length + step, point);
         }
         let shortest = SHORTEST_STRETCH * self.tolerance(0, false);
-        // A whole path ends where the other's nearest point is, else it leaves behind the segment it is beside.
+        // A whole path ends where the other's nearest point is, else it leaves behind the segment it is
+        // beside.
         let whole = last + 1 == self.path.nodes.len();
         let nearer_end = whole && at + 1 < self.other.nodes.len() && {
             before.distance(self.other_point(at + 1)) < before.distance(self.other_point(at))
@@ -141,7 +145,8 @@ impl Walk<'_> {
         (last > 0 && other_last > 0 && length >= shortest).then_some((last, other_last, length))
     }
 
-    /// The segment nearest to `point` and its distance, at most `reach` (mm) further along than segment `from`.
+    /// The segment nearest to `point` and its distance, at most `reach` (mm) further along than segment
+    /// `from`.
     fn nearest(&self, from: usize, point: DVec3, reach: f64) -> (usize, f64) {
         let mut best = (from, f64::INFINITY);
         let mut travelled = 0.0;

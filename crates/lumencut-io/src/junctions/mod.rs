@@ -1,19 +1,23 @@
 //! Lines that repeat a trunk become vessels that meet at shared end points.
 //!
-//! Centerline tools write one line from the source to each outlet, so that the lines repeat their common trunk.
-//! Here every stretch becomes one vessel, in four steps:
+//! Centerline tools write one line from the source to each outlet, so that the lines repeat their common
+//! trunk. Here every stretch becomes one vessel, in four steps:
 //!
-//! 1. *Weld* ([`weld`]): points of different lines closer than 1/1000 of the median spacing are one point.
-//! 2. *Follow* ([`follow`]): a line that begins or ends beside another line's end, without sharing points with it,
-//!    and runs along it, takes that line's points as far as it stays within a tenth of the radius (half the
-//!    spacing where no radius is known; half the radius for lines of one group, which their file says are one vessel).
-//!    The stretch must be ten times as long as that distance: vessels that part at more than 6° are never merged.
-//! 3. *Graph* ([`graph`]): shared stretches are the same edges. A point is a junction where its edges do not pair
-//!    off: three lines meet, one ends on another, or two end at each other (lines that carry groups are cut at places that
-//!    are no branchings; there they are joined). Two lines that cross at a point pair off and stay whole.
-//! 4. Chains of edges between junctions are the vessels, in the order and direction of the lines they come from.
+//! 1. *Weld* (`weld.rs`): points closer than 1/1000 of the median spacing are one point.
+//! 2. *Follow* (`follow.rs`): a line that begins or ends beside another line's end, without sharing points
+//!    with it, and runs along it, takes that line's points as far as it stays within a tenth of the radius.
+//!    For lines of one group, which their file says are one vessel, it is half the radius; where no radius is
+//!    known, half the spacing and at most 0.5 mm. The stretch must be long: vessels that part at more than 6°
+//!    are never merged.
+//! 3. *Graph* (`graph.rs`): shared stretches are the same edges. A point is a junction where its edges do not
+//!    pair off: three lines meet, one ends on another, or two end at each other. Lines that carry groups are
+//!    cut at places that are no branchings; there they are joined. Two lines that cross at a point pair off
+//!    and stay whole.
+//! 4. Chains of edges between junctions are the vessels, in the order and direction of the lines they come
+//!    from.
 //!
-//! No point moves in step 1 and 3 beyond the weld distance, so that a tree that is clean already stays as it is.
+//! Only step 2 moves points by more than the weld distance; a tree whose vessels meet at shared points stays
+//! as it is.
 
 mod follow;
 mod graph;

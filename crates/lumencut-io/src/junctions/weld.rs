@@ -12,8 +12,8 @@ const PART_OF_SPACING: f64 = 1e-3;
 /// The smallest weld distance as a part of the largest coordinate: the cells of the grid stay countable.
 const PART_OF_COORDINATE: f64 = 1e-12;
 
-/// The places that the points of all lines are, and the lines as paths through them. A place has the coordinates
-/// of the first point that was found there.
+/// The places that the points of all lines are, and the lines as paths through them. A place has the
+/// coordinates of the first point that was found there.
 pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     let largest = lines.iter().flat_map(|l| &l.points).map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let distance = (spacing * PART_OF_SPACING).max(largest * PART_OF_COORDINATE).max(f64::MIN_POSITIVE);

@@ -72,6 +72,17 @@ fn markups_are_read_in_their_space_and_unit() {
 }
 
 #[test]
+fn markups_in_two_spaces_are_brought_into_the_first() {
+    let ras = String::from_utf8(sample::mrk_json("RAS", "mm", 1.0)).unwrap();
+    let lps = String::from_utf8(sample::mrk_json("LPS", "mm", 1.0)).unwrap();
+    let second = |text: &str| text.find("{\"type\": \"Curve\", \"name\": \"curve 3\"").unwrap();
+    let mixed = ras[..second(&ras)].to_owned() + &lps[second(&lps)..];
+    let read = read(mixed.as_bytes(), "a.mrk.json").unwrap();
+    assert_is_sample(&read, "second markup in LPS");
+    assert!(read.notes.iter().any(|note| note.contains("different spaces")));
+}
+
+#[test]
 fn closed_curves_close_and_other_markups_are_left_out() {
     let closed = replaced(
         sample::mrk_json("RAS", "mm", 1.0),

@@ -97,6 +97,27 @@ fn reversed_lines_share_the_trunk_too() {
 }
 
 #[test]
+fn points_within_the_weld_distance_become_equal_to_the_last_bit() {
+    let [a, mut b] = y();
+    b.points.iter_mut().filter(|p| p.z <= 20.0).for_each(|p| p.x += 4e-4);
+    let joined = join(vec![a.clone(), b.clone()]);
+    assert_eq!(lengths(&joined), [21, 16, 16]);
+    assert_eq!([joined[1].points[0], joined[2].points[0]], [DVec3::from(FORK); 2]);
+    b.points.iter_mut().for_each(|p| p.x += 1.0);
+    assert_eq!(join(vec![a, b]).len(), 2);
+}
+
+#[test]
+fn lines_that_share_a_stretch_in_the_middle_become_five_vessels() {
+    let middle = straight([0.0; 3], FORK);
+    let lines = [9.0, -9.0]
+        .map(|y| line(&[straight([0.0, y, -9.0], [0.0; 3]), middle.clone(), straight(FORK, [0.0, y, 30.0])]));
+    let joined = join(lines.to_vec());
+    assert_eq!(joined.len(), 5);
+    assert_eq!(joined.iter().filter(|v| v.points.len() == 21).count(), 1);
+}
+
+#[test]
 fn lines_from_two_sources_to_one_outlet_share_the_end() {
     let outlet = straight(FORK, [0.0, 0.0, 30.0]);
     let joined = join(vec![

@@ -22,8 +22,8 @@ fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
             if !read_and_check(&bytes[..length], name) {
                 continue;
             }
-            // Nothing tells that a legacy file ends too early between two sections; the end of appended data is
-            // not needed.
+            // Nothing tells that a legacy file ends too early between two sections; the end of appended data
+            // is not needed.
             let lines = read(&bytes[..length], name).unwrap().lines;
             let appended = bytes.windows(13).any(|w| w == b"<AppendedData") && bytes.len() - length < 64;
             assert!(name == "a.vtk" || appended, "{name} cut at {length} of {}", bytes.len());
