@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 
 mod arguments;
+mod centerlines;
 mod errors;
 mod phantom;
 mod renderer;
@@ -19,5 +20,6 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
+    module.add_function(wrap_pyfunction!(centerlines::read_centerlines, module)?)?;
     Ok(())
 }
