@@ -20,14 +20,14 @@ impl Random {
     }
 
     /// The next number in [0, 1).
-    pub fn next(&mut self) -> f64 {
+    pub fn number(&mut self) -> f64 {
         self.place += 1;
         uniform(self.seed, self.place)
     }
 
     /// The next point in the cube [−1, 1)³.
     pub fn next_point(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next()) * 2.0 - 1.0
+        DVec3::new(self.number(), self.number(), self.number()) * 2.0 - 1.0
     }
 }
 
@@ -41,11 +41,11 @@ pub fn random_tree(seed: u64, vessels: usize, segments: usize, step: f64, extent
     let mut made: Vec<Vessel> = Vec::with_capacity(vessels);
     for id in 0..vessels {
         let mut point = random.next_point() * extent;
-        if id > 0 && random.next() < 0.5 {
-            let parent = made[(random.next() * id as f64) as usize].points();
-            point = parent[(random.next() * parent.len() as f64) as usize];
+        if id > 0 && random.number() < 0.5 {
+            let parent = made[(random.number() * id as f64) as usize].points();
+            point = parent[(random.number() * parent.len() as f64) as usize];
         }
-        let width = 1.0 + 4.0 * random.next();
+        let width = 1.0 + 4.0 * random.number();
         made.push(walk(&mut random, point, segments, step, extent, width)?);
     }
     VesselTree::new(made)
