@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
 
 /// How much a leap between the influence zones of two vessels counts beside one within a zone.
-const ZONE_BORDER: f32 = 6.0;
+const ZONE_BORDER: f32 = 4.0;
 
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: the slope of the depth (Sobel, mm per mm, so
 /// that a smooth surface looks the same at every zoom), raised at borders of influence zones, smoothed, and mapped by
