@@ -1,6 +1,6 @@
 """The compiled part of the package."""
 
-from typing import Any, final
+from typing import Any, TypedDict, final
 
 import numpy as np
 import numpy.typing as npt
@@ -18,4 +18,21 @@ def check_camera(camera: Any) -> list[list[float]]: ...
 def check_settings(settings: Any) -> None: ...
 def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
+def read_centerlines(
+    content: bytes, name: str
+) -> tuple[
+    list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], str | None, list[str]
+]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
+
+class _Phantom(TypedDict):
+    name: str
+    array: npt.NDArray[np.int16]
+    world_from_index: npt.NDArray[np.float64]
+    vessels: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], str]]
+    reference_radius: list[npt.NDArray[np.float64]]
+    stenoses: list[dict[str, Any]]
+    plaques: list[dict[str, Any]]
+
+def make_phantom(name: str, *, percent: float = 50.0, seed: int = 0, scale: float = 1.0) -> _Phantom:
+    """The phantom that the function of this name in `lumencut.phantom` returns, in plain parts."""

@@ -1,4 +1,4 @@
-"""What can go wrong: every error names its subject, what was found, what was expected and what would mend it."""
+"""What can go wrong: every error names its subject, what was found, what was expected and what mends it."""
 
 from __future__ import annotations
 

@@ -9,6 +9,11 @@ import numpy.typing as npt
 
 from lumencut.errors import VolumeError
 
+_UNIT_SPACING = (1.0, 1.0, 1.0)
+_NO_OFFSET = (0.0, 0.0, 0.0)
+_UNIT_TOLERANCE = 1e-3
+_FARTHEST = 1e9
+
 
 class Volume:
     """Voxels of any integer or float type on any invertible affine grid, shared with the caller's array.
@@ -36,16 +41,19 @@ class Volume:
     def __init__(
         self,
         array: npt.ArrayLike,
-        spacing: npt.ArrayLike = (1.0, 1.0, 1.0),
-        origin: npt.ArrayLike = (0.0, 0.0, 0.0),
+        spacing: npt.ArrayLike = _UNIT_SPACING,
+        origin: npt.ArrayLike = _NO_OFFSET,
         direction: npt.ArrayLike | None = None,
         *,
         world_from_index: npt.ArrayLike | None = None,
     ) -> None:
         if world_from_index is None:
             world_from_index = _affine(spacing, origin, np.eye(3) if direction is None else direction)
+        elif spacing is not _UNIT_SPACING or origin is not _NO_OFFSET or direction is not None:
+            found = "world_from_index together with spacing, origin or direction"
+            raise VolumeError("grid of the volume", found, "one or the other")
         self._array, flipped = _plain(_checked_voxels(array))
-        self._world_from_index = _checked_affine(world_from_index) @ flipped
+        self._world_from_index = _checked_affine(world_from_index, self._array.shape) @ flipped
         self._world_from_index.flags.writeable = False
 
     @property
@@ -111,10 +119,12 @@ class Volume:
 
     def contains(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Tell which world points (n, 3) (mm, LPS) lie inside the grid's outer corners, shape (n,)."""
-        points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
-        inverse = np.linalg.inv(self._world_from_index)
-        index = points @ inverse[:3, :3].T + inverse[:3, 3]
-        inside = (index >= -0.5) & (index <= np.asarray(self.size) - 0.5)
+        points = _points(points)
+        columns = self._world_from_index[:3, :3]
+        with np.errstate(over="ignore", invalid="ignore"):
+            index = np.linalg.solve(columns, (points - self._world_from_index[:3, 3]).T).T
+        # A corner is inside whatever the last bits of its way through the affine and back.
+        inside = (index >= -0.5 - 1e-9) & (index <= np.asarray(self.size) - 0.5 + 1e-9)
         return np.asarray(inside.all(axis=1), dtype=np.bool_)
 
     def __repr__(self) -> str:
@@ -123,13 +133,18 @@ class Volume:
         return f"Volume({ni} × {nj} × {nk} {self._array.dtype}, spacing {spacing} mm)"
 
 
-def _affine(spacing: npt.ArrayLike, origin: npt.ArrayLike, direction: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def _affine(
+    spacing: npt.ArrayLike, origin: npt.ArrayLike, direction: npt.ArrayLike
+) -> npt.NDArray[np.float64]:
     """Affine (4, 4) from spacing (3,), origin (3,) and direction (3, 3)."""
     affine = np.eye(4)
     parts = (("spacing", spacing, (3,)), ("origin", origin, (3,)), ("direction", direction, (3, 3)))
     values = [_numbers(name, value, shape) for name, value, shape in parts]
     if not (values[0] > 0).all():
         raise VolumeError("spacing of the volume", f"{values[0].tolist()}", "3 positive distances in mm")
+    if not (np.abs(np.linalg.norm(values[2], axis=0) - 1) <= _UNIT_TOLERANCE).all():
+        mend = "give world_from_index for a general grid"
+        raise VolumeError("direction of the volume", f"{values[2].tolist()}", "unit vectors as columns", mend)
     affine[:3, :3] = values[2] * values[0]
     affine[:3, 3] = values[1]
     return affine
@@ -138,17 +153,33 @@ def _affine(spacing: npt.ArrayLike, origin: npt.ArrayLike, direction: npt.ArrayL
 def _numbers(name: str, value: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     try:
         array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         array = np.empty(0)
     if array.shape != shape or not np.isfinite(array).all():
         raise VolumeError(f"{name} of the volume", f"{value!r}", f"finite numbers of shape {shape}")
     return array
 
 
-def _checked_affine(world_from_index: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    try:
+        array = np.asarray(points, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        array = np.empty((1, 1))
+    if array.shape == (3,) or (array.ndim == 2 and array.shape[1] == 3):
+        return array.reshape(-1, 3)
+    raise VolumeError("points", f"shape {np.shape(array)}", "numbers of shape (n, 3)")
+
+
+def _checked_affine(world_from_index: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     affine = _numbers("world_from_index", world_from_index, (4, 4))
-    scale = np.prod(np.linalg.norm(affine[:3, :3], axis=0))
-    singular = not abs(np.linalg.det(affine[:3, :3])) > 1e-9 * scale
+    with np.errstate(over="ignore"):
+        reach = np.abs(affine[:3, :3]) @ np.asarray(shape[::-1], dtype=np.float64) + np.abs(affine[:3, 3])
+    if not (reach < _FARTHEST).all():
+        raise VolumeError(
+            "world_from_index of the volume", f"{affine.tolist()}", f"a grid within {_FARTHEST:g} mm"
+        )
+    lengths = np.linalg.norm(affine[:3, :3], axis=0)
+    singular = not (lengths > 1 / _FARTHEST).all() or not abs(np.linalg.det(affine[:3, :3] / lengths)) > 1e-9
     if singular or not np.array_equal(affine[3], [0, 0, 0, 1]):
         expected = "an invertible affine whose last row is 0 0 0 1"
         raise VolumeError("world_from_index of the volume", f"{affine.tolist()}", expected)
@@ -156,21 +187,31 @@ def _checked_affine(world_from_index: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 def _checked_voxels(array: npt.ArrayLike) -> npt.NDArray[Any]:
-    voxels = np.asarray(array)
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        mend = "give array.filled(value)"
+        raise VolumeError("array of the volume", "masked voxels", "a value in every voxel", mend)
+    try:
+        voxels = np.asarray(array)
+    except ValueError as error:
+        raise VolumeError("array of the volume", "ragged lists", "3 axes [k, j, i]") from error
     if voxels.ndim != 3 or voxels.size == 0:
         mend = "pick one component or time point" if voxels.ndim > 3 else ""
-        raise VolumeError("array of the volume", f"shape {voxels.shape}", "3 axes [k, j, i], none empty", mend)
+        raise VolumeError(
+            "array of the volume", f"shape {voxels.shape}", "3 axes [k, j, i], none empty", mend
+        )
     if voxels.dtype == np.bool_:
         return voxels.view(np.uint8)
     if voxels.dtype.kind not in "iuf" or voxels.dtype.itemsize > 8:
-        raise VolumeError("array of the volume", f"voxels of type {voxels.dtype}", "integers or floats up to 64 bits")
-    if voxels.dtype == np.float16:
+        raise VolumeError(
+            "array of the volume", f"voxels of type {voxels.dtype}", "integers or floats up to 64 bits"
+        )
+    if voxels.dtype.itemsize == 2 and voxels.dtype.kind == "f":
         return voxels.astype(np.float32)
     return voxels.astype(voxels.dtype.newbyteorder("="), copy=False)
 
 
 def _plain(voxels: npt.NDArray[Any]) -> tuple[npt.NDArray[Any], npt.NDArray[np.float64]]:
-    """The voxels as a dense view with positive strides, and the affine old-index-from-new-index."""
+    """The voxels as a dense, aligned view with positive strides, and the affine old-index-from-new-index."""
     flipped = np.eye(4)
     for axis, stride in enumerate(voxels.strides):
         if stride < 0:
@@ -178,6 +219,6 @@ def _plain(voxels: npt.NDArray[Any]) -> tuple[npt.NDArray[Any], npt.NDArray[np.f
             flipped[2 - axis, 2 - axis] = -1.0
             flipped[2 - axis, 3] = voxels.shape[axis] - 1
     slowest_first = np.argsort([-s for s in voxels.strides], kind="stable")
-    if not voxels.transpose(slowest_first).flags.c_contiguous:
-        voxels = np.ascontiguousarray(voxels)
+    if not voxels.transpose(slowest_first).flags.c_contiguous or not voxels.flags.aligned:
+        voxels = np.array(voxels, order="C")
     return voxels, flipped

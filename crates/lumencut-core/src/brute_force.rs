@@ -7,7 +7,7 @@ use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
-use crate::math::lanes::{COLUMNS, ABSENT, FAN, Kernel, PIXELS, ROWS, UNSET, dispatch};
+use crate::math::lanes::{ABSENT, COLUMNS, FAN, Kernel, PIXELS, ROWS, UNSET, dispatch};
 use crate::math::nearest::lower_distance;
 use crate::math::pieces::{Envelope, Tile};
 use crate::stages::View;
@@ -59,7 +59,13 @@ struct Exhaustive<'a>(&'a CutSurface<'a>);
 
 impl Search for Exhaustive<'_> {
     #[inline(always)]
-    fn lowest<const LUMEN_FIRST: bool>(&mut self, level: usize, tile: &Tile, rule: &Rule, envelope: &mut Envelope) {
+    fn lowest<const LUMEN_FIRST: bool>(
+        &mut self,
+        level: usize,
+        tile: &Tile,
+        rule: &Rule,
+        envelope: &mut Envelope,
+    ) {
         for bundle in &self.0.hierarchy(level).bundles {
             for s in 0..FAN {
                 if bundle.wedge_z[s] < ABSENT {

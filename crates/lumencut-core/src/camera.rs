@@ -37,7 +37,11 @@ impl Camera {
             Err(Error::new(ErrorKind::Camera, subject, found, expected))
         };
         if !center.is_finite() || center.abs().max_element() > MAX_COORDINATE {
-            return wrong("center of the camera", format!("{center}"), "finite coordinates within 1e6 mm of the origin");
+            return wrong(
+                "center of the camera",
+                format!("{center}"),
+                "finite coordinates within 1e6 mm of the origin",
+            );
         }
         let Some(unit) = direction.try_normalize() else {
             return wrong(

@@ -53,7 +53,13 @@ impl Renderer {
     /// # Errors
     /// [`crate::error::ErrorKind::Settings`] for a setting outside its range,
     /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
-    pub fn render(&mut self, volume: &Volume, camera: &Camera, settings: &Settings, stop: Stop) -> Result<Frame> {
+    pub fn render(
+        &mut self,
+        volume: &Volume,
+        camera: &Camera,
+        settings: &Settings,
+        stop: Stop,
+    ) -> Result<Frame> {
         let mut frame = self.cut_surface(camera, settings, stop)?;
         let view = View { camera, isa: self.isa, stop };
         let mut clock = Clock::start();

@@ -26,7 +26,8 @@ impl Vessel {
         if points.len() < 2 {
             return wrong("points of the vessel", format!("{} point(s)", points.len()), "at least 2 points");
         }
-        if let Some(i) = points.iter().position(|p| !p.is_finite() || p.abs().max_element() > MAX_COORDINATE) {
+        if let Some(i) = points.iter().position(|p| !p.is_finite() || p.abs().max_element() > MAX_COORDINATE)
+        {
             let found = format!("{} at point {i}", points[i]);
             return wrong("points of the vessel", found, "finite coordinates within 1e6 mm of the origin");
         }

@@ -28,6 +28,7 @@ impl CameraArgument {
 
 /// Checks a camera and returns its unit vectors (direction, right, up).
 #[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
 pub fn check_camera(camera: CameraArgument) -> PyResult<[[f64; 3]; 3]> {
     let camera = camera.camera()?;
     Ok([camera.direction(), camera.right(), camera.up()].map(|v| v.to_array()))

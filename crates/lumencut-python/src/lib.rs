@@ -3,7 +3,9 @@
 use pyo3::prelude::*;
 
 mod arguments;
+mod centerlines;
 mod errors;
+mod phantom;
 mod renderer;
 mod tree;
 mod volume;
@@ -17,5 +19,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
+    module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
+    module.add_function(wrap_pyfunction!(centerlines::read_centerlines, module)?)?;
     Ok(())
 }

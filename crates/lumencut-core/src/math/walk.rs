@@ -99,7 +99,7 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
             let boxes: &Boxes = &hierarchy.heights[height as usize - 1][node as usize];
             let bounds = boxes.key_bounds::<LUMEN_FIRST>(tile, rule);
             stack.push_nodes(&bounds, limit, height - 1, node * FAN as u32);
-        } else if bound == SETTLED || !seeds.contains(node) {
+        } else if bound <= SETTLED || !seeds.contains(node) {
             let bundle = &hierarchy.bundles[node as usize];
             let (stripes, wedges) = piece_bounds::<LUMEN_FIRST>(tile, bundle, rule);
             for s in places(within(&stripes, limit)) {

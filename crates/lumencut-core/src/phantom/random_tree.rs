@@ -2,31 +2,32 @@
 
 use glam::DVec3;
 
+use super::random::{hash, uniform};
 use crate::error::Result;
 use crate::vessel_tree::{Vessel, VesselTree};
 
-/// A small counter-based generator (SplitMix64).
+/// The random numbers of a seed, one after the other.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct Random {
+    seed: u64,
+    place: u64,
+}
 
 impl Random {
-    /// The generator of a seed.
+    /// The numbers of a seed.
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self { seed: hash(seed, 1), place: 0 }
     }
 
     /// The next number in [0, 1).
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    pub fn number(&mut self) -> f64 {
+        self.place += 1;
+        uniform(self.seed, self.place)
     }
 
     /// The next point in the cube [−1, 1)³.
     pub fn next_point(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next()) * 2.0 - 1.0
+        DVec3::new(self.number(), self.number(), self.number()) * 2.0 - 1.0
     }
 }
 
@@ -40,11 +41,11 @@ pub fn random_tree(seed: u64, vessels: usize, segments: usize, step: f64, extent
     let mut made: Vec<Vessel> = Vec::with_capacity(vessels);
     for id in 0..vessels {
         let mut point = random.next_point() * extent;
-        if id > 0 && random.next() < 0.5 {
-            let parent = made[(random.next() * id as f64) as usize].points();
-            point = parent[(random.next() * parent.len() as f64) as usize];
+        if id > 0 && random.number() < 0.5 {
+            let parent = made[(random.number() * id as f64) as usize].points();
+            point = parent[(random.number() * parent.len() as f64) as usize];
         }
-        let width = 1.0 + 4.0 * random.next();
+        let width = 1.0 + 4.0 * random.number();
         made.push(walk(&mut random, point, segments, step, extent, width)?);
     }
     VesselTree::new(made)

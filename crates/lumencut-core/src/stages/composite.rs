@@ -22,18 +22,20 @@ pub fn composite(
     let background = settings.background.map(f32::from);
     let line = settings.silhouette_color.map(f32::from);
     let chunk = view.tile_row();
-    image.par_chunks_mut(chunk).zip(value.par_chunks(chunk)).enumerate().try_for_each(|(row, (image, value))| {
-        view.go_on()?;
-        for (n, (pixel, value)) in image.iter_mut().zip(value).enumerate() {
-            let strength = strength.map_or(0.0, |s| s[row * chunk + n]);
-            *pixel = if value.is_nan() {
-                settings.background
-            } else {
-                blend(background, grey.at(*value) * 255.0, opacity.at(*value), line, strength)
-            };
-        }
-        Ok(())
-    })
+    image.par_chunks_mut(chunk).zip(value.par_chunks(chunk)).enumerate().try_for_each(
+        |(row, (image, value))| {
+            view.go_on()?;
+            for (n, (pixel, value)) in image.iter_mut().zip(value).enumerate() {
+                let strength = strength.map_or(0.0, |s| s[row * chunk + n]);
+                *pixel = if value.is_nan() {
+                    settings.background
+                } else {
+                    blend(background, grey.at(*value) * 255.0, opacity.at(*value), line, strength)
+                };
+            }
+            Ok(())
+        },
+    )
 }
 
 /// Grey with `opacity` over the background; the silhouette's colour over both, as opaque as the surface.

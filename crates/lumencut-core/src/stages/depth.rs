@@ -98,7 +98,13 @@ impl Blend {
 
 /// How the winners of one level over a tile are found.
 pub(crate) trait Search {
-    fn lowest<const LUMEN_FIRST: bool>(&mut self, level: usize, tile: &Tile, rule: &Rule, envelope: &mut Envelope);
+    fn lowest<const LUMEN_FIRST: bool>(
+        &mut self,
+        level: usize,
+        tile: &Tile,
+        rule: &Rule,
+        envelope: &mut Envelope,
+    );
 }
 
 /// By the walk through the hierarchy, seeded with the winners of the tile before.
@@ -109,7 +115,13 @@ struct Walk<'a> {
 
 impl Search for Walk<'_> {
     #[inline(always)]
-    fn lowest<const LUMEN_FIRST: bool>(&mut self, level: usize, tile: &Tile, rule: &Rule, envelope: &mut Envelope) {
+    fn lowest<const LUMEN_FIRST: bool>(
+        &mut self,
+        level: usize,
+        tile: &Tile,
+        rule: &Rule,
+        envelope: &mut Envelope,
+    ) {
         let hierarchy = self.surface.hierarchy(level);
         lowest_keys::<LUMEN_FIRST>(hierarchy, tile, rule, &self.seeds[level], envelope);
         self.seeds[level] = Seeds::collect(envelope, &self.surface.levels[level].bundle_of_slot);
@@ -187,7 +199,8 @@ impl DepthRow<'_> {
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(self.view.camera, column, self.row * ROWS);
             // Pixels beyond the image repeat its last column and row.
-            let pixel = |l: usize| (l / COLUMNS).min(height - 1) * width + (column + l % COLUMNS).min(width - 1);
+            let pixel =
+                |l: usize| (l / COLUMNS).min(height - 1) * width + (column + l % COLUMNS).min(width - 1);
             let distance = std::array::from_fn(|l| self.distance[pixel(l)]);
             let (depth, vessel) = self.surface.blend::<LUMEN_FIRST>(&tile, &distance, search);
             for r in 0..height {

@@ -1,0 +1,228 @@
+//! The cut surface on scenes whose answer is known in closed form, and its invariants.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{at, by_hierarchy, pixel, plain, tree, trefoil, vessel, view};
+use glam::{DQuat, DVec3};
+use lumencut_core::camera::Camera;
+use lumencut_core::phantom::random_tree::random_tree;
+use lumencut_core::settings::Settings;
+use lumencut_core::vessel_tree::{Vessel, VesselTree};
+
+/// From the front: view x = world x, view y = world z, depth = world y.
+fn front(size: [usize; 2], pixel_spacing: f64) -> Camera {
+    view([0.0, 1.0, 0.0], size, pixel_spacing)
+}
+
+fn near(found: f32, expected: f64, tolerance: f64) {
+    assert!((f64::from(found) - expected).abs() <= tolerance, "found {found}, expected {expected}");
+}
+
+#[test]
+fn a_slanted_tube_is_cut_along_its_foot_points() {
+    let tree = tree(vec![vessel(&[[-30., -12., 0.], [30., 12., 0.]], 4.0)]);
+    let frame = by_hierarchy(&tree, &front([100, 80], 1.0), &plain());
+    for (x, y) in [(-29.5, 0.5), (0.5, 30.5), (12.5, -20.5), (29.5, 39.5)] {
+        near(at(&frame, &frame.depth, x, y), x * 0.4, 1e-4);
+        near(at(&frame, &frame.distance, x, y), y.abs(), 1e-4);
+    }
+    // Before the first and beyond the last point: the half-planes keep the depth of the ends.
+    near(at(&frame, &frame.depth, -40.5, 9.5), -12.0, 1e-4);
+    near(at(&frame, &frame.depth, 45.5, -3.5), 12.0, 1e-4);
+    near(at(&frame, &frame.distance, 45.5, -3.5), 15.5f64.hypot(3.5), 1e-4);
+}
+
+#[test]
+fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
+    let corner = vessel(&[[-40., 0., 0.], [0., 10., 0.], [0., 50., 40.]], 0.0);
+    let settings = Settings { levels: 0, ..plain() };
+    let frame = by_hierarchy(&tree(vec![corner]), &front([120, 120], 1.0), &settings);
+    // Outside the bend every pixel belongs to the corner point.
+    for (x, y) in [(5.5, -5.5), (30.5, -0.5), (0.5, -30.5)] {
+        near(at(&frame, &frame.depth, x, y), 10.0, 1e-4);
+    }
+    // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·… decides the cost.
+    let (x, y) = (-4.5, 10.5);
+    let first = (10.0 * (x + 40.0) / 40.0, y);
+    let second = (10.0 + y, -x);
+    let cost = |(z, d): (f64, f64)| z + 10.0 * d;
+    let expected = if cost(first) < cost(second) { first.0 } else { second.0 };
+    near(at(&frame, &frame.depth, x, y), expected, 1e-4);
+}
+
+#[test]
+fn between_two_tubes_the_border_lies_where_their_costs_meet() {
+    let front_tube = vessel(&[[-50., 0., 15.], [50., 0., 15.]], 3.0);
+    let back_tube = vessel(&[[-50., 40., -15.], [50., 40., -15.]], 5.0);
+    let frame = by_hierarchy(&tree(vec![back_tube, front_tube]), &front([16, 600], 0.1), &plain());
+    // 0 + 10·((15 − y) − 3) = 40 + 10·((y + 15) − 5)  ⇒  y = −1.
+    for y in [-14.95, -4.95, -1.05] {
+        assert_eq!(frame.vessel[pixel(&frame, 0.05, y)], 0, "at y = {y}");
+    }
+    for y in [-0.95, 2.05, 15.05, 29.95] {
+        assert_eq!(frame.vessel[pixel(&frame, 0.05, y)], 1, "at y = {y}");
+    }
+}
+
+#[test]
+fn lumen_first_shows_the_lumen_that_a_near_surrounding_hides() {
+    let near_tube = vessel(&[[-50., 0., 12.], [50., 0., 12.]], 3.0);
+    let far_tube = vessel(&[[-50., 200., 0.], [50., 200., 0.]], 4.0);
+    let scene = tree(vec![near_tube, far_tube]);
+    let camera = front([16, 400], 0.1);
+    let hidden = by_hierarchy(&scene, &camera, &plain());
+    assert_eq!(hidden.vessel[pixel(&hidden, 0.05, 0.05)], 0);
+    let margin = Settings { lumen_first: true, lumen_margin: 1.0, ..plain() };
+    let shown = by_hierarchy(&scene, &camera, &margin);
+    for (y, id) in [(0.05, 1), (3.95, 1), (4.95, 1), (5.05, 0), (-4.95, 1), (8.05, 0)] {
+        assert_eq!(shown.vessel[pixel(&shown, 0.05, y)], id, "at y = {y}");
+    }
+}
+
+#[test]
+fn a_vessel_that_dives_along_the_view_goes_on_behind() {
+    // Right at depth 0, then 60 mm straight into depth, then up.
+    let diving = vessel(&[[-40., 0., 0.], [0., 0., 0.], [0., 30., 0.], [0., 60., 0.], [0., 60., 40.]], 2.0);
+    let settings = Settings { levels: 0, ..plain() };
+    let frame = by_hierarchy(&tree(vec![diving]), &front([120, 120], 1.0), &settings);
+    near(at(&frame, &frame.depth, -20.5, 0.5), 0.0, 1e-4);
+    near(at(&frame, &frame.depth, 10.5, -10.5), 0.0, 1e-4);
+    // Above the dive: half-plane at depth 0, distance 25 − 2, against the far stripe at depth 60, distance 0.
+    near(at(&frame, &frame.depth, 0.5, 25.5), 60.0, 1e-4);
+}
+
+#[test]
+fn a_vessel_along_the_view_shows_its_nearest_point_everywhere() {
+    let axis = vessel(&[[3., 20., 4.], [3., -35., 4.], [3., 50., 4.]], 2.0);
+    let settings = Settings { levels: 0, ..plain() };
+    let frame = by_hierarchy(&tree(vec![axis]), &front([40, 40], 2.0), &settings);
+    assert!(frame.depth.iter().all(|z| *z == -35.0));
+    near(at(&frame, &frame.distance, 3.0, 15.0), 11.0, 1e-4);
+}
+
+#[test]
+fn a_run_at_an_end_gives_a_plane_through_the_end_point() {
+    let late = vessel(&[[-30., 0., 0.], [0., 0., 0.], [0., 25., 0.]], 0.0);
+    let settings = Settings { levels: 0, cost_weight: 1.0, ..plain() };
+    let frame = by_hierarchy(&tree(vec![late]), &front([80, 80], 1.0), &settings);
+    near(at(&frame, &frame.depth, -10.5, 0.5), 0.0, 1e-4);
+    near(at(&frame, &frame.depth, 20.5, 0.5), 25.0, 1e-4);
+    // The plane covers all: where it is nearer by cost than the stripe, it wins there too.
+    near(at(&frame, &frame.depth, -0.5, 39.5), 0.0, 1e-4);
+}
+
+#[test]
+fn the_trefoil_is_threefold_symmetric() {
+    let knot = trefoil(300);
+    let camera = front([160, 160], 1.0);
+    let turn = DQuat::from_axis_angle(DVec3::Y, std::f64::consts::TAU / 3.0);
+    let turned = Camera::new(DVec3::ZERO, DVec3::Y, turn * DVec3::Z, [160, 160], 1.0).unwrap();
+    // Level 0 alone: coarser levels start at the vessel's ends, which break the symmetry.
+    let settings = Settings { levels: 0, ..plain() };
+    let (a, b) = (by_hierarchy(&knot, &camera, &settings), by_hierarchy(&knot, &turned, &settings));
+    let differ = a.depth.iter().zip(&b.depth).filter(|(a, b)| (*a - *b).abs() > 1e-2).count();
+    assert!(differ < a.depth.len() / 100, "{differ} of {} pixels differ", a.depth.len());
+    let spread = a.depth.iter().fold(0f32, |s, z| s.max(z.abs()));
+    assert!(spread > 15.0, "the knot is flat: {spread}");
+}
+
+#[test]
+fn a_hidden_vessel_changes_nothing() {
+    let shown = random_tree(21, 6, 40, 2.0, 50.0).unwrap();
+    let behind = |v: &Vessel| {
+        let points = v.points().iter().map(|p| *p + DVec3::Y * 500.0).collect();
+        Vessel::new(points, v.radius().map(<[f64]>::to_vec)).unwrap()
+    };
+    let both = shown.vessels().iter().cloned().chain(shown.vessels().iter().map(behind)).collect();
+    let camera = front([90, 90], 1.3);
+    let (a, b) = (by_hierarchy(&shown, &camera, &plain()), by_hierarchy(&tree(both), &camera, &plain()));
+    assert_eq!(common::differences(&a, &b), 0);
+}
+
+#[test]
+fn the_order_of_the_vessels_does_not_matter() {
+    let scene = random_tree(22, 9, 40, 2.0, 50.0).unwrap();
+    let reversed = tree(scene.vessels().iter().rev().cloned().collect());
+    let camera = view([0.4, 1.0, -0.2], [90, 90], 1.3);
+    for settings in [plain(), Settings { lumen_first: true, ..plain() }] {
+        let (a, b) = (by_hierarchy(&scene, &camera, &settings), by_hierarchy(&reversed, &camera, &settings));
+        let last = scene.vessels().len() as i32 - 1;
+        // Vessels that share an end point tie around it; elsewhere nothing differs.
+        let differ = (0..a.depth.len()).filter(|p| a.depth[*p] != b.depth[*p]).count();
+        let ids = (0..a.depth.len()).filter(|p| a.vessel[*p] != last - b.vessel[*p]).count();
+        assert!(
+            differ <= a.depth.len() / 200 && ids <= a.depth.len() / 20,
+            "{differ} depths, {ids} ids differ"
+        );
+        assert_eq!(a.distance, b.distance);
+    }
+}
+
+#[test]
+fn turning_scene_and_camera_together_changes_nothing() {
+    let scene = random_tree(23, 8, 40, 2.0, 50.0).unwrap();
+    let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.1);
+    let turned = |v: &Vessel| {
+        let points = v.points().iter().map(|p| turn * *p).collect();
+        Vessel::new(points, v.radius().map(<[f64]>::to_vec)).unwrap()
+    };
+    let turned_scene = tree(scene.vessels().iter().map(turned).collect());
+    let camera = view([0.4, 1.0, -0.2], [90, 90], 1.3);
+    let turned_camera =
+        Camera::new(DVec3::ZERO, turn * camera.direction(), turn * camera.up(), [90, 90], 1.3).unwrap();
+    let a = by_hierarchy(&scene, &camera, &plain());
+    let b = by_hierarchy(&turned_scene, &turned_camera, &plain());
+    let differ = a.depth.iter().zip(&b.depth).filter(|(a, b)| (*a - *b).abs() > 1e-2).count();
+    assert!(differ <= a.depth.len() / 500, "{differ} pixels differ");
+}
+
+/// The nearest lumen at view (x, y): the smallest depth among the pieces that cover it with d ≤ r.
+fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> f64 {
+    let mut nearest = f64::MAX;
+    for vessel in scene.vessels() {
+        let points: Vec<DVec3> = vessel.points().iter().map(|p| camera.view_from_world(*p)).collect();
+        let to = |i: usize| glam::DVec2::new(x, y) - points[i].truncate();
+        let edge = |i: usize| (points[i + 1] - points[i]).truncate();
+        for i in 0..points.len() {
+            let last = i + 1 == points.len();
+            let after_before = i == 0 || to(i).dot(edge(i - 1)) >= 0.0;
+            if after_before
+                && (last || to(i).dot(edge(i)) <= 0.0)
+                && to(i).length() <= vessel.radius_or_zero(i)
+            {
+                nearest = nearest.min(points[i].z);
+            }
+            if !last {
+                let t = to(i).dot(edge(i)) / edge(i).length_squared();
+                let distance = (to(i) - t * edge(i)).length();
+                let radius = vessel.radius_or_zero(i) * (1.0 - t) + vessel.radius_or_zero(i + 1) * t;
+                if (0.0..=1.0).contains(&t) && distance <= radius {
+                    nearest = nearest.min(points[i].z + t * (points[i + 1].z - points[i].z));
+                }
+            }
+        }
+    }
+    nearest
+}
+
+#[test]
+fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
+    let scene = random_tree(24, 10, 50, 2.0, 50.0).unwrap();
+    let camera = view([1.0, 0.3, 0.2], [80, 80], 1.4);
+    let settings = Settings { levels: 0, ..plain() };
+    let cost = by_hierarchy(&scene, &camera, &settings);
+    let first = by_hierarchy(&scene, &camera, &Settings { lumen_first: true, ..settings });
+    let (mut lumens, mut behind, mut other) = (0, 0, 0);
+    for p in 0..cost.depth.len() {
+        let (x, y) = (camera.view_x(p % 80), camera.view_y(p / 80));
+        let nearest = nearest_lumen(&scene, &camera, x, y);
+        if nearest < f64::MAX {
+            lumens += 1;
+            behind += usize::from(f64::from(cost.depth[p]) > nearest + 1e-3);
+            other += usize::from((f64::from(first.depth[p]) - nearest).abs() > 1e-3);
+        }
+    }
+    assert!(lumens > 500, "only {lumens} pixels show lumen");
+    assert_eq!((behind, other), (0, 0), "of {lumens} pixels in a lumen");
+}

@@ -1,0 +1,79 @@
+//! The same bits whatever the instruction set and the number of threads; stops when asked; allocates nothing of the
+//! size of the tree or the volume for a further view.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use common::{differences, view};
+use glam::{DAffine3, DVec3};
+use lumencut_core::error::ErrorKind;
+use lumencut_core::frame::Frame;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::phantom::random_tree::random_tree;
+use lumencut_core::pipeline::Renderer;
+use lumencut_core::settings::Settings;
+use lumencut_core::vessel_tree::VesselTree;
+use lumencut_core::volume::{Volume, Voxels};
+
+fn scene() -> (VesselTree, Vec<i16>, DAffine3) {
+    let voxels = (0..50usize.pow(3)).map(|n| (n * 7919 % 2000) as i16 - 500).collect();
+    let affine = DAffine3::from_scale(DVec3::splat(3.0)) * DAffine3::from_translation(DVec3::splat(-25.0));
+    (random_tree(11, 20, 50, 2.0, 70.0).unwrap(), voxels, affine)
+}
+
+fn render(isa: Isa) -> Frame {
+    let (tree, voxels, affine) = scene();
+    let volume = Volume::new(Voxels::I16(&voxels), [50; 3], [1, 50, 2500], affine).unwrap();
+    let camera = view([1.0, 0.4, -0.3], [150, 101], 1.1);
+    Renderer::new(tree).with_isa(isa).render(&volume, &camera, &Settings::default(), &|| false).unwrap()
+}
+
+fn assert_same(a: &Frame, b: &Frame, what: &str) {
+    assert_eq!(differences(a, b), 0, "{what}");
+    assert_eq!(a.image, b.image, "{what}");
+    assert!(a.value.iter().zip(&b.value).all(|(a, b)| a.to_bits() == b.to_bits()), "{what}");
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    let baseline = render(Isa::Baseline);
+    for isa in Isa::available() {
+        assert_same(&baseline, &render(isa), &format!("{isa:?}"));
+    }
+}
+
+#[test]
+fn every_number_of_threads_gives_the_same_bits() {
+    let many = render(Isa::widest());
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_same(&many, &pool.install(|| render(Isa::widest())), &format!("{threads} threads"));
+    }
+}
+
+#[test]
+fn a_second_view_of_a_used_renderer_is_the_view_of_a_new_one() {
+    let (tree, ..) = scene();
+    let (first, second) = (view([0.0, 1.0, 0.0], [70, 70], 2.0), view([1.0, 0.0, 0.0], [40, 90], 1.0));
+    let mut used = Renderer::new(tree.clone());
+    used.cut_surface(&first, &Settings { levels: 9, ..Settings::default() }, &|| false).unwrap();
+    let again = used.cut_surface(&second, &Settings::default(), &|| false).unwrap();
+    let fresh = Renderer::new(tree).cut_surface(&second, &Settings::default(), &|| false).unwrap();
+    assert_eq!(differences(&again, &fresh), 0);
+}
+
+#[test]
+fn a_rendering_stops_when_asked_and_the_renderer_goes_on() {
+    let (tree, ..) = scene();
+    let camera = view([0.0, 1.0, 0.0], [256, 256], 0.7);
+    let mut renderer = Renderer::new(tree);
+    let whole = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
+    let asked = AtomicUsize::new(0);
+    let stop = || asked.fetch_add(1, Ordering::Relaxed) >= 40;
+    let error = renderer.cut_surface(&camera, &Settings::default(), &stop).unwrap_err();
+    assert_eq!(error.kind, ErrorKind::Interrupted);
+    let again = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
+    assert_eq!(differences(&whole, &again), 0);
+}

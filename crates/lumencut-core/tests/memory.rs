@@ -1,0 +1,67 @@
+//! Peak memory stays within 64 bytes per pixel and 400 bytes per segment beside the volume, and a further view
+//! allocates nothing of the size of the tree or the volume.
+#![allow(clippy::unwrap_used, unsafe_code)]
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use common::view;
+use glam::DAffine3;
+use lumencut_core::phantom::random_tree::random_tree;
+use lumencut_core::pipeline::Renderer;
+use lumencut_core::settings::Settings;
+use lumencut_core::volume::{Volume, Voxels};
+
+/// Counts the bytes in use, their peak, and all bytes ever asked for.
+struct Counting;
+
+static LIVE: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+static TOTAL: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let live = LIVE.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
+        PEAK.fetch_max(live, Ordering::Relaxed);
+        TOTAL.fetch_add(layout.size(), Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        LIVE.fetch_sub(layout.size(), Ordering::Relaxed);
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+// One test alone: the counters belong to the whole process.
+#[test]
+fn memory_stays_within_its_bounds() {
+    let tree = random_tree(41, 400, 200, 1.0, 100.0).unwrap();
+    let segments = tree.segment_count();
+    let voxels = vec![100i16; 200usize.pow(3)];
+    let affine = DAffine3::from_translation(glam::DVec3::splat(-99.5));
+    let volume = Volume::new(Voxels::I16(&voxels), [200; 3], [1, 200, 40_000], affine).unwrap();
+    let (large, small) = (view([0.3, 1.0, 0.2], [256, 256], 0.8), view([1.0, 0.0, 0.1], [32, 32], 6.0));
+    // The threads of the pool start once per process.
+    Renderer::new(common::trefoil(9)).cut_surface(&small, &Settings::default(), &|| false).unwrap();
+
+    let before = LIVE.load(Ordering::Relaxed);
+    PEAK.store(before, Ordering::Relaxed);
+    let mut renderer = Renderer::new(tree.clone());
+    let frame = renderer.render(&volume, &large, &Settings::default(), &|| false).unwrap();
+    let peak = PEAK.load(Ordering::Relaxed) - before;
+    let allowed = 64 * 256 * 256 + 400 * segments;
+    assert!(peak <= allowed, "{peak} bytes at the peak for {segments} segments, {allowed} allowed");
+    drop(frame);
+
+    let before = TOTAL.load(Ordering::Relaxed);
+    renderer.render(&volume, &small, &Settings::default(), &|| false).unwrap();
+    let further = TOTAL.load(Ordering::Relaxed) - before;
+    assert!(further < 64 * 32 * 32 + 40_000, "{further} bytes for a further view of {segments} segments");
+}

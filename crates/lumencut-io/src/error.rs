@@ -1,0 +1,66 @@
+//! What can be wrong with a file: every error names the file and place, what was found, what was expected and
+//! what would mend it.
+
+use std::fmt;
+
+/// An error in one line: `subject: found …; expected …; mend`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    /// The file, and the place in it that is wrong.
+    pub subject: String,
+    /// What was found.
+    pub found: String,
+    /// What was expected instead.
+    pub expected: String,
+    /// What would mend it; empty where `expected` already says so.
+    pub mend: String,
+}
+
+impl Error {
+    /// An error about the place `subject` of a file.
+    pub fn new(subject: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { subject: subject.into(), found: found.into(), expected: expected.into(), mend: String::new() }
+    }
+
+    /// The same error with the step that would mend it.
+    #[must_use]
+    pub fn mend(mut self, mend: impl Into<String>) -> Self {
+        self.mend = mend.into();
+        self
+    }
+
+    /// The same error with the file's name in front of the place.
+    #[must_use]
+    pub fn in_file(mut self, file_name: &str) -> Self {
+        self.subject =
+            if self.subject.is_empty() { file_name.into() } else { format!("{file_name}: {}", self.subject) };
+        self
+    }
+
+    /// A file that ends before `subject` is complete.
+    pub(crate) fn truncated(
+        subject: impl Into<String>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        Self::new(subject, found, expected).mend("the file seems truncated: copy or export it again")
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: found {}; expected {}", self.subject, self.found, self.expected)?;
+        if self.mend.is_empty() { Ok(()) } else { write!(f, "; {}", self.mend) }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// A result of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// At most the first 40 characters of a foreign text, for an error message.
+pub(crate) fn excerpt(text: &str) -> String {
+    let short: String = text.chars().take(40).flat_map(char::escape_debug).collect();
+    if text.chars().nth(40).is_some() { format!("'{short}…'") } else { format!("'{short}'") }
+}

@@ -1,0 +1,202 @@
+//! Lines that run along another line without sharing its points take its points.
+
+use glam::DVec3;
+
+use super::Path;
+
+/// How far beside another line a line may run, as a part of the radius there.
+const PART_OF_RADIUS: f64 = 0.1;
+/// The same for lines of one group.
+const PART_OF_RADIUS_IN_GROUP: f64 = 0.5;
+/// The same where no radius is known, as a part of the median spacing.
+const PART_OF_SPACING: f64 = 0.5;
+/// The most of the latter (mm), so that coarse control points do not reach over to a neighbour.
+const MOST_BY_SPACING: f64 = 0.5;
+/// How long the shared stretch must be, as a multiple of the distance allowed beside it.
+const SHORTEST_STRETCH: f64 = 10.0;
+
+/// Lets the ends of paths follow earlier paths; returns how many ends do.
+pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> usize {
+    let mut followed = 0;
+    // A path that follows another one leaves its own end behind, where a third path may begin.
+    let mut moved: Vec<(usize, usize)> = Vec::new();
+    for i in 1..paths.len() {
+        let (earlier, rest) = paths.split_at_mut(i);
+        let path = &mut rest[0];
+        for _ in 0..2 {
+            if let Some(shared) = longest(points, path, earlier, spacing) {
+                moved.extend(shared.replace(path, earlier));
+                followed += 1;
+            }
+            reverse(path);
+        }
+    }
+    for path in paths {
+        for (from, to) in &moved {
+            path.nodes.iter_mut().filter(|node| *node == from).for_each(|node| *node = *to);
+        }
+        drop_repeats(path);
+    }
+    followed
+}
+
+/// A stretch at the beginning of a path that runs along another one.
+struct Shared {
+    other: usize,
+    /// Whether the other path is walked from its last point.
+    backwards: bool,
+    /// The last point of the path that is beside the other.
+    last: usize,
+    /// The last point of the other that is beside the path, in the direction of walking.
+    other_last: usize,
+    length: f64,
+}
+
+/// The longest stretch at the beginning of `path` beside one of the `earlier` paths. None where the path
+/// shares its first step with one of them: points that coincide say where lines part better than any
+/// tolerance does.
+fn longest(points: &[DVec3], path: &Path, earlier: &[Path], spacing: f64) -> Option<Shared> {
+    let count = path.nodes.len();
+    if earlier.iter().any(|other| shares_end(other, &path.nodes[..2])) {
+        return None;
+    }
+    let mut best: Option<Shared> = None;
+    for (other, candidate) in earlier.iter().enumerate() {
+        let unlike = candidate.radius.is_some() != path.radius.is_some();
+        if unlike || shares_end(candidate, &path.nodes[count - 2..]) {
+            continue;
+        }
+        for backwards in [false, true] {
+            let walk = Walk { points, path, other: candidate, backwards, spacing };
+            let found = walk.along().map(|(last, other_last, length)| Shared {
+                other,
+                backwards,
+                last,
+                other_last,
+                length,
+            });
+            if found.as_ref().is_some_and(|new| best.as_ref().is_none_or(|old| new.length > old.length)) {
+                best = found;
+            }
+        }
+    }
+    best
+}
+
+/// Whether `other` begins or ends with this step, in either direction.
+fn shares_end(other: &Path, step: &[usize]) -> bool {
+    let is_step = |pair: &[usize]| pair == step || [pair[1], pair[0]] == step;
+    is_step(&other.nodes[..2]) || is_step(&other.nodes[other.nodes.len() - 2..])
+}
+
+/// A path and another one that it may run along, both from one end.
+struct Walk<'a> {
+    points: &'a [DVec3],
+    path: &'a Path,
+    other: &'a Path,
+    backwards: bool,
+    spacing: f64,
+}
+
+impl Walk<'_> {
+    fn other_index(&self, i: usize) -> usize {
+        if self.backwards { self.other.nodes.len() - 1 - i } else { i }
+    }
+
+    fn other_point(&self, i: usize) -> DVec3 {
+        self.points[self.other.nodes[self.other_index(i)]]
+    }
+
+    /// How far the path may run beside point `i` of the other (mm).
+    fn tolerance(&self, i: usize, in_group: bool) -> f64 {
+        let part = if in_group { PART_OF_RADIUS_IN_GROUP } else { PART_OF_RADIUS };
+        match &self.other.radius {
+            Some(radius) => part * radius[self.other_index(i)],
+            None => (PART_OF_SPACING * self.spacing).min(MOST_BY_SPACING),
+        }
+    }
+
+    /// The last point beside the other path, the other's last point, and the length (mm) of the stretch.
+    fn along(&self) -> Option<(usize, usize, f64)> {
+        let in_group = self.path.group.is_some() && self.path.group == self.other.group;
+        let first = self.points[self.path.nodes[0]];
+        if first.distance(self.other_point(0)) > self.tolerance(0, in_group) {
+            return None;
+        }
+        let (mut at, mut last, mut length) = (0, 0, 0.0);
+        let mut before = first;
+        for (i, node) in self.path.nodes.iter().enumerate().skip(1) {
+            let point = self.points[*node];
+            let step = point.distance(before);
+            let (segment, distance) = self.nearest(at, point, 2.0 * step + self.tolerance(at, in_group));
+            if distance > self.tolerance(segment, in_group) {
+                break;
+            }
+            (at, last, length, before) = (segment, i, length + step, point);
+        }
+        let shortest = SHORTEST_STRETCH * self.tolerance(0, false);
+        // A whole path ends where the other's nearest point is, else it leaves behind the segment it is
+        // beside.
+        let whole = last + 1 == self.path.nodes.len();
+        let nearer_end = whole && at + 1 < self.other.nodes.len() && {
+            before.distance(self.other_point(at + 1)) < before.distance(self.other_point(at))
+        };
+        let other_last = if nearer_end { at + 1 } else { at };
+        (last > 0 && other_last > 0 && length >= shortest).then_some((last, other_last, length))
+    }
+
+    /// The segment nearest to `point` and its distance, at most `reach` (mm) further along than segment
+    /// `from`.
+    fn nearest(&self, from: usize, point: DVec3, reach: f64) -> (usize, f64) {
+        let mut best = (from, f64::INFINITY);
+        let mut travelled = 0.0;
+        for segment in from..self.other.nodes.len() - 1 {
+            let (a, b) = (self.other_point(segment), self.other_point(segment + 1));
+            let edge = b - a;
+            let t = ((point - a).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+            let distance = point.distance(a + edge * t);
+            if distance < best.1 {
+                best = (segment, distance);
+            }
+            travelled += edge.length();
+            if travelled > reach {
+                break;
+            }
+        }
+        best
+    }
+}
+
+impl Shared {
+    /// Gives `path` the other's points; returns the ends of the path that were replaced, and by what.
+    fn replace(self, path: &mut Path, earlier: &[Path]) -> Vec<(usize, usize)> {
+        let other = &earlier[self.other];
+        let count = other.nodes.len();
+        let index = |i: usize| if self.backwards { count - 1 - i } else { i };
+        let mut moved = vec![(path.nodes[0], other.nodes[index(0)])];
+        if self.last + 1 == path.nodes.len() {
+            moved.push((path.nodes[self.last], other.nodes[index(self.other_last)]));
+        }
+        let taken = (0..=self.other_last).map(index);
+        path.nodes.splice(..=self.last, taken.clone().map(|i| other.nodes[i]));
+        if let (Some(own), Some(radius)) = (&mut path.radius, &other.radius) {
+            own.splice(..=self.last, taken.map(|i| radius[i]));
+        }
+        moved.retain(|(from, to)| from != to);
+        moved
+    }
+}
+
+fn reverse(path: &mut Path) {
+    path.nodes.reverse();
+    path.radius.iter_mut().for_each(|radius| radius.reverse());
+}
+
+fn drop_repeats(path: &mut Path) {
+    let kept: Vec<usize> =
+        (0..path.nodes.len()).filter(|i| *i == 0 || path.nodes[*i] != path.nodes[i - 1]).collect();
+    if kept.len() < path.nodes.len() {
+        path.radius = path.radius.as_ref().map(|radius| kept.iter().map(|i| radius[*i]).collect());
+        path.nodes = kept.iter().map(|i| path.nodes[*i]).collect();
+    }
+}

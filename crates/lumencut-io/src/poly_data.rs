@@ -1,0 +1,161 @@
+//! Points, lines and arrays of one VTK poly data, and the centerlines that they are.
+
+use glam::DVec3;
+
+use crate::centerlines::{Centerlines, Line, Space};
+use crate::data_array;
+use crate::error::{Error, Result};
+
+/// One array of point, cell or field data.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Array {
+    pub name: String,
+    /// Numbers per point or cell.
+    pub components: usize,
+    pub values: Vec<f64>,
+}
+
+/// The part of a poly data that centerlines are made of.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PolyData {
+    /// x, y, z of every point.
+    pub points: Vec<f64>,
+    /// The point ids of all lines, one line after the other.
+    pub connectivity: Vec<f64>,
+    /// Where each line ends in `connectivity`.
+    pub ends: Vec<f64>,
+    /// Cells that come before the lines in the cell data.
+    pub cells_before_lines: usize,
+    /// Cells that are no lines.
+    pub other_cells: usize,
+    pub point_arrays: Vec<Array>,
+    pub cell_arrays: Vec<Array>,
+}
+
+const RADIUS_NAMES: [&str; 4] = ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
+const GROUP_NAME: &str = "GroupIds";
+
+/// Whether the array of this name is read from point or cell data.
+pub fn wanted(name: &str) -> bool {
+    name == GROUP_NAME || name.to_ascii_lowercase().contains("radi")
+}
+
+/// The space that the text `LPS` or `RAS` names.
+pub fn space_of(text: &str) -> Option<Space> {
+    match text.trim().trim_matches('\0').to_ascii_uppercase().as_str() {
+        "LPS" => Some(Space::Lps),
+        "RAS" => Some(Space::Ras),
+        _ => None,
+    }
+}
+
+impl PolyData {
+    /// Adds the lines of this poly data to `out`.
+    ///
+    /// # Errors
+    /// Where indices, counts or arrays do not fit each other, or points have no lines.
+    pub fn into_centerlines(self, out: &mut Centerlines) -> Result<()> {
+        let (points, rest) = self.points.as_chunks::<3>();
+        if !rest.is_empty() {
+            return Err(Error::new("points", format!("{} coordinates", self.points.len()), "3 per point"));
+        }
+        if self.ends.is_empty() && !points.is_empty() {
+            let found = format!("{} point(s), {} other cell(s) and no line", points.len(), self.other_cells);
+            return Err(Error::new("lines", found, "at least one line through the points")
+                .mend("give a file of centerlines, not of points or surfaces"));
+        }
+        let radius = self.radius(points.len(), &mut out.notes)?;
+        let groups = self.groups(points.len())?;
+        let mut start = 0;
+        for (cell, end) in self.ends.iter().enumerate() {
+            let end = data_array::index("offsets of the lines", *end, self.connectivity.len() + 1)?;
+            let ids = self.connectivity.get(start..end).ok_or_else(|| {
+                Error::new("offsets of the lines", format!("{end} after {start}"), "offsets that never fall")
+            })?;
+            start = end;
+            let index = |id: &f64| data_array::index("point ids of the lines", *id, points.len());
+            let ids = ids.iter().map(index).collect::<Result<Vec<_>>>()?;
+            let line = |ids: &[usize], group| Line {
+                points: ids.iter().map(|i| DVec3::from(points[*i])).collect(),
+                radius: radius.map(|r| ids.iter().map(|i| r[*i]).collect()),
+                group,
+                name: None,
+            };
+            match &groups {
+                Groups::None => out.lines.push(line(&ids, None)),
+                Groups::OfLines(groups) => out.lines.push(line(&ids, Some(groups[cell] as i64))),
+                Groups::OfPoints(groups) => {
+                    out.lines.extend(runs(&ids, groups).map(|(run, group)| line(run, Some(group))));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The radius of every point, from the array whose name says so most plainly.
+    fn radius(&self, points: usize, notes: &mut Vec<String>) -> Result<Option<&[f64]>> {
+        let scalar = |array: &&Array| array.components == 1;
+        let named = RADIUS_NAMES.iter().find_map(|name| {
+            self.point_arrays.iter().filter(scalar).find(|array| array.name.eq_ignore_ascii_case(name))
+        });
+        let like = || {
+            let is_radius = |array: &&Array| array.name.to_ascii_lowercase().contains("radi");
+            self.point_arrays.iter().filter(scalar).find(is_radius)
+        };
+        let Some(array) = named.or_else(like) else { return Ok(None) };
+        one_value_each(array, points, "point")?;
+        let note = format!("radius from the point array '{}'", array.name);
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+        Ok(Some(&array.values))
+    }
+
+    fn groups(&self, points: usize) -> Result<Groups<'_>> {
+        let of_name =
+            |arrays: &'_ [Array]| arrays.iter().position(|a| a.name == GROUP_NAME && a.components == 1);
+        if let Some(i) = of_name(&self.cell_arrays) {
+            let array = &self.cell_arrays[i];
+            let range = self.cells_before_lines..self.cells_before_lines.saturating_add(self.ends.len());
+            let values = array.values.get(range).ok_or_else(|| {
+                let found = format!("{} values", array.values.len());
+                Error::new(
+                    "cell array 'GroupIds'",
+                    found,
+                    format!("one per cell, of {} lines", self.ends.len()),
+                )
+            })?;
+            return Ok(Groups::OfLines(values));
+        }
+        let Some(i) = of_name(&self.point_arrays) else { return Ok(Groups::None) };
+        one_value_each(&self.point_arrays[i], points, "point")?;
+        Ok(Groups::OfPoints(&self.point_arrays[i].values))
+    }
+}
+
+enum Groups<'a> {
+    None,
+    OfLines(&'a [f64]),
+    OfPoints(&'a [f64]),
+}
+
+fn one_value_each(array: &Array, count: usize, of: &str) -> Result<()> {
+    if array.values.len() == count {
+        return Ok(());
+    }
+    let found = format!("{} values for {count} {of}s", array.values.len());
+    Err(Error::new(format!("{of} array '{}'", array.name), found, format!("one value per {of}")))
+}
+
+/// The stretches of a line that lie in one group each; a stretch begins with the last point of the one
+/// before.
+fn runs<'a>(ids: &'a [usize], groups: &'a [f64]) -> impl Iterator<Item = (&'a [usize], i64)> {
+    let mut start = 0;
+    std::iter::from_fn(move || {
+        let group = groups[*ids.get(start)?];
+        let length = ids[start..].iter().take_while(|id| groups[**id] == group).count();
+        let begin = start.saturating_sub(1);
+        start += length.max(1);
+        Some((&ids[begin..start], group as i64))
+    })
+}

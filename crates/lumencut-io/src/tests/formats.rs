@@ -1,0 +1,212 @@
+//! Every encoding of every format gives the same lines; what is odd is noted, what is wrong is named.
+
+use glam::DVec3;
+
+use super::sample::{self, RADIUS};
+use crate::{Centerlines, Space, read};
+
+fn assert_is_sample(read: &Centerlines, what: &str) {
+    assert_eq!(read.space, Some(Space::Ras), "{what}");
+    assert_eq!(read.lines.len(), 2, "{what}");
+    assert_eq!(read.lines[0].points, sample::line(0), "{what}");
+    assert_eq!(read.lines[1].points, sample::line(1), "{what}");
+    assert_eq!(read.lines[0].radius.as_deref(), Some(&RADIUS[..3]), "{what}");
+    assert_eq!(read.lines[1].radius.as_deref(), Some(&RADIUS[3..]), "{what}");
+}
+
+fn message(bytes: &[u8], name: &str) -> String {
+    read(bytes, name).unwrap_err().to_string()
+}
+
+fn replaced(bytes: Vec<u8>, from: &str, to: &str) -> Vec<u8> {
+    let text = String::from_utf8(bytes).unwrap();
+    assert!(text.contains(from), "{from} is not in {text}");
+    text.replace(from, to).into_bytes()
+}
+
+fn ascii_vtp() -> Vec<u8> {
+    sample::vtp(sample::styles()[0])
+}
+
+#[test]
+fn every_vtp_encoding_gives_the_same_lines() {
+    for style in sample::styles() {
+        let read = read(&sample::vtp(style), "a.vtp").unwrap_or_else(|error| panic!("{style:?}: {error}"));
+        assert_is_sample(&read, &format!("{style:?}"));
+        assert_eq!(read.lines.iter().map(|l| l.group).collect::<Vec<_>>(), [Some(4), Some(5)]);
+        assert_eq!(read.notes, ["radius from the point array 'MaximumInscribedSphereRadius'"]);
+    }
+}
+
+#[test]
+fn every_legacy_form_gives_the_same_lines() {
+    for (binary, offsets) in [(false, false), (false, true), (true, false), (true, true)] {
+        let read = read(&sample::vtk(binary, offsets), "a.vtk").unwrap();
+        assert_is_sample(&read, &format!("binary {binary}, offsets {offsets}"));
+        assert_eq!(read.lines.iter().map(|l| l.group).collect::<Vec<_>>(), [Some(4), Some(5)]);
+    }
+}
+
+#[test]
+fn markups_are_read_in_their_space_and_unit() {
+    for (space, unit, per_mm) in [("RAS", "mm", 1.0), ("0", "cm", 0.125), ("RAS", "um", 1.0)] {
+        let read = read(&sample::mrk_json(space, unit, per_mm), "a.mrk.json").unwrap();
+        let scale =
+            per_mm * [("mm", 1.0), ("cm", 10.0), ("um", 1e-3)].iter().find(|u| u.0 == unit).unwrap().1;
+        for (i, line) in read.lines.iter().enumerate() {
+            let expected: Vec<DVec3> = sample::line(i).into_iter().map(|p| p * scale).collect();
+            assert!(line.points.iter().zip(&expected).all(|(a, b)| a.distance(*b) < 1e-12), "{unit}");
+            assert_eq!(line.points.len(), expected.len());
+        }
+        assert_eq!(read.space, Some(Space::Ras));
+        assert_eq!(read.lines[1].radius.as_deref(), Some(&RADIUS[3..]));
+        assert_eq!(read.lines[1].name.as_deref(), Some("curve 3"));
+        assert_eq!(read.notes.iter().any(|note| note.contains("converted")), unit != "mm");
+    }
+    assert_eq!(read(&sample::mrk_json("LPS", "mm", 1.0), "a.json").unwrap().space, Some(Space::Lps));
+    let silent = replaced(sample::mrk_json("LPS", "mm", 1.0), "\"coordinateSystem\": \"LPS\",", "");
+    assert_eq!(read(&silent, "a.json").unwrap().space, None);
+    let expected = "a.json: markup 0: coordinateSystem: found 'IJK'; expected 'LPS' or 'RAS'";
+    assert_eq!(message(&sample::mrk_json("IJK", "mm", 1.0), "a.json"), expected);
+    assert!(message(&sample::mrk_json("LPS", "inch", 1.0), "a.json").contains("coordinateUnits"));
+}
+
+#[test]
+fn markups_in_two_spaces_are_brought_into_the_first() {
+    let ras = String::from_utf8(sample::mrk_json("RAS", "mm", 1.0)).unwrap();
+    let lps = String::from_utf8(sample::mrk_json("LPS", "mm", 1.0)).unwrap();
+    let second = |text: &str| text.find("{\"type\": \"Curve\", \"name\": \"curve 3\"").unwrap();
+    let mixed = ras[..second(&ras)].to_owned() + &lps[second(&lps)..];
+    let read = read(mixed.as_bytes(), "a.mrk.json").unwrap();
+    assert_is_sample(&read, "second markup in LPS");
+    assert!(read.notes.iter().any(|note| note.contains("different spaces")));
+}
+
+#[test]
+fn closed_curves_close_and_other_markups_are_left_out() {
+    let closed = replaced(
+        sample::mrk_json("RAS", "mm", 1.0),
+        "\"type\": \"Curve\", \"name\": \"curve 3\"",
+        "\"type\": \"ClosedCurve\"",
+    );
+    let line = &read(&closed, "a.mrk.json").unwrap().lines[1];
+    assert_eq!(line.points.first(), line.points.last());
+    assert_eq!(line.points.len(), 5);
+    let fiducial = replaced(
+        sample::mrk_json("RAS", "mm", 1.0),
+        "\"type\": \"Curve\", \"name\": \"curve 3\"",
+        "\"type\": \"Fiducial\"",
+    );
+    let read = read(&fiducial, "a.mrk.json").unwrap();
+    assert_eq!(read.lines.len(), 1);
+    assert!(read.notes.iter().any(|note| note.contains("'Fiducial'")));
+    let none = replaced(fiducial, "\"type\": \"Curve\"", "\"type\": \"Plane\"");
+    assert!(message(&none, "a.mrk.json").contains("'Plane', 'Fiducial'; expected a markup of type Curve"));
+}
+
+#[test]
+fn control_points_without_a_place_are_left_out_with_their_radius() {
+    let bytes = replaced(
+        sample::mrk_json("RAS", "mm", 1.0),
+        "{\"position\": [1.0, 2.0, 8.0], \"positionStatus\": \"defined\"}",
+        "{\"positionStatus\": \"undefined\"}",
+    );
+    let read = read(&bytes, "a.mrk.json").unwrap();
+    assert_eq!(read.lines[1].points.len(), 3);
+    assert_eq!(read.lines[1].radius.as_deref(), Some(&[2.0, 1.5, 0.5][..]));
+    assert!(read.notes.iter().any(|note| note.starts_with("1 control point(s)")));
+}
+
+#[test]
+fn points_without_lines_are_named() {
+    let bytes = replaced(ascii_vtp(), "NumberOfLines=\"2\"", "NumberOfLines=\"0\" NumberOfVerts=\"1\"");
+    let text = message(&bytes, "frame.vtp");
+    assert!(
+        text.starts_with("frame.vtp: lines: found 7 point(s), 1 other cell(s) and no line; expected"),
+        "{text}"
+    );
+}
+
+#[test]
+fn nan_points_wild_ids_and_negative_radii_are_named() {
+    let nan = replaced(ascii_vtp(), "-4\n 2\n 8.125", "-4\n nan\n 8.125");
+    assert!(message(&nan, "a.vtp").contains("points of line 0: found [-4, NaN, 8.125] at point 2"));
+    let far = replaced(ascii_vtp(), "-4\n 2\n 8.125", "-4\n 2e300\n 8.125");
+    assert!(message(&far, "a.vtp").contains("at point 2; expected coordinates of at most 1e6 mm"));
+    let id = replaced(ascii_vtp(), ">0\n 1\n 2\n", ">0\n 7\n 2\n");
+    assert!(
+        message(&id, "a.vtp")
+            .contains("point ids of the lines: found 7; expected a whole number from 0 to below 7")
+    );
+    let radius = replaced(ascii_vtp(), "0.75", "-0.75");
+    assert!(message(&radius, "a.vtp").contains("radius of line 1: found -0.75 at point 2"));
+    let offset = replaced(ascii_vtp(), ">3\n 7\n", ">7\n 3\n");
+    assert!(message(&offset, "a.vtp").contains("offsets of the lines"));
+}
+
+#[test]
+fn lies_about_sizes_are_named() {
+    let huge = replaced(ascii_vtp(), "NumberOfPoints=\"7\"", "NumberOfPoints=\"4000000000000000000\"");
+    assert!(message(&huge, "a.vtp").contains("21 numbers"));
+    let huge = replaced(sample::vtk(false, false), "POINTS 7 float", "POINTS 18446744073709551615 float");
+    assert!(message(&huge, "a.vtk").starts_with("a.vtk: POINTS: found"));
+    let mut deep = "<VTKFile type=\"PolyData\">".to_owned();
+    deep.push_str(&"<a>".repeat(100_000));
+    assert!(message(deep.as_bytes(), "a.vtp").contains("nested deeper than"));
+    let deep = format!("{{\"markups\": {}", "[".repeat(100_000));
+    assert!(message(deep.as_bytes(), "a.json").contains("damaged JSON"));
+}
+
+#[test]
+fn a_bomb_is_refused_by_its_size() {
+    use crate::compression::{Budget, Compressor};
+    let zeros = vec![0; 1 << 20];
+    let packed = sample::pack(Compressor::Zlib, &zeros);
+    let mut out = Vec::new();
+    let error = Compressor::Zlib.unpack("array", &packed, 1000, &mut out).unwrap_err();
+    assert!(error.to_string().contains("another size than 1000 bytes") && out.len() <= 1001);
+    let mut budget = Budget::of_file(packed.len());
+    assert!(budget.take("array", 1 << 20).is_ok());
+    let error = budget.take("array", 1 << 40).unwrap_err();
+    assert!(error.to_string().contains("1099511627776 bytes to unpack"), "{error}");
+}
+
+#[test]
+fn groups_of_points_cut_a_line_where_the_group_changes() {
+    let bytes = replaced(ascii_vtp(), "Name=\"GroupIds\"", "Name=\"Other\"");
+    let bytes = replaced(bytes, "Name=\"Abscissas\"", "Name=\"GroupIds\"");
+    let bytes = replaced(bytes, &"0\n ".repeat(7), "1 1 1 1 1 3 3");
+    let read = read(&bytes, "a.vtp").unwrap();
+    let lines: Vec<_> = read.lines.iter().map(|l| (l.points.len(), l.group)).collect();
+    assert_eq!(lines, [(3, Some(1)), (2, Some(1)), (3, Some(3))]);
+    assert_eq!(read.lines[1].points.last(), read.lines[2].points.first());
+}
+
+#[test]
+fn repeated_points_and_lines_of_one_place_are_dropped_and_noted() {
+    let bytes =
+        replaced(sample::vtk(false, false), "LINES 2 9\n3 0 1 2 4 3", "LINES 3 13\n4 0 1 1 2 2 5 5 4 3");
+    let bytes = replaced(bytes, "CELL_DATA 3", "CELL_DATA 4");
+    let bytes = replaced(bytes, "9 4 5", "9 4 5 6");
+    let read = read(&bytes, "a.vtk");
+    let read = read.unwrap();
+    assert_eq!(read.lines.len(), 2);
+    assert_eq!(read.lines[0].points, sample::line(0));
+    assert_eq!(read.lines[0].radius.as_deref(), Some(&RADIUS[..3]));
+    assert!(read.notes.contains(&"1 line(s) of fewer than two different points were dropped".to_owned()));
+    assert!(read.notes.contains(&"2 point(s) equal to the one before were dropped".to_owned()));
+}
+
+#[test]
+fn content_that_is_no_centerline_file_is_named() {
+    assert!(message(b"", "a.vtp").contains("an empty file"));
+    assert!(message(b"GIF89a", "a.vtp").contains("expected a VTK XML file"));
+    assert!(message(b"GIF89a", "a.gif").contains("expected a .vtp, legacy .vtk or .mrk.json file"));
+    let grid = replaced(ascii_vtp(), "type=\"PolyData\"", "type=\"ImageData\"");
+    assert_eq!(
+        message(&grid, "a.vtp"),
+        "a.vtp: found a VTK XML file of type 'ImageData'; expected type 'PolyData'"
+    );
+    let grid = replaced(sample::vtk(false, false), "POLYDATA", "STRUCTURED_GRID");
+    assert!(message(&grid, "a.vtk").contains("DATASET: found 'STRUCTURED_GRID'; expected POLYDATA"));
+}

@@ -1,0 +1,161 @@
+//! The elements of a VTK XML file: what arrays it declares and where their content stands. No content is
+//! decoded.
+
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+
+use crate::error::{Error, Result, excerpt};
+
+/// The attributes of an element that the readers use.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes(Vec<(String, String)>);
+
+impl Attributes {
+    /// The value of the attribute `name`.
+    pub fn get(&self, name: &str) -> Option<&str> {
+        self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value.trim())
+    }
+
+    /// The value of the attribute `name` as a count; 0 where it is missing.
+    ///
+    /// # Errors
+    /// Where the value is no count.
+    pub fn count(&self, name: &str) -> Result<usize> {
+        let text = self.get(name).unwrap_or("0");
+        text.parse().map_err(|_| Error::new(name, excerpt(text), "a whole number from 0"))
+    }
+}
+
+/// One `DataArray` or `Array`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Declared {
+    /// The element that it stands in, such as `Points` or `FieldData`.
+    pub section: String,
+    pub attributes: Attributes,
+    /// The text inside, for inline data.
+    pub text: String,
+}
+
+/// One `Piece` of a poly data.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Piece {
+    pub attributes: Attributes,
+    pub arrays: Vec<Declared>,
+}
+
+/// A VTK XML file without its appended data.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Document {
+    /// The attributes of `VTKFile`.
+    pub file: Attributes,
+    pub field_arrays: Vec<Declared>,
+    pub pieces: Vec<Piece>,
+    /// Whether the end of `VTKFile` was met.
+    pub complete: bool,
+}
+
+/// Elements inside each other, beyond which a file is no VTK file; they nest 6 deep.
+const DEEPEST: usize = 32;
+
+/// The elements of `text`, which may end at its appended data.
+///
+/// # Errors
+/// Where the text is no XML, nests without end or is no VTK XML file.
+pub fn document(text: &str) -> Result<Document> {
+    let mut reader = Reader::from_str(text);
+    let mut walk = Walk::default();
+    loop {
+        match reader.read_event().map_err(|error| damaged(&reader, &error.to_string()))? {
+            Event::Start(element) => walk.open(&element)?,
+            Event::Empty(element) => {
+                walk.open(&element)?;
+                walk.close();
+            }
+            Event::End(_) => walk.close(),
+            Event::Text(content) => walk.text(&content),
+            Event::CData(_) | Event::GeneralRef(_) if walk.inside_array() => {
+                return Err(Error::new("DataArray", "an entity or CDATA", "plain text"));
+            }
+            Event::Eof => break,
+            _ => {}
+        }
+    }
+    if walk.document.file.get("type").is_none() {
+        return Err(Error::new("", "XML without a VTKFile element and its type", "a VTK XML poly data file"));
+    }
+    Ok(walk.document)
+}
+
+fn damaged(reader: &Reader<&[u8]>, cause: &str) -> Error {
+    let found = format!("damaged XML near byte {} ({cause})", reader.error_position());
+    Error::truncated("", found, "a VTK XML file")
+}
+
+#[derive(Default)]
+struct Walk {
+    document: Document,
+    open: Vec<String>,
+}
+
+impl Walk {
+    fn open(&mut self, element: &BytesStart) -> Result<()> {
+        if self.open.len() == DEEPEST {
+            let found = format!("elements nested deeper than {DEEPEST}");
+            return Err(Error::new("", found, "a VTK XML file"));
+        }
+        let name = element.name().as_ref().to_owned();
+        let attributes = attributes(element)?;
+        let parent = self.open.last().map_or("", String::as_str);
+        match name.as_str() {
+            "VTKFile" if self.open.is_empty() => self.document.file = attributes,
+            "Piece" => self.document.pieces.push(Piece { attributes, arrays: Vec::new() }),
+            "DataArray" | "Array" => {
+                let array = Declared { section: parent.to_owned(), attributes, text: String::new() };
+                match self.document.pieces.last_mut() {
+                    Some(piece) if parent != "FieldData" => piece.arrays.push(array),
+                    _ => self.document.field_arrays.push(array),
+                }
+            }
+            _ => {}
+        }
+        self.open.push(name);
+        Ok(())
+    }
+
+    fn close(&mut self) {
+        self.open.pop();
+        self.document.complete = self.open.is_empty();
+    }
+
+    fn inside_array(&self) -> bool {
+        self.open.last().is_some_and(|name| name == "DataArray" || name == "Array")
+    }
+
+    /// Keeps text that stands directly in an array; information keys inside it have text of their own.
+    fn text(&mut self, content: &str) {
+        if !self.inside_array() {
+            return;
+        }
+        let in_field = self.open.iter().rev().nth(1).is_some_and(|parent| parent == "FieldData");
+        let piece = self.document.pieces.last_mut().filter(|_| !in_field);
+        let arrays = piece.map_or(&mut self.document.field_arrays, |piece| &mut piece.arrays);
+        if let Some(array) = arrays.last_mut() {
+            array.text.push_str(content);
+        }
+    }
+}
+
+fn attributes(element: &BytesStart) -> Result<Attributes> {
+    let wrong = |cause: String| Error::new("", format!("damaged XML attributes ({cause})"), "a VTK XML file");
+    element
+        .attributes()
+        .map(|attribute| {
+            let attribute = attribute.map_err(|error| wrong(error.to_string()))?;
+            let value = attribute
+                .normalized_value(quick_xml::XmlVersion::Implicit1_0)
+                .map_err(|error| wrong(error.to_string()))?;
+            Ok((attribute.key.as_ref().to_owned(), value.into_owned()))
+        })
+        .collect::<Result<_>>()
+        .map(Attributes)
+}

@@ -1,0 +1,195 @@
+"""Volume files: one room per format, one door for all of them."""
+
+from __future__ import annotations
+
+import logging
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import FileError, FormatError
+from lumencut.volume import Volume
+from lumencut.volume_files.dicom import open_dicom
+from lumencut.volume_files.dicom_headers import is_dicom
+from lumencut.volume_files.memory import as_volume
+from lumencut.volume_files.metaimage import open_metaimage
+from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
+from lumencut.volume_files.nrrd import open_nrrd
+from lumencut.volume_files.opened import Progress, VolumeFile, refusing
+
+__all__ = ["VolumeReport", "as_volume", "inspect_volume", "read_volume"]
+
+_log = logging.getLogger("lumencut")
+_KNOWN = (
+    "a DICOM folder or file, NIfTI (.nii, .nii.gz, .hdr + .img), "
+    "NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class VolumeReport:
+    """What a volume file holds.
+
+    Attributes
+    ----------
+    path : Path
+        The file or folder.
+    format : str
+        Such as ``NIfTI-1`` or ``DICOM``.
+    size : tuple of 3 int
+        Number of voxels along i, j, k.
+    spacing : ndarray, shape (3,)
+        Distance between neighbouring voxels along i, j, k (mm).
+    dtype : numpy.dtype
+        Type of the voxels as read; as stored if the values were not asked for.
+    space : str
+        The patient space as the file states it.
+    world_from_index : ndarray, shape (4, 4)
+        Affine from index (i, j, k) to world (mm, LPS).
+    value_range : tuple of 2 float, or None
+        Smallest and largest finite value; None if there is none or the values were not asked for.
+    notes : tuple of str
+        Whatever is odd or was assumed.
+    """
+
+    path: Path
+    format: str
+    size: tuple[int, int, int]
+    spacing: npt.NDArray[np.float64]
+    dtype: np.dtype[Any]
+    space: str
+    world_from_index: npt.NDArray[np.float64]
+    value_range: tuple[float, float] | None
+    notes: tuple[str, ...]
+
+
+def read_volume(
+    path: str | os.PathLike[str], *, series: str | int | None = None, progress: Progress | None = None
+) -> Volume:
+    """Read a volume; nothing is resampled, shear and flips are kept.
+
+    Parameters
+    ----------
+    path : str or path
+        A DICOM folder or file, NIfTI, NRRD or MetaImage file.
+    series : str or int, optional
+        Number or UID of the DICOM series to read where a folder holds several.
+    progress : callable, optional
+        Called with (slices read, slices in all).
+
+    Returns
+    -------
+    Volume
+        The voxels on their grid in world space (mm, LPS). What was assumed is logged as a warning.
+
+    Raises
+    ------
+    FormatError
+        For an unknown format, damaged files and whatever cannot be one regular volume.
+    FileError
+        For a file that is missing or cannot be read.
+    """
+    file = _open(Path(path), None if series is None else str(series))
+    told = progress if progress is not None else _untold
+    volume = file.volume(told)
+    if file.format != "DICOM":
+        told(volume.size[2], volume.size[2])
+    for note in file.notes:
+        _log.warning("%s: %s", file.path, note)
+    return volume
+
+
+def inspect_volume(
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    values: bool = True,
+    progress: Progress | None = None,
+) -> VolumeReport:
+    """Tell what a volume file holds, and what is odd about it.
+
+    Parameters
+    ----------
+    path : str or path
+        A DICOM folder or file, NIfTI, NRRD or MetaImage file.
+    series : str or int, optional
+        Number or UID of the DICOM series where a folder holds several.
+    values : bool, default True
+        Read the voxels too, for their range and soundness; False reads headers only.
+    progress : callable, optional
+        Called with (slices read, slices in all).
+
+    Returns
+    -------
+    VolumeReport
+        Format, grid, values and oddities.
+    """
+    file = _open(Path(path), None if series is None else str(series))
+    dtype, value_range = file.dtype.newbyteorder("="), None
+    if values:
+        array = file.volume(progress if progress is not None else _untold).array
+        dtype, value_range = array.dtype, _finite_range(array, file.notes)
+    spacing = np.linalg.norm(file.world_from_index[:3, :3], axis=0)
+    return VolumeReport(
+        path=file.path,
+        format=file.format,
+        size=file.size,
+        spacing=np.asarray(spacing, dtype=np.float64),
+        dtype=dtype,
+        space=file.space,
+        world_from_index=file.world_from_index,
+        value_range=value_range,
+        notes=tuple(file.notes),
+    )
+
+
+def _untold(done: int, total: int) -> None:
+    """Report progress to nobody."""
+
+
+def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, float] | None:
+    low, high, odd = np.inf, -np.inf, 0
+    for slab in array:
+        finite = slab[np.isfinite(slab)] if array.dtype.kind == "f" else slab
+        odd += slab.size - finite.size
+        if finite.size:
+            low, high = min(low, float(finite.min())), max(high, float(finite.max()))
+    if odd:
+        notes.append(f"{odd} of {array.size} voxels are not finite (NaN or infinite)")
+    return (low, high) if low <= high else None
+
+
+def _open(path: Path, series: str | None) -> VolumeFile:
+    """Find the room by what the file holds, by its name only where the content does not tell."""
+    if not path.exists():
+        raise FileError(str(path), "no such file or folder", _KNOWN)
+    notes: list[str] = []
+    with refusing(path, "volume", notes):
+        if path.is_dir():
+            return open_dicom(path, series).checked()
+        head = head_bytes(path, 352)
+        if head.startswith(b"NRRD"):
+            file = open_nrrd(path)
+        elif is_dicom(head):
+            file = open_dicom(path, series)
+        elif _is_metaimage(path, head):
+            file = open_metaimage(path)
+        elif nifti_kind(head) is not None or _has_nifti_name(path):
+            file = open_nifti(path)
+        else:
+            raise FormatError(str(path), "a file of no known format", _KNOWN)
+    file.notes.extend(note for note in notes if note not in file.notes)
+    return file.checked()
+
+
+def _is_metaimage(path: Path, head: bytes) -> bool:
+    return path.suffix.lower() in (".mha", ".mhd") or b"ObjectType = Image" in head
+
+
+def _has_nifti_name(path: Path) -> bool:
+    name = path.name.lower().removesuffix(".gz")
+    return name.endswith((".nii", ".hdr", ".img"))

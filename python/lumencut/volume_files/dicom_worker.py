@@ -1,0 +1,46 @@
+"""The decoder's own process: reads paths line by line, answers with a line of JSON and the pixels."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from lumencut.volume_files.dicom_pixels import decoded
+
+_MEMORY = 4 << 30
+"""Far above what one slice needs, far below what a damaged one may ask for."""
+
+
+def _limit_memory() -> None:
+    try:
+        import resource
+    except ImportError:  # Windows has no such limit
+        return
+    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+    limit = _MEMORY if hard == resource.RLIM_INFINITY else min(_MEMORY, hard)
+    resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+
+
+def main() -> None:
+    """Decode until the input ends."""
+    _limit_memory()
+    # GDCM may print; nothing but answers may reach the pipe.
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    for line in sys.stdin.buffer:
+        try:
+            pixels = np.ascontiguousarray(decoded(Path(json.loads(line)), "gdcm"))
+            data = pixels.tobytes()
+            head: dict[str, object] = {"shape": pixels.shape, "dtype": pixels.dtype.str, "length": len(data)}
+        except Exception as error:
+            data, head = b"", {"error": " ".join(str(error).split())[:200] or type(error).__name__}
+        answers.write(json.dumps(head).encode() + b"\n" + data)
+        answers.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,147 @@
+"""Images of other packages in memory → volumes, without an import and, where the package permits, a copy.
+
+An image only exists where its package is loaded: whatever is needed from it is found in `sys.modules`.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import VolumeError
+from lumencut.volume import Volume
+
+_ACCEPTED = "a lumencut.Volume, SimpleITK, itk, nibabel or vtkImageData image"
+
+
+def as_volume(image: Any) -> Volume:
+    """Give a volume on the voxels and the grid of an image in memory.
+
+    Parameters
+    ----------
+    image : Volume, SimpleITK.Image, itk.Image, nibabel image or vtkImageData
+        A 3-dimensional image of one number per voxel, oblique or flipped as it may be.
+
+    Returns
+    -------
+    Volume
+        Shares the image's voxels where its package permits. A SimpleITK image that is changed later leaves
+        the volume as it was.
+
+    Raises
+    ------
+    VolumeError
+        For anything else, bare arrays (which have no grid), colour, vectors or several time points.
+    """
+    if isinstance(image, Volume):
+        return image
+    if isinstance(image, np.ndarray):
+        mend = "give Volume(array, spacing=…)"
+        raise VolumeError("image", f"a bare array of shape {image.shape}", _ACCEPTED, mend)
+    for package, accepts, convert in _ROOMS:
+        if any(_package(cls) == package for cls in type(image).__mro__) and accepts(image):
+            return convert(image)
+    raise VolumeError("image", f"{type(image).__module__}.{type(image).__name__}", _ACCEPTED)
+
+
+def _package(cls: type) -> str:
+    return cls.__module__.partition(".")[0]
+
+
+def _affine(spacing: Any, origin: Any, direction: Any, first: Any) -> npt.NDArray[np.float64]:
+    """World from index, where `first` is the first voxel's index on the grid that the origin belongs to."""
+    affine = np.eye(4)
+    affine[:3, :3] = np.asarray(direction, dtype=np.float64).reshape(3, 3) * np.asarray(
+        spacing, dtype=np.float64
+    )
+    affine[:3, 3] = np.asarray(origin, dtype=np.float64) + affine[:3, :3] @ np.asarray(
+        first, dtype=np.float64
+    )
+    return affine
+
+
+def _require(name: str, dimension: int, components: int) -> None:
+    if dimension != 3:
+        raise VolumeError(name, f"{dimension} dimensions", "3", "take one time point out of it")
+    if components != 1:
+        raise VolumeError(name, f"{components} components per voxel", "one", "take one component out of it")
+
+
+class _Kept:
+    """Lends memory to numpy and keeps its owner alive."""
+
+    def __init__(self, array: npt.NDArray[Any], owner: object) -> None:
+        self.__array_interface__ = array.__array_interface__
+        self.owner = owner
+
+
+def _from_simpleitk(image: Any) -> Volume:
+    _require("SimpleITK image", image.GetDimension(), image.GetNumberOfComponentsPerPixel())
+    package = sys.modules["SimpleITK"]
+    if "complex" in image.GetPixelIDTypeAsString() or "label" in image.GetPixelIDTypeAsString():
+        raise VolumeError("SimpleITK image", image.GetPixelIDTypeAsString(), "one number per voxel")
+    view = package.GetArrayViewFromImage(image)
+    # The second image shares the voxels, copy-on-write: they outlive whatever happens to the caller's image.
+    voxels = np.asarray(_Kept(view, package.Image(image)))
+    affine = _affine(image.GetSpacing(), image.GetOrigin(), image.GetDirection(), (0, 0, 0))
+    return Volume(voxels, world_from_index=affine)
+
+
+def _from_itk(image: Any) -> Volume:
+    _require("itk image", image.GetImageDimension(), image.GetNumberOfComponentsPerPixel())
+    package = sys.modules["itk"]
+    view = package.array_view_from_image(image)
+    first = [int(image.GetBufferedRegion().GetIndex()[axis]) for axis in range(3)]
+    direction = package.array_from_matrix(image.GetDirection())
+    spacing, origin = ([float(v[axis]) for axis in range(3)] for v in (image.GetSpacing(), image.GetOrigin()))
+    voxels = np.asarray(_Kept(view, (view, image)))
+    return Volume(voxels, world_from_index=_affine(spacing, origin, direction, first))
+
+
+def _from_nibabel(image: Any) -> Volume:
+    from lumencut.volume_files.nifti import LPS_FROM_RAS
+
+    shape = tuple(image.shape)
+    _require("nibabel image", 3 if all(length == 1 for length in shape[3:]) else len(shape), 1)
+    _require("nibabel image", min(len(shape), 3), 1)
+    if image.affine is None:
+        raise VolumeError("nibabel image", "no affine", "an affine", "give Volume(array, world_from_index=…)")
+    voxels = np.asanyarray(image.dataobj).reshape(shape[:3], order="A")
+    return Volume(
+        np.asarray(voxels).T, world_from_index=LPS_FROM_RAS @ np.asarray(image.affine, dtype=np.float64)
+    )
+
+
+def _from_vtk(image: Any) -> Volume:
+    scalars = image.GetPointData().GetScalars()
+    if scalars is None:
+        raise VolumeError(
+            "vtkImageData", "no point scalars", "one number per point", "set the active scalars"
+        )
+    _require("vtkImageData", 3, scalars.GetNumberOfComponents())
+    ni, nj, nk = image.GetDimensions()
+    numpy_support = importlib.import_module("vtkmodules.util.numpy_support")
+    voxels = numpy_support.vtk_to_numpy(scalars)
+    if voxels.size != ni * nj * nk:
+        raise VolumeError("vtkImageData", f"{voxels.size} scalars", f"{ni} × {nj} × {nk}")
+    matrix = image.GetDirectionMatrix()
+    direction = [[matrix.GetElement(row, column) for column in range(3)] for row in range(3)]
+    affine = _affine(image.GetSpacing(), image.GetOrigin(), direction, image.GetExtent()[::2])
+    return Volume(voxels.reshape(nk, nj, ni), world_from_index=affine)
+
+
+def _has(*names: str) -> Callable[[Any], bool]:
+    return lambda image: all(hasattr(image, name) for name in names)
+
+
+_ROOMS: tuple[tuple[str, Callable[[Any], bool], Callable[[Any], Volume]], ...] = (
+    ("SimpleITK", _has("GetPixelIDTypeAsString", "GetDirection"), _from_simpleitk),
+    ("itk", _has("GetBufferedRegion", "GetDirection"), _from_itk),
+    ("nibabel", _has("affine", "dataobj"), _from_nibabel),
+    ("vtkmodules", _has("GetDirectionMatrix", "GetPointData", "GetExtent"), _from_vtk),
+)

@@ -1,0 +1,160 @@
+"""NIfTI-1 and -2, single files and pairs, gzipped or not: the RAS+ affine becomes LPS, voxels stay."""
+
+from __future__ import annotations
+
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import FormatError
+from lumencut.volume_files.opened import Progress, VolumeFile
+from lumencut.volume_files.payload import Codec, read_voxels
+from lumencut.volume_files.rescale import is_integral, rescaled
+
+LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
+
+_HEADER_BYTES = {348: "NIfTI-1", 540: "NIfTI-2"}
+_MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
+
+
+def open_nifti(path: Path) -> VolumeFile:
+    """Read the header of a NIfTI file or of either file of a pair."""
+    header_path = _partner(path, ".img", ".hdr")
+    header, kind, paired = _header(header_path)
+    data_path = _partner(path, ".hdr", ".img") if paired else header_path
+    notes: list[str] = []
+    size = _size(path, header)
+    dtype = _dtype(path, header)
+    affine = LPS_FROM_RAS @ np.asarray(header.get_best_affine(), dtype=np.float64)
+    affine[:3] *= _unit(header, notes)
+    _note_forms(header, size, notes)
+    slope, intercept = (float(value) for value in _scaling(header))
+    if (slope, intercept) != (1.0, 0.0):
+        exact = (
+            "kept as integers" if dtype.kind in "iu" and is_integral(slope, intercept) else "read as floats"
+        )
+        notes.append(f"values are scaled by {slope:g} and shifted by {intercept:g}: {exact}")
+    offset = int(header["vox_offset"])
+
+    def load(progress: Progress) -> npt.NDArray[Any]:
+        codec: Codec = "zlib" if _is_gzip(data_path) else "raw"
+        return rescaled(read_voxels(data_path, size[::-1], dtype, codec=codec, skip=offset), slope, intercept)
+
+    return VolumeFile(path, kind, size, dtype, _stated_space(header), affine, load, notes)
+
+
+def _partner(path: Path, mine: str, other: str) -> Path:
+    """The other file of a pair if this one is `mine` (``x.img.gz`` belongs to ``x.hdr.gz`` or ``x.hdr``)."""
+    name = path.name
+    zipped = ".gz" if name.lower().endswith(".gz") else ""
+    stem = name[: len(name) - len(zipped)]
+    if not stem.lower().endswith(mine):
+        return path
+    found = [path.with_name(stem[: -len(mine)] + other + tail) for tail in (zipped, "", ".gz")]
+    return next((candidate for candidate in found if candidate.exists()), found[0])
+
+
+def _is_gzip(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(2) == b"\x1f\x8b"
+
+
+def head_bytes(path: Path, count: int) -> bytes:
+    """Give the first bytes of a file, decompressed if it is gzipped."""
+    with path.open("rb") as file:
+        raw = file.read(count + 4096)
+    if raw[:2] == b"\x1f\x8b":
+        raw = zlib.decompressobj(zlib.MAX_WBITS | 32).decompress(raw, count)
+    return raw[:count]
+
+
+def nifti_kind(head: bytes) -> str | None:
+    """Name the format that the first bytes (at least 352) of a file announce."""
+    lengths = {int.from_bytes(head[:4], "little"), int.from_bytes(head[:4], "big")}
+    found = lengths & set(_HEADER_BYTES)
+    return _HEADER_BYTES[found.pop()] if found else None
+
+
+def _header(path: Path) -> tuple[Any, str, bool]:
+    """The checked header, the format's name and whether the voxels are in a file of their own."""
+    from nibabel.nifti1 import Nifti1PairHeader
+    from nibabel.nifti2 import Nifti2PairHeader
+
+    head = head_bytes(path, 540)
+    kind = nifti_kind(head)
+    first = kind == "NIfTI-1"
+    magic = (head[344:348] if first else head[4:8])[:3]
+    if kind is None or magic not in (b"n+1", b"ni1", b"n+2", b"ni2"):
+        found = "an Analyze 7.5 header, which states no space" if kind else "no NIfTI header"
+        raise FormatError(str(path), found, "a NIfTI file", "convert it to NIfTI")
+    length = 348 if first else 540
+    if len(head) < length:
+        raise FormatError(
+            str(path), f"{len(head)} bytes", f"a header of {length} bytes", "copy the file again"
+        )
+    # The pair class reads no extensions, whose stated lengths could ask for any amount of memory.
+    header = (Nifti1PairHeader if first else Nifti2PairHeader)(head[:length])
+    return header, kind, magic[1:2] == b"i"
+
+
+def _size(path: Path, header: Any) -> tuple[int, int, int]:
+    shape = tuple(int(length) for length in header.get_data_shape())
+    if len(shape) > 3 and shape[3] > 1:
+        raise FormatError(str(path), f"{shape[3]} time points", "one", "write one time point")
+    if any(length != 1 for length in shape[3:]):
+        raise FormatError(
+            str(path), f"several components per voxel (shape {shape})", "one", "write one component"
+        )
+    if len(shape) < 3 or min(shape) < 1:
+        raise FormatError(str(path), f"shape {shape}", "3 axes, none empty")
+    return shape[0], shape[1], shape[2]
+
+
+def _dtype(path: Path, header: Any) -> np.dtype[Any]:
+    dtype: np.dtype[Any] = np.dtype(header.get_data_dtype())
+    if dtype.fields or dtype.kind not in "iuf" or dtype.itemsize > 8:
+        names = {"c": "complex voxels", "f": "128-bit floats"}
+        found = "colour voxels" if dtype.fields else names.get(dtype.kind, f"voxels of type {dtype}")
+        raise FormatError(str(path), found, "one integer or float of up to 64 bits per voxel")
+    return dtype
+
+
+def _scaling(header: Any) -> tuple[float, float]:
+    slope, intercept = header.get_slope_inter()
+    return (1.0, 0.0) if slope is None else (slope, intercept or 0.0)
+
+
+def _unit(header: Any, notes: list[str]) -> float:
+    """Millimetres per unit of the file."""
+    try:
+        unit = header.get_xyzt_units()[0]
+    except KeyError:
+        unit = "unknown"
+    if unit not in _MILLIMETRES:
+        notes.append("the unit of length is not stated: mm assumed")
+    elif unit != "mm":
+        notes.append(f"lengths are in {unit}s: converted to mm")
+    return _MILLIMETRES.get(unit, 1.0)
+
+
+def _stated_space(header: Any) -> str:
+    if int(header["sform_code"]) > 0:
+        return "RAS by sform"
+    return "RAS by qform" if int(header["qform_code"]) > 0 else "none stated"
+
+
+def _note_forms(header: Any, size: tuple[int, int, int], notes: list[str]) -> None:
+    """Note a missing placement, or two that contradict each other."""
+    by_sform, by_qform = int(header["sform_code"]) > 0, int(header["qform_code"]) > 0
+    if not by_sform and not by_qform:
+        notes.append(
+            "no placement (qform_code = sform_code = 0): centred at the origin, i to the left, like nibabel"
+        )
+    if by_sform and by_qform:
+        ends = np.array([[i, j, k, 1.0] for i in (0, size[0]) for j in (0, size[1]) for k in (0, size[2])])
+        apart = np.abs(ends @ (header.get_sform() - header.get_qform()).T).max()
+        if not apart <= 0.01:
+            notes.append(f"sform and qform lie up to {apart:.3g} apart: the sform is used")

@@ -1,0 +1,115 @@
+"""LPS and RAS: what is stated, what is asked for, and the warning where neither fits the volume."""
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conftest import needs_shared_data
+from lumencut.centerlines import check_space, inspect_centerlines, read_centerlines
+from lumencut.errors import SpaceWarning
+from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.volume import Volume
+
+POINTS = np.array([[10.0, 20.0, 0.0], [11.0, 21.0, 5.0], [12.0, 22.0, 9.0]])
+FLIP = [-1.0, -1.0, 1.0]
+
+
+def write_vtk(folder: Path, points: np.ndarray, title: str = "made by hand") -> Path:
+    path = folder / "line.vtk"
+    rows = "\n".join(" ".join(map(str, p)) for p in points)
+    count = len(points)
+    ids = " ".join(map(str, range(count)))
+    head = f"# vtk DataFile Version 3.0\n{title}\nASCII\nDATASET POLYDATA\nPOINTS {count} double\n"
+    path.write_text(f"{head}{rows}\nLINES 1 {count + 1}\n{count} {ids}\n")
+    return path
+
+
+def volume_around(points: np.ndarray) -> Volume:
+    low = points.min(axis=0) - 2.0
+    size = np.ceil(points.max(axis=0) + 2.0 - low).astype(int) + 1
+    return Volume(np.zeros(size[::-1], np.uint8), origin=low)
+
+
+@pytest.mark.parametrize(
+    ("title", "asked", "flipped"),
+    [
+        ("silent", None, False),
+        ("3D Slicer output. SPACE=LPS", None, False),
+        ("3D Slicer output. SPACE=RAS", None, True),
+        ("silent", "ras", True),
+        ("3D Slicer output. SPACE=RAS", "lps", False),
+        ("3D Slicer output. SPACE=LPS", "ras", True),
+    ],
+)
+def test_the_option_beats_the_file_and_the_file_beats_lps(title, asked, flipped, tmp_path):
+    path = write_vtk(tmp_path, POINTS, title)
+    tree = read_centerlines(path, asked)
+    np.testing.assert_array_equal(tree[0].points, POINTS * FLIP if flipped else POINTS)
+    report = inspect_centerlines(path, asked)
+    assert report.space == ("ras" if flipped else "lps")
+    assert report.stated == (title[-3:].lower() if "SPACE" in title else None)
+
+
+@pytest.mark.parametrize(
+    ("title", "option"), [("silent", "ras"), ("SPACE=LPS", "ras"), ("SPACE=RAS", "lps")], ids=str
+)
+def test_a_reading_that_misses_the_volume_warns_with_both_counts(title, option, tmp_path):
+    path = write_vtk(tmp_path, POINTS, title)
+    in_the_other_space = POINTS if option == "lps" else POINTS * FLIP
+    text = rf'line\.vtk: 0 of 3 points .* but 3 with x and y negated .* coordinates="{option}"'
+    with pytest.warns(SpaceWarning, match=text) as caught:
+        tree = read_centerlines(path, volume=volume_around(in_the_other_space))
+    assert caught[0].filename == __file__
+    assert not volume_around(in_the_other_space).contains(tree[0].points).any(), "not repaired"
+
+
+def test_readings_that_fit_or_were_asked_for_do_not_warn(tmp_path):
+    path = write_vtk(tmp_path, POINTS)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read_centerlines(path, volume=volume_around(POINTS))
+        read_centerlines(path, "lps", volume=volume_around(POINTS * FLIP))
+        read_centerlines(path, volume=volume_around(POINTS + 500.0))
+        both_fit = np.concatenate([POINTS, POINTS * FLIP])
+        read_centerlines(path, volume=volume_around(both_fit))
+
+
+def test_check_space_warns_for_a_tree_read_before(tmp_path):
+    tree = VesselTree([Vessel(POINTS), Vessel(POINTS + 1.0)])
+    check_space(tree, volume_around(POINTS))
+    with pytest.warns(SpaceWarning, match=r'vessel tree: 0 of 6 .* but 6 .*coordinates="ras"') as caught:
+        check_space(tree, volume_around(POINTS * FLIP))
+    assert caught[0].filename == __file__
+
+
+def mra_volume(folder: Path) -> Volume:
+    """The grid of the MRA with empty voxels; its direction is diagonal."""
+    header = (folder / "aorta-mra" / "aorta.mha").read_bytes()[:2000].split(b"ElementDataFile")[0].decode()
+    fields = dict(line.split(" = ") for line in header.strip().splitlines())
+    numbers = {key: [float(word) for word in fields[key].split()] for key in ("ElementSpacing", "Offset")}
+    direction = np.array(fields["TransformMatrix"].split(), float).reshape(3, 3)
+    size = [int(word) for word in fields["DimSize"].split()]
+    voxels = np.zeros(size[::-1], np.uint8)
+    return Volume(voxels, numbers["ElementSpacing"], numbers["Offset"], direction)
+
+
+@needs_shared_data
+def test_the_supplied_mra_centerlines_are_told_to_be_ras(shared_data):
+    volume = mra_volume(shared_data)
+    path = shared_data / "aorta-mra" / "aorta-centerline.vtp"
+    with pytest.warns(SpaceWarning, match=r'0 of 347 points .* but 347 .* coordinates="ras"'):
+        read_centerlines(path, volume=volume)
+    tree = read_centerlines(path, "ras", volume=volume)
+    assert all(volume.contains(tree[i].points).all() for i in range(len(tree)))
+    read_centerlines(shared_data / "aorta-mra" / "aorta_full_centerlines_LPS.vtp", volume=volume)
+
+
+@needs_shared_data
+def test_markups_in_lps_and_ras_are_the_same_curve(shared_data):
+    lps = read_centerlines(shared_data / "formats" / "aorta_curve_LPS.mrk.json")
+    ras = read_centerlines(shared_data / "formats" / "aorta_curve_RAS.mrk.json")
+    np.testing.assert_array_equal(lps[0].points, ras[0].points)
+    np.testing.assert_array_equal(lps[0].radius, ras[0].radius)
+    assert inspect_centerlines(shared_data / "formats" / "aorta_curve_RAS.mrk.json").stated == "ras"
