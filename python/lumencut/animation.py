@@ -30,7 +30,7 @@ _OPTIONS: dict[str, dict[str, Any]] = {"WEBP": {"quality": 90, "method": 4}, "PN
 
 
 def writer_for(path: str | os.PathLike[str]) -> Writer:
-    """Return what writes frames in the format that the path names, or refuse it before anything is rendered."""
+    """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
     name, path = os.fspath(path), Path(path)
     suffix = path.suffix.lower()
     if path.is_dir() or name.endswith(("/", os.sep)) or not suffix:
@@ -94,7 +94,8 @@ def _folder_beside(parent: Path) -> Iterator[Path]:
     except OSError as error:
         if isinstance(error, FileError):
             raise
-        raise FileError(str(parent), error.strerror or str(error), "a place where files can be written") from error
+        found = error.strerror or str(error)
+        raise FileError(str(parent), found, "a place where files can be written") from error
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -106,7 +107,7 @@ def _save_video(path: Path, av: Any, frames: Iterable[Frame], fps: float) -> Non
         raise _empty(path)
     width, height = first.camera.size
     if width % 2 or height % 2:
-        raise FormatError(str(path), f"frames of {width} × {height} pixels", "even numbers for a video", "see --size")
+        raise FormatError(str(path), f"frames of {width} × {height} pixels", "even numbers for a video")
 
     def write(temporary: Path) -> None:
         with av.open(str(temporary), "w", format="mp4") as container:
@@ -114,7 +115,9 @@ def _save_video(path: Path, av: Any, frames: Iterable[Frame], fps: float) -> Non
             stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
             stream.options = {"crf": "16"}
             for frame in itertools.chain([first], frames):
-                picture = av.VideoFrame.from_ndarray(np.ascontiguousarray(frame.image[:, :, :3]), format="rgb24")
+                picture = av.VideoFrame.from_ndarray(
+                    np.ascontiguousarray(frame.image[:, :, :3]), format="rgb24"
+                )
                 container.mux(stream.encode(picture))
             container.mux(stream.encode(None))
 
@@ -132,7 +135,8 @@ def _av() -> Any:
 
 def _checked_pattern(path: Path) -> Path:
     if path.suffix.lower() not in (".png", ".tif", ".tiff") or len(_NUMBER.findall(path.name)) != 1:
-        raise FormatError(str(path), f"the name {path.name!r}", "one number in it and .png or .tif, as in frame-%03d.png")
+        expected = "one number in it and .png or .tif, as in frame-%03d.png"
+        raise FormatError(str(path), f"the name {path.name!r}", expected)
     try:
         _ = path.name % 0
     except (TypeError, ValueError) as error:

@@ -91,9 +91,11 @@ def fitted_turn(camera: Camera, tree: VesselTree, degrees: float = 360.0, axis: 
 
 
 def frame_angles(frames: int, degrees: float) -> npt.NDArray[np.float64]:
-    """Angles of the frames (radians), shape (frames,); the last one ends a part of a turn, not a whole turn."""
+    """Angles of the frames (radians), shape (frames,); the last of a whole turn comes before its end."""
     if frames < 1 or not np.isfinite(degrees):
-        raise CameraError("turntable", f"{frames} frames over {degrees} degrees", "at least 1 frame, finite degrees")
+        raise CameraError(
+            "turntable", f"{frames} frames over {degrees} degrees", "at least 1 frame, finite degrees"
+        )
     return np.linspace(0.0, np.radians(degrees), frames, endpoint=degrees % 360 != 0)
 
 
@@ -111,7 +113,7 @@ def save_animation(frames: Iterable[Frame], path: str | os.PathLike[str], fps: f
         The frames, all of one size; a generator is read frame by frame.
     path : path-like
         ``.webp`` (small, slightly lossy), ``.png`` or ``.apng`` (lossless) or ``.mp4`` (needs the extra
-        ``[video]``); a name with a number such as ``frame-%03d.png`` or a folder writes one picture per frame.
+        ``[video]``); a name with a number such as ``frame-%03d.png`` or a folder: one picture per frame.
     fps : float, default 12
         Frames per second.
 

@@ -40,7 +40,9 @@ def _version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
     epilog="Files stay on this machine. Lumencut is not a medical device.",
 )
-@click.option("--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version.")
+@click.option(
+    "--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version."
+)
 @verbose_option
 def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""

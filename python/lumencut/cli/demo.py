@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 
 
-@click.command()
+@click.command(short_help="Render a CT of an aorta with a stent graft.")
 @click.argument("directory", type=click.Path(path_type=Path, file_okay=False), default="demo")
 @click.option(
     "--cache",
@@ -31,8 +31,8 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 def demo(directory: Path, cache: Path | None) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
-    Four pictures and a turntable. The CT (3 MB, from the Python package index) is taken once, checked and kept;
-    where it cannot be had, a phantom is shown instead.
+    Four pictures and a turntable. The CT (3 MB, from the Python package index) is taken once, checked and
+    kept; where it cannot be had, a phantom is shown instead.
     """
     start = time.perf_counter()
     renderer = _scene(cache)

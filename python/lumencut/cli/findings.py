@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -38,7 +39,7 @@ def of_volume(path: Path) -> dict[str, Any]:
         "space": report.space,
         "orientation": orientation(affine),
         "origin_mm": [float(value) for value in affine[:3, 3]],
-        "notes": [*report.notes, *_odd_grid(affine, low_high)],
+        "notes": _with(report.notes, _odd_grid(affine, low_high)),
         "_report": report,
     }
 
@@ -68,7 +69,13 @@ def of_centerlines(path: Path, coordinates: Literal["lps", "ras"] | None) -> dic
     }
 
 
-def compared(volume: dict[str, Any], lines: dict[str, Any]) -> dict[str, Any]:
+def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Compare a tree with volumes; those that have nothing to do with it only count if it fits none."""
+    pairs = [_pair(lines, volume) for volume in volumes]
+    return [pair for pair in pairs if pair["inside"] or pair["inside_with_x_and_y_negated"]] or pairs
+
+
+def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
     import numpy as np
 
@@ -97,9 +104,9 @@ def orientation(affine: npt.NDArray[np.float64]) -> str:
 
     columns = affine[:3, :3] / np.linalg.norm(affine[:3, :3], axis=0)
     main = [int(np.abs(column).argmax()) for column in columns.T]
-    letters = "".join(_LETTERS[axis][int(column[axis] < 0)] for axis, column in zip(main, columns.T, strict=True))
-    cosines = [abs(column[axis]) for axis, column in zip(main, columns.T, strict=True)]
-    angle = float(np.degrees(np.arccos(min(min(cosines), 1.0))))
+    cosines = columns[main, range(3)]
+    letters = "".join(_LETTERS[axis][int(cosine < 0)] for axis, cosine in zip(main, cosines, strict=True))
+    angle = float(np.degrees(np.arccos(min(float(np.abs(cosines).min()), 1.0))))
     return f"{letters}, oblique by {angle:.1f}°" if angle > 0.05 else letters
 
 
@@ -138,6 +145,13 @@ def _odd_tree(tree: VesselTree) -> list[str]:
     if steps.max() > 10 * max(float(np.median(steps)), 1.0):
         notes.append(f"a gap of {steps.max():.1f} mm between neighbouring points")
     return notes
+
+
+def _with(read: Iterable[str], seen: Iterable[str]) -> list[str]:
+    """Both, but what the reader has said of a shear is not said twice."""
+    read = list(read)
+    known = any("sheared" in note for note in read)
+    return read + [note for note in seen if not (known and "sheared" in note)]
 
 
 def _ends(tree: VesselTree) -> list[int]:

@@ -16,7 +16,7 @@ FILE = click.Path(path_type=Path)
 _CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".pth", ".swc", ".tre", ".csv", ".txt")
 
 
-@click.command()
+@click.command(short_help="Tell what files hold, and what is odd.")
 @click.argument("files", type=FILE, nargs=-1, required=True, metavar="FILE…")
 @click.option(
     "--coordinates",
@@ -32,12 +32,9 @@ def info(files: tuple[Path, ...], coordinates: Literal["lps", "ras"] | None, as_
     the exit code is 1 then.
     """
     found = [_looked_into(path, coordinates) for path in files]
-    compared = [
-        findings.compared(volume, lines)
-        for volume in found
-        for lines in found
-        if volume["kind"] == "volume" and lines["kind"] == "centerlines"
-    ]
+    volumes = [one for one in found if one["kind"] == "volume"]
+    trees = [one for one in found if one["kind"] == "centerlines"]
+    compared = [pair for tree in trees for pair in findings.compared(tree, volumes)]
     if as_json:
         public = [{key: value for key, value in one.items() if not key.startswith("_")} for one in found]
         say(json.dumps({"files": public, "compared": compared}, indent=2, allow_nan=False))
@@ -61,8 +58,8 @@ def _looked_into(path: Path, coordinates: Literal["lps", "ras"] | None) -> dict[
 def _as_text(one: dict[str, Any]) -> str:
     """A block: the file's name, one line per fact, one line per oddity."""
     title = one.get("file") or f"{one['centerlines']} in {one['volume']}"
-    facts = {key: value for key, value in one.items() if key not in ("file", "volume", "centerlines", "notes")}
-    shown = {key: value for key, value in facts.items() if not key.startswith("_") and value is not None}
+    hidden = {"file", "volume", "centerlines", "notes"} | {key for key in one if key.startswith("_")}
+    shown = {key: value for key, value in one.items() if key not in hidden and value is not None}
     width = max(len(key) for key in shown)
     lines = [f"  {key.replace('_', ' '):<{width}}  {_value(value)}" for key, value in shown.items()]
     return "\n".join([title, *lines, *(f"  ! {note}" for note in one["notes"])])

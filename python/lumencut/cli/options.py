@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import click
 
@@ -17,19 +17,27 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings, Window
     from lumencut.vessel_tree import VesselTree
 
+    _Type = click.ParamType[Any]
+else:
+    # Generic only in recent versions of click.
+    _Type = click.ParamType
+
+_Parameter: TypeAlias = "click.Parameter | None"
+_Context: TypeAlias = "click.Context | None"
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 #: The names of ``lumencut.VIEWS``, here so that ``--help`` need not import numpy.
 VIEW_NAMES = ("anterior", "posterior", "left", "right", "superior", "inferior")
 
 
-class Parts(click.ParamType):
+class Parts(_Type):
     """Numbers with a separator between them; ``form`` shows the user how to write them."""
 
     def __init__(self, form: str, separator: str, kind: type[float] | type[int]) -> None:
         self.name, self._separator, self._kind = form, separator, kind
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[float, ...]:
+        """Return the numbers."""
         if not isinstance(value, str):
             return tuple(value)
         try:
@@ -42,13 +50,14 @@ class Parts(click.ParamType):
         return numbers
 
 
-class Named(click.ParamType):
+class Named(_Type):
     """One of some names, or a vector."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self.names, self.name = names, "|".join(names) + "|X,Y,Z"
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
+        """Return the name or the vector."""
         if value in self.names:
             return value
         try:
@@ -57,13 +66,14 @@ class Named(click.ParamType):
             self.fail(f"{value!r} is neither one of {', '.join(self.names)} nor a vector X,Y,Z", param, ctx)
 
 
-class Color(click.ParamType):
+class Color(_Type):
     """A colour in hexadecimal, with or without opacity."""
 
     def __init__(self, form: str, lengths: tuple[int, ...]) -> None:
         self.name, self._lengths = form, lengths
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, ...]:
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[int, ...]:
+        """Return the channels, 0 to 255."""
         if not isinstance(value, str):
             return tuple(value)
         digits = value.removeprefix("#")
@@ -116,11 +126,29 @@ def view_options(command: _Command) -> _Command:
             help="Move the viewer to the right around the up axis (from anterior: to the patient's left).",
         ),
         click.option(
-            "--tilt", type=float, default=0.0, metavar="DEGREES", help="Then move the viewer upwards around the right axis."
+            "--tilt",
+            type=float,
+            default=0.0,
+            metavar="DEGREES",
+            help="Then move the viewer upwards around the right axis.",
         ),
-        click.option("--size", type=SIZE, default="768x768", show_default=True, help="Size of the picture (pixels)."),
-        click.option("--center", type=VECTOR, help="Point in the middle (mm, LPS); default: fits all vessels."),
-        click.option("--pixel-spacing", type=float, metavar="MM", help="Side of a pixel (mm); default: fits all vessels."),
+        click.option(
+            "--size",
+            type=SIZE,
+            default="768x768",
+            show_default=True,
+            metavar=SIZE.name,
+            help="Size of the picture (pixels).",
+        ),
+        click.option(
+            "--center", type=VECTOR, help="Point in the middle (mm, LPS); default: fits all vessels."
+        ),
+        click.option(
+            "--pixel-spacing",
+            type=float,
+            metavar="MM",
+            help="Side of a pixel (mm); default: fits all vessels.",
+        ),
         click.option("--zoom", type=float, default=1.0, metavar="FACTOR", help="Magnify about the middle."),
     )
     return _added(parts, command)
@@ -136,7 +164,8 @@ _SETTINGS = (
     click.option(
         "--window",
         type=Parts("WIDTH/LEVEL", "/", float),
-        help="Intensities from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT); default: from the data.",
+        help="Intensities from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT); "
+        "default: from the data.",
     ),
     click.option(
         "--opacity",
@@ -144,7 +173,9 @@ _SETTINGS = (
         help="Ramp of opacity over intensities (unit of the volume, HU for CT); default: all opaque.",
     ),
     click.option(
-        "--background", type=Color("RRGGBB[AA]", (3, 4)), help="Colour behind it all (hexadecimal); default 000000ff."
+        "--background",
+        type=Color("RRGGBB[AA]", (3, 4)),
+        help="Colour behind it all (hexadecimal); default 000000ff.",
     ),
     click.option(
         "--cost-weight",
@@ -163,10 +194,16 @@ _SETTINGS = (
         help="Let every lumen beat every surrounding, whatever the depth (yes or no); default no.",
     ),
     click.option(
-        "--lumen-margin", type=float, metavar="MM", help="How far beyond the wall lumen-first reaches (mm); default 0."
+        "--lumen-margin",
+        type=float,
+        metavar="MM",
+        help="How far beyond the wall lumen-first reaches (mm); default 0.",
     ),
     click.option(
-        "--levels", type=int, metavar="N", help="Levels of detail beyond the finest (count, 0 to 15); default 6."
+        "--levels",
+        type=int,
+        metavar="N",
+        help="Levels of detail beyond the finest (count, 0 to 15); default 6.",
     ),
     click.option(
         "--level-distance",
@@ -219,15 +256,17 @@ def settings_from(chosen: dict[str, Any]) -> Settings:
 
 def view_from(chosen: dict[str, Any]) -> Camera:
     """Return a camera with the direction, up and size that the options stand for; its place is still open."""
+    import numpy as np
+
     from lumencut.camera import VIEWS, Camera
 
     view = chosen["view"]
     direction, up = VIEWS[view] if isinstance(view, str) else (view, _upright(view))
     try:
-        camera = Camera((0, 0, 0), direction, chosen["up"] or up, chosen["size"])
+        vectors = (np.array(vector) for vector in ((0, 0, 0), direction, chosen["up"] or up))
+        camera = Camera(*vectors, size=chosen["size"]).rotated(math.radians(chosen["rotate"]), "up")
         # A right-handed turn about the right axis would lower the viewer.
-        turned = camera.rotated(math.radians(chosen["rotate"]), "up").rotated(-math.radians(chosen["tilt"]), "right")
-        return _magnified(turned, chosen)
+        return _magnified(camera.rotated(-math.radians(chosen["tilt"]), "right"), chosen)
     except CameraError as error:
         raise click.UsageError(str(error)) from error
 
@@ -271,7 +310,8 @@ def check_picture(path: Path) -> None:
 
     kind = Image.registered_extensions().get(path.suffix.lower())
     if path.suffix.lower() != ".npz" and kind not in Image.SAVE:
-        raise click.UsageError(f"{path}: the ending {path.suffix!r} names no picture format; try .png, .tif, .webp or .npz")
+        known = "a picture format such as .png, .tif or .webp, or .npz"
+        raise click.UsageError(f"{path}: found the ending {path.suffix!r}; expected {known}")
     check_folder(path)
 
 

@@ -12,7 +12,7 @@ from lumencut.cli.report import say, timings, verbose_option
 from lumencut.cli.scene import read_scene
 
 
-@click.command()
+@click.command(short_help="Render one picture.")
 @options.scene_arguments
 @click.option(
     "-o",
@@ -20,7 +20,8 @@ from lumencut.cli.scene import read_scene
     type=options.FILE,
     multiple=True,
     required=True,
-    help="Picture (.png, .tif, .webp, …), or .npz for depth, vessels, values and positions too; may be repeated.",
+    help="Picture (.png, .tif, .webp, …), or .npz for depth, vessels, values and positions too; "
+    "may be repeated.",
 )
 @options.view_options
 @options.setting_options
@@ -32,7 +33,7 @@ def render(
     output: tuple[Path, ...],
     **chosen: Any,
 ) -> None:
-    """Render VOLUME along CENTERLINES as one picture.
+    r"""Render VOLUME along CENTERLINES as one picture.
 
     VOLUME is a DICOM folder, NIfTI, NRRD or MetaImage file; CENTERLINES a .vtp, .vtk or .mrk.json file.
     The view fits all vessels unless --center, --pixel-spacing or --zoom say otherwise.

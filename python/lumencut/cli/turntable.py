@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 AXIS_NAMES = ("superior", "up", "right", "direction")
 
 
-@click.command()
+@click.command(short_help="Animate a turning view.")
 @options.scene_arguments
 @click.option(
     "-o",
     "--output",
-    type=str,
+    metavar="PATH",
     required=True,
     help=".webp (small, slightly lossy), .png or .apng (lossless), .mp4 (needs lumencut[video]), "
     "frame-%03d.png or a folder (one picture per frame).",
@@ -39,9 +39,15 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
     metavar="NAME|X,Y,Z",
     help="Axis of the turn: superior (of the patient); up, right or direction (of the view); or a vector (LPS).",
 )
-@click.option("--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="How many frames.")
 @click.option(
-    "--degrees", type=float, default=360.0, show_default=True, help="How far the viewer moves in all (degrees)."
+    "--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="How many frames."
+)
+@click.option(
+    "--degrees",
+    type=float,
+    default=360.0,
+    show_default=True,
+    help="How far the viewer moves in all (degrees).",
 )
 @click.option("--fps", type=click.FloatRange(0.1, 100), help="Frames per second; default 12.")
 @click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Duration in all (s), instead of --fps.")
@@ -58,7 +64,7 @@ def turntable(
     seconds: float | None,
     **chosen: Any,
 ) -> None:
-    """Render VOLUME along CENTERLINES as an animation of a turning view.
+    r"""Render VOLUME along CENTERLINES as an animation of a turning view.
 
     The view options give the first frame; one pixel spacing fits all frames, so that the vessels keep their size.
 

@@ -99,7 +99,9 @@ def _download(folder: Path) -> None:
     command += ["--disable-pip-version-check", "--retries=1", f"--timeout={_PATIENCE}", "--dest", str(folder)]
     done = subprocess.run([*command, REQUIREMENT], capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        reasons = [line for line in done.stderr.splitlines() if line.startswith("ERROR")] or done.stderr.splitlines()
+        reasons = [
+            line for line in done.stderr.splitlines() if line.startswith("ERROR")
+        ] or done.stderr.splitlines()
         found = reasons[-1].removeprefix("ERROR: ") if reasons else f"exit code {done.returncode}"
         raise UnreachableError(REQUIREMENT, found, "a wheel from the package index")
 
