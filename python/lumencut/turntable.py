@@ -40,7 +40,7 @@ def turntable(
     renderer : Renderer
         The scene.
     camera : Camera, optional
-        The first view; it turns about its center. From the front and fitted to the whole turn where not given.
+        The first view; it turns about its center. From the front and fitted to the turn where not given.
     settings : Settings, optional
         The knobs; their defaults where not given.
     frames : int, default 72
@@ -69,7 +69,7 @@ def turntable(
 
 
 def fitted_turn(camera: Camera, tree: VesselTree, degrees: float = 360.0, axis: Axis = "superior") -> Camera:
-    """Return the camera at the middle of the tree, with the one pixel spacing at which every frame of a turn fits.
+    """Return the camera at the middle of the tree, with a pixel spacing at which every frame of a turn fits.
 
     Parameters
     ----------

@@ -263,8 +263,8 @@ def view_from(chosen: dict[str, Any]) -> Camera:
     view = chosen["view"]
     direction, up = VIEWS[view] if isinstance(view, str) else (view, _upright(view))
     try:
-        vectors = (np.array(vector) for vector in ((0, 0, 0), direction, chosen["up"] or up))
-        camera = Camera(*vectors, size=chosen["size"]).rotated(math.radians(chosen["rotate"]), "up")
+        camera = Camera(np.zeros(3), np.array(direction), np.array(chosen["up"] or up), chosen["size"])
+        camera = camera.rotated(math.radians(chosen["rotate"]), "up")
         # A right-handed turn about the right axis would lower the viewer.
         return _magnified(camera.rotated(-math.radians(chosen["tilt"]), "right"), chosen)
     except CameraError as error:

@@ -9,7 +9,7 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, NoReturn
+from typing import NoReturn, TextIO
 
 import click
 
@@ -113,7 +113,14 @@ def _as_options(match: re.Match[str]) -> str:
     return f"--coordinates {first}{link}" + (f"--coordinates {second}" if second else "")
 
 
-def _show_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
     if issubclass(category, SpaceWarning):
         warn(message)
     else:

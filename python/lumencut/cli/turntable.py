@@ -37,7 +37,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
     default="superior",
     show_default=True,
     metavar="NAME|X,Y,Z",
-    help="Axis of the turn: superior (of the patient); up, right or direction (of the view); or a vector (LPS).",
+    help="superior (of the patient); up, right or direction (of the first view); or a vector (LPS).",
 )
 @click.option(
     "--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="How many frames."
@@ -66,7 +66,8 @@ def turntable(
 ) -> None:
     r"""Render VOLUME along CENTERLINES as an animation of a turning view.
 
-    The view options give the first frame; one pixel spacing fits all frames, so that the vessels keep their size.
+    The view options give the first frame; one pixel spacing fits all frames, so that the vessels keep their
+    size.
 
     \b
     lumencut turntable ct.nii.gz centerlines.vtp -o spin.webp

@@ -1,8 +1,8 @@
 """The CT angiography of the demo: an abdominal aorta with a stent graft, its mesenteric and iliac arteries.
 
 The volume is ``stent.npz`` of the package imageio 2.9.0 (BSD-2-Clause), taken from the package index once and
-kept in a cache; nothing is used before its checksum agrees. Its source states no spacing: 1 mm is nominal. The
-centerlines, derived from it for Lumencut, come with this package (LPS, mm).
+kept in a cache; nothing is used before its checksum agrees. Its source states no spacing: 1 mm is nominal.
+The centerlines, derived from it for Lumencut, come with this package (LPS, mm).
 """
 
 from __future__ import annotations
