@@ -78,7 +78,8 @@ def turntable(
     fps = fps or (frames / seconds if seconds else 12.0)
     degrees, axis = chosen["degrees"], chosen["axis"]
     settings, view = options.settings_from(chosen), options.view_from(chosen)
-    write = _checked_writer(output, view, axis)
+    write = _checked_writer(output)
+    _check_turn(view, frames, degrees, axis)
     renderer = read_scene(volume, centerlines, coordinates)
 
     from lumencut import turntable as library
@@ -99,14 +100,24 @@ def shown(turn: Iterable[Frame], count: int) -> Iterator[Frame]:
             told(done, count)
 
 
-def _checked_writer(output: str, view: Camera, axis: Any) -> Writer:
-    """Refuse an output or axis that cannot work before any work is done for it."""
+def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
+    """Refuse a turn that cannot be made before any file is read."""
+    from lumencut.turntable import frame_angles
+
+    try:
+        frame_angles(frames, degrees)
+        view.rotated(0.0, (0, 0, 1) if axis == "superior" else axis)
+    except CameraError as error:
+        raise click.UsageError(str(error)) from error
+
+
+def _checked_writer(output: str) -> Writer:
+    """Refuse an output that cannot be written before any file is read."""
     from lumencut.animation import writer_for
 
     try:
-        view.rotated(0.0, (0, 0, 1) if axis == "superior" else axis)
         write = writer_for(output)
-    except (CameraError, FormatError) as error:
+    except FormatError as error:
         raise click.UsageError(str(error)) from error
     options.check_folder(Path(output))
     return write
