@@ -16,12 +16,12 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import Image
-from scene_files import LUMEN, SIZE, TISSUE, bent_line, write_lines, write_volume
 
 from lumencut import VIEWS, Opacity, Renderer, Settings, Window
 from lumencut.cli import main, options
 from lumencut.cli.render import render
 from lumencut.cli.turntable import turntable
+from scene_files import LUMEN, SIZE, TISSUE, bent_line, write_lines, write_volume
 
 SCRIPT = [sys.executable, "-m", "lumencut"]
 
@@ -94,7 +94,7 @@ def test_every_setting_has_an_option_that_states_its_unit_and_default(command, f
 
 
 def test_view_names_are_those_of_the_library():
-    assert options.VIEW_NAMES == tuple(VIEWS)
+    assert tuple(VIEWS) == options.VIEW_NAMES
 
 
 def test_settings_keep_their_defaults_where_no_option_is_given(rendered):
@@ -300,7 +300,8 @@ def opened_for_writing(pipe, reader):
         try:
             return os.fdopen(os.open(pipe, os.O_WRONLY | os.O_NONBLOCK), "w")
         except OSError as error:
-            assert error.errno == errno.ENXIO
+            if error.errno != errno.ENXIO:
+                raise
             assert reader.poll() is None, reader.communicate()
             time.sleep(0.01)
 
@@ -373,7 +374,7 @@ def test_info_goes_on_after_a_file_that_cannot_be_read(files, tmp_path):
 
 
 def test_info_tells_what_is_odd(files, tmp_path):
-    gap = np.concatenate([bent_line(), bent_line()[-1:] + (0, 0, 400)])
+    gap = np.vstack([bent_line(), bent_line()[-1] + np.array([0, 0, 400])])
     found = info(
         write_lines(tmp_path / "bare.vtk", gap, radius=None),
         write_lines(tmp_path / "cm.vtk", bent_line() / 10),

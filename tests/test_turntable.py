@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import Image
-from scene_files import bent_line, write_lines, write_volume
 
 from lumencut import (
     Camera,
@@ -26,6 +25,7 @@ from lumencut import (
 )
 from lumencut.cli import main
 from lumencut.turntable import fitted_turn, frame_angles, save_animation, turntable
+from scene_files import bent_line, write_lines, write_volume
 
 
 @pytest.fixture
@@ -196,10 +196,11 @@ class FakeVideo:
     """Stands in for the package av: writes the size of each frame into the file."""
 
     def __init__(self):
-        self.VideoFrame = SimpleNamespace(from_ndarray=lambda array, format: (array.shape, format))
+        self.VideoFrame = SimpleNamespace(from_ndarray=lambda array, **how: (array.shape, how["format"]))
 
-    def open(self, path, mode, format):
-        self.file, self.stream = Path(path).open(mode), SimpleNamespace(encode=str)
+    def open(self, path, mode, **how):
+        assert (mode, how) == ("w", {"format": "mp4"})
+        self.path, self.packets, self.stream = Path(path), [], SimpleNamespace(encode=str)
         return self
 
     def add_stream(self, codec, rate):
@@ -207,13 +208,13 @@ class FakeVideo:
         return self.stream
 
     def mux(self, packet):
-        self.file.write(packet + "\n")
+        self.packets.append(packet)
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        self.file.close()
+        self.path.write_text("\n".join(self.packets))
 
 
 def test_videos_take_one_frame_after_the_other(renderer, tmp_path, monkeypatch):
