@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from threading import get_ident
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut.camera import Camera
-from lumencut.errors import FileError, FormatError, LumencutError
+from lumencut.errors import FileError, FormatError, LumencutError, VolumeError
+
+#: Formats of Pillow without transparency.
+_OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +79,10 @@ class Frame:
         FileError
             Where the file cannot be written.
         """
-        path = Path(path)
+        try:
+            path = Path(path)
+        except TypeError as error:
+            raise FormatError("path", type(path).__name__, "a text or a pathlib.Path") from error
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
         else:
@@ -92,28 +100,47 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
     """Write an RGBA picture in the format that the ending names."""
     from PIL import Image
 
-    known = Image.registered_extensions()
-    if path.suffix.lower() not in known:
-        raise FormatError(str(path), f"the ending {path.suffix!r}", "a picture format such as .png, .tif or .webp")
+    expected = "a picture format such as .png, .tif or .webp"
+    kind = Image.registered_extensions().get(path.suffix.lower())
+    if kind is None or kind not in Image.SAVE:
+        raise FormatError(str(path), f"the ending {path.suffix!r}", expected)
     picture = Image.fromarray(image)
-    if known[path.suffix.lower()] in ("JPEG", "BMP"):
+    if kind in _OPAQUE:
         picture = picture.convert("RGB")
-    replace_whole(path, lambda temporary: picture.save(temporary, format=known[path.suffix.lower()]))
+
+    def write(temporary: Path) -> None:
+        try:
+            picture.save(temporary, format=kind)
+        except (OSError, ValueError) as error:
+            # Errors of the system have a number; those of Pillow, for what a format cannot hold, have none.
+            if isinstance(error, OSError) and error.errno is not None:
+                raise
+            raise FormatError(str(path), f"{kind}: {error}", expected) from error
+
+    replace_whole(path, write)
 
 
 def replace_whole(path: Path, write: Any) -> None:
     """Let ``write`` make a temporary file beside ``path`` and move it there once it is whole."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    temporary = path.with_name(f".{path.name[:40]}.{os.getpid()}.{get_ident()}.part")
+    expected = "a place where files can be written"
     try:
         write(temporary)
         os.replace(temporary, path)
+    except LumencutError:
+        raise
     except OSError as error:
-        raise FileError(str(path), error.strerror or str(error), "a place where files can be written") from error
+        raise FileError(str(path), error.strerror or str(error), expected) from error
+    except ValueError as error:  # A name with a null character.
+        raise FileError(repr(str(path)), str(error), expected) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        # Where it could not be made, it cannot be removed either.
+        with suppress(OSError, ValueError):
+            temporary.unlink()
 
 
 def _present(name: str, array: Any) -> Any:
     if array is None:
-        raise LumencutError(f"{name} of the frame", "a cut surface without a volume", "a rendered frame", "use render")
+        found = "a cut surface without a volume"
+        raise VolumeError(f"{name} of the frame", found, "a rendered frame", "use render")
     return array
