@@ -124,6 +124,8 @@ def replace_whole(path: Path, write: Any) -> None:
     """Let ``write`` make a temporary file beside ``path`` and move it there once it is whole."""
     temporary = path.with_name(f".{path.name[:40]}.{os.getpid()}.{get_ident()}.part")
     expected = "a place where files can be written"
+    if "\0" in str(path):
+        raise FileError(repr(str(path)), "a null character", expected)
     try:
         write(temporary)
         os.replace(temporary, path)
@@ -131,11 +133,9 @@ def replace_whole(path: Path, write: Any) -> None:
         raise
     except OSError as error:
         raise FileError(str(path), error.strerror or str(error), expected) from error
-    except ValueError as error:  # A name with a null character.
-        raise FileError(repr(str(path)), str(error), expected) from error
     finally:
         # Where it could not be made, it cannot be removed either.
-        with suppress(OSError, ValueError):
+        with suppress(OSError):
             temporary.unlink()
 
 
