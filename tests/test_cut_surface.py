@@ -10,6 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import reference
 from conftest import needs_shared_data
@@ -46,9 +48,9 @@ def differences(frame, expected):
     }
 
 
-def assert_same(tree, camera, settings, most_unsure=0.005):
-    frame = Renderer(None, tree).cut_surface(camera, settings)
-    expected = reference.cut_surface(tree, camera, settings, TOLERANCE)
+def assert_same(tree, camera, rule, most_unsure=0.005):
+    frame = Renderer(None, tree).cut_surface(camera, rule)
+    expected = reference.cut_surface(tree, camera, rule, TOLERANCE)
     found = differences(frame, expected)
     assert (found["depth"], found["vessel"], found["distance"]) == (0, 0, 0), found
     # Ties are broken alike; what is left is rounding in one pixel of a thousand.
@@ -173,6 +175,37 @@ def test_on_a_tie_the_smaller_id_wins_to_the_bit():
     np.testing.assert_array_equal(second.vessel, 2 * first.vessel)
     np.testing.assert_array_equal(second.depth, first.depth)
     np.testing.assert_array_equal(second.distance, first.distance)
+
+
+@pytest.mark.parametrize("link", [True, False], ids=["one vessel", "two vessels"])
+@pytest.mark.parametrize("deep_first", [True, False])
+def test_on_a_tie_the_earlier_piece_wins(deep_first, link):
+    # From the front, 1.5 mm above the shallow line: 0 + 10 · 1.5 = 10 + 10 · 0.5.
+    lines = [[[-64.0, 0, 0], [64, 0, 0]], [[64.0, 10, 2], [-64, 10, 2]]]
+    lines = lines[::-1] if deep_first else lines
+    tree = VesselTree([Vessel(np.concatenate(lines))] if link else [Vessel(line) for line in lines])
+    camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (2, 8), 1.0)
+    frame = Renderer(None, tree).cut_surface(camera, replace(PLAIN, levels=0))
+    deep = 0 if link else 1 - deep_first
+    np.testing.assert_array_equal(frame.depth[[1, 2, 3], 0], [10, 10 * deep_first, 0])
+    np.testing.assert_array_equal(frame.vessel[[1, 2, 3], 0], [deep, 0, 0 if link else 1 - deep])
+
+
+integers = st.integers(-3, 3).map(float)
+tangles = st.lists(
+    st.lists(st.tuples(integers, integers, integers), min_size=2, max_size=9), min_size=1, max_size=4
+)
+
+
+@settings(max_examples=300, deadline=None)
+@given(tangles, st.integers(0, 3), st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 1, 1)]), st.booleans())
+def test_tangles_of_points_with_whole_coordinates(lines, levels, direction, lumen_first):
+    tree = VesselTree([Vessel(line, 0.25 * number) for number, line in enumerate(lines)])
+    camera = Camera((0.0613, 0.0777, 0.0419), direction, (0, 0, 1), (9, 7), 0.93)
+    changed = replace(PLAIN, levels=levels, lumen_first=lumen_first)
+    frame = Renderer(None, tree).cut_surface(camera, changed)
+    found = differences(frame, reference.cut_surface(tree, camera, changed))
+    assert (found["depth"], found["vessel"], found["distance"]) == (0, 0, 0), found
 
 
 @pytest.mark.parametrize("tree", [wandering(1), of_few_points(1), lattice(1)], ids=["long", "short", "odd"])

@@ -20,7 +20,7 @@ LOOKS = 5
 
 def endless_tree():
     """A flat tree whose lumens cover everything: all pieces tie at all pixels, which takes minutes."""
-    flat = [vessel.points * (1, 0, 1) for vessel in wandering(0, vessels=1200)]
+    flat = [vessel.points * (1, 0, 1) for vessel in wandering(0, vessels=4000)]
     return VesselTree([Vessel(points, 1e5) for points in flat])
 
 
@@ -37,7 +37,7 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
         if len(looks) == LOOKS:
             signal.raise_signal(signal.SIGINT)
             # Not the minutes that the whole picture takes.
-            looks.append(ended.wait(20))
+            looks.append(ended.wait(10))
 
     thread = threading.Thread(target=interrupt_once_it_runs)
     thread.start()
