@@ -75,6 +75,15 @@ def levels_of(tree, count):
     return levels
 
 
+def distinct(points):
+    """The points that do not repeat the one before them: a segment without length is not along the view."""
+    kept = [0]
+    for i in range(1, len(points)):
+        if np.linalg.norm(points[i] - points[kept[-1]]) >= COLLINEAR:
+            kept.append(i)
+    return kept
+
+
 @dataclass
 class Pieces:
     """The stripes, and the pieces at points, of one projected vessel; an edge that is not there is zero."""
@@ -224,9 +233,8 @@ def cut_surface(tree, camera, settings, depth_tolerance=1e-3):
         if len(used) == 0:
             continue
         pieces = []
-        for view, (_, radius) in zip(views[k], levels[k], strict=True):
-            # A point that repeats the one before it adds nothing.
-            new = np.concatenate([[True], (np.diff(view, axis=0) != 0).any(axis=1)])
+        for view, (points, radius) in zip(views[k], levels[k], strict=True):
+            new = distinct(points)
             pieces.append(pieces_of(view[new], radius[new] * settings.preserve_lumen))
         won = winners(pieces, q[used], settings)
         z[k, used], vessel[k, used], slack[k, used] = won.z, won.vessel, won.slack

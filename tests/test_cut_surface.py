@@ -191,6 +191,27 @@ def test_on_a_tie_the_earlier_piece_wins(deep_first, link):
     np.testing.assert_array_equal(frame.vessel[[1, 2, 3], 0], [deep, 0, 0 if link else 1 - deep])
 
 
+@pytest.mark.parametrize(
+    "apart",
+    [
+        0.0,
+        pytest.param(1e-9, marks=pytest.mark.xfail(strict=True, reason="taken for a run along the view")),
+        pytest.param(5e-4, marks=pytest.mark.xfail(strict=True, reason="taken for a run along the view")),
+        2e-3,
+    ],
+)
+def test_a_point_nearly_repeated_changes_little(apart):
+    line = np.array([[-20.0, 0, 0], [0, 10, 0], [0, 60, 20], [-20, 70, 20]])
+    rule = replace(PLAIN, levels=0)
+    camera = Camera((0, 30, 0), (0, 1, 0), (0, 0, 1), (60, 60), 1.0)
+    exact, near = (
+        Renderer(None, VesselTree([Vessel(np.insert(line, 1, line[1] - (d, 0, 0), axis=0), 1.0)]))
+        for d in (0.0, apart)
+    )
+    error = np.abs(near.cut_surface(camera, rule).depth - exact.cut_surface(camera, rule).depth)
+    assert (error > 0.1).mean() < 0.002
+
+
 integers = st.integers(-3, 3).map(float)
 tangles = st.lists(
     st.lists(st.tuples(integers, integers, integers), min_size=2, max_size=9), min_size=1, max_size=4
@@ -198,11 +219,11 @@ tangles = st.lists(
 
 
 @settings(max_examples=300, deadline=None)
-@given(tangles, st.integers(0, 3), st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 1, 1)]), st.booleans())
-def test_tangles_of_points_with_whole_coordinates(lines, levels, direction, lumen_first):
+@given(tangles, st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 1, 1)]), st.booleans())
+def test_tangles_of_points_with_whole_coordinates(lines, direction, lumen_first):
     tree = VesselTree([Vessel(line, 0.25 * number) for number, line in enumerate(lines)])
     camera = Camera((0.0613, 0.0777, 0.0419), direction, (0, 0, 1), (9, 7), 0.93)
-    changed = replace(PLAIN, levels=levels, lumen_first=lumen_first)
+    changed = replace(PLAIN, levels=0, lumen_first=lumen_first)
     frame = Renderer(None, tree).cut_surface(camera, changed)
     found = differences(frame, reference.cut_surface(tree, camera, changed))
     assert (found["depth"], found["vessel"], found["distance"]) == (0, 0, 0), found
