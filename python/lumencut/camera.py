@@ -87,9 +87,8 @@ class Camera:
             raise CameraError("scene of the view", type(scene).__name__, "a VesselTree or a Volume")
         points = scene.points if isinstance(scene, VesselTree) else scene.corners
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        axes = ("direction", direction), ("up", up)
-        vectors = [numbers(CameraError, f"{name} of the camera", axis, (3,)) for name, axis in axes]
-        view = cls(middle, *vectors, size, 1.0)
+        ahead = numbers(CameraError, "direction of the camera", direction, (3,))
+        view = cls(middle, ahead, numbers(CameraError, "up of the camera", up, (3,)), size, 1.0)
         flat = (points - middle) @ np.stack([view.right_axis, view.up]).T
         low, high = flat.min(axis=0), flat.max(axis=0)
         center = middle + (low + high) / 2 @ np.stack([view.right_axis, view.up])

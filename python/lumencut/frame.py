@@ -48,12 +48,14 @@ class Frame:
     @property
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4)."""
-        return _present("image", self._image)
+        image: npt.NDArray[np.uint8] = _present("image", self._image)
+        return image
 
     @property
     def value(self) -> npt.NDArray[np.float32]:
         """The volume at the cut surface, float32, shape (H, W), NaN outside the volume."""
-        return _present("value", self._value)
+        value: npt.NDArray[np.float32] = _present("value", self._value)
+        return value
 
     @property
     def position(self) -> npt.NDArray[np.float64]:
@@ -89,7 +91,8 @@ class Frame:
             save_picture(self.image, path)
 
     def _write_arrays(self, path: Path) -> None:
-        arrays = {"depth": self.depth, "vessel": self.vessel, "distance": self.distance, "position": self.position}
+        names = ("depth", "vessel", "distance", "position")
+        arrays: dict[str, npt.NDArray[Any]] = {name: getattr(self, name) for name in names}
         shown = {"image": self._image, "value": self._value}
         arrays |= {name: array for name, array in shown.items() if array is not None}
         with path.open("wb") as file:

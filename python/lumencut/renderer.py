@@ -139,6 +139,6 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
 
 
 def _frame(camera: Camera, buffers: dict[str, Any]) -> Frame:
-    names = ("depth", "vessel", "distance", "timings")
-    shown = {"_image": buffers.get("image"), "_value": buffers.get("value")}
-    return Frame(camera, **{name: buffers[name] for name in names}, **shown)
+    own: dict[str, Any] = {name: buffers[name] for name in ("depth", "vessel", "distance", "timings")}
+    own |= {f"_{name}": buffers.get(name) for name in ("image", "value")}
+    return Frame(camera, **own)
