@@ -29,7 +29,9 @@ def number(error: type[LumencutError], subject: str, value: Any) -> float:
     return float(numbers(error, subject, value, ()))
 
 
-def integers(error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int) -> tuple[int, ...]:
+def integers(
+    error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int
+) -> tuple[int, ...]:
     """Return ``value`` as ``count`` whole numbers from ``low`` to ``high``."""
     array = numbers(error, subject, value, (count,))
     if not ((array >= low) & (array <= high) & (array == np.floor(array))).all():

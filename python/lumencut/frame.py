@@ -64,7 +64,9 @@ class Frame:
         x = (np.arange(width) + 0.5 - width / 2) * camera.pixel_spacing
         y = (height / 2 - np.arange(height) - 0.5) * camera.pixel_spacing
         plane = x[None, :, None] * camera.right_axis + y[:, None, None] * camera.up
-        return np.asarray(camera.center + plane + self.depth[:, :, None].astype(np.float64) * camera.direction)
+        return np.asarray(
+            camera.center + plane + self.depth[:, :, None].astype(np.float64) * camera.direction
+        )
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
@@ -72,7 +74,7 @@ class Frame:
         Parameters
         ----------
         path : path-like
-            The ending names the format: any picture format of Pillow (``.png``, ``.tif``, ``.webp``, …) or ``.npz``.
+            The ending names the format: any picture format that Pillow writes (``.png``, ``.tif``, …) or ``.npz``.
 
         Raises
         ------

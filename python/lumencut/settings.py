@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: How far beyond the wall the tissue is looked for that a window shows, and the radius where it is unknown (mm).
+#: How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
 _BESIDE, _UNKNOWN_RADIUS = 10.0, 10.0
 
 
 @dataclass(frozen=True)
 class Window:
-    """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's own unit (HU for CT)."""
+    """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's unit (HU for CT)."""
 
     level: float
     width: float
@@ -33,10 +33,10 @@ class Window:
 
     @classmethod
     def from_data(cls, volume: Volume, tree: VesselTree) -> Window:
-        """Return a window that shows lumen as light grey, tissue darker and calcifications or stents brighter.
+        """Return a window that shows lumen as middle grey, tissue darker, calcifications and stents brighter.
 
-        The median along the centerlines stands for the lumen, the median 10 mm beyond the walls of the vessels
-        for the tissue around it; the window is centred on the lumen and three times as wide as their difference.
+        The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
+        the tissue around it; the window is centred on the lumen, three times as wide as their difference.
         """
         lumen = volume.sample(tree.points)
         lumen = lumen[np.isfinite(lumen)]
@@ -125,7 +125,9 @@ class Settings:
                 raise SettingsError(name, repr(getattr(self, name)), "True or False")
             self._set(name, bool(getattr(self, name)))
         self._set("levels", integers(SettingsError, "levels", [self.levels], 0, 15, 1)[0])
-        self._set("silhouette_color", integers(SettingsError, "silhouette_color", self.silhouette_color, 0, 255, 3))
+        self._set(
+            "silhouette_color", integers(SettingsError, "silhouette_color", self.silhouette_color, 0, 255, 3)
+        )
         self._set("background", integers(SettingsError, "background", self.background, 0, 255, 4))
         for name, kind in (("window", Window), ("opacity", Opacity)):
             if not isinstance(getattr(self, name), (kind, type(None))):
