@@ -74,7 +74,7 @@ class Frame:
         Parameters
         ----------
         path : path-like
-            The ending names the format: any picture format that Pillow writes (``.png``, ``.tif``, …) or ``.npz``.
+            The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …) or ``.npz``.
 
         Raises
         ------
