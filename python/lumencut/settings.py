@@ -15,10 +15,13 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
+#: How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
+_BESIDE, _UNKNOWN_RADIUS = 10.0, 10.0
+
 
 @dataclass(frozen=True)
 class Window:
-    """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's own unit (HU for CT)."""
+    """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's unit (HU for CT)."""
 
     level: float
     width: float
@@ -26,18 +29,20 @@ class Window:
     def __post_init__(self) -> None:
         for name in ("level", "width"):
             object.__setattr__(self, name, number(SettingsError, f"window {name}", getattr(self, name)))
+        Settings(window=self)  # The ranges are known to the settings.
 
     @classmethod
     def from_data(cls, volume: Volume, tree: VesselTree) -> Window:
-        """Return a window that shows lumen as light grey, tissue darker and calcifications or stents brighter.
+        """Return a window that shows lumen as middle grey, tissue darker, calcifications and stents brighter.
 
-        The median along the centerlines stands for the lumen, the median of the volume within the tree's box for
-        the tissue around it; the window is centred on the lumen and three times as wide as their difference.
+        The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
+        the tissue around it; the window is centred on the lumen, three times as wide as their difference.
         """
         lumen = volume.sample(tree.points)
         lumen = lumen[np.isfinite(lumen)]
-        grid = np.stack(np.meshgrid(*np.linspace(*tree.bounds, 24).T, indexing="ij"), axis=-1)
-        around = volume.sample(grid)
+        radii = [np.full(len(v), _UNKNOWN_RADIUS) if v.radius is None else v.radius for v in tree]
+        reach = np.concatenate(radii)[:, None, None] + _BESIDE
+        around = volume.sample(tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)]))
         around = around[np.isfinite(around)]
         if lumen.size == 0 or around.size == 0:
             return cls(300.0, 900.0)
@@ -56,6 +61,7 @@ class Opacity:
     def __post_init__(self) -> None:
         for name in ("transparent", "opaque"):
             object.__setattr__(self, name, number(SettingsError, f"opacity {name}", getattr(self, name)))
+        Settings(opacity=self)
 
 
 @dataclass(frozen=True)
@@ -119,7 +125,9 @@ class Settings:
                 raise SettingsError(name, repr(getattr(self, name)), "True or False")
             self._set(name, bool(getattr(self, name)))
         self._set("levels", integers(SettingsError, "levels", [self.levels], 0, 15, 1)[0])
-        self._set("silhouette_color", integers(SettingsError, "silhouette_color", self.silhouette_color, 0, 255, 3))
+        self._set(
+            "silhouette_color", integers(SettingsError, "silhouette_color", self.silhouette_color, 0, 255, 3)
+        )
         self._set("background", integers(SettingsError, "background", self.background, 0, 255, 4))
         for name, kind in (("window", Window), ("opacity", Opacity)):
             if not isinstance(getattr(self, name), (kind, type(None))):
