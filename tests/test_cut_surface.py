@@ -195,8 +195,8 @@ def test_on_a_tie_the_earlier_piece_wins(deep_first, link):
     "apart",
     [
         0.0,
-        pytest.param(1e-9, marks=pytest.mark.xfail(strict=True, reason="taken for a run along the view")),
-        pytest.param(5e-4, marks=pytest.mark.xfail(strict=True, reason="taken for a run along the view")),
+        1e-9,
+        5e-4,
         2e-3,
     ],
 )
