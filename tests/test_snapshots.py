@@ -1,0 +1,88 @@
+"""Small pictures that must stay as they are, and the comparer that would notice if they did not.
+
+A picture that changes on purpose is written anew with ``LUMENCUT_WRITE_SNAPSHOTS=1`` and looked at.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from image_comparison import compare
+from PIL import Image
+
+from lumencut import Camera, Opacity, Renderer, Settings, Window, phantom
+
+SNAPSHOTS = Path(__file__).parent / "snapshots"
+
+#: A rounding step of one grey value may differ on another platform; more may not, and not in many pixels.
+TOLERANCE, PIXELS = 1.0, 4
+
+SCENES = {
+    "stenosis": (lambda: phantom.stenosis(60.0), Settings(window=Window(150.0, 700.0))),
+    "calcified_wall": (phantom.calcified_wall, Settings(window=Window(300.0, 1400.0), silhouettes=False)),
+    "crossing": (phantom.crossing, Settings(window=Window(150.0, 700.0))),
+    "crossing_lumen_first": (phantom.crossing, Settings(window=Window(150.0, 700.0), lumen_first=True, lumen_margin=1.0)),
+    "y_junction_transparent": (
+        phantom.y_junction,
+        Settings(window=Window(150.0, 700.0), opacity=Opacity(0.0, 200.0), background=(20, 40, 80, 128)),
+    ),
+    "aorta": (lambda: phantom.aorta(scale=0.25), Settings(window=Window(300.0, 1000.0))),
+}
+
+
+def picture(name: str) -> np.ndarray:
+    make, settings = SCENES[name]
+    scene = make()
+    camera = Camera.anterior(scene.tree, size=(96, 96)).rotated(0.3).rotated(0.2, "right")
+    return Renderer(scene.volume, scene.tree).render(camera, settings).image
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_picture_stays_as_it_is(name, tmp_path):
+    found, path = picture(name), SNAPSHOTS / f"{name}.png"
+    if os.environ.get("LUMENCUT_WRITE_SNAPSHOTS") == "1":
+        Image.fromarray(found).save(path, optimize=True)
+    # A missing snapshot is a failure: opening it raises.
+    with Image.open(path) as image:
+        expected = np.asarray(image)
+    result = compare(found, expected, TOLERANCE)
+    if result.count > PIXELS:
+        Image.fromarray(found).save(tmp_path / f"{name}-found.png")
+    assert result.count <= PIXELS, f"{result} against {path.name}; see {tmp_path}"
+
+
+def test_the_snapshots_show_something_and_are_all_different():
+    pictures = {name: picture(name) for name in SCENES}
+    for name, image in pictures.items():
+        assert image[..., :3].std() > 10, name
+    names = sorted(pictures)
+    for i, one in enumerate(names):
+        for other in names[i + 1 :]:
+            assert compare(pictures[one], pictures[other], TOLERANCE).count > 20, (one, other)
+
+
+@pytest.mark.parametrize("channel", range(4))
+def test_the_comparer_sees_one_pixel_of_any_channel(channel):
+    image = np.full((5, 6, 4), 100, np.uint8)
+    other = image.copy()
+    other[4, 5, channel] += 2
+    assert compare(image, image) == compare(image, image, 1.0)
+    assert compare(image, image).count == 0
+    assert compare(image, other, 1.0).count == 1
+    assert compare(image, other, 1.0).largest == 2
+    assert compare(image, other, 2.0).count == 0
+
+
+def test_the_comparer_sees_values_that_appear_or_vanish():
+    image = np.array([[1.0, np.nan]], np.float32)
+    assert compare(image, image).count == 0
+    assert compare(image, np.array([[np.nan, np.nan]], np.float32), 1e9).count == 1
+
+
+@pytest.mark.parametrize("other", [np.zeros((2, 3), np.uint8), np.zeros((3, 2), np.float32)])
+def test_the_comparer_refuses_other_shapes_and_types(other):
+    with pytest.raises(AssertionError, match=r"shape|dtype"):
+        compare(np.zeros((3, 2), np.uint8), other)
