@@ -18,7 +18,9 @@ def numbers(
         array = np.array(value, dtype=np.float64)
     except (TypeError, ValueError):
         array = np.empty(0)
-    fits = array.ndim == len(shape) and all(want in (-1, have) for want, have in zip(shape, array.shape, strict=True))
+    fits = array.ndim == len(shape) and all(
+        want in (-1, have) for want, have in zip(shape, array.shape, strict=True)
+    )
     if not fits or value is None:
         wanted = " × ".join("n" if n < 0 else str(n) for n in shape) or "one number"
         raise error(subject, _short(value), f"numbers of shape {wanted}")
@@ -31,7 +33,9 @@ def number(error: type[LumencutError], subject: str, value: Any) -> float:
     return float(numbers(error, subject, value, ()))
 
 
-def integers(error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int) -> tuple[int, ...]:
+def integers(
+    error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int
+) -> tuple[int, ...]:
     """Return ``value`` as ``count`` whole numbers from ``low`` to ``high``."""
     array = numbers(error, subject, value, (count,))
     if not ((array >= low) & (array <= high) & (array == np.floor(array))).all():

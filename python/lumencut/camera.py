@@ -162,7 +162,9 @@ def _rotation(axis: npt.NDArray[np.float64], angle: float) -> npt.NDArray[np.flo
     """Rotation matrix by Rodrigues' formula."""
     length = float(np.linalg.norm(axis))
     if not (np.isfinite(angle) and length > 0):
-        raise CameraError("rotation of the camera", f"angle {angle} about {axis.tolist()}", "a finite angle and axis")
+        raise CameraError(
+            "rotation of the camera", f"angle {angle} about {axis.tolist()}", "a finite angle and axis"
+        )
     x, y, z = axis / length
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)

@@ -57,7 +57,9 @@ class Frame:
         x = (np.arange(width) + 0.5 - width / 2) * camera.pixel_spacing
         y = (height / 2 - np.arange(height) - 0.5) * camera.pixel_spacing
         plane = x[None, :, None] * camera.right_axis + y[:, None, None] * camera.up
-        return np.asarray(camera.center + plane + self.depth[:, :, None].astype(np.float64) * camera.direction)
+        return np.asarray(
+            camera.center + plane + self.depth[:, :, None].astype(np.float64) * camera.direction
+        )
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
@@ -81,7 +83,12 @@ class Frame:
             save_picture(self.image, path)
 
     def _write_arrays(self, path: Path) -> None:
-        arrays = {"depth": self.depth, "vessel": self.vessel, "distance": self.distance, "position": self.position}
+        arrays = {
+            "depth": self.depth,
+            "vessel": self.vessel,
+            "distance": self.distance,
+            "position": self.position,
+        }
         shown = {"image": self._image, "value": self._value}
         arrays |= {name: array for name, array in shown.items() if array is not None}
         with path.open("wb") as file:
@@ -94,7 +101,9 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
 
     known = Image.registered_extensions()
     if path.suffix.lower() not in known:
-        raise FormatError(str(path), f"the ending {path.suffix!r}", "a picture format such as .png, .tif or .webp")
+        raise FormatError(
+            str(path), f"the ending {path.suffix!r}", "a picture format such as .png, .tif or .webp"
+        )
     picture = Image.fromarray(image)
     if known[path.suffix.lower()] in ("JPEG", "BMP"):
         picture = picture.convert("RGB")
@@ -108,12 +117,16 @@ def replace_whole(path: Path, write: Any) -> None:
         write(temporary)
         os.replace(temporary, path)
     except OSError as error:
-        raise FileError(str(path), error.strerror or str(error), "a place where files can be written") from error
+        raise FileError(
+            str(path), error.strerror or str(error), "a place where files can be written"
+        ) from error
     finally:
         temporary.unlink(missing_ok=True)
 
 
 def _present(name: str, array: Any) -> Any:
     if array is None:
-        raise LumencutError(f"{name} of the frame", "a cut surface without a volume", "a rendered frame", "use render")
+        raise LumencutError(
+            f"{name} of the frame", "a cut surface without a volume", "a rendered frame", "use render"
+        )
     return array

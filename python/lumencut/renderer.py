@@ -39,7 +39,9 @@ class Renderer:
 
     def __init__(self, volume: Any, tree: VesselTree, device: Literal["auto", "cpu"] = "auto") -> None:
         if not isinstance(tree, VesselTree):
-            raise VesselTreeError("tree", f"{type(tree).__name__}", "a VesselTree, such as read_centerlines returns")
+            raise VesselTreeError(
+                "tree", f"{type(tree).__name__}", "a VesselTree, such as read_centerlines returns"
+            )
         if device not in ("auto", "cpu"):
             raise VolumeError("device", repr(device), "'auto' or 'cpu'")
         self.volume = None if volume is None else as_volume(volume)
@@ -67,7 +69,9 @@ class Renderer:
             At Ctrl-C; the renderer can be used again.
         """
         if self.volume is None:
-            raise VolumeError("volume of the renderer", "None", "a volume to show", "use cut_surface for depth alone")
+            raise VolumeError(
+                "volume of the renderer", "None", "a volume to show", "use cut_surface for depth alone"
+            )
         settings = settings or Settings()
         if settings.window is None:
             settings = replace(settings, window=self.window)

@@ -119,7 +119,9 @@ class Settings:
                 raise SettingsError(name, repr(getattr(self, name)), "True or False")
             self._set(name, bool(getattr(self, name)))
         self._set("levels", integers(SettingsError, "levels", [self.levels], 0, 15, 1)[0])
-        self._set("silhouette_color", integers(SettingsError, "silhouette_color", self.silhouette_color, 0, 255, 3))
+        self._set(
+            "silhouette_color", integers(SettingsError, "silhouette_color", self.silhouette_color, 0, 255, 3)
+        )
         self._set("background", integers(SettingsError, "background", self.background, 0, 255, 4))
         for name, kind in (("window", Window), ("opacity", Opacity)):
             if not isinstance(getattr(self, name), (kind, type(None))):

@@ -31,7 +31,9 @@ class Vessel:
         For points or radii of another shape or value.
     """
 
-    def __init__(self, points: npt.ArrayLike, radius: npt.ArrayLike | None = None, name: str | None = None) -> None:
+    def __init__(
+        self, points: npt.ArrayLike, radius: npt.ArrayLike | None = None, name: str | None = None
+    ) -> None:
         self._points = numbers(VesselTreeError, "points of the vessel", points, (-1, 3))
         self._radius = None if radius is None else _radii(radius, len(self._points))
         self._name = name
@@ -87,7 +89,9 @@ class VesselTree:
             raise VesselTreeError("vessel tree", "no vessels", "at least one vessel")
         for vessel in self._vessels:
             if not isinstance(vessel, Vessel):
-                raise VesselTreeError("vessel tree", f"a member of type {type(vessel).__name__}", "only Vessel objects")
+                raise VesselTreeError(
+                    "vessel tree", f"a member of type {type(vessel).__name__}", "only Vessel objects"
+                )
 
     def levels(self, count: int = 6) -> list[VesselTree]:
         """Return this tree and its levels of detail, finest first.
@@ -105,7 +109,9 @@ class VesselTree:
         made = _lumencut.levels(self._arrays(), count)
         names = [vessel.name for vessel in self._vessels]
         return [
-            VesselTree(Vessel(points, radius, name) for (points, radius), name in zip(level, names, strict=True))
+            VesselTree(
+                Vessel(points, radius, name) for (points, radius), name in zip(level, names, strict=True)
+            )
             for level in made
         ]
 

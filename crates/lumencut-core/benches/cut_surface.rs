@@ -1,4 +1,7 @@
 //! Hierarchy against brute force in one run.
+
+#![allow(clippy::unwrap_used)]
+
 use std::time::Instant;
 
 use glam::DVec3;

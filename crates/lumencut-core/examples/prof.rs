@@ -1,4 +1,7 @@
 //! x
+
+#![allow(clippy::unwrap_used)]
+
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::math::lanes::Isa;
