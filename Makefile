@@ -18,7 +18,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 help: ## List the commands.
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
-demo: develop ## Build what is needed and render the phantoms into ./demo.
+demo: develop ## Build what is needed and render the demo into ./demo.
 	$(BIN)/lumencut demo demo
 
 test: ## Run every check; the last line is `N passed, N failed`.
@@ -70,5 +70,5 @@ $(VENV)/.dev: requirements/dev.lock $(VENV)/.runtime
 	@touch $@
 
 $(VENV)/.lumencut: $(RUST_SOURCES) $(VENV)/.runtime | toolchain
-	$(BIN)/maturin develop --release --locked --quiet
+	PATH="$(abspath $(BIN)):$$PATH" $(PIP) --no-deps --no-build-isolation --editable .
 	@touch $@

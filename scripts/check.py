@@ -1,7 +1,8 @@
 """Every check of the repository, cheapest first; it stops at the first red one.
 
-The last line is ``N passed, N failed``: the tests of Rust and Python together, and each red check that is no test
-counts as one that failed. Needs nothing but Python itself; the environment is the first check.
+The last line is ``N passed, N failed``: the tests of Rust and Python together, and a red
+check that is no test counts as one that failed.
+Needs nothing but Python itself; the environment is the first check.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
@@ -30,7 +31,7 @@ class Count:
     passed: int = 0
     failed: int = 0
 
-    def __add__(self, other: "Count") -> "Count":
+    def __add__(self, other: Count) -> Count:
         return Count(self.passed + other.passed, self.failed + other.failed)
 
     def __str__(self) -> str:
@@ -57,7 +58,7 @@ def count_rust(text: str) -> Count:
 def count_python(text: str) -> Count:
     """The tests in the JUnit report of pytest; an error in a fixture or an import counts as failed."""
     count = Count()
-    for suite in ElementTree.fromstring(text).iter("testsuite"):
+    for suite in ET.fromstring(text).iter("testsuite"):
         ran, failed, errors, skipped = (
             int(suite.get(n, "0")) for n in ("tests", "failures", "errors", "skipped")
         )
@@ -143,7 +144,7 @@ def judge(check: Check) -> tuple[Count, str]:
     if check.count:
         try:
             count = check.count(Path(check.report).read_text("utf-8") if check.report else text)
-        except (OSError, ElementTree.ParseError):
+        except (OSError, ET.ParseError):
             return Count(failed=1), f"exit status {status}, and no report"
     if count.failed:
         return count, f"{count.failed} failed"

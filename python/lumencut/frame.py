@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut.camera import Camera
 from lumencut.errors import FileError, FormatError, LumencutError
+
+_Scalar = TypeVar("_Scalar", bound=np.generic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +69,8 @@ class Frame:
         Parameters
         ----------
         path : path-like
-            The ending names the format: any picture format of Pillow (``.png``, ``.tif``, ``.webp``, …) or ``.npz``.
+            The ending names the format: any picture format of Pillow (``.png``, ``.tif``, ``.webp``, …)
+            or ``.npz``.
 
         Raises
         ------
@@ -83,7 +86,7 @@ class Frame:
             save_picture(self.image, path)
 
     def _write_arrays(self, path: Path) -> None:
-        arrays = {
+        arrays: dict[str, npt.NDArray[Any]] = {
             "depth": self.depth,
             "vessel": self.vessel,
             "distance": self.distance,
@@ -124,7 +127,7 @@ def replace_whole(path: Path, write: Any) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _present(name: str, array: Any) -> Any:
+def _present(name: str, array: npt.NDArray[_Scalar] | None) -> npt.NDArray[_Scalar]:
     if array is None:
         raise LumencutError(
             f"{name} of the frame", "a cut surface without a volume", "a rendered frame", "use render"

@@ -19,8 +19,8 @@ from lumencut.volume import Volume
 class Renderer:
     """Renders views of one volume and one vessel tree.
 
-    What does not depend on the view is made once; a further view allocates nothing of the size of the volume or
-    the tree. Views may be rendered from several threads; they take turns.
+    What does not depend on the view is made once; a further view allocates nothing of the size of the volume
+    or the tree. Views may be rendered from several threads; they take turns.
 
     Parameters
     ----------
@@ -136,6 +136,12 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
 
 
 def _frame(camera: Camera, buffers: dict[str, Any]) -> Frame:
-    names = ("depth", "vessel", "distance", "timings")
-    shown = {"_image": buffers.get("image"), "_value": buffers.get("value")}
-    return Frame(camera, **{name: buffers[name] for name in names}, **shown)
+    return Frame(
+        camera,
+        depth=buffers["depth"],
+        vessel=buffers["vessel"],
+        distance=buffers["distance"],
+        timings=buffers["timings"],
+        _image=buffers.get("image"),
+        _value=buffers.get("value"),
+    )

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Window:
-    """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's own unit (HU for CT)."""
+    """Intensities from black to white: ``level`` ± ``width`` / 2, in the volume's own unit (HU for CT)."""
 
     level: float
     width: float
@@ -29,14 +29,17 @@ class Window:
 
     @classmethod
     def from_data(cls, volume: Volume, tree: VesselTree) -> Window:
-        """Return a window that shows lumen as light grey, tissue darker and calcifications or stents brighter.
+        """Return a window that shows lumen light grey, tissue darker and calcifications or stents brighter.
 
-        The median along the centerlines stands for the lumen, the median of the volume within the tree's box for
-        the tissue around it; the window is centred on the lumen and three times as wide as their difference.
+        The median along the centerlines stands for the lumen, the median of the volume within the tree's box
+        for the tissue around it; the window is centred on the lumen and three times as wide as their
+        difference.
         """
         lumen = volume.sample(tree.points)
         lumen = lumen[np.isfinite(lumen)]
-        grid = np.stack(np.meshgrid(*np.linspace(*tree.bounds, 24).T, indexing="ij"), axis=-1)
+        low, high = tree.bounds
+        x, y, z = np.linspace(low, high, 24).T
+        grid = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
         around = volume.sample(grid)
         around = around[np.isfinite(around)]
         if lumen.size == 0 or around.size == 0:

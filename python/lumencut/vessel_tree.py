@@ -21,7 +21,7 @@ class Vessel:
     points : array_like, shape (n, 3)
         At least two points (mm, LPS), at most 1e6 mm from the origin along each axis.
     radius : array_like, shape (n,) or scalar, optional
-        Radius of the lumen at each point (mm), 0 or more; without it the wall is taken to lie on the centerline.
+        Radius of the lumen at each point (mm), 0 or more; without it the wall lies on the centerline.
     name : str, optional
         The vessel's name.
 
