@@ -1,12 +1,14 @@
-//! Hierarchy against brute force in one run.
+//! The cut surface (projection, distance and depth at all levels) against brute force in the same run.
+//!
+//! `cargo bench -p lumencut-core --bench cut_surface`
 
-#![allow(clippy::unwrap_used)]
+mod common;
 
-use std::time::Instant;
-
+use common::{Times, fitted, head, row, time};
 use glam::DVec3;
 use lumencut_core::brute_force;
 use lumencut_core::camera::Camera;
+use lumencut_core::error::Result;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::pipeline::Renderer;
@@ -14,51 +16,127 @@ use lumencut_core::settings::Settings;
 use lumencut_core::stages::View;
 use lumencut_core::stages::depth::depth;
 use lumencut_core::stages::distance::distance;
+use lumencut_core::stages::levels::levels;
+use lumencut_core::vessel_tree::VesselTree;
 
-fn median(mut f: impl FnMut(), n: usize) -> f64 {
-    let mut t: Vec<f64> = (0..n)
-        .map(|_| {
-            let s = Instant::now();
-            f();
-            s.elapsed().as_secs_f64() * 1e3
-        })
-        .collect();
-    t.sort_by(f64::total_cmp);
-    t[n / 2]
+/// Buffers of one view.
+struct Buffers {
+    distance: Vec<f32>,
+    depth: Vec<f32>,
+    vessel: Vec<i32>,
 }
 
-fn main() {
-    let go: &(dyn Fn() -> bool + Sync) = &|| false;
-    for (vessels, segments, step) in [(31, 160, 1.5), (124, 160, 1.5), (31, 640, 0.4)] {
-        let tree = random_tree(7, vessels, segments, step, 150.0).unwrap();
-        let settings = Settings::default();
+fn buffers() -> Buffers {
+    Buffers { distance: vec![0.0; 512 * 512], depth: vec![0.0; 512 * 512], vessel: vec![0; 512 * 512] }
+}
+
+/// Renders the cut surface `runs` times.
+fn cut_surface(
+    renderer: &mut Renderer,
+    isa: Isa,
+    camera: &Camera,
+    settings: &Settings,
+    runs: usize,
+) -> (Times, Buffers) {
+    let mut b = buffers();
+    let view = View { camera, isa, stop: &|| false };
+    let times = time(runs, || {
+        let surface = renderer.project(camera, settings);
+        let done = distance(&view, surface.finest(), &mut b.distance)
+            .and_then(|()| depth(&view, &surface, &b.distance, &mut b.depth, &mut b.vessel));
+        done.expect("nobody asks to stop");
+    });
+    (times, b)
+}
+
+/// The same by brute force.
+fn by_brute_force(renderer: &mut Renderer, isa: Isa, camera: &Camera, settings: &Settings) -> (Times, Buffers) {
+    let mut b = buffers();
+    let view = View { camera, isa, stop: &|| false };
+    let surface = renderer.project(camera, settings);
+    let times = time(3, || {
+        let done = brute_force::distance(&view, surface.finest(), &mut b.distance)
+            .and_then(|()| brute_force::depth(&view, &surface, &b.distance, &mut b.depth, &mut b.vessel));
+        done.expect("nobody asks to stop");
+    });
+    (times, b)
+}
+
+/// Hierarchy against brute force, for each instruction set and both rules.
+fn against_brute_force(name: &str, tree: &VesselTree) {
+    let camera = fitted(tree, DVec3::new(0.1, 1.0, 0.2));
+    for (rule, lumen_first) in [("cost", false), ("lumen first", true)] {
+        let settings = Settings { lumen_first, ..Settings::default() };
         for isa in Isa::available() {
             let mut renderer = Renderer::new(tree.clone()).with_isa(isa);
-            let camera =
-                Camera::new(DVec3::ZERO, DVec3::new(0.1, 1.0, 0.2), DVec3::Z, [512, 512], 0.6).unwrap();
-            let view = View { camera: &camera, isa, stop: go };
-            let (mut d, mut z, mut v) = (vec![0f32; 512 * 512], vec![0f32; 512 * 512], vec![0i32; 512 * 512]);
-            let tp = median(
-                || {
-                    renderer.project(&camera, &settings);
-                },
-                41,
-            );
-            let cut = renderer.project(&camera, &settings);
-            let td = median(|| distance(&view, cut.finest(), &mut d).unwrap(), 41);
-            let tz = median(|| depth(&view, &cut, &d, &mut z, &mut v).unwrap(), 41);
-            let bd = median(|| brute_force::distance(&view, cut.finest(), &mut d).unwrap(), 3);
-            let (mut bz, mut bv) = (z.clone(), v.clone());
-            let bb = median(|| brute_force::depth(&view, &cut, &d, &mut bz, &mut bv).unwrap(), 3);
-            let differ = z.iter().zip(&bz).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
-            let vdiffer = v.iter().zip(&bv).filter(|(a, b)| a != b).count();
-            println!(
-                "{:?} segs {} proj {tp:.2} dist {td:.2} depth {tz:.2} sum {:.2} brute {bd:.1}+{bb:.1} ratio {:.1} differ {differ} {vdiffer}",
-                isa,
-                tree.segment_count(),
-                tp + td + tz,
-                (bd + bb) / (tp + td + tz)
-            );
+            let (fast, a) = cut_surface(&mut renderer, isa, &camera, &settings, 31);
+            let (slow, b) = by_brute_force(&mut renderer, isa, &camera, &settings);
+            let same = a.depth == b.depth && a.vessel == b.vessel && a.distance == b.distance;
+            row([
+                name.to_owned(),
+                tree.segment_count().to_string(),
+                rule.to_owned(),
+                format!("{isa:?}"),
+                format!("{:.2}", fast.median),
+                format!("{:.2}", fast.minimum),
+                format!("{:.1}", slow.median),
+                format!("{:.0}", slow.median / fast.median),
+                if same { "equal" } else { "DIFFERENT" }.to_owned(),
+            ]);
         }
     }
+}
+
+/// The slowest of many directions against the median one.
+fn over_directions(name: &str, tree: &VesselTree) {
+    let mut renderer = Renderer::new(tree.clone());
+    let golden = 2.399_963;
+    let mut times: Vec<f64> = (0..50)
+        .map(|n| {
+            let z = 1.0 - (n as f64 + 0.5) / 25.0;
+            let (sin, cos) = (golden * n as f64).sin_cos();
+            let direction = DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z);
+            let camera = fitted(tree, direction);
+            cut_surface(&mut renderer, Isa::widest(), &camera, &Settings::default(), 5).0.minimum
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    let (median, worst) = (times[25], times[49]);
+    row([name.to_owned(), format!("{median:.2}"), format!("{worst:.2}"), format!("{:.2}", worst / median)]);
+}
+
+fn main() -> Result<()> {
+    let small = random_tree(7, 31, 160, 1.5, 150.0)?;
+    let resampled = levels_finer(&small)?;
+    let many = random_tree(7, 124, 160, 1.5, 150.0)?;
+    head(
+        "Cut surface, 512 × 512, all levels (ms)",
+        &["tree", "segments", "rule", "set", "median", "minimum", "brute force", "ratio", "pixels"],
+    );
+    against_brute_force("31 vessels", &small);
+    against_brute_force("31 vessels, 4 times as finely sampled", &resampled);
+    against_brute_force("124 vessels", &many);
+    head("Over 50 directions (ms)", &["tree", "median", "worst", "ratio"]);
+    over_directions("31 vessels", &small);
+    over_directions("124 vessels", &many);
+    let long = random_tree(3, 100, 199, 1.0, 200.0)?;
+    let made = time(11, || drop(levels(&long, 6)));
+    head("Levels of detail (ms)", &["points", "median"]);
+    row(["20000".to_owned(), format!("{:.2}", made.median)]);
+    Ok(())
+}
+
+/// The same vessels with every segment cut into four.
+fn levels_finer(tree: &VesselTree) -> Result<VesselTree> {
+    let finer = tree.vessels().iter().map(|v| {
+        let count = (v.points().len() - 1) * 4;
+        let between = |n: usize| {
+            let (i, t) = ((n / 4).min(v.points().len() - 2), n as f64 / 4.0);
+            let t = t - i as f64;
+            (v.points()[i].lerp(v.points()[i + 1], t), v.radius_or_zero(i) * (1.0 - t) + v.radius_or_zero(i + 1) * t)
+        };
+        let (points, radii) = (0..=count).map(between).unzip();
+        lumencut_core::vessel_tree::Vessel::new(points, Some(radii))
+    });
+    VesselTree::new(finer.collect::<Result<_>>()?)
 }

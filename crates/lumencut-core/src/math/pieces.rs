@@ -165,7 +165,8 @@ impl Envelope {
             let (ux, uy) = (tile.x[l] - x, tile.y[l] - y);
             let after_start = ux * ex + uy * ey;
             let beyond_end = (tile.x[l] - next_x) * ex + (tile.y[l] - next_y) * ey;
-            let t = after_start * per_square;
+            // Rounding must not carry t past the end, where depth and radius were never bounded.
+            let t = smaller(after_start * per_square, 1.0);
             let d = (ux * unit_y - uy * unit_x).abs();
             let z = z0 + t * dz;
             let key = rule.key::<LUMEN_FIRST>(z, d, r0 + t * dr);

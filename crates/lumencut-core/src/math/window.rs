@@ -1,5 +1,7 @@
 //! The window (level, width) that maps intensities to grey, and the ramp that maps them to opacity.
 
+use super::lanes::{larger, smaller};
+
 /// Intensities shown from black to white: `level` ± `width` / 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
@@ -44,6 +46,6 @@ impl Ramp {
     /// The ramp at an intensity, in [0, 1].
     #[inline(always)]
     pub fn at(&self, intensity: f32) -> f32 {
-        (intensity * self.scale + self.offset).clamp(0.0, 1.0)
+        smaller(larger(intensity * self.scale + self.offset, 0.0), 1.0)
     }
 }

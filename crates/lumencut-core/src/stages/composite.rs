@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::View;
 use crate::error::Result;
+use crate::math::lanes::{Kernel, dispatch};
 use crate::math::window::Ramp;
 use crate::settings::Settings;
 
@@ -18,33 +19,62 @@ pub fn composite(
     settings: &Settings,
     image: &mut [[u8; 4]],
 ) -> Result<()> {
-    let (grey, opacity) = (Ramp::grey(settings.window), Ramp::opacity(settings.opacity));
-    let background = settings.background.map(f32::from);
-    let line = settings.silhouette_color.map(f32::from);
-    let chunk = view.tile_row();
-    image.par_chunks_mut(chunk).zip(value.par_chunks(chunk)).enumerate().try_for_each(
-        |(row, (image, value))| {
-            view.go_on()?;
-            for (n, (pixel, value)) in image.iter_mut().zip(value).enumerate() {
-                let strength = strength.map_or(0.0, |s| s[row * chunk + n]);
-                *pixel = if value.is_nan() {
-                    settings.background
-                } else {
-                    blend(background, grey.at(*value) * 255.0, opacity.at(*value), line, strength)
-                };
-            }
-            Ok(())
-        },
-    )
+    let paint = Paint {
+        grey: Ramp::grey(settings.window),
+        opacity: Ramp::opacity(settings.opacity),
+        background: settings.background.map(f32::from),
+        line: settings.silhouette_color.map(f32::from),
+    };
+    let (chunk, none) = (view.tile_row(), vec![0.0; if strength.is_some() { 0 } else { view.tile_row() }]);
+    image.par_chunks_mut(chunk).zip(value.par_chunks(chunk)).enumerate().try_for_each(|(row, (image, value))| {
+        view.go_on()?;
+        let strength = strength.map_or(&none[..], |s| &s[row * chunk..][..value.len()]);
+        dispatch(view.isa, PaintRows { paint, value, strength, image });
+        Ok(())
+    })
 }
 
-/// Grey with `opacity` over the background; the silhouette's colour over both, as opaque as the surface.
-#[inline(always)]
-fn blend(background: [f32; 4], grey: f32, opacity: f32, line: [f32; 3], strength: f32) -> [u8; 4] {
-    let channel = |c: usize| {
-        let surface = grey + (line[c] - grey) * strength;
-        (background[c] + (surface - background[c]) * opacity + 0.5) as u8
-    };
-    let alpha = background[3] + (255.0 - background[3]) * opacity;
-    [channel(0), channel(1), channel(2), (alpha + 0.5) as u8]
+/// The colours of one picture.
+#[derive(Clone, Copy)]
+struct Paint {
+    grey: Ramp,
+    opacity: Ramp,
+    background: [f32; 4],
+    line: [f32; 3],
+}
+
+impl Paint {
+    /// Grey with its opacity over the background; the silhouette's colour over the grey, as opaque as the surface.
+    /// Where there is no value there is only background.
+    #[inline(always)]
+    fn pixel(&self, value: f32, strength: f32) -> [u8; 4] {
+        let nothing = value.is_nan();
+        let value = if nothing { 0.0 } else { value };
+        let grey = self.grey.at(value) * 255.0;
+        let opacity = if nothing { 0.0 } else { self.opacity.at(value) };
+        let channel = |c: usize| {
+            let surface = grey + (self.line[c] - grey) * strength;
+            (self.background[c] + (surface - self.background[c]) * opacity + 0.5) as i32 as u32
+        };
+        let alpha = (self.background[3] + (255.0 - self.background[3]) * opacity + 0.5) as i32 as u32;
+        (channel(0) | channel(1) << 8 | channel(2) << 16 | alpha << 24).to_le_bytes()
+    }
+}
+
+struct PaintRows<'a> {
+    paint: Paint,
+    value: &'a [f32],
+    strength: &'a [f32],
+    image: &'a mut [[u8; 4]],
+}
+
+impl Kernel for PaintRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for ((pixel, value), strength) in self.image.iter_mut().zip(self.value).zip(self.strength) {
+            *pixel = self.paint.pixel(*value, *strength);
+        }
+    }
 }

@@ -50,26 +50,34 @@ impl Kernel for FilterRows<'_> {
         let row = |j: usize| &self.image[j * width..(j + 1) * width];
         let mut padded = vec![0.0; width + 2 * REACH];
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
-            let above: [&[f32]; REACH + 1] = std::array::from_fn(|n| row(j.saturating_sub(n)));
-            let below: [&[f32]; REACH + 1] = std::array::from_fn(|n| row((j + n).min(height - 1)));
-            for i in 0..width {
-                let mut sum = weights[0] * above[0][i];
-                for n in 1..=REACH {
-                    sum += weights[n] * (above[n][i] + below[n][i]);
-                }
-                padded[REACH + i] = sum;
+            let middle = &mut padded[REACH..REACH + width];
+            set(middle, weights[0], row(j));
+            for n in 1..=REACH {
+                add(middle, weights[n], row(j.saturating_sub(n)), row((j + n).min(height - 1)));
             }
-            let (first, last) = (padded[REACH], padded[REACH + width - 1]);
+            let (first, last) = (middle[0], middle[width - 1]);
             padded[..REACH].fill(first);
             padded[REACH + width..].fill(last);
-            for i in 0..width {
-                let middle = i + REACH;
-                let mut sum = weights[0] * padded[middle];
-                for n in 1..=REACH {
-                    sum += weights[n] * (padded[middle - n] + padded[middle + n]);
-                }
-                smoothed[i] = sum;
+            set(smoothed, weights[0], &padded[REACH..]);
+            for n in 1..=REACH {
+                add(smoothed, weights[n], &padded[REACH - n..], &padded[REACH + n..]);
             }
         }
+    }
+}
+
+/// sum ← weight · image
+#[inline(always)]
+fn set(sum: &mut [f32], weight: f32, image: &[f32]) {
+    for (sum, pixel) in sum.iter_mut().zip(image) {
+        *sum = weight * pixel;
+    }
+}
+
+/// sum ← sum + weight · (one + other)
+#[inline(always)]
+fn add(sum: &mut [f32], weight: f32, one: &[f32], other: &[f32]) {
+    for ((sum, one), other) in sum.iter_mut().zip(one).zip(other) {
+        *sum += weight * (one + other);
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::View;
 use super::depth_filter::depth_filter;
 use crate::error::Result;
-use crate::math::lanes::{Kernel, ROWS, dispatch};
+use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
 
 /// How much a leap between the influence zones of two vessels counts beside one within a zone.
 const ZONE_BORDER: f32 = 6.0;
@@ -34,13 +34,27 @@ pub fn silhouette(
     })?;
     depth_filter(view, &raised, strength)?;
     let half = (half_slope * half_slope) as f32;
-    strength.par_chunks_mut(view.tile_row()).for_each(|row| {
-        for s in row {
-            let square = (*s * *s).min(1e12);
-            *s = square / (square + half);
-        }
-    });
+    strength.par_chunks_mut(view.tile_row()).for_each(|slopes| dispatch(view.isa, Strength { slopes, half }));
     Ok(())
+}
+
+/// Maps slopes to strengths.
+struct Strength<'a> {
+    slopes: &'a mut [f32],
+    half: f32,
+}
+
+impl Kernel for Strength<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for s in self.slopes {
+            // Far beyond any slope, and its square is still finite.
+            let square = smaller(*s * *s, 1e12);
+            *s = square / (square + self.half);
+        }
+    }
 }
 
 struct SlopeRows<'a> {
@@ -61,21 +75,39 @@ impl Kernel for SlopeRows<'_> {
         let height = self.depth.len() / width;
         for (j, raised) in (self.first..).zip(self.raised.chunks_mut(width)) {
             let rows = [j.saturating_sub(1), j, (j + 1).min(height - 1)];
-            let [z0, z1, z2] = rows.map(|j| &self.depth[j * width..(j + 1) * width]);
-            let [v0, v1, v2] = rows.map(|j| &self.vessel[j * width..(j + 1) * width]);
-            let slope = |left: usize, i: usize, right: usize| {
-                let dx = z0[right] - z0[left] + 2.0 * (z1[right] - z1[left]) + z2[right] - z2[left];
-                let dy = z2[left] - z0[left] + 2.0 * (z2[i] - z0[i]) + z2[right] - z0[right];
-                let here = v1[i];
-                let border = (v0[i] != here) | (v2[i] != here) | (v1[left] != here) | (v1[right] != here);
-                let raise = if border { ZONE_BORDER } else { 1.0 };
-                (dx * dx + dy * dy).sqrt() * self.per_slope * raise
-            };
-            for i in 1..width.saturating_sub(1) {
-                raised[i] = slope(i - 1, i, i + 1);
+            let z = rows.map(|j| &self.depth[j * width..(j + 1) * width]);
+            let v = rows.map(|j| &self.vessel[j * width..(j + 1) * width]);
+            let inner = width.saturating_sub(2);
+            // Neighbours as slices of one length, so that the compiler can use vectors.
+            let [zl, zm, zr] = [0, 1, 2].map(|o| z.map(|row| row.get(o..o + inner).unwrap_or_default()));
+            let [vl, vm, vr] = [0, 1, 2].map(|o| v.map(|row| row.get(o..o + inner).unwrap_or_default()));
+            for i in 0..inner {
+                let depths = [0, 1, 2].map(|r| [zl[r][i], zm[r][i], zr[r][i]]);
+                let border = is_border(vm[1][i], [vl[1][i], vr[1][i], vm[0][i], vm[2][i]]);
+                raised[i + 1] = raise(depths, border) * self.per_slope;
             }
-            raised[0] = slope(0, 0, 1.min(width - 1));
-            raised[width - 1] = slope(width.saturating_sub(2), width - 1, width - 1);
+            // The first and the last column repeat themselves beyond the border.
+            for i in [0, width - 1] {
+                let (left, right) = (i.saturating_sub(1), (i + 1).min(width - 1));
+                let depths = z.map(|row| [row[left], row[i], row[right]]);
+                let border = is_border(v[1][i], [v[1][left], v[1][right], v[0][i], v[2][i]]);
+                raised[i] = raise(depths, border) * self.per_slope;
+            }
         }
     }
+}
+
+/// Whether a neighbour belongs to another influence zone.
+#[inline(always)]
+fn is_border(here: i32, neighbours: [i32; 4]) -> bool {
+    let [a, b, c, d] = neighbours.map(|n| n != here);
+    (a | b) | (c | d)
+}
+
+/// The Sobel magnitude of a 3 × 3 neighbourhood (row by row), raised at a border.
+#[inline(always)]
+fn raise(z: [[f32; 3]; 3], border: bool) -> f32 {
+    let dx = (z[0][2] - z[0][0]) + 2.0 * (z[1][2] - z[1][0]) + (z[2][2] - z[2][0]);
+    let dy = (z[2][0] - z[0][0]) + 2.0 * (z[2][1] - z[0][1]) + (z[2][2] - z[0][2]);
+    (dx * dx + dy * dy).sqrt() * if border { ZONE_BORDER } else { 1.0 }
 }

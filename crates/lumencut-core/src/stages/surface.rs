@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::View;
 use crate::camera::Camera;
 use crate::error::Result;
-use crate::math::lanes::{Kernel, ROWS, dispatch};
+use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
 use crate::math::sampling::Grid;
 use crate::volume::{Volume, Voxel};
 use crate::with_voxels;
@@ -69,10 +69,20 @@ impl<T: Voxel> Kernel for SurfaceRows<'_, T> {
         let to = self.index_from_view;
         let rows = self.value.chunks_mut(width).zip(self.depth.chunks(width));
         for (j, (value, depth)) in (self.first..).zip(rows) {
-            let row = to.origin + to.y * self.camera.view_y(j);
-            for (i, (value, z)) in value.iter_mut().zip(depth).enumerate() {
-                let index = row + to.x * self.camera.view_x(i) + to.z * f64::from(*z);
-                *value = self.grid.trilinear(self.voxels, index);
+            let row = (to.origin + to.y * self.camera.view_y(j)).to_array();
+            for (n, (value, depth)) in value.chunks_mut(FAN).zip(depth.chunks(FAN)).enumerate() {
+                let mut z = [0.0; FAN];
+                z[..depth.len()].copy_from_slice(depth);
+                let mut index = [[0.0; FAN]; 3];
+                for a in 0..3 {
+                    let (x_step, z_step) = (to.x[a], to.z[a]);
+                    for l in 0..FAN {
+                        index[a][l] =
+                            row[a] + x_step * self.camera.view_x(n * FAN + l) + z_step * f64::from(z[l]);
+                    }
+                }
+                let sampled = self.grid.trilinear_lanes(self.voxels, &index);
+                value.copy_from_slice(&sampled[..value.len()]);
             }
         }
     }
