@@ -33,7 +33,7 @@ format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
 	$(BIN)/ruff format --quiet
 
 bench: toolchain ## Measure the core on this machine; prints tables, keeps nothing.
-	cargo bench --locked --package lumencut-core
+	cargo bench --locked --package lumencut-core --bench '*'
 
 wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
 	$(BIN)/maturin build --release --locked --out dist

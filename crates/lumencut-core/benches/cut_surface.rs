@@ -50,7 +50,12 @@ fn cut_surface(
 }
 
 /// The same by brute force.
-fn by_brute_force(renderer: &mut Renderer, isa: Isa, camera: &Camera, settings: &Settings) -> (Times, Buffers) {
+fn by_brute_force(
+    renderer: &mut Renderer,
+    isa: Isa,
+    camera: &Camera,
+    settings: &Settings,
+) -> (Times, Buffers) {
     let mut b = buffers();
     let view = View { camera, isa, stop: &|| false };
     let surface = renderer.project(camera, settings);
@@ -133,7 +138,10 @@ fn levels_finer(tree: &VesselTree) -> Result<VesselTree> {
         let between = |n: usize| {
             let (i, t) = ((n / 4).min(v.points().len() - 2), n as f64 / 4.0);
             let t = t - i as f64;
-            (v.points()[i].lerp(v.points()[i + 1], t), v.radius_or_zero(i) * (1.0 - t) + v.radius_or_zero(i + 1) * t)
+            (
+                v.points()[i].lerp(v.points()[i + 1], t),
+                v.radius_or_zero(i) * (1.0 - t) + v.radius_or_zero(i + 1) * t,
+            )
         };
         let (points, radii) = (0..=count).map(between).unzip();
         lumencut_core::vessel_tree::Vessel::new(points, Some(radii))

@@ -26,12 +26,14 @@ pub fn composite(
         line: settings.silhouette_color.map(f32::from),
     };
     let (chunk, none) = (view.tile_row(), vec![0.0; if strength.is_some() { 0 } else { view.tile_row() }]);
-    image.par_chunks_mut(chunk).zip(value.par_chunks(chunk)).enumerate().try_for_each(|(row, (image, value))| {
-        view.go_on()?;
-        let strength = strength.map_or(&none[..], |s| &s[row * chunk..][..value.len()]);
-        dispatch(view.isa, PaintRows { paint, value, strength, image });
-        Ok(())
-    })
+    image.par_chunks_mut(chunk).zip(value.par_chunks(chunk)).enumerate().try_for_each(
+        |(row, (image, value))| {
+            view.go_on()?;
+            let strength = strength.map_or(&none[..], |s| &s[row * chunk..][..value.len()]);
+            dispatch(view.isa, PaintRows { paint, value, strength, image });
+            Ok(())
+        },
+    )
 }
 
 /// The colours of one picture.
