@@ -117,10 +117,12 @@ def test_checks(report: str) -> list[Check]:
 def run(check: Check) -> tuple[int, str]:
     """The exit status of the command, and what it printed while it ran."""
     lines = []
+    # A `make` that runs this script would hand its job slots down to commands that cannot use them.
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
     with subprocess.Popen(
         check.command,
         cwd=ROOT,
-        env=os.environ | check.environment,
+        env=inherited | check.environment,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

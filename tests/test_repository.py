@@ -150,13 +150,28 @@ def test_licence_expressions(expression, allowed):
     assert is_allowed(expression) == allowed
 
 
-def test_licences_of_the_crates():
-    told = subprocess.run(
-        ["cargo", "metadata", "--locked", "--format-version=1"], cwd=ROOT, check=True, capture_output=True
-    )
+@pytest.fixture(scope="module")
+def crates() -> list[dict]:
+    """The crates of the workspace and everything that they need, on any platform."""
+    command = ["cargo", "metadata", "--locked", "--format-version=1"]
+    told = subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
     packages = json.loads(told.stdout)["packages"]
     assert len(packages) > 20
-    licences = {package["name"]: package["license"] or "none stated" for package in packages}
+    return packages
+
+
+def test_crates_accept_the_oldest_rust(crates):
+    def release(version: str) -> tuple[int, ...]:
+        return tuple(map(int, version.split(".")))
+
+    oldest = toml("Cargo.toml")["workspace"]["package"]["rust-version"]
+    wanted = {crate["name"]: crate["rust_version"] for crate in crates if crate["rust_version"]}
+    newer = {name: version for name, version in wanted.items() if release(version) > release(f"{oldest}.0")}
+    assert newer == {}
+
+
+def test_licences_of_the_crates(crates):
+    licences = {crate["name"]: crate["license"] or "none stated" for crate in crates}
     refused = {name: licence for name, licence in licences.items() if not is_allowed(licence)}
     assert refused == {}
 
