@@ -97,7 +97,7 @@ class VesselTree:
         """Return this tree and its levels of detail, finest first.
 
         Level k + 1 is the clamped cubic B-spline over the points of level k, evaluated at half as many
-        parameters; end points stay where they are (Auzinger et al. 2013, section 3.3).
+        parameters; end points stay where they are (Auzinger et al. 2013, sections 3.1.4 and 3.2.2).
 
         Parameters
         ----------

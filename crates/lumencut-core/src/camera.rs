@@ -8,7 +8,7 @@ use crate::vessel_tree::MAX_COORDINATE;
 /// The most pixels along one side of an image.
 pub const MAX_SIZE: usize = 32_768;
 
-/// An orthographic view: x right, y up, z away from the viewer, origin at `center` (design: view space).
+/// An orthographic view: x right, y up, z away from the viewer, origin at `center`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     center: DVec3,

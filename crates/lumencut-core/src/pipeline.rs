@@ -64,7 +64,7 @@ impl Renderer {
         let view = View { camera, isa: self.isa, stop };
         let mut clock = Clock::start();
         let pixels = frame.depth.len();
-        frame.value = vec![f32::NAN; pixels];
+        frame.value = vec![0.0; pixels];
         surface(&view, volume, &frame.depth, &mut frame.value)?;
         clock.lap("surface", &mut frame.timings);
         let mut strength = Vec::new();
@@ -73,7 +73,7 @@ impl Renderer {
             silhouette(&view, &frame.depth, &frame.vessel, settings.silhouette_slope, &mut strength)?;
             clock.lap("silhouette", &mut frame.timings);
         }
-        frame.image = vec![settings.background; pixels];
+        frame.image = vec![[0; 4]; pixels];
         let lines = settings.silhouettes.then_some(&strength[..]);
         composite(&view, &frame.value, lines, settings, &mut frame.image)?;
         clock.lap("composite", &mut frame.timings);

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// A voxel type: widened exactly, or to `f32` for half precision, when it is read.
+/// A voxel type, widened when it is read.
 pub trait Voxel: Copy + Send + Sync + 'static {
     /// The type that the interpolation computes in: `f32` where it holds every value exactly, else `f64`.
     type Real: Real;

@@ -85,9 +85,11 @@ pub fn sample<'py>(
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let (grid, to_index) = (Grid::new(&volume), volume.index_from_world());
-    let values: Vec<f32> = with_voxels!(volume.voxels(), voxels => points
-        .iter()
-        .map(|p| grid.trilinear(voxels, to_index.transform_point3(DVec3::from_array(*p))))
-        .collect());
+    let values: Vec<f32> = py.detach(|| {
+        with_voxels!(volume.voxels(), voxels => points
+            .iter()
+            .map(|p| grid.trilinear(voxels, to_index.transform_point3(DVec3::from_array(*p))))
+            .collect())
+    });
     Ok(PyArray1::from_vec(py, values))
 }

@@ -1,5 +1,6 @@
 //! The depth of the cut surface: per level the piece with the smallest cost, blended between the two levels
-//! that the distance selects (paper section 3.2 and 3.3; Eq. 2).
+//! that the distance selects (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2;
+//! Eq. 2).
 
 use rayon::prelude::*;
 

@@ -1,5 +1,5 @@
 //! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that takes the steps of the pixel grid out of
-//! the cut surface (paper section 3.3, "Depth Filtering").
+//! the cut surface (paper section 3.3.3).
 
 use rayon::prelude::*;
 

@@ -1,5 +1,5 @@
 //! The distance of every pixel to the nearest vessel of the finest level, in the view plane; it selects the
-//! levels of detail (the paper's "LOD estimation").
+//! levels of detail (the paper's "LOD estimation", section 3.3.1).
 
 use rayon::prelude::*;
 

@@ -1,5 +1,5 @@
 //! Levels of detail: ever smoother copies of the tree, whose surfaces run calmly far from the vessels
-//! (paper section 3.3, "Levels of Detail").
+//! (paper sections 3.1.4 and 3.2.2).
 //!
 //! Level k + 1 is the clamped cubic B-spline with uniform knots over the points of level k, evaluated at half
 //! as many parameters. The ends stay exactly where they are, so branches stay connected.
@@ -26,11 +26,10 @@ fn smooth(vessel: &Vessel) -> Vessel {
     let controls: Vec<DVec4> = (0..=last).map(|i| points[i].extend(vessel.radius_or_zero(i))).collect();
     let mut samples = Vec::with_capacity(count);
     samples.push(controls[0]);
+    // Three points or fewer become the two ends: the straight line between them.
     if points.len() >= 4 {
         let spans = (points.len() - 3) as f64;
         samples.extend((1..count - 1).map(|j| spline(&controls, j as f64 / (count - 1) as f64 * spans)));
-    } else {
-        samples.extend((1..count - 1).map(|_| controls[0].midpoint(controls[last])));
     }
     samples.push(controls[last]);
     let radius = vessel.radius().map(|_| samples.iter().map(|s| s.w.max(0.0)).collect());

@@ -1,5 +1,5 @@
-//! Silhouettes: lines where the cut surface leaps, strongest between influence zones (paper section 3.4,
-//! "Silhouettes").
+//! Silhouettes: lines where the cut surface leaps, strongest between influence zones (paper section
+//! 3.3.5).
 
 use rayon::prelude::*;
 
@@ -9,10 +9,10 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
 
 /// How much a leap between the influence zones of two vessels counts beside one within a zone.
-const ZONE_BORDER: f32 = 6.0;
+const ZONE_BORDER: f32 = 4.0;
 
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: the slope of the depth (Sobel, mm per mm, so
-/// that zooming changes nothing), raised at borders of influence zones, smoothed, and mapped by
+/// that a smooth surface looks the same at every zoom), raised at borders of influence zones, smoothed, and mapped by
 /// s / (s + `half_slope`) after the square of both.
 ///
 /// # Errors

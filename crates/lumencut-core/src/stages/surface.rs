@@ -1,4 +1,4 @@
-//! The surface: the volume at the world point that each pixel's depth stands for (paper section 3.4).
+//! The surface: the volume at the world point that each pixel's depth stands for (paper section 3.3.4).
 
 use glam::DVec3;
 use rayon::prelude::*;
