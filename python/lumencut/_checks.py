@@ -14,14 +14,10 @@ def numbers(
     error: type[LumencutError], subject: str, value: Any, shape: tuple[int, ...]
 ) -> npt.NDArray[np.float64]:
     """Return ``value`` as a read-only float64 array of ``shape``, in which -1 stands for any length."""
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        array = np.empty(0)
-    fits = array.ndim == len(shape) and all(
-        want in (-1, have) for want, have in zip(shape, array.shape, strict=True)
-    )
-    if not fits or value is None:
+    array = _floats(value)
+    found = () if array is None else array.shape
+    fits = len(found) == len(shape) and all(want in (-1, n) for want, n in zip(shape, found, strict=True))
+    if array is None or not fits:
         wanted = " × ".join("n" if n < 0 else str(n) for n in shape) or "one number"
         raise error(subject, _short(value), f"numbers of shape {wanted}")
     array.flags.writeable = False
@@ -41,6 +37,18 @@ def integers(
     if not ((array >= low) & (array <= high) & (array == np.floor(array))).all():
         raise error(subject, _short(value), f"{count} whole numbers from {low} to {high}")
     return tuple(int(n) for n in array)
+
+
+def _floats(value: Any) -> npt.NDArray[np.float64] | None:
+    """A copy of real numbers without mask, or None of anything else, texts and complex numbers among it."""
+    try:
+        array = np.asarray(value)
+        if value is None or array.dtype.kind not in "biufO" or np.ma.is_masked(value):
+            return None
+        with np.errstate(over="ignore"):
+            return array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return None
 
 
 def _short(value: Any) -> str:

@@ -83,9 +83,12 @@ class Camera:
         size: tuple[int, int] = (512, 512),
     ) -> Camera:
         """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels."""
+        if not isinstance(scene, (VesselTree, Volume)):
+            raise CameraError("scene of the view", type(scene).__name__, "a VesselTree or a Volume")
         points = scene.points if isinstance(scene, VesselTree) else scene.corners
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        view = cls(middle, np.asarray(direction), np.asarray(up), size, 1.0)
+        ahead = numbers(CameraError, "direction of the camera", direction, (3,))
+        view = cls(middle, ahead, numbers(CameraError, "up of the camera", up, (3,)), size, 1.0)
         flat = (points - middle) @ np.stack([view.right_axis, view.up]).T
         low, high = flat.min(axis=0), flat.max(axis=0)
         center = middle + (low + high) / 2 @ np.stack([view.right_axis, view.up])
@@ -96,7 +99,7 @@ class Camera:
     @classmethod
     def named(cls, name: str, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view of this name, one of :data:`VIEWS`."""
-        if name not in VIEWS:
+        if not (isinstance(name, str) and name in VIEWS):
             raise CameraError("name of the view", repr(name), "one of " + ", ".join(VIEWS))
         return cls.fitted(scene, *VIEWS[name], size)
 
@@ -144,27 +147,32 @@ class Camera:
         """
         own = {"up": self.up, "right": self.right_axis, "direction": self.direction}
         vector = own.get(axis, axis) if isinstance(axis, str) else axis
-        turn = _rotation(numbers(CameraError, "axis of the rotation", vector, (3,)), float(angle))
+        angle = number(CameraError, "angle of the rotation", angle)
+        turn = _rotation(numbers(CameraError, "axis of the rotation", vector, (3,)), angle)
         return replace(self, direction=turn @ self.direction, up=turn @ self.up)
 
     def zoomed(self, factor: float) -> Camera:
         """Return the view magnified by ``factor`` about its center."""
-        if not (np.isfinite(factor) and factor > 0):
+        checked = number(CameraError, "factor of the zoom", factor)
+        if not (np.isfinite(checked) and checked > 0):
             raise CameraError("factor of the zoom", f"{factor}", "a number above 0")
-        return replace(self, pixel_spacing=self.pixel_spacing / factor)
+        return replace(self, pixel_spacing=self.pixel_spacing / checked)
 
     def panned(self, right: float, up: float) -> Camera:
         """Return the view moved by ``right`` and ``up`` (mm) in its plane."""
-        return replace(self, center=self.center + right * self.right_axis + up * self.up)
+        shift = [number(CameraError, "shift of the camera", value) for value in (right, up)]
+        if not np.isfinite(shift).all():
+            raise CameraError("shift of the camera", f"{shift}", "finite distances in mm")
+        return replace(self, center=self.center + shift[0] * self.right_axis + shift[1] * self.up)
 
 
 def _rotation(axis: npt.NDArray[np.float64], angle: float) -> npt.NDArray[np.float64]:
     """Rotation matrix by Rodrigues' formula."""
-    length = float(np.linalg.norm(axis))
-    if not (np.isfinite(angle) and length > 0):
+    largest = float(np.abs(axis).max())
+    if not (np.isfinite(angle) and 0 < largest < np.inf):
         raise CameraError(
             "rotation of the camera", f"angle {angle} about {axis.tolist()}", "a finite angle and axis"
         )
-    x, y, z = axis / length
+    x, y, z = (axis / largest) / np.linalg.norm(axis / largest)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from threading import get_ident
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut.camera import Camera
-from lumencut.errors import FileError, FormatError, LumencutError
+from lumencut.errors import FileError, FormatError, LumencutError, VolumeError
 
-_Scalar = TypeVar("_Scalar", bound=np.generic)
+#: Formats of Pillow without transparency.
+_OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,12 +48,14 @@ class Frame:
     @property
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4)."""
-        return _present("image", self._image)
+        image: npt.NDArray[np.uint8] = _present("image", self._image)
+        return image
 
     @property
     def value(self) -> npt.NDArray[np.float32]:
         """The volume at the cut surface, float32, shape (H, W), NaN outside the volume."""
-        return _present("value", self._value)
+        value: npt.NDArray[np.float32] = _present("value", self._value)
+        return value
 
     @property
     def position(self) -> npt.NDArray[np.float64]:
@@ -69,8 +74,7 @@ class Frame:
         Parameters
         ----------
         path : path-like
-            The ending names the format: any picture format of Pillow (``.png``, ``.tif``, ``.webp``, …)
-            or ``.npz``.
+            The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …) or ``.npz``.
 
         Raises
         ------
@@ -79,19 +83,18 @@ class Frame:
         FileError
             Where the file cannot be written.
         """
-        path = Path(path)
+        try:
+            path = Path(path)
+        except TypeError as error:
+            raise FormatError("path", type(path).__name__, "a text or a pathlib.Path") from error
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
         else:
             save_picture(self.image, path)
 
     def _write_arrays(self, path: Path) -> None:
-        arrays: dict[str, npt.NDArray[Any]] = {
-            "depth": self.depth,
-            "vessel": self.vessel,
-            "distance": self.distance,
-            "position": self.position,
-        }
+        names = ("depth", "vessel", "distance", "position")
+        arrays: dict[str, npt.NDArray[Any]] = {name: getattr(self, name) for name in names}
         shown = {"image": self._image, "value": self._value}
         arrays |= {name: array for name, array in shown.items() if array is not None}
         with path.open("wb") as file:
@@ -102,34 +105,47 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
     """Write an RGBA picture in the format that the ending names."""
     from PIL import Image
 
-    known = Image.registered_extensions()
-    if path.suffix.lower() not in known:
-        raise FormatError(
-            str(path), f"the ending {path.suffix!r}", "a picture format such as .png, .tif or .webp"
-        )
+    expected = "a picture format such as .png, .tif or .webp"
+    kind = Image.registered_extensions().get(path.suffix.lower())
+    if kind is None or kind not in Image.SAVE:
+        raise FormatError(str(path), f"the ending {path.suffix!r}", expected)
     picture = Image.fromarray(image)
-    if known[path.suffix.lower()] in ("JPEG", "BMP"):
+    if kind in _OPAQUE:
         picture = picture.convert("RGB")
-    replace_whole(path, lambda temporary: picture.save(temporary, format=known[path.suffix.lower()]))
+
+    def write(temporary: Path) -> None:
+        try:
+            picture.save(temporary, format=kind)
+        except (OSError, ValueError) as error:
+            # Errors of the system have a number; those of Pillow, for what a format cannot hold, have none.
+            if isinstance(error, OSError) and error.errno is not None:
+                raise
+            raise FormatError(str(path), f"{kind}: {error}", expected) from error
+
+    replace_whole(path, write)
 
 
 def replace_whole(path: Path, write: Any) -> None:
     """Let ``write`` make a temporary file beside ``path`` and move it there once it is whole."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    temporary = path.with_name(f".{path.name[:40]}.{os.getpid()}.{get_ident()}.part")
+    expected = "a place where files can be written"
+    if "\0" in str(path):
+        raise FileError(repr(str(path)), "a null character", expected)
     try:
         write(temporary)
         os.replace(temporary, path)
+    except LumencutError:
+        raise
     except OSError as error:
-        raise FileError(
-            str(path), error.strerror or str(error), "a place where files can be written"
-        ) from error
+        raise FileError(str(path), error.strerror or str(error), expected) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        # Where it could not be made, it cannot be removed either.
+        with suppress(OSError):
+            temporary.unlink()
 
 
-def _present(name: str, array: npt.NDArray[_Scalar] | None) -> npt.NDArray[_Scalar]:
+def _present(name: str, array: Any) -> Any:
     if array is None:
-        raise LumencutError(
-            f"{name} of the frame", "a cut surface without a volume", "a rendered frame", "use render"
-        )
+        found = "a cut surface without a volume"
+        raise VolumeError(f"{name} of the frame", found, "a rendered frame", "use render")
     return array

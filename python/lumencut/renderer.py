@@ -9,7 +9,7 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut.camera import Camera
-from lumencut.errors import VesselTreeError, VolumeError
+from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.frame import Frame
 from lumencut.settings import Settings, Window
 from lumencut.vessel_tree import VesselTree
@@ -33,8 +33,8 @@ class Renderer:
 
     Raises
     ------
-    VolumeError, VesselTreeError
-        For a volume or tree of another kind, or a tree that lies wholly outside the volume.
+    VolumeError, VesselTreeError, SettingsError
+        For a volume, tree or device of another kind, or a tree that lies wholly outside the volume.
     """
 
     def __init__(self, volume: Any, tree: VesselTree, device: Literal["auto", "cpu"] = "auto") -> None:
@@ -42,8 +42,8 @@ class Renderer:
             raise VesselTreeError(
                 "tree", f"{type(tree).__name__}", "a VesselTree, such as read_centerlines returns"
             )
-        if device not in ("auto", "cpu"):
-            raise VolumeError("device", repr(device), "'auto' or 'cpu'")
+        if not (isinstance(device, str) and device in ("auto", "cpu")):
+            raise SettingsError("device", repr(device), "'auto' or 'cpu'")
         self.volume = None if volume is None else as_volume(volume)
         self.tree = tree
         if self.volume is not None:
@@ -72,16 +72,23 @@ class Renderer:
             raise VolumeError(
                 "volume of the renderer", "None", "a volume to show", "use cut_surface for depth alone"
             )
-        settings = settings or Settings()
+        camera, settings = self._view(camera, settings)
         if settings.window is None:
             settings = replace(settings, window=self.window)
-        camera = camera or Camera.anterior(self.tree)
         return _frame(camera, self._core.render(self.volume, camera, settings))
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume."""
-        camera = camera or Camera.anterior(self.tree)
-        return _frame(camera, self._core.render(None, camera, settings or Settings()))
+        camera, settings = self._view(camera, settings)
+        return _frame(camera, self._core.render(None, camera, settings))
+
+    def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
+        """The camera and the settings, or their defaults."""
+        if not isinstance(camera, (Camera, type(None))):
+            raise CameraError("camera", type(camera).__name__, "a Camera or None")
+        if not isinstance(settings, (Settings, type(None))):
+            raise SettingsError("settings", type(settings).__name__, "Settings or None")
+        return camera or Camera.anterior(self.tree), settings or Settings()
 
     @property
     def window(self) -> Window:
@@ -136,12 +143,6 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
 
 
 def _frame(camera: Camera, buffers: dict[str, Any]) -> Frame:
-    return Frame(
-        camera,
-        depth=buffers["depth"],
-        vessel=buffers["vessel"],
-        distance=buffers["distance"],
-        timings=buffers["timings"],
-        _image=buffers.get("image"),
-        _value=buffers.get("value"),
-    )
+    own: dict[str, Any] = {name: buffers[name] for name in ("depth", "vessel", "distance", "timings")}
+    own |= {f"_{name}": buffers.get(name) for name in ("image", "value")}
+    return Frame(camera, **own)

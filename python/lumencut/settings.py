@@ -15,10 +15,13 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
+#: How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
+_BESIDE, _UNKNOWN_RADIUS = 10.0, 10.0
+
 
 @dataclass(frozen=True)
 class Window:
-    """Intensities from black to white: ``level`` ± ``width`` / 2, in the volume's own unit (HU for CT)."""
+    """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's unit (HU for CT)."""
 
     level: float
     width: float
@@ -26,21 +29,20 @@ class Window:
     def __post_init__(self) -> None:
         for name in ("level", "width"):
             object.__setattr__(self, name, number(SettingsError, f"window {name}", getattr(self, name)))
+        Settings(window=self)  # The ranges are known to the settings.
 
     @classmethod
     def from_data(cls, volume: Volume, tree: VesselTree) -> Window:
-        """Return a window that shows lumen light grey, tissue darker and calcifications or stents brighter.
+        """Return a window that shows lumen as middle grey, tissue darker, calcifications and stents brighter.
 
-        The median along the centerlines stands for the lumen, the median of the volume within the tree's box
-        for the tissue around it; the window is centred on the lumen and three times as wide as their
-        difference.
+        The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
+        the tissue around it; the window is centred on the lumen, three times as wide as their difference.
         """
         lumen = volume.sample(tree.points)
         lumen = lumen[np.isfinite(lumen)]
-        low, high = tree.bounds
-        x, y, z = np.linspace(low, high, 24).T
-        grid = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1)
-        around = volume.sample(grid)
+        radii = [np.full(len(v), _UNKNOWN_RADIUS) if v.radius is None else v.radius for v in tree]
+        reach = np.concatenate(radii)[:, None, None] + _BESIDE
+        around = volume.sample(tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)]))
         around = around[np.isfinite(around)]
         if lumen.size == 0 or around.size == 0:
             return cls(300.0, 900.0)
@@ -59,6 +61,7 @@ class Opacity:
     def __post_init__(self) -> None:
         for name in ("transparent", "opaque"):
             object.__setattr__(self, name, number(SettingsError, f"opacity {name}", getattr(self, name)))
+        Settings(opacity=self)
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import numbers
+from lumencut._checks import integers, numbers
 from lumencut.errors import VesselTreeError
 
 
@@ -36,6 +36,8 @@ class Vessel:
     ) -> None:
         self._points = numbers(VesselTreeError, "points of the vessel", points, (-1, 3))
         self._radius = None if radius is None else _radii(radius, len(self._points))
+        if not (name is None or isinstance(name, str)):
+            raise VesselTreeError("name of the vessel", f"{type(name).__name__}", "a text or None")
         self._name = name
         _lumencut.check_vessel(self._points, self._radius)
 
@@ -84,7 +86,10 @@ class VesselTree:
     """
 
     def __init__(self, vessels: Iterable[Vessel]) -> None:
-        self._vessels = tuple(vessels)
+        try:
+            self._vessels = tuple(vessels)
+        except TypeError as error:
+            raise VesselTreeError("vessel tree", type(vessels).__name__, "several Vessel objects") from error
         if not self._vessels:
             raise VesselTreeError("vessel tree", "no vessels", "at least one vessel")
         for vessel in self._vessels:
@@ -104,9 +109,8 @@ class VesselTree:
         count : int, default 6
             How many levels beyond the finest.
         """
-        if not 0 <= count <= 64:
-            raise VesselTreeError("count of levels", f"{count}", "a whole number from 0 to 64")
-        made = _lumencut.levels(self._arrays(), count)
+        (checked,) = integers(VesselTreeError, "count of levels", [count], 0, 64, 1)
+        made = _lumencut.levels(self._arrays(), checked)
         names = [vessel.name for vessel in self._vessels]
         return [
             VesselTree(
@@ -148,6 +152,6 @@ class VesselTree:
 
 
 def _radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
-    if np.ndim(radius) == 0:
+    if not isinstance(radius, Sequence) and np.ndim(radius) == 0:
         radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
     return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))

@@ -9,7 +9,8 @@ use crate::math::cost::Rule;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
 use crate::math::lanes::{ABSENT, COLUMNS, FAN, Kernel, PIXELS, ROWS, UNSET, dispatch};
 use crate::math::nearest::lower_distance;
-use crate::math::pieces::{Envelope, Tile};
+use crate::math::pieces::Envelope;
+use crate::math::tile::{Tile, lane};
 use crate::stages::View;
 use crate::stages::depth::{CutSurface, Search, depth_by};
 
@@ -48,7 +49,7 @@ impl Kernel for DistanceRow<'_> {
             }
             for (r, row) in self.pixels.chunks_mut(width).enumerate() {
                 for (c, pixel) in row[column..].iter_mut().take(COLUMNS).enumerate() {
-                    *pixel = squared[r * COLUMNS + c].sqrt();
+                    *pixel = squared[lane(r, c)].sqrt();
                 }
             }
         }
@@ -66,13 +67,14 @@ impl Search for Exhaustive<'_> {
         rule: &Rule,
         envelope: &mut Envelope,
     ) {
+        let mut pixels = envelope.whole(tile);
         for bundle in &self.0.hierarchy(level).bundles {
             for s in 0..FAN {
                 if bundle.wedge_z[s] < ABSENT {
-                    envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule);
+                    pixels.offer_wedge::<LUMEN_FIRST>(bundle, s, rule);
                 }
                 if bundle.stripe_z[s] < ABSENT {
-                    envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule);
+                    pixels.offer_stripe::<LUMEN_FIRST>(bundle, s, rule);
                 }
             }
         }

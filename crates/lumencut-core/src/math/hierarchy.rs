@@ -8,7 +8,8 @@ use glam::DVec3;
 
 use super::cost::Rule;
 use super::lanes::{ABSENT, FAN, FAR, gap};
-use super::pieces::{Bundle, Tile};
+use super::pieces::Bundle;
+use super::tile::Tile;
 
 /// An entry of the order that holds no slot.
 pub const NO_SLOT: u32 = u32::MAX;
@@ -76,7 +77,7 @@ impl Boxes {
     #[inline(always)]
     pub fn squared_distances(&self, tile: &Tile) -> [f32; FAN] {
         let mut squared = [0.0; FAN];
-        let ([cx, cy], [hx, hy]) = (tile.center, tile.half);
+        let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
         for n in 0..FAN {
             let gx = gap(self.low_x[n], self.high_x[n], cx, hx);
             let gy = gap(self.low_y[n], self.high_y[n], cy, hy);

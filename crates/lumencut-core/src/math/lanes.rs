@@ -8,10 +8,16 @@
 pub const COLUMNS: usize = 16;
 /// The height of a tile (pixels).
 pub const ROWS: usize = 8;
-/// The pixels of a tile, evaluated together.
+/// The pixels of a tile.
 pub const PIXELS: usize = COLUMNS * ROWS;
-/// The children of a node of the hierarchy, tested together.
+/// The children of a node of the hierarchy and the slots of a bundle, tested together.
 pub const FAN: usize = 16;
+/// The side of a part of a tile (pixels).
+pub const PART_SIDE: usize = 8;
+/// The pixels of a part, evaluated together.
+pub const PART_PIXELS: usize = PART_SIDE * PART_SIDE;
+/// The parts of a tile.
+pub const PARTS: usize = PIXELS / PART_PIXELS;
 
 /// A key no piece reaches: the pixel has no winner yet. Finite, so that no kernel ever meets inf or NaN.
 pub const UNSET: f32 = 1e30;
@@ -47,11 +53,11 @@ fn number(ordered: i32) -> f32 {
     f32::from_bits((ordered ^ ((ordered >> 31) & i32::MAX)) as u32)
 }
 
-/// The largest of a tile's numbers, none of them NaN.
+/// The largest of some numbers, none of them NaN.
 #[inline(always)]
-pub fn largest(numbers: &[f32; PIXELS]) -> f32 {
+pub fn largest<const N: usize>(numbers: &[f32; N]) -> f32 {
     let mut most = i32::MIN;
-    for l in 0..PIXELS {
+    for l in 0..N {
         most = most.max(ordered(numbers[l]));
     }
     number(most)

@@ -1,5 +1,6 @@
 //! The arithmetic that the stages share.
 
+pub mod candidates;
 pub mod cost;
 pub mod hierarchy;
 pub mod lanes;
@@ -7,5 +8,6 @@ pub mod nearest;
 pub mod pieces;
 pub mod projection;
 pub mod sampling;
+pub mod tile;
 pub mod walk;
 pub mod window;

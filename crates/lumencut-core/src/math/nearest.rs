@@ -1,7 +1,8 @@
 //! The distance of pixels to segments, and which segments can matter to a tile.
 
 use super::lanes::{FAN, PIXELS, larger, smaller, smallest, within};
-use super::pieces::{Bundle, Tile};
+use super::pieces::Bundle;
+use super::tile::Tile;
 
 /// Lowers each pixel's squared distance (mm²) to the segment of slot `s` where it is nearer.
 #[inline(always)]
@@ -35,7 +36,7 @@ impl NearestPoint {
     /// Meets the segments of a bundle; tells whether one of them is nearer.
     #[inline(always)]
     pub fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
-        let [cx, cy] = tile.center;
+        let [cx, cy] = tile.area.center;
         let (mut squared, mut dx, mut dy) = ([0.0; FAN], [0.0; FAN], [0.0; FAN]);
         for s in 0..FAN {
             (dx[s], dy[s]) = to_segment(bundle, s, cx, cy);
@@ -57,7 +58,7 @@ impl NearestPoint {
     /// where it holds all four corners of the tile, it holds the tile.
     #[inline(always)]
     pub fn rivals(&self, tile: &Tile, bundle: &Bundle) -> u32 {
-        let ([cx, cy], [hx, hy]) = (tile.center, tile.half);
+        let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
         let mut lead = [super::lanes::FAR; FAN];
         for (sx, sy) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
             let (x, y) = (cx + sx * hx, cy + sy * hy);

@@ -8,8 +8,8 @@
 //! takes the pixel unless (q − p₁)·e₀ > 0, else the wedge at p₁ does unless (q − p₁)·e₁ > 0, and so on.
 
 use super::cost::Rule;
-use super::lanes::{ABSENT, COLUMNS, FAN, FAR, PIXELS, ROWS, SETTLED, UNSET, gap, larger, smaller};
-use crate::camera::Camera;
+use super::lanes::{ABSENT, FAN, FAR, PART_PIXELS, PIXELS, SETTLED, UNSET, smaller};
+use super::tile::Tile;
 
 /// Sixteen slots in projection, field by field.
 #[derive(Clone, Copy, Debug)]
@@ -68,48 +68,6 @@ impl Bundle {
     };
 }
 
-/// The pixel centres of a tile in view space (mm), and the box around them.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub struct Tile {
-    /// View x of each pixel.
-    pub x: [f32; PIXELS],
-    /// View y of each pixel.
-    pub y: [f32; PIXELS],
-    /// Middle of the box.
-    pub center: [f32; 2],
-    /// Half the sides of the box.
-    pub half: [f32; 2],
-    /// Half the diagonal of the box.
-    pub radius: f32,
-}
-
-impl Tile {
-    /// The tile whose first pixel is (`i`, `j`); pixels beyond the image repeat its last column and row.
-    #[inline(always)]
-    pub fn new(camera: &Camera, i: usize, j: usize) -> Self {
-        let [width, height] = camera.size();
-        let columns: [f32; COLUMNS] = std::array::from_fn(|c| camera.view_x((i + c).min(width - 1)) as f32);
-        let rows: [f32; ROWS] = std::array::from_fn(|r| camera.view_y((j + r).min(height - 1)) as f32);
-        let middle = |values: &[f32]| (values[0] + values[values.len() - 1]) * 0.5;
-        // Half the side, and a little more than the rounding of the middle.
-        let half = |values: &[f32]| {
-            let (first, last) = (values[0], values[values.len() - 1]);
-            (last - first).abs() * 0.500_001 + 4e-7 * first.abs().max(last.abs())
-        };
-        let half = [half(&columns), half(&rows)];
-        let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
-        for r in 0..ROWS {
-            for c in 0..COLUMNS {
-                x[r * COLUMNS + c] = columns[c];
-                y[r * COLUMNS + c] = rows[r];
-            }
-        }
-        let radius = (half[0] * half[0] + half[1] * half[1]).sqrt();
-        Self { x, y, center: [middle(&columns), middle(&rows)], half, radius }
-    }
-}
-
 /// The winner of each pixel of a tile so far.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
@@ -133,6 +91,35 @@ impl Envelope {
         Self { key, z: [0.0; PIXELS], piece: [u32::MAX; PIXELS] }
     }
 
+    /// The winners of part `p` and its pixels.
+    #[inline(always)]
+    pub fn part<'a>(&'a mut self, tile: &'a Tile, p: usize) -> Pixels<'a, PART_PIXELS> {
+        Pixels {
+            x: &tile.x.as_chunks().0[p],
+            y: &tile.y.as_chunks().0[p],
+            key: &mut self.key.as_chunks_mut().0[p],
+            z: &mut self.z.as_chunks_mut().0[p],
+            piece: &mut self.piece.as_chunks_mut().0[p],
+        }
+    }
+
+    /// The winners of the whole tile and its pixels.
+    #[inline(always)]
+    pub fn whole<'a>(&'a mut self, tile: &'a Tile) -> Pixels<'a, PIXELS> {
+        Pixels { x: &tile.x, y: &tile.y, key: &mut self.key, z: &mut self.z, piece: &mut self.piece }
+    }
+}
+
+/// Some pixels of a tile (view x and y, mm) and their winners so far.
+pub struct Pixels<'a, const N: usize> {
+    x: &'a [f32; N],
+    y: &'a [f32; N],
+    key: &'a mut [f32; N],
+    z: &'a mut [f32; N],
+    piece: &'a mut [u32; N],
+}
+
+impl<const N: usize> Pixels<'_, N> {
     /// Takes the piece at pixel `l` where it is covered and wins.
     #[inline(always)]
     fn offer(&mut self, l: usize, covered: bool, key: f32, z: f32, piece: u32) {
@@ -145,13 +132,7 @@ impl Envelope {
 
     /// Offers the stripe of slot `s` to every pixel.
     #[inline(always)]
-    pub fn offer_stripe<const LUMEN_FIRST: bool>(
-        &mut self,
-        tile: &Tile,
-        bundle: &Bundle,
-        s: usize,
-        rule: &Rule,
-    ) {
+    pub fn offer_stripe<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
         let (x, y) = (bundle.x[s], bundle.y[s]);
         let (next_x, next_y) = (bundle.next_x[s], bundle.next_y[s]);
         let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
@@ -161,10 +142,10 @@ impl Envelope {
         let (z0, dz) = (bundle.stripe_z[s], bundle.stripe_dz[s]);
         let (r0, dr) = (bundle.radius[s], bundle.radius_change[s]);
         let piece = bundle.slot[s] * 2 + 1;
-        for l in 0..PIXELS {
-            let (ux, uy) = (tile.x[l] - x, tile.y[l] - y);
+        for l in 0..N {
+            let (ux, uy) = (self.x[l] - x, self.y[l] - y);
             let after_start = ux * ex + uy * ey;
-            let beyond_end = (tile.x[l] - next_x) * ex + (tile.y[l] - next_y) * ey;
+            let beyond_end = (self.x[l] - next_x) * ex + (self.y[l] - next_y) * ey;
             // Rounding must not carry t past the end, where depth and radius were never bounded.
             let t = smaller(after_start * per_square, 1.0);
             let d = (ux * unit_y - uy * unit_x).abs();
@@ -177,20 +158,14 @@ impl Envelope {
 
     /// Offers the wedge, half-plane or plane of slot `s` to every pixel.
     #[inline(always)]
-    pub fn offer_wedge<const LUMEN_FIRST: bool>(
-        &mut self,
-        tile: &Tile,
-        bundle: &Bundle,
-        s: usize,
-        rule: &Rule,
-    ) {
+    pub fn offer_wedge<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
         let (x, y) = (bundle.x[s], bundle.y[s]);
         let (fx, fy) = (bundle.before_x[s], bundle.before_y[s]);
         let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
         let (z, r) = (bundle.wedge_z[s], bundle.radius[s]);
         let piece = bundle.slot[s] * 2;
-        for l in 0..PIXELS {
-            let (ux, uy) = (tile.x[l] - x, tile.y[l] - y);
+        for l in 0..N {
+            let (ux, uy) = (self.x[l] - x, self.y[l] - y);
             let beyond_before = ux * fx + uy * fy;
             let after_start = ux * ex + uy * ey;
             let d = (ux * ux + uy * uy).sqrt();
@@ -199,45 +174,4 @@ impl Envelope {
             self.offer(l, covered, key, z, piece);
         }
     }
-}
-
-/// The smallest keys that the stripes and wedges of a bundle can reach in a tile; [`ABSENT`] where a
-/// piece covers none of its pixels.
-#[inline(always)]
-pub fn piece_bounds<const LUMEN_FIRST: bool>(
-    tile: &Tile,
-    bundle: &Bundle,
-    rule: &Rule,
-) -> ([f32; FAN], [f32; FAN]) {
-    let (mut stripe, mut wedge) = ([ABSENT; FAN], [ABSENT; FAN]);
-    let ([cx, cy], [hx, hy]) = (tile.center, tile.half);
-    for s in 0..FAN {
-        let (ux, uy) = (cx - bundle.x[s], cy - bundle.y[s]);
-        let (wx, wy) = (cx - bundle.next_x[s], cy - bundle.next_y[s]);
-        let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
-        let (fx, fy) = (bundle.before_x[s], bundle.before_y[s]);
-        // The most that (q − p)·e differs from its value at the middle, and a little more than its rounding.
-        let reach = |a: f32, b: f32, u: f32, v: f32| {
-            (hx + 1e-5 * u.abs()) * a.abs() + (hy + 1e-5 * v.abs()) * b.abs()
-        };
-        let start = ux * ex + uy * ey;
-        let start_reach = reach(ex, ey, ux, uy);
-        let end = wx * ex + wy * ey;
-        let before = ux * fx + uy * fy;
-        let in_stripe = (start + start_reach >= 0.0) & (end - reach(ex, ey, wx, wy) <= 0.0);
-        let in_wedge = (before + reach(fx, fy, ux, uy) >= 0.0) & (start - start_reach <= 0.0);
-
-        let (z0, z1) = (bundle.stripe_z[s], bundle.stripe_z[s] + bundle.stripe_dz[s]);
-        let (r0, r1) = (bundle.radius[s], bundle.radius[s] + bundle.radius_change[s]);
-        let gx = gap(smaller(ux, wx), larger(ux, wx), 0.0, hx);
-        let gy = gap(smaller(uy, wy), larger(uy, wy), 0.0, hy);
-        let along = (gx * gx + gy * gy).sqrt();
-        let (px, py) = (gap(ux, ux, 0.0, hx), gap(uy, uy, 0.0, hy));
-        let at = (px * px + py * py).sqrt();
-        let stripe_bound = rule.bound::<LUMEN_FIRST>(smaller(z0, z1), along, larger(r0, r1));
-        let wedge_bound = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], at, r0);
-        stripe[s] = if in_stripe { stripe_bound } else { ABSENT };
-        wedge[s] = if in_wedge { wedge_bound } else { ABSENT };
-    }
-    (stripe, wedge)
 }

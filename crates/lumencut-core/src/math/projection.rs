@@ -27,7 +27,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// The slots of `tree`. A point that repeats the one before it adds nothing and gets no slot.
+    /// The slots of `tree`. A point nearer than [`COLLINEAR_LENGTH`] to the one before it adds nothing and gets no
+    /// slot: it would look like a run along the view from every side.
     pub fn new(tree: &VesselTree) -> Self {
         let slots = tree.segment_count() + tree.vessels().len();
         let (mut points, mut radii) = (Vec::with_capacity(slots), Vec::with_capacity(slots));
@@ -35,7 +36,8 @@ impl Level {
         let mut first_slot = vec![0];
         for (id, vessel) in tree.vessels().iter().enumerate() {
             for (i, point) in vessel.points().iter().enumerate() {
-                if i == 0 || *point != vessel.points()[i - 1] {
+                let far = |kept: &DVec3| kept.distance(*point) >= f64::from(COLLINEAR_LENGTH);
+                if i == 0 || points.last().is_none_or(far) {
                     points.push(*point);
                     radii.push(vessel.radius_or_zero(i) as f32);
                     vessel_of_slot.push(id as i32);

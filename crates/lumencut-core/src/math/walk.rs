@@ -1,10 +1,14 @@
 //! The walk through a hierarchy for one tile of pixels: near nodes first, cut off by the tile's worst key so far.
 
+use super::candidates::candidates;
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
-use super::lanes::{COLUMNS, FAN, PIXELS, SETTLED, UNSET, largest, places, smaller, within};
+use super::lanes::{
+    COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places, smaller, within,
+};
 use super::nearest::{NearestPoint, lower_distance};
-use super::pieces::{Envelope, Tile, piece_bounds};
+use super::pieces::Envelope;
+use super::tile::{Tile, lane};
 
 /// Fifteen brothers wait on each of the eight heights that 2³² slots can have.
 const STACK: usize = 8 * FAN;
@@ -56,7 +60,7 @@ impl Seeds {
     #[inline(always)]
     pub fn collect(envelope: &Envelope, bundle_of_slot: &[u32]) -> Self {
         let mut seeds = Self::default();
-        for l in [0, COLUMNS - 1, PIXELS - COLUMNS, PIXELS - 1] {
+        for l in [lane(0, 0), lane(0, COLUMNS - 1), lane(ROWS - 1, 0), lane(ROWS - 1, COLUMNS - 1)] {
             let slot = envelope.piece[l] / 2;
             if let Some(bundle) = bundle_of_slot.get(slot as usize)
                 && !seeds.contains(*bundle)
@@ -85,6 +89,7 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
 ) {
     let mut stack = Stack::new();
     let mut limit = rule.limit(UNSET);
+    let mut limits = [limit; PARTS];
     let root = hierarchy.heights.len() as u32;
     stack.waiting[0] = (SETTLED, root, 0);
     for s in 0..seeds.count {
@@ -101,14 +106,17 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
             stack.push_nodes(&bounds, limit, height - 1, node * FAN as u32);
         } else if bound <= SETTLED || !seeds.contains(node) {
             let bundle = &hierarchy.bundles[node as usize];
-            let (stripes, wedges) = piece_bounds::<LUMEN_FIRST>(tile, bundle, rule);
-            for s in places(within(&stripes, limit)) {
-                envelope.offer_stripe::<LUMEN_FIRST>(tile, bundle, s, rule);
+            let found = candidates::<LUMEN_FIRST>(tile, bundle, rule, &limits);
+            for pair in places(found.stripes) {
+                envelope.part(tile, pair / FAN).offer_stripe::<LUMEN_FIRST>(bundle, pair % FAN, rule);
             }
-            for s in places(within(&wedges, limit)) {
-                envelope.offer_wedge::<LUMEN_FIRST>(tile, bundle, s, rule);
+            for pair in places(found.wedges) {
+                envelope.part(tile, pair / FAN).offer_wedge::<LUMEN_FIRST>(bundle, pair % FAN, rule);
             }
-            limit = rule.limit(largest(&envelope.key));
+            for p in 0..PARTS {
+                limits[p] = rule.limit(largest(&envelope.key.as_chunks::<PART_PIXELS>().0[p]));
+            }
+            limit = larger(limits[0], limits[1]);
         }
     }
 }

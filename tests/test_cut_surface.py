@@ -1,0 +1,288 @@
+"""The cut surface is what the slow reference makes of the same scene.
+
+Where the reference cannot tell which of two pieces wins within rounding, a pixel may differ; such pixels are
+counted and must be few.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import reference
+from conftest import needs_shared_data
+from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, phantom, read_centerlines
+from scenes import lattice, nearly_along_y, of_few_points, wandering
+
+#: Depth and distance (mm).
+TOLERANCE = 1e-3
+PLAIN = Settings(depth_filter=False)
+#: Directions of view and the up that goes with them.
+DIRECTIONS = {
+    "front": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    "oblique": ((0.4, 1.0, -0.2), (0.0, 0.0, 1.0)),
+    "below": ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0)),
+}
+RULES = {"cost": PLAIN, "lumen_first": replace(PLAIN, lumen_first=True, lumen_margin=0.7)}
+
+
+def fitted(tree, direction, size=(46, 42)):
+    return Camera.fitted(tree, *DIRECTIONS[direction], size)
+
+
+def differences(frame, expected):
+    """Counts of pixels by what is wrong with them."""
+    error = np.abs(frame.depth - expected.depth)
+    depth, vessel = error > TOLERANCE, frame.vessel != expected.vessel
+    return {
+        "depth": int(((error > TOLERANCE + expected.slack) & ~expected.unsure_depth).sum()),
+        "vessel": int((vessel & ~expected.unsure_vessel).sum()),
+        "distance": int((np.abs(frame.distance - expected.distance) > TOLERANCE / 10).sum()),
+        "depth, unsure or not": int(depth.sum()),
+        "vessel, unsure or not": int(vessel.sum()),
+        "unsure depth": int(expected.unsure_depth.sum()),
+    }
+
+
+def assert_same(tree, camera, rule, most_unsure=0.005):
+    frame = Renderer(None, tree).cut_surface(camera, rule)
+    expected = reference.cut_surface(tree, camera, rule, TOLERANCE)
+    found = differences(frame, expected)
+    assert (found["depth"], found["vessel"], found["distance"]) == (0, 0, 0), found
+    # Ties are broken alike; what is left is rounding in one pixel of a thousand.
+    assert found["depth, unsure or not"] + found["vessel, unsure or not"] <= frame.depth.size / 1000, found
+    assert found["unsure depth"] <= most_unsure * frame.depth.size, found
+    return frame, expected
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("direction", DIRECTIONS)
+@pytest.mark.parametrize("seed", range(4))
+def test_wandering_vessels(seed, direction, rule):
+    tree = wandering(seed)
+    assert_same(tree, fitted(tree, direction), RULES[rule])
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("direction", DIRECTIONS)
+@pytest.mark.parametrize("name", ["trefoil", "collinear_run", "y_junction", "helix"])
+def test_phantoms(name, direction, rule):
+    tree = getattr(phantom, name)().tree
+    assert_same(tree, fitted(tree, direction), RULES[rule])
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("levels", [0, 6])
+@pytest.mark.parametrize("direction", [(0, 1, 0), (1, 0, 0)])
+@pytest.mark.parametrize("seed", range(4))
+def test_runs_of_collinear_segments(seed, direction, levels, rule):
+    # The center is odd, so that no pixel lies on the border of a piece.
+    camera = Camera((0.1313, 0.2777, 0.3177), direction, (0, 0, 1), (47, 33), 1.37)
+    assert_same(lattice(seed), camera, replace(RULES[rule], levels=levels))
+
+
+@pytest.mark.parametrize("levels", [0, 6])
+@pytest.mark.parametrize("seed", range(3))
+def test_segments_around_the_collinear_bound(seed, levels):
+    tree = nearly_along_y(seed)
+    assert_same(tree, Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (61, 35), 1.1), replace(PLAIN, levels=levels))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_vessels_of_few_points(seed):
+    camera = Camera((0, 0, 0), (0.3, 0.5, -0.8), (0.1, 0.2, 1), (61, 35), 0.41)
+    assert_same(of_few_points(seed), camera, PLAIN)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"cost_weight": 0.0},
+        {"cost_weight": 0.5},
+        {"cost_weight": 300.0},
+        {"levels": 0},
+        {"levels": 1},
+        {"levels": 15},
+        {"preserve_lumen": False},
+        {"level_distance": 2.0},
+        {"level_distance": 100.0},
+        {"lumen_first": True, "lumen_margin": 5.0},
+        {"lumen_first": True, "preserve_lumen": False, "lumen_margin": 2.0},
+    ],
+    ids=str,
+)
+def test_every_setting_in_a_dense_tree(changes):
+    tree = wandering(7, vessels=40, points=24)
+    camera = Camera((1, 2, 3), (0.3, 0.5, -0.8), (0.1, 0.2, 1), (53, 35), 2.1)
+    assert_same(tree, camera, replace(PLAIN, **changes), most_unsure=0.01)
+
+
+def test_far_from_the_origin_of_world_space():
+    tree = VesselTree([Vessel(v.points + np.array([1500, -2000, 900]), v.radius) for v in wandering(8)])
+    camera = Camera((1501, -1998, 903), (0.3, 0.5, -0.8), (0.1, 0.2, 1), (53, 35), 2.1)
+    assert_same(tree, camera, PLAIN)
+
+
+@needs_shared_data
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("direction", DIRECTIONS)
+@pytest.mark.parametrize(
+    "file",
+    [
+        "stent-cta/centerlines.vtp",
+        "dissection-cta/aorta_arch_centerlines_LPS.vtp",
+        "aorta-mra/aorta_full_centerlines_LPS.vtp",
+    ],
+)
+def test_real_trees(file, direction, rule, shared_data):
+    tree = read_centerlines(shared_data / file)
+    assert_same(tree, fitted(tree, direction), RULES[rule])
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"cost_weight": 14.0}, {"levels": 5}, {"level_distance": 8.4}, {"preserve_lumen": False}],
+    ids=str,
+)
+def test_the_comparison_sees_a_wrong_setting(changes):
+    tree = wandering(0)
+    camera = fitted(tree, "oblique")
+    frame = Renderer(None, tree).cut_surface(camera, PLAIN)
+    found = differences(frame, reference.cut_surface(tree, camera, replace(PLAIN, **changes), TOLERANCE))
+    assert found["depth"] > 10, found
+
+
+def test_the_comparison_sees_a_wrong_tree_and_a_wrong_view():
+    tree = wandering(0)
+    camera = fitted(tree, "oblique")
+    frame = Renderer(None, tree).cut_surface(camera, PLAIN)
+    moved = VesselTree([Vessel(v.points + np.array([0, 0.01, 0]), v.radius) for v in tree])
+    swapped = VesselTree(list(tree)[::-1])
+    assert differences(frame, reference.cut_surface(moved, camera, PLAIN))["depth"] > 1000
+    assert differences(frame, reference.cut_surface(swapped, camera, PLAIN))["vessel"] > 1000
+    assert differences(frame, reference.cut_surface(tree, camera.panned(0.05, 0), PLAIN))["distance"] > 1000
+
+
+def test_on_a_tie_the_smaller_id_wins_to_the_bit():
+    once = wandering(3)
+    twice = VesselTree([v for vessel in once for v in (vessel, vessel)])
+    camera = fitted(once, "oblique")
+    first, second = (Renderer(None, tree).cut_surface(camera) for tree in (once, twice))
+    np.testing.assert_array_equal(second.vessel, 2 * first.vessel)
+    np.testing.assert_array_equal(second.depth, first.depth)
+    np.testing.assert_array_equal(second.distance, first.distance)
+
+
+@pytest.mark.parametrize("link", [True, False], ids=["one vessel", "two vessels"])
+@pytest.mark.parametrize("deep_first", [True, False])
+def test_on_a_tie_the_earlier_piece_wins(deep_first, link):
+    # From the front, 1.5 mm above the shallow line: 0 + 10 · 1.5 = 10 + 10 · 0.5.
+    lines = [[[-64.0, 0, 0], [64, 0, 0]], [[64.0, 10, 2], [-64, 10, 2]]]
+    lines = lines[::-1] if deep_first else lines
+    tree = VesselTree([Vessel(np.concatenate(lines))] if link else [Vessel(line) for line in lines])
+    camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (2, 8), 1.0)
+    frame = Renderer(None, tree).cut_surface(camera, replace(PLAIN, levels=0))
+    deep = 0 if link else 1 - deep_first
+    np.testing.assert_array_equal(frame.depth[[1, 2, 3], 0], [10, 10 * deep_first, 0])
+    np.testing.assert_array_equal(frame.vessel[[1, 2, 3], 0], [deep, 0, 0 if link else 1 - deep])
+
+
+@pytest.mark.parametrize(
+    "apart",
+    [
+        0.0,
+        1e-9,
+        5e-4,
+        2e-3,
+    ],
+)
+def test_a_point_nearly_repeated_changes_little(apart):
+    line = np.array([[-20.0, 0, 0], [0, 10, 0], [0, 60, 20], [-20, 70, 20]])
+    rule = replace(PLAIN, levels=0)
+    camera = Camera((0, 30, 0), (0, 1, 0), (0, 0, 1), (60, 60), 1.0)
+    exact, near = (
+        Renderer(None, VesselTree([Vessel(np.insert(line, 1, line[1] - (d, 0, 0), axis=0), 1.0)]))
+        for d in (0.0, apart)
+    )
+    error = np.abs(near.cut_surface(camera, rule).depth - exact.cut_surface(camera, rule).depth)
+    assert (error > 0.1).mean() < 0.002
+
+
+integers = st.integers(-3, 3).map(float)
+tangles = st.lists(
+    st.lists(st.tuples(integers, integers, integers), min_size=2, max_size=9), min_size=1, max_size=4
+)
+
+
+@settings(max_examples=300, deadline=None)
+@given(tangles, st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 1, 1)]), st.booleans())
+def test_tangles_of_points_with_whole_coordinates(lines, direction, lumen_first):
+    tree = VesselTree([Vessel(line, 0.25 * number) for number, line in enumerate(lines)])
+    camera = Camera((0.0613, 0.0777, 0.0419), direction, (0, 0, 1), (9, 7), 0.93)
+    changed = replace(PLAIN, levels=0, lumen_first=lumen_first)
+    frame = Renderer(None, tree).cut_surface(camera, changed)
+    found = differences(frame, reference.cut_surface(tree, camera, changed))
+    assert (found["depth"], found["vessel"], found["distance"]) == (0, 0, 0), found
+
+
+@pytest.mark.parametrize("tree", [wandering(1), of_few_points(1), lattice(1)], ids=["long", "short", "odd"])
+def test_levels_of_detail(tree):
+    for found, expected in zip(tree.levels(6), reference.levels_of(tree, 6), strict=True):
+        for vessel, (points, radius) in zip(found, expected, strict=True):
+            np.testing.assert_allclose(vessel.points, points, rtol=0, atol=1e-10)
+            np.testing.assert_allclose(vessel.radius, radius, rtol=0, atol=1e-10)
+            assert (vessel.points[[0, -1]] == points[[0, -1]]).all()
+
+
+@pytest.mark.parametrize("size", [(53, 37), (3, 2), (1, 1)])
+def test_depth_filter(size):
+    renderer, camera = Renderer(None, tree := wandering(2)), fitted(wandering(2), "oblique", size)
+    raw, smooth = renderer.cut_surface(camera, PLAIN), renderer.cut_surface(camera, Settings())
+    assert len(tree) > raw.vessel.max()
+    np.testing.assert_allclose(smooth.depth, reference.depth_filter(raw.depth), rtol=0, atol=1e-4)
+    np.testing.assert_array_equal(smooth.vessel, raw.vessel)
+    np.testing.assert_array_equal(smooth.distance, raw.distance)
+
+
+def oblique_affine():
+    """Sheared, left-handed, about 3 mm per voxel, around the origin; 40 × 36 × 30 voxels."""
+    columns = np.array([[3.0, 0.4, -0.3], [-0.5, 3.2, 0.2], [0.6, 0.1, -3.4]])
+    affine = np.eye(4)
+    affine[:3, :3], affine[:3, 3] = columns, -columns @ (19.5, 17.5, 14.5)
+    return affine
+
+
+@pytest.mark.parametrize("dtype", ["uint8", "int16", "uint16", "float32", "float64"])
+@pytest.mark.parametrize("direction", DIRECTIONS)
+def test_value_and_position(direction, dtype):
+    voxels = np.random.default_rng(4).uniform(0, 250, (30, 36, 40)).astype(dtype)
+    volume, tree = Volume(voxels, world_from_index=oblique_affine()), wandering(5)
+    frame = Renderer(volume, tree).render(fitted(tree, direction))
+    position = reference.position(frame.depth.astype(float), frame.camera)
+    np.testing.assert_allclose(frame.position, position, rtol=0, atol=1e-9)
+    expected = reference.trilinear(volume, position)
+    assert 0.05 < np.isnan(expected).mean() < 0.95, "inside and outside must both be seen"
+    np.testing.assert_allclose(frame.value, expected, rtol=0, atol=1e-3)
+
+
+@pytest.mark.parametrize("direction", DIRECTIONS)
+def test_from_end_to_end(direction):
+    k, j, i = np.mgrid[:30, :36, :40]
+    volume = Volume((2.0 * i - 1.5 * j + 3.0 * k).astype(np.float64), world_from_index=oblique_affine())
+    tree = wandering(6)
+    frame = Renderer(volume, tree).render(fitted(tree, direction))
+    surface = reference.cut_surface(tree, frame.camera, Settings())
+    depth = reference.depth_filter(surface.depth)
+    near_unsure = reference.depth_filter(surface.unsure_depth.astype(float)) > 0
+    assert near_unsure.mean() < 0.1
+    position = reference.position(depth, frame.camera)
+    sure = ~near_unsure
+    np.testing.assert_allclose(frame.depth[sure], depth[sure], rtol=0, atol=TOLERANCE)
+    np.testing.assert_allclose(frame.position[sure], position[sure], rtol=0, atol=TOLERANCE)
+    # The value changes by less than 2 per mm.
+    value = reference.trilinear(volume, position)
+    np.testing.assert_allclose(frame.value[sure], value[sure], rtol=0, atol=2 * TOLERANCE)
