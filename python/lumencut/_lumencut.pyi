@@ -7,6 +7,18 @@ import numpy.typing as npt
 
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 
+__all__ = [
+    "Renderer",
+    "__version__",
+    "check_camera",
+    "check_settings",
+    "check_vessel",
+    "levels",
+    "make_phantom",
+    "read_centerlines",
+    "sample",
+]
+
 __version__: str
 
 @final

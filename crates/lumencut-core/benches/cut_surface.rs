@@ -98,8 +98,8 @@ fn over_directions(name: &str, tree: &VesselTree) {
     let golden = 2.399_963;
     let mut times: Vec<f64> = (0..50)
         .map(|n| {
-            let z = 1.0 - (n as f64 + 0.5) / 25.0;
-            let (sin, cos) = (golden * n as f64).sin_cos();
+            let z = 1.0 - (f64::from(n) + 0.5) / 25.0;
+            let (sin, cos) = (golden * f64::from(n)).sin_cos();
             let direction = DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z);
             let camera = fitted(tree, direction);
             cut_surface(&mut renderer, Isa::widest(), &camera, &Settings::default(), 5).0.minimum

@@ -25,6 +25,9 @@ const STAGES: [(&str, &str, [f64; 3]); 7] = [
     ("composite", "", [0.0; 3]),
 ];
 
+/// Makes a workload from a seed and a scale.
+type Maker = fn(u64, f64) -> Result<Phantom>;
+
 /// The median milliseconds of each stage of 31 views from the front.
 fn stages(phantom: &Phantom) -> Result<BTreeMap<&'static str, f64>> {
     let volume = phantom.volume()?;
@@ -49,8 +52,7 @@ fn stages(phantom: &Phantom) -> Result<BTreeMap<&'static str, f64>> {
 }
 
 fn main() -> Result<()> {
-    let makers: [(&str, fn(u64, f64) -> Result<Phantom>); 3] =
-        [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
+    let makers: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
     let mut ours = Vec::new();
     head("Workloads", &["workload", "voxels", "segments", "made in (s)"]);
     for (name, make) in makers {

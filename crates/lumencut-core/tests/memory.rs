@@ -53,7 +53,7 @@ fn memory_stays_within_its_bounds() {
 
     let before = LIVE.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);
-    let mut renderer = Renderer::new(tree.clone());
+    let mut renderer = Renderer::new(tree);
     let frame = renderer.render(&volume, &large, &Settings::default(), &|| false).unwrap();
     let peak = PEAK.load(Ordering::Relaxed) - before;
     let allowed = 64 * 256 * 256 + 400 * segments;

@@ -1,0 +1,74 @@
+# Daily commands; `make help` lists them. Everything that is installed goes into .venv and target.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
+RESOLVE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 --generate-hashes \
+	--no-header --no-annotate --upgrade --quiet --system-certs
+
+# What the extension module is built from: it is rebuilt when one of these is newer than the last build.
+RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
+	$(shell find crates/*/src)
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help demo test lint format bench wheel lock clean develop tools toolchain
+
+help: ## List the commands.
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
+
+demo: develop ## Build what is needed and render the demo into ./demo.
+	$(BIN)/lumencut demo demo
+
+test: ## Run every check; the last line is `N passed, N failed`.
+	@$(PYTHON) scripts/check.py
+
+lint: ## Run only format, lint, types and documentation checks.
+	@$(PYTHON) scripts/check.py --lint
+
+format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
+	cargo fmt --all
+	$(BIN)/ruff check --fix --quiet
+	$(BIN)/ruff format --quiet
+
+bench: toolchain ## Measure the core on this machine; prints tables, keeps nothing.
+	cargo bench --locked --package lumencut-core --bench '*'
+
+wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
+	$(BIN)/maturin build --release --locked --out dist
+
+lock: $(VENV)/.python ## Resolve the Python requirements anew into requirements/*.lock.
+	$(PIP) uv
+	$(RESOLVE) --group build --output-file requirements/runtime.lock
+	$(RESOLVE) --group dev --constraints requirements/runtime.lock --output-file requirements/dev.lock
+
+clean: ## Remove everything that the other commands made.
+	rm -rf $(VENV) target dist demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -f python/lumencut/_lumencut*.so
+	find python tests scripts -name __pycache__ -type d -prune -exec rm -rf {} +
+
+develop: $(VENV)/.lumencut ## Install the package into .venv, rebuilding it when Rust sources changed.
+
+tools: $(VENV)/.dev
+
+toolchain:
+	@$(PYTHON) scripts/toolchain.py rust
+
+# The stamps: an empty environment, what the package needs, what its developers need, the package itself.
+$(VENV)/.python:
+	@$(PYTHON) scripts/toolchain.py python
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+$(VENV)/.runtime: requirements/runtime.lock $(VENV)/.python
+	$(PIP) --require-hashes --requirement $<
+	@touch $@
+
+$(VENV)/.dev: requirements/dev.lock $(VENV)/.runtime
+	$(PIP) --require-hashes --requirement $<
+	@touch $@
+
+$(VENV)/.lumencut: $(RUST_SOURCES) $(VENV)/.runtime | toolchain
+	PATH="$(abspath $(BIN)):$$PATH" $(PIP) --no-deps --no-build-isolation --editable .
+	@touch $@

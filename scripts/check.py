@@ -1,0 +1,194 @@
+"""Every check of the repository, cheapest first; it stops at the first red one.
+
+The last line is ``N passed, N failed``: the tests of Rust and Python together, and a red
+check that is no test counts as one that failed.
+Needs nothing but Python itself; the environment is the first check.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+ROOT = Path(__file__).resolve().parent.parent
+BIN = ".venv/bin"
+PORTABLE = ("--package", "lumencut-core", "--package", "lumencut-io")
+
+
+@dataclass(frozen=True)
+class Count:
+    """How many tests passed and failed."""
+
+    passed: int = 0
+    failed: int = 0
+
+    def __add__(self, other: Count) -> Count:
+        return Count(self.passed + other.passed, self.failed + other.failed)
+
+    def __str__(self) -> str:
+        return f"{self.passed} passed, {self.failed} failed"
+
+
+@dataclass(frozen=True)
+class Check:
+    """A command that must succeed; where it runs tests, `count` reads them from its report."""
+
+    name: str
+    command: tuple[str, ...]
+    environment: dict[str, str] = field(default_factory=dict)
+    count: Callable[[str], Count] | None = None
+    report: str = ""
+
+
+def count_rust(text: str) -> Count:
+    """The tests in what ``cargo test`` printed."""
+    results = re.findall(r"^test result: \w+\. (\d+) passed; (\d+) failed;", text, re.MULTILINE)
+    return sum((Count(int(passed), int(failed)) for passed, failed in results), Count())
+
+
+def count_python(text: str) -> Count:
+    """The tests in the JUnit report of pytest; an error in a fixture or an import counts as failed."""
+    count = Count()
+    for suite in ET.fromstring(text).iter("testsuite"):
+        ran, failed, errors, skipped = (
+            int(suite.get(n, "0")) for n in ("tests", "failures", "errors", "skipped")
+        )
+        count += Count(ran - failed - errors - skipped, failed + errors)
+    return count
+
+
+def lint_checks() -> list[Check]:
+    """Format, lint, types and documentation."""
+    cargo = ("cargo", "--quiet")
+    return [
+        Check("toolchain", (sys.executable, "scripts/toolchain.py", "python", "rust", "targets")),
+        Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
+        Check("tools", ("make", "--no-print-directory", "tools")),
+        Check("format of Python", (f"{BIN}/ruff", "format", "--check")),
+        Check("lint of Python", (f"{BIN}/ruff", "check")),
+        Check(
+            "lint of Rust",
+            (*cargo, "clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"),
+        ),
+        Check(
+            "WebAssembly",
+            (*cargo, "check", "--locked", *PORTABLE, "--target", "wasm32-unknown-unknown"),
+            {"RUSTFLAGS": "-C target-feature=+simd128"},
+        ),
+        Check("ARM", (*cargo, "check", "--locked", *PORTABLE, "--target", "aarch64-unknown-linux-gnu")),
+        Check(
+            "documentation",
+            (*cargo, "doc", "--locked", "--workspace", "--no-deps"),
+            {"RUSTDOCFLAGS": "-D warnings"},
+        ),
+        Check("package", ("make", "--no-print-directory", "develop")),
+        Check("types", (f"{BIN}/mypy",)),
+        Check("types of the scripts", (f"{BIN}/mypy", "scripts/check.py", "scripts/toolchain.py")),
+        Check("stubs", (f"{BIN}/python", "-m", "mypy.stubtest", "lumencut._lumencut")),
+    ]
+
+
+def test_checks(report: str) -> list[Check]:
+    """The tests; pytest writes what it counted to the file `report`."""
+    return [
+        Check(
+            "tests of Rust",
+            ("cargo", "test", "--quiet", "--locked", "--workspace", "--release", "--no-fail-fast"),
+            count=count_rust,
+        ),
+        Check(
+            "tests of Python",
+            (f"{BIN}/python", "-m", "pytest", "--quiet", "--numprocesses=2", f"--junitxml={report}"),
+            count=count_python,
+            report=report,
+        ),
+    ]
+
+
+def run(check: Check) -> tuple[int, str]:
+    """The exit status of the command, and what it printed while it ran."""
+    lines = []
+    # A `make` that runs this script would hand its job slots down to commands that cannot use them.
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    with subprocess.Popen(
+        check.command,
+        cwd=ROOT,
+        env=inherited | check.environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+    ) as process:
+        assert process.stdout is not None
+        for line in process.stdout:
+            print(line, end="", flush=True)
+            lines.append(line)
+    return process.returncode, "".join(lines)
+
+
+def judge(check: Check) -> tuple[Count, str]:
+    """Run one check: what it counted, and what is wrong (nothing when it is green)."""
+    try:
+        status, text = run(check)
+    except OSError as error:
+        return Count(failed=1), f"it did not start: {error}"
+    count = Count()
+    if check.count:
+        try:
+            count = check.count(Path(check.report).read_text("utf-8") if check.report else text)
+        except (OSError, ET.ParseError):
+            return Count(failed=1), f"exit status {status}, and no report"
+    if count.failed:
+        return count, f"{count.failed} failed"
+    if status:
+        return count + Count(failed=1), f"exit status {status}"
+    if check.count and not count.passed:
+        return Count(failed=1), "no test ran"
+    return count, ""
+
+
+def perform(checks: list[Check]) -> Count:
+    """Run the checks in order up to the first red one."""
+    total, seconds = Count(), []
+    for check in checks:
+        print(f"\n== {check.name}: {' '.join(check.command)}", flush=True)
+        start = time.monotonic()
+        count, wrong = judge(check)
+        total += count
+        seconds.append((check.name, time.monotonic() - start))
+        if wrong:
+            print(f"\n== RED: {check.name}: {wrong}; nothing after it was run")
+            break
+    print("\n== seconds")
+    for name, taken in [*seconds, ("all", sum(taken for _, taken in seconds))]:
+        print(f"{taken:8.1f}  {name}")
+    return total
+
+
+def main() -> int:
+    """Run the checks that the command line asks for and print the count as the last line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--lint", action="store_true", help="leave the tests out")
+    lint_only = parser.parse_args().lint
+    with tempfile.TemporaryDirectory() as folder:
+        checks = lint_checks() + ([] if lint_only else test_checks(f"{folder}/pytest.xml"))
+        total = perform(checks)
+    if lint_only and not total.failed:
+        print("\nall green")
+    else:
+        print(f"\n{total}", flush=True)
+    return 1 if total.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

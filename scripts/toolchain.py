@@ -1,0 +1,98 @@
+"""Says clearly what of the toolchain is missing: Python, Rust, or a target that Rust compiles for.
+
+Needs nothing but Python itself: it runs before there is an environment.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+#: The targets besides this machine's own that the core and the readers must compile for.
+TARGETS = ("wasm32-unknown-unknown", "aarch64-unknown-linux-gnu")
+
+
+def refuse(found: str, expected: str, mend: str) -> None:
+    """Stop with one line that names the cause and what mends it."""
+    sys.exit(f"toolchain: found {found}; expected {expected}; {mend}")
+
+
+def check_python() -> None:
+    """Python is new enough and can make virtual environments."""
+    if sys.version_info < (3, 11):  # noqa: UP036
+        refuse(
+            f"Python {sys.version.split()[0]} at {sys.executable}",
+            "Python 3.11 or newer",
+            "install one and name it: make PYTHON=python3.11 ...",
+        )
+    try:
+        import ensurepip  # noqa: F401
+        import venv  # noqa: F401
+    except ImportError as error:
+        refuse(
+            f"Python without {error.name}", "the modules venv and ensurepip", "apt-get install python3-venv"
+        )
+
+
+def wanted_rust() -> str:
+    """The oldest Rust that compiles the workspace, as Cargo.toml states it."""
+    found = re.search(r'^rust-version = "([\d.]+)"', (ROOT / "Cargo.toml").read_text("utf-8"), re.MULTILINE)
+    if found is None:
+        raise ValueError("Cargo.toml states no rust-version")
+    return found[1]
+
+
+def check_rust() -> None:
+    """Rust is there, new enough, and has a linker."""
+    wanted = wanted_rust()
+    install = "install it with rustup (https://rustup.rs)"
+    for tool in ("cargo", "rustc"):
+        if shutil.which(tool) is None:
+            refuse(f"no {tool} on the PATH", f"Rust {wanted} or newer", install)
+    said = subprocess.run(["rustc", "--version"], check=False, capture_output=True, text=True, cwd=ROOT)
+    version = re.match(r"rustc (\d+)\.(\d+)", said.stdout)
+    if version is None:
+        refuse(f"rustc that says {said.stderr.strip()!r}", f"Rust {wanted} or newer", install)
+    elif [int(part) for part in version.groups()] < [int(part) for part in wanted.split(".")[:2]]:
+        refuse(said.stdout.strip(), f"Rust {wanted} or newer", "rustup update stable")
+    if shutil.which("cc") is None:
+        refuse("no C compiler to link with", "cc on the PATH", "apt-get install build-essential")
+
+
+def add_targets() -> None:
+    """Rust's libraries for every one of `TARGETS` are installed; rustup adds those that are not."""
+    sysroot = subprocess.run(
+        ["rustc", "--print", "sysroot"], check=True, capture_output=True, text=True, cwd=ROOT
+    )
+    libraries = Path(sysroot.stdout.strip()) / "lib" / "rustlib"
+    missing = [target for target in TARGETS if not (libraries / target / "lib").is_dir()]
+    if not missing:
+        return
+    names = " ".join(missing)
+    if shutil.which("rustup") is None:
+        refuse(
+            f"no {names} in {libraries}",
+            "rustup, which adds it",
+            "install Rust with rustup (https://rustup.rs)",
+        )
+    print(f"rustup target add {names}", flush=True)
+    if subprocess.run(["rustup", "target", "add", *missing], check=False, cwd=ROOT).returncode:
+        refuse(f"rustup unable to add {names}", "Rust's libraries for it", "check the network connection")
+
+
+def main() -> None:
+    """Check what the command line asks for."""
+    checks = {"python": check_python, "rust": check_rust, "targets": add_targets}
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("what", choices=checks, nargs="+")
+    for what in parser.parse_args().what:
+        checks[what]()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,120 @@
+"""The script behind `make test` counts rightly and never calls a red run green."""
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="module")
+def check():
+    spec = importlib.util.spec_from_file_location("check", ROOT / "scripts" / "check.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["check"] = module
+    spec.loader.exec_module(module)
+    yield module
+    del sys.modules["check"]
+
+
+def says(text: str, status: int = 0) -> tuple[str, ...]:
+    return (sys.executable, "-c", f"print({text!r}); raise SystemExit({status})")
+
+
+RUST = "test result: {}. {} passed; {} failed; 1 ignored; 0 measured; 2 filtered out; finished in 0.04s"
+RUST_GREEN = f"{RUST.format('ok', 3, 0)}\nrunning 2 tests\n{RUST.format('ok', 2, 0)}"
+RUST_RED = f"{RUST.format('ok', 3, 0)}\n{RUST.format('FAILED', 4, 1)}"
+
+
+def test_rust_is_counted(check):
+    assert check.count_rust(RUST_GREEN) == check.Count(5, 0)
+    assert check.count_rust(RUST_RED) == check.Count(7, 1)
+    assert check.count_rust("error: could not compile") == check.Count(0, 0)
+
+
+def test_python_is_counted(check, tmp_path):
+    (tmp_path / "test_some.py").write_text(
+        "import pytest\n"
+        "def test_a(): pass\n"
+        "def test_b(): pass\n"
+        "def test_c(): assert False\n"
+        "def test_d(): pytest.importorskip('no_such_module')\n"
+        "@pytest.fixture\n"
+        "def broken(): raise ValueError\n"
+        "def test_e(broken): pass\n",
+        encoding="utf-8",
+    )
+    report = tmp_path / "report.xml"
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--rootdir={tmp_path}"]
+    subprocess.run([*command, f"--junitxml={report}", str(tmp_path)], capture_output=True, check=False)
+    assert check.count_python(report.read_text("utf-8")) == check.Count(2, 2)
+
+
+def perform(check, *commands) -> tuple[int, int]:
+    checks = [check.Check(f"check {i}", command, count=count) for i, (command, count) in enumerate(commands)]
+    total = check.perform(checks)
+    return total.passed, total.failed
+
+
+@pytest.mark.parametrize(
+    ("text", "status", "expected"),
+    [
+        (RUST_GREEN, 0, (5, 0)),
+        (RUST_GREEN, 1, (5, 1)),
+        (RUST_RED, 101, (7, 1)),
+        (RUST_RED, 0, (7, 1)),
+        ("", 0, (0, 1)),
+    ],
+)
+def test_tests_are_judged(check, text, status, expected):
+    assert perform(check, (says(text, status), check.count_rust)) == expected
+
+
+def test_a_red_check_stops_the_run(check, tmp_path, capfd):
+    made = tmp_path / "made"
+    later = (sys.executable, "-c", f"open({str(made)!r}, 'w')")
+    assert perform(check, (says(RUST_GREEN), check.count_rust), (says("", 2), None), (later, None)) == (5, 1)
+    assert not made.exists()
+    assert "RED: check 1: exit status 2" in capfd.readouterr().out
+    assert perform(check, (later, None)) == (0, 0)
+    assert made.exists()
+
+
+def test_a_missing_command_or_report_is_red(check):
+    assert perform(check, (("no-such-command-anywhere",), None)) == (0, 1)
+    missing = check.Check("report", says("5 passed"), count=check.count_python, report="no/such/report.xml")
+    assert check.perform([missing]) == check.Count(0, 1)
+
+
+@pytest.fixture
+def broken_copy(tmp_path) -> Path:
+    """What `.ci/run` needs, in a place where nothing can be built."""
+    for name in (".ci/run", "Makefile", "scripts/check.py", "scripts/toolchain.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    (tmp_path / "Cargo.toml").write_text('rust-version = "999.0"\n', encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize("python", [sys.executable, "no-such-python"])
+def test_ci_ends_with_the_count_when_nothing_can_be_built(broken_copy, python):
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
+    told = subprocess.run(
+        [broken_copy / ".ci/run"],
+        env=environment | {"PYTHON": python},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert told.returncode != 0
+    last = told.stdout.splitlines()[-1]
+    assert re.fullmatch(r"0 passed, 1 failed", last), told.stdout
+    if python == sys.executable:
+        assert "expected Rust 999.0 or newer" in told.stdout

@@ -1,0 +1,280 @@
+"""What holds for the repository as a whole: versions, licences, names, sizes, the weight of an import."""
+
+import ast
+import inspect
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import lumencut
+from lumencut import errors
+
+ROOT = Path(__file__).resolve().parents[1]
+LONGEST_FILE = 400
+#: Licences that a crate may be under; of an expression with OR one is enough, with AND all must be here.
+ALLOWED = {
+    "0BSD",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "ISC",
+    "MIT",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+}
+#: Packages that only some calls need; none of them may be imported before such a call.
+HEAVY = {
+    "PIL",
+    "SimpleITK",
+    "av",
+    "click",
+    "gdcm",
+    "itk",
+    "nibabel",
+    "nrrd",
+    "openjpeg",
+    "pydicom",
+    "tqdm",
+    "vtkmodules",
+}
+
+
+def text(path: str) -> str:
+    return (ROOT / path).read_text("utf-8")
+
+
+def toml(path: str) -> dict:
+    return tomllib.loads(text(path))
+
+
+def sources() -> list[Path]:
+    return [
+        path
+        for folder, ending in (("crates", "rs"), ("python", "py"), ("scripts", "py"), ("tests", "py"))
+        for path in sorted((ROOT / folder).rglob(f"*.{ending}"))
+        if "target" not in path.parts
+    ]
+
+
+def test_no_source_file_is_long():
+    lengths = {path.relative_to(ROOT): len(path.read_text("utf-8").splitlines()) for path in sources()}
+    assert len(lengths) > 60
+    assert {path: length for path, length in lengths.items() if length > LONGEST_FILE} == {}
+
+
+def test_versions_agree():
+    version = toml("pyproject.toml")["project"]["version"]
+    locked = {package["name"]: package["version"] for package in toml("Cargo.lock")["package"]}
+    stated = {
+        "Cargo.toml": toml("Cargo.toml")["workspace"]["package"]["version"],
+        "CITATION.cff": re.search(r'^version: "?([\d.]+)"?$', text("CITATION.cff"), re.MULTILINE)[1],
+        "CHANGELOG.md": re.search(r"^## \[(\d[\d.]*)\]", text("CHANGELOG.md"), re.MULTILINE)[1],
+        "lumencut.__version__": lumencut.__version__,
+        "installed": metadata.version("lumencut"),
+        **{name: found for name, found in locked.items() if name.startswith("lumencut-")},
+    }
+    assert len(stated) >= 8
+    assert set(stated.values()) == {version}, stated
+
+
+def test_oldest_python_and_licence_are_stated_once():
+    project, workspace = toml("pyproject.toml")["project"], toml("Cargo.toml")["workspace"]["package"]
+    assert project["license"] == workspace["license"]
+    cited = re.search(r"^license:\n((?:  - .*\n)+)", text("CITATION.cff"), re.MULTILINE)
+    assert re.findall(r"- (.*)", cited[1]) == workspace["license"].split(" OR ")
+    oldest = re.fullmatch(r">=(3\.(\d+))", project["requires-python"])
+    assert toml("pyproject.toml")["tool"]["ruff"]["target-version"] == f"py3{oldest[2]}"
+    assert f"abi3-py3{oldest[2]}" in text("crates/lumencut-python/Cargo.toml")
+
+
+def pins(path: str) -> dict[str, set[str]]:
+    """The versions that a lock file allows of each package; each must carry hashes."""
+    found: dict[str, set[str]] = {}
+    for entry in re.split(r"\n(?=\S)", text(path).strip()):
+        pin = re.match(r"([\w.-]+)==([^\s;]+)", entry)
+        assert pin, f"{path}: {entry.splitlines()[0]!r} is not pinned"
+        assert "--hash=sha256:" in entry, f"{path}: {pin[1]} carries no hash"
+        found.setdefault(canonicalize_name(pin[1]), set()).add(pin[2])
+    return found
+
+
+def test_locks_hold_what_is_declared():
+    project = toml("pyproject.toml")
+    runtime, dev = pins("requirements/runtime.lock"), pins("requirements/dev.lock")
+    groups = project["dependency-groups"]
+    for lock, declared in (
+        (runtime, project["project"]["dependencies"] + groups["build"]),
+        (dev, [line for line in groups["dev"] if isinstance(line, str)]),
+    ):
+        for requirement in map(Requirement, declared):
+            versions = lock.get(canonicalize_name(requirement.name), set())
+            assert versions, f"{requirement} is not locked: make lock"
+            assert all(requirement.specifier.contains(version) for version in versions), requirement
+    assert {name: versions for name, versions in dev.items() if name in runtime} == runtime
+    assert project["build-system"]["requires"] == groups["build"]
+
+
+def is_allowed(expression: str) -> bool:
+    """Whether an SPDX expression leaves a choice that is within `ALLOWED`."""
+    while "(" in expression:
+        expression = re.sub(r"\(([^()]*)\)", lambda m: "MIT" if is_allowed(m[1]) else "refused", expression)
+    choices = re.split(r" OR |/", expression)
+    return any(all(licence.strip() in ALLOWED for licence in choice.split(" AND ")) for choice in choices)
+
+
+@pytest.mark.parametrize(
+    ("expression", "allowed"),
+    [
+        ("MIT", True),
+        ("MPL-2.0", False),
+        ("GPL-3.0-only OR MIT", True),
+        ("MIT/Apache-2.0", True),
+        ("MIT AND GPL-3.0-only", False),
+        ("(MIT OR Apache-2.0) AND Unicode-3.0", True),
+        ("(MIT OR Apache-2.0) AND OpenSSL", False),
+        ("Apache-2.0 WITH LLVM-exception", True),
+        ("GPL-2.0-only WITH Classpath-exception-2.0", False),
+    ],
+)
+def test_licence_expressions(expression, allowed):
+    assert is_allowed(expression) == allowed
+
+
+@pytest.fixture(scope="module")
+def crates() -> list[dict]:
+    """The crates of the workspace and everything that they need, on any platform."""
+    command = ["cargo", "metadata", "--locked", "--format-version=1"]
+    told = subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    packages = json.loads(told.stdout)["packages"]
+    assert len(packages) > 20
+    return packages
+
+
+def test_crates_accept_the_oldest_rust(crates):
+    def release(version: str) -> tuple[int, ...]:
+        return tuple(map(int, version.split(".")))
+
+    oldest = toml("Cargo.toml")["workspace"]["package"]["rust-version"]
+    wanted = {crate["name"]: crate["rust_version"] for crate in crates if crate["rust_version"]}
+    newer = {name: version for name, version in wanted.items() if release(version) > release(f"{oldest}.0")}
+    assert newer == {}
+
+
+def test_licences_of_the_crates(crates):
+    licences = {crate["name"]: crate["license"] or "none stated" for crate in crates}
+    refused = {name: licence for name, licence in licences.items() if not is_allowed(licence)}
+    assert refused == {}
+
+
+def runtime_packages() -> dict[str, metadata.Distribution]:
+    """The package and everything that it needs, found through what is installed."""
+    found: dict[str, metadata.Distribution] = {}
+    wanted = ["lumencut"]
+    while wanted:
+        name = wanted.pop()
+        if name in found:
+            continue
+        found[name] = metadata.distribution(name)
+        needs = map(Requirement, found[name].requires or [])
+        wanted += [n.name for n in needs if n.marker is None or n.marker.evaluate({"extra": ""})]
+    return found
+
+
+def test_licences_of_the_python_packages():
+    packages = runtime_packages()
+    assert len(packages) > 8
+    for name, package in packages.items():
+        stated = [package.metadata.get("License-Expression"), *(package.metadata.get_all("Classifier") or [])]
+        stated.append((package.metadata.get("License") or "").partition("\n")[0])
+        licence = " ".join(line for line in stated if line and ("License ::" in line or "::" not in line))
+        assert licence, name
+        assert not re.search(r"\b[AL]?GPL|General Public", licence), f"{name}: {licence}"
+
+
+def test_public_names_have_one_home():
+    homes = [name for names in lumencut._HOME.values() for name in names]
+    assert len(homes) == len(set(homes))
+    assert sorted(homes) == sorted(lumencut.__all__)
+    tree = ast.parse(text("python/lumencut/__init__.py"))
+    block = next(node for node in tree.body if isinstance(node, ast.If))
+    typed = {node.module: tuple(alias.name for alias in node.names) for node in block.body}
+    assert {f"lumencut.{module}": set(names) for module, names in lumencut._HOME.items()} == {
+        module: set(names) for module, names in typed.items()
+    }
+
+
+def public_members() -> dict[str, object]:
+    """Public functions, classes and what the classes define themselves."""
+    found = {name: getattr(lumencut, name) for name in lumencut.__all__}
+    found = {name: value for name, value in found.items() if callable(value)}
+    for owner, value in list(found.items()):
+        if inspect.isclass(value):
+            members = {name: member for name, member in vars(value).items() if not name.startswith("_")}
+            documented = (property, classmethod, staticmethod)
+            found |= {
+                f"{owner}.{name}": member
+                for name, member in members.items()
+                if inspect.isfunction(member) or isinstance(member, documented)
+            }
+    return found
+
+
+def test_public_names_are_documented():
+    members = public_members()
+    assert len(members) > 40
+    undocumented = [
+        name
+        for name, member in members.items()
+        # A data class without a docstring is given its signature as one.
+        if not (member.__doc__ or "").strip() or member.__doc__.startswith(f"{name}(")
+    ]
+    assert undocumented == []
+
+
+def test_every_rust_error_has_its_class():
+    source = text("crates/lumencut-core/src/error.rs")
+    kinds = re.search(r"pub enum ErrorKind \{(.*?)^\}", source, re.DOTALL | re.MULTILINE)
+    kinds = set(re.findall(r"^    (\w+),", kinds[1], re.MULTILINE)) - {"Interrupted"}
+    assert len(kinds) >= 4
+    raised = {
+        name
+        for path in (ROOT / "crates/lumencut-python/src").glob("*.rs")
+        for name in re.findall(r'"(\w+Error)"', path.read_text("utf-8"))
+    }
+    assert {f"{kind}Error" for kind in kinds} <= raised
+    for name in raised:
+        assert issubclass(getattr(errors, name), lumencut.LumencutError), name
+
+
+def test_every_error_is_a_builtin_one_too():
+    classes = [value for value in vars(errors).values() if inspect.isclass(value)]
+    own = [value for value in classes if issubclass(value, lumencut.LumencutError)]
+    assert len(own) > 6
+    for value in own:
+        assert value.__name__ in lumencut.__all__
+        assert value is lumencut.LumencutError or issubclass(value, (ValueError, OSError, RuntimeError))
+
+
+def imported_by(code: str) -> set[str]:
+    """The top-level modules that are there after `code` ran in an interpreter of its own."""
+    listing = f"import sys\n{code}\nprint(*sorted({{name.partition('.')[0] for name in sys.modules}}))"
+    told = subprocess.run([sys.executable, "-c", listing], check=True, capture_output=True, text=True)
+    return set(told.stdout.split())
+
+
+def test_importing_is_light():
+    assert imported_by("import lumencut") & {"numpy", *HEAVY} == set()
+    every_name = "import lumencut\nfor name in lumencut.__all__: getattr(lumencut, name)"
+    modules = imported_by(every_name)
+    assert "numpy" in modules
+    assert modules & HEAVY == set()
