@@ -42,8 +42,6 @@ static ALLOCATOR: Counting = Counting;
 // One test alone: the counters belong to the whole process.
 #[test]
 fn memory_stays_within_its_bounds() {
-    let tree = random_tree(41, 400, 200, 1.0, 100.0).unwrap();
-    let segments = tree.segment_count();
     let voxels = vec![100i16; 200usize.pow(3)];
     let affine = DAffine3::from_translation(glam::DVec3::splat(-99.5));
     let volume = Volume::new(Voxels::I16(&voxels), [200; 3], [1, 200, 40_000], affine).unwrap();
@@ -53,7 +51,8 @@ fn memory_stays_within_its_bounds() {
 
     let before = LIVE.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);
-    let mut renderer = Renderer::new(tree);
+    let mut renderer = Renderer::new(random_tree(41, 400, 200, 1.0, 100.0).unwrap());
+    let segments = renderer.tree().segment_count();
     let frame = renderer.render(&volume, &large, &Settings::default(), &|| false).unwrap();
     let peak = PEAK.load(Ordering::Relaxed) - before;
     let allowed = 64 * 256 * 256 + 400 * segments;
