@@ -10,7 +10,7 @@ use crate::math::hierarchy::{Hierarchy, NO_SLOT};
 use crate::math::lanes::{ABSENT, COLUMNS, FAN, Kernel, PIXELS, ROWS, UNSET, dispatch};
 use crate::math::nearest::lower_distance;
 use crate::math::pieces::Envelope;
-use crate::math::tile::{Tile, lane};
+use crate::math::tile::{Tile, scatter};
 use crate::stages::View;
 use crate::stages::depth::{CutSurface, Search, depth_by};
 
@@ -47,11 +47,7 @@ impl Kernel for DistanceRow<'_> {
                     lower_distance(&tile, &mut squared, bundle, s);
                 }
             }
-            for (r, row) in self.pixels.chunks_mut(width).enumerate() {
-                for (c, pixel) in row[column..].iter_mut().take(COLUMNS).enumerate() {
-                    *pixel = squared[lane(r, c)].sqrt();
-                }
-            }
+            scatter(&squared.map(f32::sqrt), self.pixels, width, column);
         }
     }
 }

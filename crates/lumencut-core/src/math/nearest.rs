@@ -1,6 +1,6 @@
 //! The distance of pixels to segments, and which segments can matter to a tile.
 
-use super::lanes::{FAN, PIXELS, larger, smaller, smallest, within};
+use super::lanes::{FAN, FAR, PIXELS, larger, smaller, smallest, within};
 use super::pieces::Bundle;
 use super::tile::Tile;
 
@@ -19,6 +19,7 @@ pub fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &Bundle,
 }
 
 /// The point of the segments met so far that is nearest to the middle of a tile.
+#[derive(Clone, Copy, Debug)]
 pub struct NearestPoint {
     /// Its distance from the middle (mm), and a little more than its rounding.
     pub distance: f32,
@@ -30,7 +31,15 @@ impl NearestPoint {
     /// No segment met yet.
     #[inline(always)]
     pub fn unknown() -> Self {
-        Self { distance: super::lanes::FAR, x: super::lanes::FAR, y: super::lanes::FAR }
+        Self { distance: FAR, x: FAR, y: FAR }
+    }
+
+    /// The same point as seen from the middle of another tile.
+    #[inline(always)]
+    pub fn seen_from(&self, tile: &Tile) -> Self {
+        let [cx, cy] = tile.area.center;
+        let (dx, dy) = (cx - self.x, cy - self.y);
+        Self { distance: (dx * dx + dy * dy).sqrt() * 1.000_01 + 1e-5, ..*self }
     }
 
     /// Meets the segments of a bundle; tells whether one of them is nearer.
@@ -59,7 +68,7 @@ impl NearestPoint {
     #[inline(always)]
     pub fn rivals(&self, tile: &Tile, bundle: &Bundle) -> u32 {
         let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
-        let mut lead = [super::lanes::FAR; FAN];
+        let mut lead = [FAR; FAN];
         for (sx, sy) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
             let (x, y) = (cx + sx * hx, cy + sy * hy);
             let (px, py) = (x - self.x, y - self.y);

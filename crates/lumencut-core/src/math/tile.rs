@@ -24,6 +24,42 @@ pub const PLACE_OF_LANE: [(usize, usize); PIXELS] = {
     places
 };
 
+/// The lanes of the tile whose first column is `column`, from its `rows` of `width` pixels; lanes beyond the image
+/// repeat its last column and row.
+#[inline(always)]
+pub fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
+    let last_row = rows.len() / width - 1;
+    let mut lanes = [0.0; PIXELS];
+    for (n, run) in lanes.as_chunks_mut::<PART_SIDE>().0.iter_mut().enumerate() {
+        let (r, c) = PLACE_OF_LANE[n * PART_SIDE];
+        let row = &rows[r.min(last_row) * width..][..width];
+        if let Some(whole) = row.get(column + c..).and_then(|rest| rest.first_chunk()) {
+            *run = *whole;
+        } else {
+            for (l, lane) in run.iter_mut().enumerate() {
+                *lane = row[(column + c + l).min(width - 1)];
+            }
+        }
+    }
+    lanes
+}
+
+/// Writes the lanes of the tile whose first column is `column` into its `rows` of `width` pixels; lanes beyond the
+/// image are left out.
+#[inline(always)]
+pub fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize, column: usize) {
+    for (n, run) in lanes.as_chunks::<PART_SIDE>().0.iter().enumerate() {
+        let (r, c) = PLACE_OF_LANE[n * PART_SIDE];
+        let Some(row) = rows.get_mut(r * width..(r + 1) * width) else { continue };
+        let Some(rest) = row.get_mut(column + c..) else { continue };
+        if let Some(whole) = rest.first_chunk_mut() {
+            *whole = *run;
+        } else {
+            rest.copy_from_slice(&run[..rest.len()]);
+        }
+    }
+}
+
 /// A box in the view plane (mm): its middle and half its sides.
 #[derive(Clone, Copy, Debug)]
 pub struct Area {

@@ -4,7 +4,7 @@ use super::candidates::candidates;
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
 use super::lanes::{
-    COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places, smaller, within,
+    COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places, within,
 };
 use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
@@ -121,13 +121,18 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
     }
 }
 
-/// Lowers the squared distance of every pixel of the tile to that of the nearest segment; no pixel is
-/// farther from it than `limit` (mm).
+/// Lowers the squared distance of every pixel of the tile to that of the nearest segment. `nearest` is any point
+/// of the segments, such as the one nearest to the tile before, and becomes this tile's.
 #[inline(always)]
-pub fn smallest_distances(hierarchy: &Hierarchy, tile: &Tile, limit: f32, squared: &mut [f32; PIXELS]) {
+pub fn smallest_distances(
+    hierarchy: &Hierarchy,
+    tile: &Tile,
+    nearest: &mut NearestPoint,
+    squared: &mut [f32; PIXELS],
+) {
     let mut stack = Stack::new();
-    let mut limit = limit;
-    let mut nearest = NearestPoint::unknown();
+    *nearest = nearest.seen_from(tile);
+    let mut limit = nearest.distance + tile.radius;
     stack.waiting[0] = (0.0, hierarchy.heights.len() as u32, 0);
     stack.length = 1;
     while let Some((bound, height, node)) = stack.pop() {
@@ -140,7 +145,7 @@ pub fn smallest_distances(hierarchy: &Hierarchy, tile: &Tile, limit: f32, square
         } else {
             let bundle = &hierarchy.bundles[node as usize];
             if nearest.approach(tile, bundle) {
-                limit = smaller(limit, nearest.distance + tile.radius);
+                limit = nearest.distance + tile.radius;
             }
             for s in places(nearest.rivals(tile, bundle)) {
                 lower_distance(tile, squared, bundle, s);

@@ -11,7 +11,7 @@ use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch, places, smaller};
 use crate::math::pieces::Envelope;
 use crate::math::projection::{Level, ProjectedLevel};
-use crate::math::tile::{PLACE_OF_LANE, Tile, lane};
+use crate::math::tile::{Tile, gather, scatter};
 use crate::math::walk::{Seeds, lowest_keys};
 use crate::settings::{MAX_LEVELS, Settings};
 
@@ -197,22 +197,12 @@ impl DepthRow<'_> {
     #[inline(always)]
     fn fill<const LUMEN_FIRST: bool>(self, search: &mut impl Search) {
         let width = self.view.size()[0];
-        let height = self.depth.len() / width;
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(self.view.camera, column, self.row * ROWS);
-            // Pixels beyond the image repeat its last column and row.
-            let mut distance = [0.0; PIXELS];
-            for l in 0..PIXELS {
-                let (r, c) = PLACE_OF_LANE[l];
-                distance[l] = self.distance[r.min(height - 1) * width + (column + c).min(width - 1)];
-            }
+            let distance = gather(self.distance, width, column);
             let (depth, vessel) = self.surface.blend::<LUMEN_FIRST>(&tile, &distance, search);
-            for r in 0..height {
-                for c in 0..COLUMNS.min(width - column) {
-                    self.depth[r * width + column + c] = depth[lane(r, c)];
-                    self.vessel[r * width + column + c] = vessel[lane(r, c)];
-                }
-            }
+            scatter(&depth, self.depth, width, column);
+            scatter(&vessel, self.vessel, width, column);
         }
     }
 }

@@ -6,8 +6,9 @@ use rayon::prelude::*;
 use super::View;
 use crate::error::Result;
 use crate::math::hierarchy::Hierarchy;
-use crate::math::lanes::{COLUMNS, FAR, Kernel, PIXELS, ROWS, UNSET, dispatch, largest};
-use crate::math::tile::{Tile, lane};
+use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, UNSET, dispatch};
+use crate::math::nearest::NearestPoint;
+use crate::math::tile::{Tile, scatter};
 use crate::math::walk::smallest_distances;
 
 /// Writes the distance (mm) of each pixel of the view to the nearest segment of the finest level.
@@ -37,21 +38,13 @@ impl Kernel for DistanceRow<'_> {
     fn run(self) {
         let camera = self.view.camera;
         let width = camera.size()[0];
-        let step = camera.pixel_spacing() as f32 * COLUMNS as f32;
-        let mut limit = FAR;
+        let mut nearest = NearestPoint::unknown();
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
             let mut squared = [UNSET; PIXELS];
-            smallest_distances(self.finest, &tile, limit, &mut squared);
+            smallest_distances(self.finest, &tile, &mut nearest, &mut squared);
             squared = squared.map(f32::sqrt);
-            let worst = largest(&squared);
-            // No pixel of the next tile is farther than its counterpart in this one, and one tile's width.
-            limit = (worst + step) * 1.000_1;
-            for (r, row) in self.pixels.chunks_mut(width).enumerate() {
-                for (c, pixel) in row[column..].iter_mut().take(COLUMNS).enumerate() {
-                    *pixel = squared[lane(r, c)];
-                }
-            }
+            scatter(&squared, self.pixels, width, column);
         }
     }
 }
