@@ -1,7 +1,7 @@
 //! Which pieces of a bundle can win in which parts of a tile.
 
 use super::cost::Rule;
-use super::lanes::{ABSENT, FAN, PARTS, larger, smaller, within};
+use super::lanes::{ABSENT, FAN, PARTS, larger, smaller};
 use super::pieces::Bundle;
 use super::tile::{Area, Tile};
 
@@ -25,8 +25,8 @@ pub fn candidates<const LUMEN_FIRST: bool>(
     let mut found = Candidates::default();
     for p in 0..PARTS {
         let (stripe, wedge) = smallest_keys::<LUMEN_FIRST>(&tile.parts[p], bundle, rule);
-        found.stripes |= within(&stripe, limits[p]) << (FAN * p);
-        found.wedges |= within(&wedge, limits[p]) << (FAN * p);
+        found.stripes |= tile.bits.within(&stripe, limits[p]) << (FAN * p);
+        found.wedges |= tile.bits.within(&wedge, limits[p]) << (FAN * p);
     }
     found
 }

@@ -73,18 +73,37 @@ pub fn smallest(numbers: &[f32; FAN]) -> f32 {
     number(least)
 }
 
-/// Bit n tells whether number n is no larger than `limit`.
-#[inline(always)]
-pub fn within(numbers: &[f32; FAN], limit: f32) -> u32 {
-    let mut bits = [0u32; FAN];
-    for n in 0..FAN {
-        bits[n] = if numbers[n] <= limit { 1 << n } else { 0 };
+/// The bit of each lane, for masks as integers.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Bits([u32; FAN]);
+
+impl Bits {
+    /// Bit n for lane n. The compiler is kept from knowing it: with constants it takes the vectors apart.
+    #[inline(always)]
+    pub fn new() -> Self {
+        let mut bits = [1; FAN];
+        for n in 0..FAN {
+            bits[n] <<= n;
+        }
+        Self(std::hint::black_box(bits))
     }
-    let mut all = 0;
-    for n in 0..FAN {
-        all |= bits[n];
+
+    /// Bit n tells whether number n is no larger than `limit`.
+    #[inline(always)]
+    pub fn within(&self, numbers: &[f32; FAN], limit: f32) -> u32 {
+        let mut all = 0;
+        for n in 0..FAN {
+            all |= if numbers[n] <= limit { self.0[n] } else { 0 };
+        }
+        all
     }
-    all
+}
+
+impl Default for Bits {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 /// The places of the bits set, lowest first.

@@ -1,6 +1,6 @@
 //! The distance of pixels to segments, and which segments can matter to a tile.
 
-use super::lanes::{FAN, FAR, PIXELS, larger, smaller, smallest, within};
+use super::lanes::{FAN, FAR, PIXELS, larger, smaller, smallest};
 use super::pieces::Bundle;
 use super::tile::Tile;
 
@@ -56,7 +56,7 @@ impl NearestPoint {
         if distance >= self.distance {
             return false;
         }
-        let s = within(&squared, least).trailing_zeros() as usize % FAN;
+        let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
         *self = Self { distance, x: cx - dx[s], y: cy - dy[s] };
         true
     }
@@ -78,7 +78,7 @@ impl NearestPoint {
                 lead[s] = smaller(lead[s], dx * dx + dy * dy - to_point);
             }
         }
-        within(&lead, 0.0)
+        tile.bits.within(&lead, 0.0)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Tiles of pixels, and the parts of a tile: a part's pixels fill one vector, a tile's share one walk.
 
-use super::lanes::{COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
+use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
 use crate::camera::Camera;
 
 /// Parts side by side in a tile.
@@ -83,6 +83,8 @@ pub struct Tile {
     pub parts: [Area; PARTS],
     /// Half the diagonal of the box.
     pub radius: f32,
+    /// The bit of each lane.
+    pub bits: Bits,
 }
 
 impl Tile {
@@ -109,7 +111,7 @@ impl Tile {
             parts[p] = around(&columns[c..c + PART_SIDE], &rows[r..r + PART_SIDE]);
         }
         let [hx, hy] = area.half;
-        Self { x, y, area, parts, radius: (hx * hx + hy * hy).sqrt() }
+        Self { x, y, area, parts, radius: (hx * hx + hy * hy).sqrt(), bits: Bits::new() }
     }
 }
 

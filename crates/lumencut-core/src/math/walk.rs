@@ -4,7 +4,7 @@ use super::candidates::candidates;
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
 use super::lanes::{
-    COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places, within,
+    COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places,
 };
 use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
@@ -27,9 +27,9 @@ impl Stack {
 
     /// Puts the nodes of one box set within `limit` on the stack, farthest first.
     #[inline(always)]
-    fn push_nodes(&mut self, bounds: &[f32; FAN], limit: f32, height: u32, first: u32) {
+    fn push_nodes(&mut self, tile: &Tile, bounds: &[f32; FAN], limit: f32, [height, first]: [u32; 2]) {
         let base = self.length;
-        for n in places(within(bounds, limit)) {
+        for n in places(tile.bits.within(bounds, limit)) {
             let bound = bounds[n];
             let mut at = self.length;
             while at > base && self.waiting[at - 1].0 < bound {
@@ -103,7 +103,7 @@ pub fn lowest_keys<const LUMEN_FIRST: bool>(
         if height > 0 {
             let boxes: &Boxes = &hierarchy.heights[height as usize - 1][node as usize];
             let bounds = boxes.key_bounds::<LUMEN_FIRST>(tile, rule);
-            stack.push_nodes(&bounds, limit, height - 1, node * FAN as u32);
+            stack.push_nodes(tile, &bounds, limit, [height - 1, node * FAN as u32]);
         } else if bound <= SETTLED || !seeds.contains(node) {
             let bundle = &hierarchy.bundles[node as usize];
             let found = candidates::<LUMEN_FIRST>(tile, bundle, rule, &limits);
@@ -141,7 +141,7 @@ pub fn smallest_distances(
         }
         if height > 0 {
             let bounds = hierarchy.heights[height as usize - 1][node as usize].squared_distances(tile);
-            stack.push_nodes(&bounds, limit * limit, height - 1, node * FAN as u32);
+            stack.push_nodes(tile, &bounds, limit * limit, [height - 1, node * FAN as u32]);
         } else {
             let bundle = &hierarchy.bundles[node as usize];
             if nearest.approach(tile, bundle) {
