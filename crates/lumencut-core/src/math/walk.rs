@@ -3,9 +3,7 @@
 use super::candidates::candidates;
 use super::cost::Rule;
 use super::hierarchy::{Boxes, Hierarchy};
-use super::lanes::{
-    COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places,
-};
+use super::lanes::{COLUMNS, FAN, PART_PIXELS, PARTS, PIXELS, ROWS, SETTLED, UNSET, larger, largest, places};
 use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
 use super::tile::{Tile, lane};
