@@ -24,7 +24,10 @@ SCENES = {
     "stenosis": (lambda: phantom.stenosis(60.0), Settings(window=Window(150.0, 700.0))),
     "calcified_wall": (phantom.calcified_wall, Settings(window=Window(300.0, 1400.0), silhouettes=False)),
     "crossing": (phantom.crossing, Settings(window=Window(150.0, 700.0))),
-    "crossing_lumen_first": (phantom.crossing, Settings(window=Window(150.0, 700.0), lumen_first=True, lumen_margin=1.0)),
+    "crossing_lumen_first": (
+        phantom.crossing,
+        Settings(window=Window(150.0, 700.0), lumen_first=True, lumen_margin=1.0),
+    ),
     "y_junction_transparent": (
         phantom.y_junction,
         Settings(window=Window(150.0, 700.0), opacity=Opacity(0.0, 200.0), background=(20, 40, 80, 128)),

@@ -1,60 +1,41 @@
 //! The reference: every pixel against every piece of every level it needs. Vectorised and parallel like the
 //! product, without its hierarchy; for tests and benches only.
 
-use rayon::prelude::*;
-
-use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
-use crate::math::lanes::{ABSENT, COLUMNS, FAN, Kernel, PIXELS, ROWS, UNSET, dispatch};
+use crate::math::lanes::{ABSENT, FAN, PIXELS};
 use crate::math::nearest::lower_distance;
 use crate::math::pieces::Envelope;
-use crate::math::tile::{Tile, scatter};
+use crate::math::tile::Tile;
 use crate::stages::View;
 use crate::stages::depth::{CutSurface, Search, depth_by};
+use crate::stages::distance::{Measure, distance_by};
 
 /// [`crate::stages::distance::distance`] against every segment.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
 pub fn distance(view: &View, finest: &Hierarchy, distance: &mut [f32]) -> Result<()> {
-    distance.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, pixels)| {
-        view.go_on()?;
-        dispatch(view.isa, DistanceRow { camera: view.camera, finest, row, pixels });
-        Ok(())
-    })
+    distance_by(view, distance, || EverySegment(finest))
 }
 
-struct DistanceRow<'a> {
-    camera: &'a Camera,
-    finest: &'a Hierarchy,
-    row: usize,
-    pixels: &'a mut [f32],
-}
+struct EverySegment<'a>(&'a Hierarchy);
 
-impl Kernel for DistanceRow<'_> {
-    type Output = ();
-
+impl Measure for EverySegment<'_> {
     #[inline(always)]
-    fn run(self) {
-        let width = self.camera.size()[0];
-        for column in (0..width).step_by(COLUMNS) {
-            let tile = Tile::new(self.camera, column, self.row * ROWS);
-            let mut squared = [UNSET; PIXELS];
-            for bundle in &self.finest.bundles {
-                for s in (0..FAN).filter(|s| bundle.slot[*s] != NO_SLOT) {
-                    lower_distance(&tile, &mut squared, bundle, s);
-                }
+    fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]) {
+        for bundle in &self.0.bundles {
+            for s in (0..FAN).filter(|s| bundle.slot[*s] != NO_SLOT) {
+                lower_distance(tile, squared, bundle, s);
             }
-            scatter(&squared.map(f32::sqrt), self.pixels, width, column);
         }
     }
 }
 
-struct Exhaustive<'a>(&'a CutSurface<'a>);
+struct EveryPiece<'a>(&'a CutSurface<'a>);
 
-impl Search for Exhaustive<'_> {
+impl Search for EveryPiece<'_> {
     #[inline(always)]
     fn lowest<const LUMEN_FIRST: bool>(
         &mut self,
@@ -88,5 +69,5 @@ pub fn depth(
     depth: &mut [f32],
     vessel: &mut [i32],
 ) -> Result<()> {
-    depth_by(view, surface, distance, depth, vessel, || Exhaustive(surface))
+    depth_by(view, surface, distance, depth, vessel, || EveryPiece(surface))
 }

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use super::View;
+use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, UNSET, dispatch};
@@ -16,34 +17,62 @@ use crate::math::walk::smallest_distances;
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
 pub fn distance(view: &View, finest: &Hierarchy, distance: &mut [f32]) -> Result<()> {
+    distance_by(view, distance, || Walk { finest, nearest: NearestPoint::unknown() })
+}
+
+/// How the distances of one tile are found.
+pub(crate) trait Measure {
+    /// Lowers the squared distances (mm²) to those of the nearest segments.
+    fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]);
+}
+
+/// By the walk through the hierarchy, which begins at the point nearest to the tile before.
+struct Walk<'a> {
+    finest: &'a Hierarchy,
+    nearest: NearestPoint,
+}
+
+impl Measure for Walk<'_> {
+    #[inline(always)]
+    fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]) {
+        smallest_distances(self.finest, tile, &mut self.nearest, squared);
+    }
+}
+
+/// [`distance`] with a measure of its own for each row of tiles.
+pub(crate) fn distance_by<M: Measure>(
+    view: &View,
+    distance: &mut [f32],
+    measure: impl Fn() -> M + Sync,
+) -> Result<()> {
     distance.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, pixels)| {
         view.go_on()?;
-        dispatch(view.isa, DistanceRow { view, finest, row, pixels });
+        dispatch(view.isa, DistanceRow { camera: view.camera, measure: measure(), row, pixels });
         Ok(())
     })
 }
 
 /// One row of tiles.
-struct DistanceRow<'a> {
-    view: &'a View<'a>,
-    finest: &'a Hierarchy,
+struct DistanceRow<'a, M: Measure> {
+    camera: &'a Camera,
+    measure: M,
     row: usize,
     pixels: &'a mut [f32],
 }
 
-impl Kernel for DistanceRow<'_> {
+impl<M: Measure> Kernel for DistanceRow<'_, M> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
-        let camera = self.view.camera;
-        let width = camera.size()[0];
-        let mut nearest = NearestPoint::unknown();
+    fn run(mut self) {
+        let width = self.camera.size()[0];
         for column in (0..width).step_by(COLUMNS) {
-            let tile = Tile::new(camera, column, self.row * ROWS);
+            let tile = Tile::new(self.camera, column, self.row * ROWS);
             let mut squared = [UNSET; PIXELS];
-            smallest_distances(self.finest, &tile, &mut nearest, &mut squared);
-            squared = squared.map(f32::sqrt);
+            self.measure.lower(&tile, &mut squared);
+            for l in 0..PIXELS {
+                squared[l] = squared[l].sqrt();
+            }
             scatter(&squared, self.pixels, width, column);
         }
     }
