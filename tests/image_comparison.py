@@ -9,14 +9,14 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Comparison:
-    """How two images of one shape differ: the largest difference of any channel, and how many pixels differ."""
+    """How two images differ: the largest difference of any channel, and how many pixels differ."""
 
     largest: float
     count: int
 
 
 def compare(found: np.ndarray, expected: np.ndarray, tolerance: float = 0.0) -> Comparison:
-    """Count the pixels (all axes but the channels of an RGBA image) that differ by more than ``tolerance``."""
+    """Count the pixels (of RGBA images: in any channel) that differ by more than ``tolerance``."""
     assert found.shape == expected.shape, f"shape {found.shape}, expected {expected.shape}"
     assert found.dtype == expected.dtype, f"dtype {found.dtype}, expected {expected.dtype}"
     a, b = found.astype(np.float64), expected.astype(np.float64)

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from image_comparison import compare
 from PIL import Image
 
+from image_comparison import compare
 from lumencut import Camera, Opacity, Renderer, Settings, Window, phantom
 
 SNAPSHOTS = Path(__file__).parent / "snapshots"
