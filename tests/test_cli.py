@@ -391,3 +391,9 @@ def test_info_counts_points_with_both_signs_and_warns(files, tmp_path):
     assert "no point lies inside the volume" in result.stdout
     assert re.search(r"inside with x and y negated +25\n", result.stdout)
     assert one_line(result).startswith("lumencut: warning: lines.vtk: 0 of 25 points")
+
+
+@pytest.mark.parametrize("command", ["render", "turntable"])
+def test_help_keeps_its_examples_on_their_own_lines(command):
+    lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
+    assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == 2

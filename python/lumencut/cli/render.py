@@ -33,7 +33,7 @@ def render(
     output: tuple[Path, ...],
     **chosen: Any,
 ) -> None:
-    r"""Render VOLUME along CENTERLINES as one picture.
+    """Render VOLUME along CENTERLINES as one picture.
 
     VOLUME is a DICOM folder, NIfTI, NRRD or MetaImage file; CENTERLINES a .vtp, .vtk or .mrk.json file.
     The view fits all vessels unless --center, --pixel-spacing or --zoom say otherwise.
@@ -41,7 +41,7 @@ def render(
     \b
     lumencut render ct.nii.gz centerlines.vtp -o anterior.png
     lumencut render dicom/ lines.mrk.json -o oblique.png --rotate 30 --tilt 15 --window 900/300
-    """
+    """  # noqa: D301 - click needs the control character itself
     settings, view = options.settings_from(chosen), options.view_from(chosen)
     for path in output:
         options.check_picture(path)

@@ -64,7 +64,7 @@ def turntable(
     seconds: float | None,
     **chosen: Any,
 ) -> None:
-    r"""Render VOLUME along CENTERLINES as an animation of a turning view.
+    """Render VOLUME along CENTERLINES as an animation of a turning view.
 
     The view options give the first frame; one pixel spacing fits all frames, so that the vessels keep their
     size.
@@ -72,7 +72,7 @@ def turntable(
     \b
     lumencut turntable ct.nii.gz centerlines.vtp -o spin.webp
     lumencut turntable ct.nii.gz centerlines.vtp -o rock.mp4 --rotate -30 --degrees 60 --seconds 4
-    """
+    """  # noqa: D301 - click needs the control character itself
     if fps is not None and seconds is not None:
         raise click.UsageError("--fps and --seconds exclude each other")
     fps = fps or (frames / seconds if seconds else 12.0)
