@@ -8,6 +8,12 @@ use crate::vessel_tree::MAX_COORDINATE;
 /// The most pixels along one side of an image.
 pub const MAX_SIZE: usize = 32_768;
 
+/// The most pixels of an image: their buffers take a few gigabytes.
+pub const MAX_PIXELS: usize = 1 << 27;
+
+/// The largest pixel spacing (mm): with it, no view reaches as far as the kernels' sentinels.
+pub const MAX_PIXEL_SPACING: f64 = 1e4;
+
 /// An orthographic view: x right, y up, z away from the viewer, origin at `center`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -61,11 +67,15 @@ impl Camera {
         if size.iter().any(|n| *n == 0 || *n > MAX_SIZE) {
             return wrong("size of the camera", format!("{size:?}"), "1 to 32768 pixels along each side");
         }
-        if !(pixel_spacing.is_finite() && pixel_spacing > 1e-6 && pixel_spacing < 1e6) {
+        if size[0] * size[1] > MAX_PIXELS {
+            let found = format!("{} × {} pixels", size[0], size[1]);
+            return wrong("size of the camera", found, "at most 2^27 (134,217,728) pixels in all");
+        }
+        if !(1e-6..=MAX_PIXEL_SPACING).contains(&pixel_spacing) {
             return wrong(
                 "pixel_spacing of the camera",
                 format!("{pixel_spacing}"),
-                "between 1e-6 and 1e6 mm",
+                "between 1e-6 and 1e4 mm",
             );
         }
         let right = across.normalize();

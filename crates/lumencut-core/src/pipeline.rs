@@ -124,7 +124,7 @@ impl Renderer {
             .par_iter_mut()
             .zip(levels)
             .for_each(|(projected, level)| projected.project(level, camera, settings.preserve_lumen));
-        CutSurface::new(levels, projected, settings)
+        CutSurface::new(levels, projected, camera, settings)
     }
 }
 

@@ -39,7 +39,9 @@ fn camera_errors() -> Vec<Error> {
         make(o, y, -y, [9, 9], 1.0).unwrap_err(),
         make(o, y, z, [0, 9], 1.0).unwrap_err(),
         make(o, y, z, [9, 40_000], 1.0).unwrap_err(),
+        make(o, y, z, [32_768, 32_768], 1.0).unwrap_err(),
         make(o, y, z, [9, 9], 0.0).unwrap_err(),
+        make(o, y, z, [9, 9], 1.1e4).unwrap_err(),
         make(o, y, z, [9, 9], f64::NAN).unwrap_err(),
     ]
 }

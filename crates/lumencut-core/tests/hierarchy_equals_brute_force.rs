@@ -117,3 +117,32 @@ fn on_ten_thousand_vessels() {
         assert_eq!(differences(&hierarchy, &by_brute_force(&tree, &camera, settings)), 0);
     }
 }
+
+/// A coil of 150 points within 90 mm of the origin.
+fn coil() -> VesselTree {
+    let point = |i: usize| {
+        let t = i as f64 / 149.0;
+        [90.0 * (3.0 * t + 6.0).sin(), 40.0 * (4.0 * t).cos(), 90.0 * (2.2 * t + 4.2).cos()]
+    };
+    tree(vec![vessel(&(0..150).map(point).collect::<Vec<_>>(), 3.0)])
+}
+
+#[test]
+fn on_pixels_finer_than_the_rounding_of_the_nearest_point() {
+    // Pixels of 0.02 to 0.07 mm at view coordinates of 100 mm: tiles as small as some rounding errors' square roots.
+    for (size, pixel_spacing) in [([3072, 3072], 200.0 / 3072.0), ([8192, 256], 0.02), ([256, 8192], 0.02)] {
+        let camera = view([0.0, 1.0, 0.0], size, pixel_spacing);
+        let (hierarchy, brute) =
+            (by_hierarchy(&coil(), &camera, &plain()), by_brute_force(&coil(), &camera, &plain()));
+        assert_eq!(differences(&hierarchy, &brute), 0, "{size:?}");
+    }
+}
+
+#[test]
+fn at_the_coarsest_pixels_a_camera_may_have() {
+    let camera = view([0.0, 1.0, 0.0], [32_768, 16], 1e4);
+    for settings in &rules()[..2] {
+        let hierarchy = by_hierarchy(&coil(), &camera, settings);
+        assert_eq!(differences(&hierarchy, &by_brute_force(&coil(), &camera, settings)), 0);
+    }
+}

@@ -19,14 +19,16 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// The rule of `settings` for trees whose view coordinates stay within `reach` (mm) of the view's origin.
-    pub fn new(settings: &Settings, reach: f32) -> Self {
+    /// The rule of `settings` for a tree whose view coordinates, and a view whose pixels, stay within these
+    /// distances (mm) of the view's origin.
+    pub fn new(settings: &Settings, tree_reach: f32, view_reach: f32) -> Self {
+        let rounding = 4e-6 * larger(tree_reach, view_reach) + 1e-5;
         Self {
             weight: settings.cost_weight as f32,
             margin: settings.lumen_margin as f32,
-            lift: 2.0 * reach + 1.0,
-            distance_slack: 4e-6 * reach + 1e-5,
-            depth_slack: 4e-6 * reach + 1e-5,
+            lift: 2.0 * tree_reach + 1.0,
+            distance_slack: rounding,
+            depth_slack: rounding,
         }
     }
 

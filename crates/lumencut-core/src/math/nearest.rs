@@ -39,40 +39,48 @@ impl NearestPoint {
     pub fn seen_from(&self, tile: &Tile) -> Self {
         let [cx, cy] = tile.area.center;
         let (dx, dy) = (cx - self.x, cy - self.y);
-        Self { distance: (dx * dx + dy * dy).sqrt() * 1.000_01 + 1e-5, ..*self }
+        let distance = (dx * dx + dy * dy).sqrt() * 1.000_01 + slack(tile, self.x, self.y);
+        Self { distance, ..*self }
     }
 
     /// Meets the segments of a bundle; tells whether one of them is nearer.
     #[inline(always)]
     pub fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
         let [cx, cy] = tile.area.center;
-        let (mut squared, mut dx, mut dy) = ([0.0; FAN], [0.0; FAN], [0.0; FAN]);
+        let mut squared = [0.0; FAN];
         for s in 0..FAN {
-            (dx[s], dy[s]) = to_segment(bundle, s, cx, cy);
-            squared[s] = dx[s] * dx[s] + dy[s] * dy[s];
+            let (dx, dy) = to_segment(bundle, s, cx, cy);
+            squared[s] = dx * dx + dy * dy;
         }
         let least = smallest(&squared);
-        let distance = least.sqrt() * 1.000_01 + 1e-5;
+        let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
+        // From the segment, not from the tile: a far tile would round the point away from its segment.
+        let t = foot(bundle, s, cx - bundle.x[s], cy - bundle.y[s]);
+        let (x, y) = (bundle.x[s] + t * bundle.edge_x[s], bundle.y[s] + t * bundle.edge_y[s]);
+        let distance = least.sqrt() * 1.000_01 + slack(tile, x, y);
         if distance >= self.distance {
             return false;
         }
-        let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
-        *self = Self { distance, x: cx - dx[s], y: cy - dy[s] };
+        *self = Self { distance, x, y };
         true
     }
 
     /// The segments of a bundle that may be nearer than this point to some pixel of the tile.
     ///
     /// The places nearer to a point than to a segment form a convex region (an intersection of half-planes):
-    /// where it holds all four corners of the tile, it holds the tile.
+    /// where it holds all four corners of the tile, it holds the tile. With the point known to ε, a segment
+    /// must be farther by ε: (d + ε)² ≤ (1 + 10⁻⁵)·d² + (1 + 10⁵)·ε². This margin, too, is kept between the corners,
+    /// because the difference of squared distances is concave there.
     #[inline(always)]
     pub fn rivals(&self, tile: &Tile, bundle: &Bundle) -> u32 {
         let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
+        let epsilon = slack(tile, self.x, self.y);
+        let margin = 1.1e5 * epsilon * epsilon;
         let mut lead = [FAR; FAN];
         for (sx, sy) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
             let (x, y) = (cx + sx * hx, cy + sy * hy);
             let (px, py) = (x - self.x, y - self.y);
-            let to_point = (px * px + py * py) * 1.000_01 + 1e-6;
+            let to_point = (px * px + py * py) * 1.000_011 + margin;
             for s in 0..FAN {
                 let (dx, dy) = to_segment(bundle, s, x, y);
                 lead[s] = smaller(lead[s], dx * dx + dy * dy - to_point);
@@ -82,12 +90,24 @@ impl NearestPoint {
     }
 }
 
+/// More than the rounding of distances between a tile and the point (x, y): it grows with their coordinates (mm).
+#[inline(always)]
+fn slack(tile: &Tile, x: f32, y: f32) -> f32 {
+    let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
+    1e-6 * (cx.abs() + cy.abs() + hx + hy + x.abs() + y.abs()) + 1e-6
+}
+
 /// From the nearest point of the segment in slot `s` to (x, y).
 #[inline(always)]
 fn to_segment(bundle: &Bundle, s: usize, x: f32, y: f32) -> (f32, f32) {
     let (ux, uy) = (x - bundle.x[s], y - bundle.y[s]);
-    let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
+    let t = foot(bundle, s, ux, uy);
+    (ux - t * bundle.edge_x[s], uy - t * bundle.edge_y[s])
+}
+
+/// Where along the segment in slot `s`, from 0 to 1, it is nearest to the place (ux, uy) from its start.
+#[inline(always)]
+fn foot(bundle: &Bundle, s: usize, ux: f32, uy: f32) -> f32 {
     let per_square = bundle.inverse_length[s] * bundle.inverse_length[s];
-    let t = smaller(larger((ux * ex + uy * ey) * per_square, 0.0), 1.0);
-    (ux - t * ex, uy - t * ey)
+    smaller(larger((ux * bundle.edge_x[s] + uy * bundle.edge_y[s]) * per_square, 0.0), 1.0)
 }

@@ -5,6 +5,7 @@
 use rayon::prelude::*;
 
 use super::View;
+use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
@@ -26,13 +27,19 @@ pub struct CutSurface<'a> {
 }
 
 impl<'a> CutSurface<'a> {
-    /// The cut surface of `projected`, which are the `levels` in one view, finest first.
-    pub fn new(levels: &'a [Level], projected: &'a [ProjectedLevel], settings: &Settings) -> Self {
-        let reach = projected.iter().map(ProjectedLevel::reach).fold(0.0, f32::max);
+    /// The cut surface of `projected`, which are the `levels` in the view of `camera`, finest first.
+    pub fn new(
+        levels: &'a [Level],
+        projected: &'a [ProjectedLevel],
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Self {
+        let tree_reach = projected.iter().map(ProjectedLevel::reach).fold(0.0, f32::max);
+        let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
         Self {
             levels,
             projected,
-            rule: Rule::new(settings, reach),
+            rule: Rule::new(settings, tree_reach, view_reach),
             lumen_first: settings.lumen_first,
             selection: ((projected.len() - 1) as f64 / settings.level_distance) as f32,
         }
