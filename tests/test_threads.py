@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
@@ -65,3 +67,25 @@ def test_threads_may_share_a_renderer():
     for frame, other in zip(found, expected * 3, strict=True):
         for name in ("image", "depth", "vessel", "distance", "value"):
             np.testing.assert_array_equal(getattr(frame, name), getattr(other, name))
+
+
+FORKED = """
+import os, sys, warnings
+import numpy as np
+from lumencut import Camera, Renderer, Vessel, VesselTree, phantom
+warnings.simplefilter("ignore")
+renderer = Renderer(None, VesselTree([Vessel(np.random.default_rng(0).normal(0, 30, (90, 3)), 2.0)]))
+camera = Camera.anterior(renderer.tree, size=(200, 200))
+before = renderer.cut_surface(camera).depth
+child = os.fork()
+if child == 0:
+    same = np.array_equal(before, renderer.cut_surface(camera).depth)
+    phantom.straight_tube()
+    os._exit(0 if same else 1)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
+def test_a_forked_process_renders_too():
+    subprocess.run([sys.executable, "-c", FORKED], check=True, timeout=60)

@@ -6,6 +6,7 @@ mod arguments;
 mod centerlines;
 mod errors;
 mod phantom;
+mod pool;
 mod renderer;
 mod tree;
 mod volume;

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::errors::to_python;
+use crate::pool;
 
 /// The phantom called `name`; `percent` is read by the stenosis alone, `seed` and `scale` by the workloads.
 #[pyfunction]
@@ -18,7 +19,7 @@ pub fn make_phantom<'py>(
     seed: u64,
     scale: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let made = py.detach(|| make(name, percent, seed, scale)).map_err(to_python)?;
+    let made = py.detach(|| pool::install(|| make(name, percent, seed, scale)))?.map_err(to_python)?;
     to_dict(py, made)
 }
 

@@ -5,7 +5,6 @@ use std::sync::mpsc;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use lumencut_core::error::Result;
 use lumencut_core::frame::Frame;
 use lumencut_core::pipeline;
 use numpy::{PyArray1, PyArrayMethods};
@@ -14,6 +13,7 @@ use pyo3::types::PyDict;
 
 use crate::arguments::{CameraArgument, SettingsArgument};
 use crate::errors::to_python;
+use crate::pool;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
 
@@ -52,11 +52,14 @@ impl Renderer {
         };
         let frame = interruptible(py, |stop| {
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
-            let mut core = self.core.lock().unwrap_or_else(PoisonError::into_inner);
-            match &volume {
-                Some(volume) => core.render(volume, &camera, &settings, stop),
-                None => core.cut_surface(&camera, &settings, stop),
-            }
+            pool::install(|| {
+                let mut core = self.core.lock().unwrap_or_else(PoisonError::into_inner);
+                let frame = match &volume {
+                    Some(volume) => core.render(volume, &camera, &settings, stop),
+                    None => core.cut_surface(&camera, &settings, stop),
+                };
+                frame.map_err(to_python)
+            })?
         })?;
         buffers(py, frame)
     }
@@ -65,7 +68,7 @@ impl Renderer {
 /// Runs `work` on a thread of its own without the GIL while this one listens for signals.
 fn interruptible(
     py: Python<'_>,
-    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<Frame> + Send,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> PyResult<Frame> + Send,
 ) -> PyResult<Frame> {
     let stopped = AtomicBool::new(false);
     let stop = || stopped.load(Ordering::Relaxed);
@@ -91,7 +94,7 @@ fn interruptible(
             let result = worker.join();
             signal?;
             match result {
-                Ok(result) => result.map_err(to_python),
+                Ok(result) => result,
                 Err(panic) => std::panic::resume_unwind(panic),
             }
         })
