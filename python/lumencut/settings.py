@@ -42,7 +42,8 @@ class Window:
         lumen = lumen[np.isfinite(lumen)]
         radii = [np.full(len(v), _UNKNOWN_RADIUS) if v.radius is None else v.radius for v in tree]
         reach = np.concatenate(radii)[:, None, None] + _BESIDE
-        around = volume.sample(tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)]))
+        beside = tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)])
+        around = volume.sample(beside.reshape(-1, 3))
         around = around[np.isfinite(around)]
         if lumen.size == 0 or around.size == 0:
             return cls(300.0, 900.0)
