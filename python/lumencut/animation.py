@@ -5,9 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import re
-import shutil
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -15,8 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from lumencut._files import move, private_folder, replace_whole
 from lumencut.errors import FileError, FormatError, MissingPackageError
-from lumencut.frame import replace_whole
 
 if TYPE_CHECKING:
     from lumencut.frame import Frame
@@ -69,35 +67,19 @@ def _save_sequence(pattern: Path, frames: Iterable[Frame], _: float) -> None:
     """Write one picture per frame, all of which appear together at the end."""
     from PIL import Image
 
-    with _folder_beside(pattern.parent) as folder:
+    parent = pattern.parent
+    with private_folder(parent, parent if parent.is_dir() else parent.parent) as folder:
         count = 0
         for count, frame in enumerate(frames, 1):
             Image.fromarray(_without_idle_alpha(frame.image)).save(folder / (pattern.name % (count - 1)))
         if not count:
             raise _empty(pattern)
-        if (stale := pattern.parent / (pattern.name % count)).exists():
+        if (stale := parent / (pattern.name % count)).exists():
             found, expected = f"{stale.name} of a longer sequence", f"a folder without frames beyond {count}"
-            raise FileError(str(pattern.parent), found, expected, "remove it or choose another name")
-        pattern.parent.mkdir(exist_ok=True)
+            raise FileError(str(parent), found, expected, "remove it or choose another name")
+        parent.mkdir(exist_ok=True)
         for number in range(count):
-            os.replace(folder / (pattern.name % number), pattern.parent / (pattern.name % number))
-
-
-@contextmanager
-def _folder_beside(parent: Path) -> Iterator[Path]:
-    """Make a hidden folder on the same disk, and leave none behind."""
-    home = parent if parent.is_dir() else parent.parent
-    folder = home / f".frames.{os.getpid()}.part"
-    try:
-        folder.mkdir()
-        yield folder
-    except OSError as error:
-        if isinstance(error, FileError):
-            raise
-        found = error.strerror or str(error)
-        raise FileError(str(parent), found, "a place where files can be written") from error
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+            move(folder / (pattern.name % number), parent / (pattern.name % number))
 
 
 def _save_video(path: Path, av: Any, frames: Iterable[Frame], fps: float) -> None:
