@@ -14,6 +14,7 @@ from lumencut.camera import Camera
 from lumencut.turntable import fitted_turn, save_animation, turntable
 from scene_files import bent_line
 
+needs_modes = pytest.mark.skipif(os.name == "nt", reason="no permissions of this kind here")
 KINDS = ["view.png", "view.npz", "spin.webp"]
 
 
@@ -51,6 +52,7 @@ def test_sequences_side_by_side_leave_each_other_alone(renderer, tmp_path):
     assert sorted(os.listdir(tmp_path)) == expected
 
 
+@needs_modes
 @pytest.mark.parametrize("name", KINDS)
 def test_a_new_file_has_the_permissions_of_the_user(renderer, tmp_path, name):
     before = os.umask(0o027)
@@ -61,6 +63,7 @@ def test_a_new_file_has_the_permissions_of_the_user(renderer, tmp_path, name):
     assert mode(tmp_path / name) == 0o640
 
 
+@needs_modes
 @pytest.mark.parametrize("name", KINDS)
 @pytest.mark.parametrize("kept", [0o600, 0o664])
 def test_an_overwritten_file_keeps_its_permissions(renderer, tmp_path, name, kept):
@@ -72,6 +75,7 @@ def test_an_overwritten_file_keeps_its_permissions(renderer, tmp_path, name, kep
     assert path.stat().st_size > 3
 
 
+@needs_modes
 def test_an_overwritten_sequence_keeps_its_permissions(renderer, tmp_path):
     (tmp_path / "frame-000.png").write_bytes(b"old")
     (tmp_path / "frame-000.png").chmod(0o600)
@@ -79,6 +83,7 @@ def test_an_overwritten_sequence_keeps_its_permissions(renderer, tmp_path):
     assert mode(tmp_path / "frame-000.png") == 0o600
 
 
+@needs_modes
 @pytest.mark.parametrize("name", KINDS)
 def test_nobody_else_can_look_at_a_file_that_is_being_written(renderer, tmp_path, name, monkeypatch):
     seen = []

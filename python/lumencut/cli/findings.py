@@ -20,12 +20,12 @@ _SMALL, _LARGE = 8.0, 2500.0
 _LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
 
 
-def of_volume(path: Path) -> dict[str, Any]:
+def of_volume(path: Path, series: str | None = None) -> dict[str, Any]:
     """Look into a volume file."""
     from lumencut.volume_files import inspect_volume
 
     with bar(f"reading {path.name}", "slice") as told:
-        report = inspect_volume(path, progress=told)
+        report = inspect_volume(path, series=series, progress=told)
     affine = report.world_from_index
     low_high = None if report.value_range is None else [float(value) for value in report.value_range]
     return {

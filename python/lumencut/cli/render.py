@@ -30,6 +30,7 @@ def render(
     volume: Path,
     centerlines: Path,
     coordinates: Literal["lps", "ras"] | None,
+    series: str | None,
     output: tuple[Path, ...],
     **chosen: Any,
 ) -> None:
@@ -45,7 +46,7 @@ def render(
     settings, view = options.settings_from(chosen), options.view_from(chosen)
     for path in output:
         options.check_picture(path)
-    renderer = read_scene(volume, centerlines, coordinates)
+    renderer = read_scene(volume, centerlines, coordinates, series)
     frame = renderer.render(options.placed(view, renderer.tree, chosen), settings)
     timings("rendered", frame.timings)
     for path in output:

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer
 
 
-def read_scene(volume: Path, centerlines: Path, coordinates: Literal["lps", "ras"] | None) -> Renderer:
+def read_scene(
+    volume: Path, centerlines: Path, coordinates: Literal["lps", "ras"] | None, series: str | None
+) -> Renderer:
     """Return a renderer of the two files."""
     from lumencut.centerlines import read_centerlines
     from lumencut.renderer import Renderer
@@ -23,7 +25,7 @@ def read_scene(volume: Path, centerlines: Path, coordinates: Literal["lps", "ras
     tree = read_centerlines(centerlines, coordinates)
     detail(f"{centerlines}: {tree!r}")
     with bar(f"reading {volume.name}", "slice") as told:
-        voxels = read_volume(volume, progress=told)
+        voxels = read_volume(volume, series=series, progress=told)
     detail(f"{volume}: {voxels!r}")
     # The renderer compares the tree with the volume and warns where the space looks wrong.
     renderer = Renderer(voxels, tree)

@@ -58,6 +58,7 @@ def turntable(
     volume: Path,
     centerlines: Path,
     coordinates: Literal["lps", "ras"] | None,
+    series: str | None,
     output: str,
     frames: int,
     fps: float | None,
@@ -80,7 +81,7 @@ def turntable(
     settings, view = options.settings_from(chosen), options.view_from(chosen)
     write = _checked_writer(output)
     _check_turn(view, frames, degrees, axis)
-    renderer = read_scene(volume, centerlines, coordinates)
+    renderer = read_scene(volume, centerlines, coordinates, series)
 
     from lumencut import turntable as library
 

@@ -1,0 +1,71 @@
+"""The command line where files are odd: several series, doubtful spaces, pipes, views beside the volume."""
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from lumencut.cli import main
+from scene_files import write_lines
+from volume_samples import save, slice_of
+
+POINTS = [[3.0, 2.0, 2.0], [3.0, 3.0, 4.0], [4.0, 3.0, 8.0]]
+
+
+def one_line(result):
+    """The only line on stderr."""
+    assert result.stderr.count("\n") == 1, result.stderr
+    assert "Traceback" not in result.output
+    return result.stderr.rstrip("\n")
+
+
+def invoke(*words):
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+@pytest.fixture
+def two_series(tmp_path):
+    """A folder of DICOM files of the series 7 and 9."""
+    folder = tmp_path / "dicom"
+    folder.mkdir()
+    random = np.random.default_rng(1)
+    for number, size in ((7, (6, 8, 8)), (9, (12, 8, 8))):
+        array = random.integers(0, 900, size, dtype=np.int16)
+        for k in range(len(array)):
+            data = slice_of(array, np.eye(4), k, series=f"1.2.{number}", SeriesNumber=number)
+            save(data, folder / f"{number}-{k}.dcm")
+    return folder
+
+
+@pytest.mark.parametrize("command", ["render", "turntable"])
+@pytest.mark.parametrize("series", ["9", "1.2.9"])
+def test_pictures_of_one_series(two_series, tmp_path, command, series):
+    lines, folder = write_lines(tmp_path / "lines.vtk", POINTS, 1.0), tmp_path / "out"
+    folder.mkdir()
+    words = [command, two_series, lines, "--size", "24x20", "-o", folder / "view.png"]
+    words += ["--frames", "2"] if command == "turntable" else []
+    result = invoke(*words)
+    assert result.exit_code == 1
+    assert one_line(result).endswith(
+        "give the folder of one series, or its number or UID as --series NUMBER|UID"
+    )
+    assert invoke(*words, "--series", series).exit_code == 0
+    assert [path.name for path in folder.iterdir()] == ["view.png"]
+
+
+def test_info_of_one_series(two_series):
+    result = invoke("info", two_series)
+    assert result.exit_code == 1
+    assert "number 7 (" in one_line(result)
+    assert "--series NUMBER|UID" in one_line(result)
+    result = invoke("info", two_series, "--series", "9")
+    assert result.exit_code == 0
+    assert "8, 8, 12" in result.stdout
+
+
+def test_a_series_that_is_not_there_is_not_replaced_by_another(two_series):
+    for path in two_series.glob("9-*.dcm"):
+        path.unlink()
+    assert invoke("info", two_series, "--series", "7").exit_code == 0
+    result = invoke("info", two_series, "--series", "9")
+    assert result.exit_code == 1
+    assert "expected one series with the number or UID '9'" in one_line(result)
