@@ -1,5 +1,7 @@
 """The command line where files are odd: several series, doubtful spaces, pipes, views beside the volume."""
 
+import os
+
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -69,3 +71,18 @@ def test_a_series_that_is_not_there_is_not_replaced_by_another(two_series):
     result = invoke("info", two_series, "--series", "9")
     assert result.exit_code == 1
     assert "expected one series with the number or UID '9'" in one_line(result)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+@pytest.mark.parametrize("name", ["ct.nii", "lines.vtp"])
+def test_info_does_not_wait_for_a_pipe(tmp_path, name):
+    os.mkfifo(tmp_path / name)
+    result = invoke("info", tmp_path / name)
+    assert result.exit_code == 1
+    assert f"{name}: found a pipe or a device; expected a" in one_line(result)
+
+
+def test_a_duration_that_no_file_can_hold_is_a_usage_error(tmp_path):
+    result = invoke("turntable", "a", "b", "-o", tmp_path / "spin.png", "--frames", 2, "--seconds", 3600)
+    assert result.exit_code == 2
+    assert "fps: found 0.000555556; expected between 0.0167 and 1000" in result.stderr

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -13,14 +13,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from lumencut._files import move, private_folder, replace_whole
-from lumencut.errors import FileError, FormatError, MissingPackageError
+from lumencut._checks import number
+from lumencut._files import WRITABLE, checked_path, move, private_folder, replace_whole
+from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
 
 if TYPE_CHECKING:
     from lumencut.frame import Frame
 
 Writer: TypeAlias = "Callable[[Iterable[Frame], float], None]"
 
+#: Frames per second: a frame of an APNG lasts from 1 ms to 65 s.
+_SLOWEST, _FASTEST = 1 / 60, 1000.0
 _NUMBER = re.compile(r"%0?\d*d")
 _MOVING = {".webp": "WEBP", ".png": "PNG", ".apng": "PNG"}
 # Lossless is five times larger without a difference that an eye finds at this quality.
@@ -29,7 +32,41 @@ _OPTIONS: dict[str, dict[str, Any]] = {"WEBP": {"quality": 90, "method": 4}, "PN
 
 def writer_for(path: str | os.PathLike[str]) -> Writer:
     """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
-    name, path = os.fspath(path), Path(path)
+    checked = checked_path(path, WRITABLE)
+    return partial(_save_checked, checked, _writer(os.fspath(path), checked))
+
+
+def checked_fps(fps: float) -> float:
+    """Return frames per second that every format can hold."""
+    value = number(SettingsError, "fps", fps)
+    if not _SLOWEST <= value <= _FASTEST:
+        raise SettingsError("fps", f"{value:g}", f"between {_SLOWEST:.3g} and {_FASTEST:g} frames per second")
+    return value
+
+
+def _save_checked(path: Path, write: Writer, frames: Iterable[Frame], fps: float) -> None:
+    write(_alike(path, frames), checked_fps(fps))
+
+
+def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
+    """Pass frames on as long as they are frames of one size."""
+    first = None
+    try:
+        frames = iter(frames)
+    except TypeError as error:
+        raise FormatError("frames", type(frames).__name__, "several Frame objects") from error
+    for frame in frames:
+        size = getattr(getattr(frame, "camera", None), "size", None)
+        if size is None:
+            raise FormatError("frames", f"a {type(frame).__name__}", "Frame objects")
+        if size != (first := first or size):
+            found = f"frames of {first[0]} × {first[1]} and {size[0]} × {size[1]} pixels"
+            raise FormatError(str(path), found, "frames of one size")
+        yield frame
+        del frame
+
+
+def _writer(name: str, path: Path) -> Writer:
     suffix = path.suffix.lower()
     if path.is_dir() or name.endswith(("/", os.sep)) or not suffix:
         return partial(_save_sequence, path / "frame-%03d.png")

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut._files import checked_path
 from lumencut.errors import FileError, SettingsError, SpaceWarning
 from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
@@ -108,12 +109,13 @@ def _read(
 ) -> tuple[VesselTree, CenterlineReport]:
     if coordinates not in (None, "lps", "ras"):
         raise SettingsError("coordinates", repr(coordinates), '"lps", "ras" or None')
+    expected = "a readable centerline file"
+    checked = checked_path(path, expected)
     try:
-        content = Path(path).read_bytes()
+        content = checked.read_bytes()
     except OSError as error:
-        found = error.strerror or str(error)
-        raise FileError(os.fspath(path), found, "a readable centerline file") from error
-    vessels, stated, notes = _lumencut.read_centerlines(content, Path(path).name)
+        raise FileError(str(checked), error.strerror or str(error), expected) from error
+    vessels, stated, notes = _lumencut.read_centerlines(content, checked.name)
     space = coordinates or _known(stated) or "lps"
     if stated is None and coordinates is None:
         notes.append("the file names no space; LPS is assumed")

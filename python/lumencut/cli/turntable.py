@@ -11,7 +11,7 @@ import click
 from lumencut.cli import options
 from lumencut.cli.report import bar, say, timings, verbose_option
 from lumencut.cli.scene import read_scene
-from lumencut.errors import CameraError, FormatError
+from lumencut.errors import CameraError, FormatError, SettingsError
 
 if TYPE_CHECKING:
     from lumencut.animation import Writer
@@ -79,7 +79,7 @@ def turntable(
     fps = fps or (frames / seconds if seconds else 12.0)
     degrees, axis = chosen["degrees"], chosen["axis"]
     settings, view = options.settings_from(chosen), options.view_from(chosen)
-    write = _checked_writer(output)
+    write = _checked_writer(output, fps)
     _check_turn(view, frames, degrees, axis)
     renderer = read_scene(volume, centerlines, coordinates, series)
 
@@ -112,13 +112,14 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
         raise click.UsageError(str(error)) from error
 
 
-def _checked_writer(output: str) -> Writer:
+def _checked_writer(output: str, fps: float) -> Writer:
     """Refuse an output that cannot be written before any file is read."""
-    from lumencut.animation import writer_for
+    from lumencut.animation import checked_fps, writer_for
 
     try:
+        checked_fps(fps)
         write = writer_for(output)
-    except FormatError as error:
+    except (FormatError, SettingsError) as error:
         raise click.UsageError(str(error)) from error
     options.check_folder(Path(output))
     return write

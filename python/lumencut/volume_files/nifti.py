@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Progress, VolumeFile
 from lumencut.volume_files.payload import Codec, read_voxels
@@ -58,13 +59,13 @@ def _partner(path: Path, mine: str, other: str) -> Path:
 
 
 def _is_gzip(path: Path) -> bool:
-    with path.open("rb") as file:
+    with checked_path(path, "a file of voxels").open("rb") as file:
         return file.read(2) == b"\x1f\x8b"
 
 
 def head_bytes(path: Path, count: int) -> bytes:
     """Give the first bytes of a file, decompressed if it is gzipped."""
-    with path.open("rb") as file:
+    with checked_path(path, "a file with a header").open("rb") as file:
         raw = file.read(count + 4096)
     if raw[:2] == b"\x1f\x8b":
         raw = zlib.decompressobj(zlib.MAX_WBITS | 32).decompress(raw, count)
