@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from lumencut.cli import main
-from scene_files import write_lines
+from scene_files import bent_line, write_lines, write_volume
 from volume_samples import save, slice_of
 
 POINTS = [[3.0, 2.0, 2.0], [3.0, 3.0, 4.0], [4.0, 3.0, 8.0]]
@@ -86,3 +86,19 @@ def test_a_duration_that_no_file_can_hold_is_a_usage_error(tmp_path):
     result = invoke("turntable", "a", "b", "-o", tmp_path / "spin.png", "--frames", 2, "--seconds", 3600)
     assert result.exit_code == 2
     assert "fps: found 0.000555556; expected between 0.0167 and 1000" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["render", "turntable", "info"])
+def test_a_doubtful_space_is_told_once_and_can_be_answered(tmp_path, command):
+    points = np.concatenate([[[0, 0, 1]], bent_line() * (-1, -1, 1)])
+    words = [command, write_volume(tmp_path / "ct.nii"), write_lines(tmp_path / "lines.vtk", points)]
+    if command == "info":
+        words.append(write_volume(tmp_path / "again.nii"))
+    else:
+        words += ["-o", tmp_path / "view.png", "--size", "16x16"]
+    words += ["--frames", "2"] if command == "turntable" else []
+    result = invoke(*words)
+    assert result.exit_code == 0
+    assert one_line(result).startswith("lumencut: warning: ")
+    result = invoke(*words, "--coordinates", "lps")
+    assert (result.exit_code, result.stderr) == (0, "")

@@ -80,7 +80,7 @@ def read_centerlines(
     tree, report = _read(path, coordinates)
     if volume is not None and coordinates is None:
         mend = f'read the file with coordinates="{_OTHER_SPACE[report.space]}" if that is its space'
-        _warn_if_flipped_fits(tree, volume, Path(path).name, mend)
+        tree._space_settled = _warn_if_flipped_fits(tree, volume, Path(path).name, mend)
     return tree
 
 
@@ -101,7 +101,8 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
         the other way round. The text names both counts and the option that mends it.
     """
     mend = 'read the centerlines with coordinates="ras", or "lps" where they were read as RAS'
-    _warn_if_flipped_fits(tree, volume, subject, mend)
+    # Whoever was warned once knows.
+    tree._space_settled |= _warn_if_flipped_fits(tree, volume, subject, mend)
 
 
 def _read(
@@ -122,6 +123,7 @@ def _read(
     if coordinates is not None and stated not in (None, coordinates):
         notes.append(f"the file states {stated}; read as {coordinates} as asked")
     tree = VesselTree([Vessel(_lps(points, space), radius, name) for points, radius, name in vessels])
+    tree._space_settled = coordinates is not None
     report = CenterlineReport(
         space=space,
         stated=_known(stated),
@@ -141,12 +143,17 @@ def _lps(points: npt.NDArray[np.float64], space: Coordinates) -> npt.NDArray[np.
     return points * _FLIP if space == "ras" else points
 
 
-def _warn_if_flipped_fits(tree: VesselTree, volume: Volume, subject: str, mend: str) -> None:
-    """Warn where negating x and y brings twice as many points into the volume, and a tenth of all more."""
+def _warn_if_flipped_fits(tree: VesselTree, volume: Volume, subject: str, mend: str) -> bool:
+    """Warn where negating x and y brings twice as many points into the volume, and a tenth of all more.
+
+    Returns whether it warned.
+    """
     points = np.concatenate([tree[i].points for i in range(len(tree))])
     as_read = int(volume.contains(points).sum())
     flipped = int(volume.contains(points * _FLIP).sum())
-    if flipped >= 2 * as_read and flipped - as_read >= max(1, len(points) // 10):
+    doubtful = flipped >= 2 * as_read and flipped - as_read >= max(1, len(points) // 10)
+    if doubtful:
         counts = f"{as_read} of {len(points)} points lie inside the volume as read, but {flipped}"
         text = f"{subject}: {counts} with x and y negated (LPS and RAS mixed up?); {mend}"
         warnings.warn(text, SpaceWarning, stacklevel=3)
+    return doubtful

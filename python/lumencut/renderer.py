@@ -139,7 +139,8 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
         flipped = volume.contains(points * (-1, -1, 1)).sum()
         mend = f'{flipped} points would be inside as RAS: read them with coordinates="ras"' if flipped else ""
         raise VesselTreeError("vessel tree", found, f"points within {box[0]} to {box[1]} mm", mend)
-    check_space(tree, volume)
+    if not tree._space_settled:
+        check_space(tree, volume)
 
 
 def _frame(camera: Camera, buffers: dict[str, Any]) -> Frame:

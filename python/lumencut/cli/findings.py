@@ -87,7 +87,8 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     grid = Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
     points = tree.points
     inside, flipped = (int(grid.contains(points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
-    check_space(tree, grid, Path(lines["file"]).name)
+    if not tree._space_settled:
+        check_space(tree, grid, Path(lines["file"]).name)
     return {
         "volume": volume["file"],
         "centerlines": lines["file"],
