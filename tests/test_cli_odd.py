@@ -102,3 +102,27 @@ def test_a_doubtful_space_is_told_once_and_can_be_answered(tmp_path, command):
     assert one_line(result).startswith("lumencut: warning: ")
     result = invoke(*words, "--coordinates", "lps")
     assert (result.exit_code, result.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(("command", "who"), [("render", "the view"), ("turntable", "any frame")])
+def test_a_view_that_misses_the_volume_is_a_warning(tmp_path, command, who):
+    words = [command, write_volume(tmp_path / "ct.nii"), write_lines(tmp_path / "lines.vtk")]
+    words += ["-o", tmp_path / "view.png", "--size", "16x16"]
+    words += ["--frames", "3"] if command == "turntable" else []
+    result = invoke(*words)
+    assert (result.exit_code, result.stderr) == (0, "")
+    result = invoke(*words, "--center", "1e5,0,-0.5")
+    assert result.exit_code == 0
+    assert one_line(result) == (
+        f"lumencut: warning: no pixel of {who} meets the volume: the center is 100000,0,-0.5, "
+        "the volume reaches from -0.5,-0.5,-0.5 to 23.5,19.5,31.5 (mm, LPS)"
+    )
+    assert (tmp_path / "view.png").exists()
+
+
+def test_frames_that_miss_the_volume_are_counted(tmp_path):
+    words = ["turntable", write_volume(tmp_path / "ct.nii"), write_lines(tmp_path / "lines.vtk")]
+    words += ["-o", tmp_path / "view.png", "--size", "16x16", "--frames", "4", "--center", "10,100,16"]
+    result = invoke(*words)
+    assert result.exit_code == 0
+    assert one_line(result).startswith("lumencut: warning: no pixel of 2 frames meets the volume: the center")

@@ -9,7 +9,7 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.report import say, timings, verbose_option
-from lumencut.cli.scene import read_scene
+from lumencut.cli.scene import is_empty, read_scene, warn_of_emptiness
 
 
 @click.command(short_help="Render one picture.")
@@ -49,6 +49,8 @@ def render(
     renderer = read_scene(volume, centerlines, coordinates, series)
     frame = renderer.render(options.placed(view, renderer.tree, chosen), settings)
     timings("rendered", frame.timings)
+    if is_empty(frame):
+        warn_of_emptiness("no pixel of the view", frame.camera, renderer)
     for path in output:
         frame.save(path)
         say(f"{path}: {options.described(frame.camera, settings.window or renderer.window)}")

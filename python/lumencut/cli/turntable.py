@@ -10,7 +10,7 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.report import bar, say, timings, verbose_option
-from lumencut.cli.scene import read_scene
+from lumencut.cli.scene import is_empty, read_scene, warn_of_emptiness
 from lumencut.errors import CameraError, FormatError, SettingsError
 
 if TYPE_CHECKING:
@@ -87,16 +87,22 @@ def turntable(
 
     camera = options.placed_like(library.fitted_turn(view, renderer.tree, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
-    write(shown(turn, frames), fps)
+    empty: list[int] = []
+    write(shown(turn, frames, empty), fps)
+    if empty:
+        who = "no pixel of any frame" if len(empty) == frames else f"no pixel of {len(empty)} frames"
+        warn_of_emptiness(who, camera, renderer)
     described = options.described(camera, settings.window or renderer.window)
     say(f"{output}: {frames} frames, {frames / fps:.3g} s, {described}")
 
 
-def shown(turn: Iterable[Frame], count: int) -> Iterator[Frame]:
-    """Pass frames on while a progress bar moves."""
+def shown(turn: Iterable[Frame], count: int, empty: list[int]) -> Iterator[Frame]:
+    """Pass frames on while a progress bar moves, and note which of them show nothing."""
     with bar("turntable", "frame") as told:
         for done, frame in enumerate(turn, 1):
             timings(f"frame {done}", frame.timings)
+            if is_empty(frame):
+                empty.append(done)
             yield frame
             told(done, count)
 
