@@ -105,6 +105,12 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
     tree._space_settled |= _warn_if_flipped_fits(tree, volume, subject, mend)
 
 
+def check_space_once(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
+    """Do as `check_space`, unless the tree's space was asked for or already warned about."""
+    if not tree._space_settled:
+        check_space(tree, volume, subject)
+
+
 def _read(
     path: str | os.PathLike[str], coordinates: Coordinates | None
 ) -> tuple[VesselTree, CenterlineReport]:

@@ -79,7 +79,7 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
     import numpy as np
 
-    from lumencut.centerlines import check_space
+    from lumencut.centerlines import check_space_once
     from lumencut.volume import Volume
 
     report, tree = volume["_report"], lines["_tree"]
@@ -87,8 +87,7 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     grid = Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
     points = tree.points
     inside, flipped = (int(grid.contains(points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
-    if not tree._space_settled:
-        check_space(tree, grid, Path(lines["file"]).name)
+    check_space_once(tree, grid, Path(lines["file"]).name)
     return {
         "volume": volume["file"],
         "centerlines": lines["file"],
