@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from conftest import needs_shared_data
+from lumencut import Renderer, render
 from lumencut.centerlines import check_space, inspect_centerlines, read_centerlines
 from lumencut.errors import SpaceWarning
 from lumencut.vessel_tree import Vessel, VesselTree
@@ -82,6 +83,30 @@ def test_check_space_warns_for_a_tree_read_before(tmp_path):
     with pytest.warns(SpaceWarning, match=r'vessel tree: 0 of 6 .* but 6 .*coordinates="ras"') as caught:
         check_space(tree, volume_around(POINTS * FLIP))
     assert caught[0].filename == __file__
+
+
+def test_a_doubt_is_told_once_and_can_be_answered(tmp_path):
+    volume = volume_around(POINTS * FLIP)
+    points = np.concatenate([POINTS, POINTS, (POINTS * FLIP)[-1:]])
+    path = write_vtk(tmp_path, points)
+    with pytest.warns(SpaceWarning, match=r"line\.vtk: 1 of 6 points") as caught:
+        render(volume, read_centerlines(path, volume=volume))
+    assert len(caught) == 1
+    tree = read_centerlines(path)
+    with pytest.warns(SpaceWarning, match="vessel tree: 1 of 6 points"):
+        Renderer(volume, tree)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Renderer(volume, tree)
+        render(volume, read_centerlines(path, "lps", volume=volume))
+        Renderer(volume, read_centerlines(path, "ras"))
+
+
+def test_a_tree_that_fits_one_volume_is_compared_with_the_next(tmp_path):
+    points = np.concatenate([POINTS * FLIP, [[10.0, 20.0, 0.0]]])
+    tree = read_centerlines(write_vtk(tmp_path, points), volume=volume_around(points))
+    with pytest.warns(SpaceWarning, match="1 of 4 points"):
+        Renderer(volume_around(POINTS), tree)
 
 
 def mra_volume(folder: Path) -> Volume:

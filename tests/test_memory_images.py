@@ -16,7 +16,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from lumencut.errors import VolumeError
 from lumencut.volume import Volume
-from lumencut.volume_files import as_volume
+from lumencut.volume_files import as_volume, read_volume
 from volume_samples import SIZE, assert_maps, coded, oblique
 
 LENGTHS = np.linalg.norm(oblique()[:3, :3], axis=0)
@@ -93,6 +93,19 @@ def test_nibabel():
         as_volume(nibabel.Nifti1Image(array[0], affine))
     with pytest.raises(VolumeError, match="no affine"):
         as_volume(nibabel.Nifti1Image(array.T, None))
+
+
+@pytest.mark.parametrize(("unit", "length"), [("meter", 1000), ("mm", 1), ("micron", 0.001), (None, 1)])
+def test_nibabel_has_the_unit_that_its_file_has(tmp_path, unit, length):
+    image = nibabel.Nifti1Image(coded().T, np.diag([-0.02, -0.02, 0.04, 1.0]))
+    image.header.set_xyzt_units(unit)
+    nibabel.save(image, tmp_path / "image.nii")
+    expected = length * np.array([0.02, 0.02, 0.04])
+    for volume in (as_volume(image), read_volume(tmp_path / "image.nii")):
+        np.testing.assert_allclose(volume.spacing, expected, rtol=1e-6)
+    for kind in (nibabel.MGHImage, nibabel.Spm99AnalyzeImage):
+        bare = kind(coded().T, np.diag([-1.0, -1.0, 1.0, 1.0]))
+        np.testing.assert_allclose(as_volume(bare).spacing, 1)
 
 
 def test_nibabel_on_disk(tmp_path):

@@ -72,6 +72,22 @@ def test_no_source_file_is_long():
     assert {path: length for path, length in lengths.items() if length > LONGEST_FILE} == {}
 
 
+def test_no_document_has_a_gap_left_to_fill():
+    folders = ("docs", "python", "crates", "tests")
+    documents = [*ROOT.glob("*.md"), *(path for folder in folders for path in (ROOT / folder).rglob("*.md"))]
+    assert len(documents) > 5
+    gaps = {str(path.relative_to(ROOT)): re.findall("@@.*?@@", path.read_text("utf-8")) for path in documents}
+    assert {path: found for path, found in gaps.items() if found} == {}
+
+
+def test_the_method_states_the_constant_of_the_silhouettes():
+    stage = text("crates/lumencut-core/src/stages/silhouette.rs")
+    section = text("METHOD.md").partition("\n## silhouette\n")[2].partition("\n## ")[0]
+    used = re.search(r"\bZONE_BORDER: f32 = ([\d.]+);", stage)[1]
+    stated = re.search(r"\bb = ([\d.]+) where a neighbour", section)[1]
+    assert float(stated) == float(used)
+
+
 def test_versions_agree():
     version = toml("pyproject.toml")["project"]["version"]
     locked = {package["name"]: package["version"] for package in toml("Cargo.lock")["package"]}

@@ -162,3 +162,21 @@ def test_any_view_keeps_world_to_value(rows, steps, axes):
     volume = Volume(array, world_from_index=affine)
     assert_maps(volume, affine, lambda i, j, k: array[k, j, i], array.shape[::-1])
     assert volume.contains(volume.corners).all()
+
+
+@pytest.mark.parametrize(
+    "points",
+    [np.zeros((3, 4)), np.zeros((2, 2, 3)), [1, 2, 3, 4], [], "abc", None, [[1, 2, 3], [4]]],
+    ids=repr,
+)
+def test_what_is_no_list_of_points(points):
+    for ask in (Volume(coded()).sample, Volume(coded()).contains):
+        with pytest.raises(VolumeError, match=r"points: found .*; expected numbers of shape \(n, 3\)"):
+            ask(points)
+
+
+def test_values_at_points():
+    volume = Volume(coded())
+    np.testing.assert_array_equal(volume.sample([[1, 2, 3], [0.5, 0, 0], [9, 9, 9]]), [321, 0.5, np.nan])
+    assert volume.sample([1, 2, 3]).shape == (1,)
+    assert volume.sample(np.empty((0, 3))).shape == (0,)

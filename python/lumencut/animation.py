@@ -5,9 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import re
-import shutil
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -15,14 +13,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from lumencut.errors import FileError, FormatError, MissingPackageError
-from lumencut.frame import replace_whole
+from lumencut._checks import number
+from lumencut._files import WRITABLE, checked_path, move, private_folder, replace_whole
+from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
 
 if TYPE_CHECKING:
     from lumencut.frame import Frame
 
 Writer: TypeAlias = "Callable[[Iterable[Frame], float], None]"
 
+#: Frames per second: a frame of an APNG lasts from 1 ms to 65 s.
+_SLOWEST, _FASTEST = 1 / 60, 1000.0
 _NUMBER = re.compile(r"%0?\d*d")
 _MOVING = {".webp": "WEBP", ".png": "PNG", ".apng": "PNG"}
 # Lossless is five times larger without a difference that an eye finds at this quality.
@@ -31,7 +32,41 @@ _OPTIONS: dict[str, dict[str, Any]] = {"WEBP": {"quality": 90, "method": 4}, "PN
 
 def writer_for(path: str | os.PathLike[str]) -> Writer:
     """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
-    name, path = os.fspath(path), Path(path)
+    checked = checked_path(path, WRITABLE)
+    return partial(_save_checked, checked, _writer(os.fspath(path), checked))
+
+
+def checked_fps(fps: float) -> float:
+    """Return frames per second that every format can hold."""
+    value = number(SettingsError, "fps", fps)
+    if not _SLOWEST <= value <= _FASTEST:
+        raise SettingsError("fps", f"{value:g}", f"between {_SLOWEST:.3g} and {_FASTEST:g} frames per second")
+    return value
+
+
+def _save_checked(path: Path, write: Writer, frames: Iterable[Frame], fps: float) -> None:
+    write(_alike(path, frames), checked_fps(fps))
+
+
+def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
+    """Pass frames on as long as they are frames of one size."""
+    first = None
+    try:
+        frames = iter(frames)
+    except TypeError as error:
+        raise FormatError("frames", type(frames).__name__, "several Frame objects") from error
+    for frame in frames:
+        size = getattr(getattr(frame, "camera", None), "size", None)
+        if size is None:
+            raise FormatError("frames", f"a {type(frame).__name__}", "Frame objects")
+        if size != (first := first or size):
+            found = f"frames of {first[0]} × {first[1]} and {size[0]} × {size[1]} pixels"
+            raise FormatError(str(path), found, "frames of one size")
+        yield frame
+        del frame
+
+
+def _writer(name: str, path: Path) -> Writer:
     suffix = path.suffix.lower()
     if path.is_dir() or name.endswith(("/", os.sep)) or not suffix:
         return partial(_save_sequence, path / "frame-%03d.png")
@@ -69,35 +104,19 @@ def _save_sequence(pattern: Path, frames: Iterable[Frame], _: float) -> None:
     """Write one picture per frame, all of which appear together at the end."""
     from PIL import Image
 
-    with _folder_beside(pattern.parent) as folder:
+    parent = pattern.parent
+    with private_folder(parent, parent if parent.is_dir() else parent.parent) as folder:
         count = 0
         for count, frame in enumerate(frames, 1):
             Image.fromarray(_without_idle_alpha(frame.image)).save(folder / (pattern.name % (count - 1)))
         if not count:
             raise _empty(pattern)
-        if (stale := pattern.parent / (pattern.name % count)).exists():
+        if (stale := parent / (pattern.name % count)).exists():
             found, expected = f"{stale.name} of a longer sequence", f"a folder without frames beyond {count}"
-            raise FileError(str(pattern.parent), found, expected, "remove it or choose another name")
-        pattern.parent.mkdir(exist_ok=True)
+            raise FileError(str(parent), found, expected, "remove it or choose another name")
+        parent.mkdir(exist_ok=True)
         for number in range(count):
-            os.replace(folder / (pattern.name % number), pattern.parent / (pattern.name % number))
-
-
-@contextmanager
-def _folder_beside(parent: Path) -> Iterator[Path]:
-    """Make a hidden folder on the same disk, and leave none behind."""
-    home = parent if parent.is_dir() else parent.parent
-    folder = home / f".frames.{os.getpid()}.part"
-    try:
-        folder.mkdir()
-        yield folder
-    except OSError as error:
-        if isinstance(error, FileError):
-            raise
-        found = error.strerror or str(error)
-        raise FileError(str(parent), found, "a place where files can be written") from error
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+            move(folder / (pattern.name % number), parent / (pattern.name % number))
 
 
 def _save_video(path: Path, av: Any, frames: Iterable[Frame], fps: float) -> None:

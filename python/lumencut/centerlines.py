@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut._files import checked_path
 from lumencut.errors import FileError, SettingsError, SpaceWarning
 from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
@@ -79,7 +80,7 @@ def read_centerlines(
     tree, report = _read(path, coordinates)
     if volume is not None and coordinates is None:
         mend = f'read the file with coordinates="{_OTHER_SPACE[report.space]}" if that is its space'
-        _warn_if_flipped_fits(tree, volume, Path(path).name, mend)
+        tree._space_settled = _warn_if_flipped_fits(tree, volume, Path(path).name, mend)
     return tree
 
 
@@ -100,7 +101,14 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
         the other way round. The text names both counts and the option that mends it.
     """
     mend = 'read the centerlines with coordinates="ras", or "lps" where they were read as RAS'
-    _warn_if_flipped_fits(tree, volume, subject, mend)
+    # Whoever was warned once knows.
+    tree._space_settled |= _warn_if_flipped_fits(tree, volume, subject, mend)
+
+
+def check_space_once(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
+    """Do as `check_space`, unless the tree's space was asked for or already warned about."""
+    if not tree._space_settled:
+        check_space(tree, volume, subject)
 
 
 def _read(
@@ -108,18 +116,20 @@ def _read(
 ) -> tuple[VesselTree, CenterlineReport]:
     if coordinates not in (None, "lps", "ras"):
         raise SettingsError("coordinates", repr(coordinates), '"lps", "ras" or None')
+    expected = "a readable centerline file"
+    checked = checked_path(path, expected)
     try:
-        content = Path(path).read_bytes()
+        content = checked.read_bytes()
     except OSError as error:
-        found = error.strerror or str(error)
-        raise FileError(os.fspath(path), found, "a readable centerline file") from error
-    vessels, stated, notes = _lumencut.read_centerlines(content, Path(path).name)
+        raise FileError(str(checked), error.strerror or str(error), expected) from error
+    vessels, stated, notes = _lumencut.read_centerlines(content, checked.name)
     space = coordinates or _known(stated) or "lps"
     if stated is None and coordinates is None:
         notes.append("the file names no space; LPS is assumed")
     if coordinates is not None and stated not in (None, coordinates):
         notes.append(f"the file states {stated}; read as {coordinates} as asked")
     tree = VesselTree([Vessel(_lps(points, space), radius, name) for points, radius, name in vessels])
+    tree._space_settled = coordinates is not None
     report = CenterlineReport(
         space=space,
         stated=_known(stated),
@@ -139,12 +149,17 @@ def _lps(points: npt.NDArray[np.float64], space: Coordinates) -> npt.NDArray[np.
     return points * _FLIP if space == "ras" else points
 
 
-def _warn_if_flipped_fits(tree: VesselTree, volume: Volume, subject: str, mend: str) -> None:
-    """Warn where negating x and y brings twice as many points into the volume, and a tenth of all more."""
+def _warn_if_flipped_fits(tree: VesselTree, volume: Volume, subject: str, mend: str) -> bool:
+    """Warn where negating x and y brings twice as many points into the volume, and a tenth of all more.
+
+    Returns whether it warned.
+    """
     points = np.concatenate([tree[i].points for i in range(len(tree))])
     as_read = int(volume.contains(points).sum())
     flipped = int(volume.contains(points * _FLIP).sum())
-    if flipped >= 2 * as_read and flipped - as_read >= max(1, len(points) // 10):
+    doubtful = flipped >= 2 * as_read and flipped - as_read >= max(1, len(points) // 10)
+    if doubtful:
         counts = f"{as_read} of {len(points)} points lie inside the volume as read, but {flipped}"
         text = f"{subject}: {counts} with x and y negated (LPS and RAS mixed up?); {mend}"
         warnings.warn(text, SpaceWarning, stacklevel=3)
+    return doubtful

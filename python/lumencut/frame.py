@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import os
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from threading import get_ident
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.camera import Camera
-from lumencut.errors import FileError, FormatError, LumencutError, VolumeError
+from lumencut.errors import FormatError, VolumeError
 
 #: Formats of Pillow without transparency.
 _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
@@ -83,10 +82,7 @@ class Frame:
         FileError
             Where the file cannot be written.
         """
-        try:
-            path = Path(path)
-        except TypeError as error:
-            raise FormatError("path", type(path).__name__, "a text or a pathlib.Path") from error
+        path = checked_path(path, WRITABLE)
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
         else:
@@ -94,11 +90,11 @@ class Frame:
 
     def _write_arrays(self, path: Path) -> None:
         names = ("depth", "vessel", "distance", "position")
-        arrays: dict[str, npt.NDArray[Any]] = {name: getattr(self, name) for name in names}
+        arrays: dict[str, Any] = {name: getattr(self, name) for name in names}
         shown = {"image": self._image, "value": self._value}
         arrays |= {name: array for name, array in shown.items() if array is not None}
         with path.open("wb") as file:
-            np.savez_compressed(file, allow_pickle=False, **arrays)
+            np.savez_compressed(file, **arrays)
 
 
 def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
@@ -123,25 +119,6 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
             raise FormatError(str(path), f"{kind}: {error}", expected) from error
 
     replace_whole(path, write)
-
-
-def replace_whole(path: Path, write: Any) -> None:
-    """Let ``write`` make a temporary file beside ``path`` and move it there once it is whole."""
-    temporary = path.with_name(f".{path.name[:40]}.{os.getpid()}.{get_ident()}.part")
-    expected = "a place where files can be written"
-    if "\0" in str(path):
-        raise FileError(repr(str(path)), "a null character", expected)
-    try:
-        write(temporary)
-        os.replace(temporary, path)
-    except LumencutError:
-        raise
-    except OSError as error:
-        raise FileError(str(path), error.strerror or str(error), expected) from error
-    finally:
-        # Where it could not be made, it cannot be removed either.
-        with suppress(OSError):
-            temporary.unlink()
 
 
 def _present(name: str, array: Any) -> Any:

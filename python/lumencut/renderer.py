@@ -129,7 +129,7 @@ def as_volume(image: Any) -> Volume:
 
 
 def _check_meeting(volume: Volume, tree: VesselTree) -> None:
-    from lumencut.centerlines import check_space
+    from lumencut.centerlines import check_space_once
 
     points = tree.points
     if not volume.contains(points).any():
@@ -139,7 +139,7 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
         flipped = volume.contains(points * (-1, -1, 1)).sum()
         mend = f'{flipped} points would be inside as RAS: read them with coordinates="ras"' if flipped else ""
         raise VesselTreeError("vessel tree", found, f"points within {box[0]} to {box[1]} mm", mend)
-    check_space(tree, volume)
+    check_space_once(tree, volume)
 
 
 def _frame(camera: Camera, buffers: dict[str, Any]) -> Frame:

@@ -9,7 +9,7 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number
-from lumencut.errors import SettingsError
+from lumencut.errors import SettingsError, VesselTreeError, VolumeError
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
 _BESIDE, _UNKNOWN_RADIUS = 10.0, 10.0
+#: The largest level and width that a window can have.
+_LARGEST = 1e12
 
 
 @dataclass(frozen=True)
@@ -37,18 +39,37 @@ class Window:
 
         The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
         the tissue around it; the window is centred on the lumen, three times as wide as their difference.
+
+        Raises
+        ------
+        VolumeError
+            For what is no volume, or values beyond all windows.
+        VesselTreeError
+            For what is no tree.
         """
+        from lumencut.vessel_tree import VesselTree
+        from lumencut.volume_files.memory import as_volume
+
+        if not isinstance(tree, VesselTree):
+            raise VesselTreeError("tree", type(tree).__name__, "a VesselTree")
+        volume = as_volume(volume)
         lumen = volume.sample(tree.points)
-        lumen = lumen[np.isfinite(lumen)]
+        lumen = lumen[np.isfinite(lumen)].astype(np.float64)
         radii = [np.full(len(v), _UNKNOWN_RADIUS) if v.radius is None else v.radius for v in tree]
         reach = np.concatenate(radii)[:, None, None] + _BESIDE
-        around = volume.sample(tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)]))
-        around = around[np.isfinite(around)]
+        beside = tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)])
+        around = volume.sample(beside.reshape(-1, 3))
+        around = around[np.isfinite(around)].astype(np.float64)
         if lumen.size == 0 or around.size == 0:
             return cls(300.0, 900.0)
         level = float(np.median(lumen))
         width = 3 * abs(level - float(np.median(around)))
-        return cls(level, max(width, 4 * float(lumen.std()), 1e-3 * abs(level), 1e-6))
+        width = max(width, 4 * float(lumen.std()), 1e-3 * abs(level), 1e-6)
+        if max(abs(level), width) > _LARGEST:
+            found = f"values around {level:.3g} along the centerlines, {float(np.median(around)):.3g} beside"
+            mend = "scale the voxels, or give window= where these values stand for nothing"
+            raise VolumeError("window from the data", found, f"a window within ±{_LARGEST:.0e}", mend)
+        return cls(level, width)
 
 
 @dataclass(frozen=True)

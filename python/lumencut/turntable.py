@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._checks import integers, number
 from lumencut.errors import CameraError
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLik
 
 #: What a fitted turn leaves free on each side, as a fraction of the image.
 _MARGIN = 0.06
+_MOST_FRAMES = 1_000_000
 
 
 def turntable(
@@ -92,11 +94,11 @@ def fitted_turn(camera: Camera, tree: VesselTree, degrees: float = 360.0, axis: 
 
 def frame_angles(frames: int, degrees: float) -> npt.NDArray[np.float64]:
     """Angles of the frames (radians), shape (frames,); the last of a whole turn comes before its end."""
-    if frames < 1 or not np.isfinite(degrees):
-        raise CameraError(
-            "turntable", f"{frames} frames over {degrees} degrees", "at least 1 frame, finite degrees"
-        )
-    return np.linspace(0.0, np.radians(degrees), frames, endpoint=degrees % 360 != 0)
+    (count,) = integers(CameraError, "frames of the turntable", [frames], 1, _MOST_FRAMES, 1)
+    angle = number(CameraError, "degrees of the turntable", degrees)
+    if not np.isfinite(angle):
+        raise CameraError("degrees of the turntable", f"{angle}", "a finite number")
+    return np.linspace(0.0, np.radians(angle), count, endpoint=angle % 360 != 0)
 
 
 def _views(camera: Camera, frames: int, degrees: float, axis: Axis) -> Iterator[Camera]:
@@ -115,12 +117,14 @@ def save_animation(frames: Iterable[Frame], path: str | os.PathLike[str], fps: f
         ``.webp`` (small, slightly lossy), ``.png`` or ``.apng`` (lossless) or ``.mp4`` (needs the extra
         ``[video]``); a name with a number such as ``frame-%03d.png`` or a folder: one picture per frame.
     fps : float, default 12
-        Frames per second.
+        Frames per second, from 1/60 to 1000.
 
     Raises
     ------
     FormatError
-        For an ending that names no animation, or no frames.
+        For an ending that names no animation, no frames, or frames of several sizes.
+    SettingsError
+        For frames per second beyond their range.
     FileError
         Where the file cannot be written.
     MissingPackageError

@@ -85,6 +85,9 @@ class VesselTree:
         For a tree without vessels, or members that are not vessels.
     """
 
+    #: Whether the user named the space of the coordinates, or was warned that it looks wrong.
+    _space_settled = False
+
     def __init__(self, vessels: Iterable[Vessel]) -> None:
         try:
             self._vessels = tuple(vessels)

@@ -98,7 +98,7 @@ class Volume:
         """Return the volume at world points (n, 3) (mm, LPS), trilinear, NaN outside, shape (n,)."""
         from lumencut import _lumencut
 
-        return _lumencut.sample(self, np.asarray(points, dtype=np.float64).reshape(-1, 3))
+        return _lumencut.sample(self, _points(points))
 
     @property
     def _voxels(self) -> npt.NDArray[Any]:
@@ -161,13 +161,14 @@ def _numbers(name: str, value: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDA
 
 
 def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    expected = "numbers of shape (n, 3)"
     try:
         array = np.asarray(points, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        array = np.empty((1, 1))
+    except (TypeError, ValueError, OverflowError) as error:
+        raise VolumeError("points", type(points).__name__, expected) from error
     if array.shape == (3,) or (array.ndim == 2 and array.shape[1] == 3):
         return array.reshape(-1, 3)
-    raise VolumeError("points", f"shape {np.shape(array)}", "numbers of shape (n, 3)")
+    raise VolumeError("points", f"shape {np.shape(array)}", expected)
 
 
 def _checked_affine(world_from_index: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:

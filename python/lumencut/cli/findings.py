@@ -20,12 +20,12 @@ _SMALL, _LARGE = 8.0, 2500.0
 _LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
 
 
-def of_volume(path: Path) -> dict[str, Any]:
+def of_volume(path: Path, series: str | None = None) -> dict[str, Any]:
     """Look into a volume file."""
     from lumencut.volume_files import inspect_volume
 
     with bar(f"reading {path.name}", "slice") as told:
-        report = inspect_volume(path, progress=told)
+        report = inspect_volume(path, series=series, progress=told)
     affine = report.world_from_index
     low_high = None if report.value_range is None else [float(value) for value in report.value_range]
     return {
@@ -79,7 +79,7 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
     import numpy as np
 
-    from lumencut.centerlines import check_space
+    from lumencut.centerlines import check_space_once
     from lumencut.volume import Volume
 
     report, tree = volume["_report"], lines["_tree"]
@@ -87,7 +87,7 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     grid = Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
     points = tree.points
     inside, flipped = (int(grid.contains(points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
-    check_space(tree, grid, Path(lines["file"]).name)
+    check_space_once(tree, grid, Path(lines["file"]).name)
     return {
         "volume": volume["file"],
         "centerlines": lines["file"],

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import click
 
 from lumencut.cli import findings
+from lumencut.cli.options import series_option
 from lumencut.cli.report import FAILED, complain, say, verbose_option
 from lumencut.errors import LumencutError
 
@@ -23,15 +24,21 @@ _CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".pth", ".swc", ".tre", ".csv", 
     type=click.Choice(["lps", "ras"]),
     help="Space of the centerline files; default: the one they state, else lps.",
 )
+@series_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON; lengths in mm, world coordinates LPS.")
 @verbose_option
-def info(files: tuple[Path, ...], coordinates: Literal["lps", "ras"] | None, as_json: bool) -> None:
+def info(
+    files: tuple[Path, ...],
+    coordinates: Literal["lps", "ras"] | None,
+    series: str | None,
+    as_json: bool,
+) -> None:
     """Tell what each FILE holds and what is odd about it: volumes, DICOM folders and centerlines.
 
     Volumes and centerlines given together are compared. A file that cannot be read does not stop the rest;
     the exit code is 1 then.
     """
-    found = [_looked_into(path, coordinates) for path in files]
+    found = [_looked_into(path, coordinates, series) for path in files]
     volumes = [one for one in found if one["kind"] == "volume"]
     trees = [one for one in found if one["kind"] == "centerlines"]
     compared = [pair for tree in trees for pair in findings.compared(tree, volumes)]
@@ -45,11 +52,11 @@ def info(files: tuple[Path, ...], coordinates: Literal["lps", "ras"] | None, as_
         click.get_current_context().exit(FAILED)
 
 
-def _looked_into(path: Path, coordinates: Literal["lps", "ras"] | None) -> dict[str, Any]:
+def _looked_into(path: Path, coordinates: Literal["lps", "ras"] | None, series: str | None) -> dict[str, Any]:
     try:
         if path.name.lower().endswith(_CENTERLINE_ENDINGS):
             return findings.of_centerlines(path, coordinates)
-        return findings.of_volume(path)
+        return findings.of_volume(path, series)
     except LumencutError as error:
         complain(error)
         return {"file": str(path), "kind": "unreadable", "error": str(error)}

@@ -92,6 +92,14 @@ VIEW = Named(VIEW_NAMES)
 FILE = click.Path(path_type=Path)
 
 
+#: Which of several DICOM series to read.
+series_option = click.option(
+    "--series",
+    metavar="NUMBER|UID",
+    help="Which DICOM series to read where a folder holds several; lumencut info lists them.",
+)
+
+
 def scene_arguments(command: _Command) -> _Command:
     """Add the two files that every picture is made from."""
     parts = (
@@ -102,6 +110,7 @@ def scene_arguments(command: _Command) -> _Command:
             type=click.Choice(["lps", "ras"]),
             help="Space of the centerline file; default: the one it states, else lps.",
         ),
+        series_option,
     )
     return _added(parts, command)
 

@@ -9,7 +9,7 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.report import say, timings, verbose_option
-from lumencut.cli.scene import read_scene
+from lumencut.cli.scene import is_empty, read_scene, warn_of_emptiness
 
 
 @click.command(short_help="Render one picture.")
@@ -30,6 +30,7 @@ def render(
     volume: Path,
     centerlines: Path,
     coordinates: Literal["lps", "ras"] | None,
+    series: str | None,
     output: tuple[Path, ...],
     **chosen: Any,
 ) -> None:
@@ -45,9 +46,11 @@ def render(
     settings, view = options.settings_from(chosen), options.view_from(chosen)
     for path in output:
         options.check_picture(path)
-    renderer = read_scene(volume, centerlines, coordinates)
+    renderer = read_scene(volume, centerlines, coordinates, series)
     frame = renderer.render(options.placed(view, renderer.tree, chosen), settings)
     timings("rendered", frame.timings)
+    if is_empty(frame):
+        warn_of_emptiness("no pixel of the view", frame.camera, renderer)
     for path in output:
         frame.save(path)
         say(f"{path}: {options.described(frame.camera, settings.window or renderer.window)}")

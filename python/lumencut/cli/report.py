@@ -105,6 +105,7 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
 def _one_line(text: object) -> str:
     line = " ".join(str(text).split())
     # The library names its arguments; here they are options.
+    line = line.replace("as `series`", "as --series NUMBER|UID")
     return re.sub(r'coordinates="(\w+)"(, or )?(?:"(\w+)")?', _as_options, line)
 
 

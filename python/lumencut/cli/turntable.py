@@ -10,8 +10,8 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.report import bar, say, timings, verbose_option
-from lumencut.cli.scene import read_scene
-from lumencut.errors import CameraError, FormatError
+from lumencut.cli.scene import is_empty, read_scene, warn_of_emptiness
+from lumencut.errors import CameraError, FormatError, SettingsError
 
 if TYPE_CHECKING:
     from lumencut.animation import Writer
@@ -58,6 +58,7 @@ def turntable(
     volume: Path,
     centerlines: Path,
     coordinates: Literal["lps", "ras"] | None,
+    series: str | None,
     output: str,
     frames: int,
     fps: float | None,
@@ -78,24 +79,30 @@ def turntable(
     fps = fps or (frames / seconds if seconds else 12.0)
     degrees, axis = chosen["degrees"], chosen["axis"]
     settings, view = options.settings_from(chosen), options.view_from(chosen)
-    write = _checked_writer(output)
+    write = _checked_writer(output, fps)
     _check_turn(view, frames, degrees, axis)
-    renderer = read_scene(volume, centerlines, coordinates)
+    renderer = read_scene(volume, centerlines, coordinates, series)
 
     from lumencut import turntable as library
 
     camera = options.placed_like(library.fitted_turn(view, renderer.tree, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
-    write(shown(turn, frames), fps)
+    empty: list[int] = []
+    write(shown(turn, frames, empty), fps)
+    if empty:
+        who = "no pixel of any frame" if len(empty) == frames else f"no pixel of {len(empty)} frames"
+        warn_of_emptiness(who, camera, renderer)
     described = options.described(camera, settings.window or renderer.window)
     say(f"{output}: {frames} frames, {frames / fps:.3g} s, {described}")
 
 
-def shown(turn: Iterable[Frame], count: int) -> Iterator[Frame]:
-    """Pass frames on while a progress bar moves."""
+def shown(turn: Iterable[Frame], count: int, empty: list[int]) -> Iterator[Frame]:
+    """Pass frames on while a progress bar moves, and note which of them show nothing."""
     with bar("turntable", "frame") as told:
         for done, frame in enumerate(turn, 1):
             timings(f"frame {done}", frame.timings)
+            if is_empty(frame):
+                empty.append(done)
             yield frame
             told(done, count)
 
@@ -111,13 +118,14 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
         raise click.UsageError(str(error)) from error
 
 
-def _checked_writer(output: str) -> Writer:
+def _checked_writer(output: str, fps: float) -> Writer:
     """Refuse an output that cannot be written before any file is read."""
-    from lumencut.animation import writer_for
+    from lumencut.animation import checked_fps, writer_for
 
     try:
+        checked_fps(fps)
         write = writer_for(output)
-    except FormatError as error:
+    except (FormatError, SettingsError) as error:
         raise click.UsageError(str(error)) from error
     options.check_folder(Path(output))
     return write

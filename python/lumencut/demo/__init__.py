@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lumencut._files import replace_whole
 from lumencut.errors import FormatError, LumencutError
-from lumencut.frame import replace_whole
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree

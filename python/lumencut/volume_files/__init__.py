@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom import open_dicom
@@ -93,7 +94,7 @@ def read_volume(
     FileError
         For a file that is missing or cannot be read.
     """
-    file = _open(Path(path), None if series is None else str(series))
+    file = _open(path, None if series is None else str(series))
     told = progress if progress is not None else _untold
     volume = file.volume(told)
     if file.format != "DICOM":
@@ -128,7 +129,7 @@ def inspect_volume(
     VolumeReport
         Format, grid, values and oddities.
     """
-    file = _open(Path(path), None if series is None else str(series))
+    file = _open(path, None if series is None else str(series))
     dtype, value_range = file.dtype.newbyteorder("="), None
     if values:
         array = file.volume(progress if progress is not None else _untold).array
@@ -163,8 +164,9 @@ def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, flo
     return (low, high) if low <= high else None
 
 
-def _open(path: Path, series: str | None) -> VolumeFile:
+def _open(given: str | os.PathLike[str], series: str | None) -> VolumeFile:
     """Find the room by what the file holds, by its name only where the content does not tell."""
+    path = checked_path(given, _KNOWN)
     if not path.exists():
         raise FileError(str(path), "no such file or folder", _KNOWN)
     notes: list[str] = []

@@ -104,13 +104,14 @@ def _one_series(
     for file, header in images:
         groups[str(header.get("SeriesInstanceUID", ""))].append((file, header))
     if wanted is not None:
-        groups = {
+        meant = {
             uid: group
             for uid, group in groups.items()
             if wanted in (uid, str(group[0][1].get("SeriesNumber", "")))
-        } or groups
-        if len(groups) != 1:
-            raise _not_one(path, groups, f"one series with the number or UID {wanted!r}")
+        }
+        if len(meant) != 1:
+            raise _not_one(path, meant or groups, f"one series with the number or UID {wanted!r}")
+        groups = meant
     if len(groups) > 1:
         raise _not_one(path, groups, "one series")
     return next(iter(groups.values()))

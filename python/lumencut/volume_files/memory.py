@@ -104,7 +104,7 @@ def _from_itk(image: Any) -> Volume:
 
 
 def _from_nibabel(image: Any) -> Volume:
-    from lumencut.volume_files.nifti import LPS_FROM_RAS
+    from lumencut.volume_files.nifti import LPS_FROM_RAS, millimetres
 
     shape = tuple(image.shape)
     _require("nibabel image", 3 if all(length == 1 for length in shape[3:]) else len(shape), 1)
@@ -112,9 +112,9 @@ def _from_nibabel(image: Any) -> Volume:
     if image.affine is None:
         raise VolumeError("nibabel image", "no affine", "an affine", "give Volume(array, world_from_index=…)")
     voxels = np.asanyarray(image.dataobj).reshape(shape[:3], order="A")
-    return Volume(
-        np.asarray(voxels).T, world_from_index=LPS_FROM_RAS @ np.asarray(image.affine, dtype=np.float64)
-    )
+    affine = LPS_FROM_RAS @ np.asarray(image.affine, dtype=np.float64)
+    affine[:3] *= millimetres(image.header, [])
+    return Volume(np.asarray(voxels).T, world_from_index=affine)
 
 
 def _from_vtk(image: Any) -> Volume:

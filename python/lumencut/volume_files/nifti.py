@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Progress, VolumeFile
 from lumencut.volume_files.payload import Codec, read_voxels
@@ -29,7 +30,7 @@ def open_nifti(path: Path) -> VolumeFile:
     size = _size(path, header)
     dtype = _dtype(path, header)
     affine = LPS_FROM_RAS @ np.asarray(header.get_best_affine(), dtype=np.float64)
-    affine[:3] *= _unit(header, notes)
+    affine[:3] *= millimetres(header, notes)
     _note_forms(header, size, notes)
     slope, intercept = (float(value) for value in _scaling(header))
     if (slope, intercept) != (1.0, 0.0):
@@ -58,13 +59,13 @@ def _partner(path: Path, mine: str, other: str) -> Path:
 
 
 def _is_gzip(path: Path) -> bool:
-    with path.open("rb") as file:
+    with checked_path(path, "a file of voxels").open("rb") as file:
         return file.read(2) == b"\x1f\x8b"
 
 
 def head_bytes(path: Path, count: int) -> bytes:
     """Give the first bytes of a file, decompressed if it is gzipped."""
-    with path.open("rb") as file:
+    with checked_path(path, "a file with a header").open("rb") as file:
         raw = file.read(count + 4096)
     if raw[:2] == b"\x1f\x8b":
         raw = zlib.decompressobj(zlib.MAX_WBITS | 32).decompress(raw, count)
@@ -127,11 +128,11 @@ def _scaling(header: Any) -> tuple[float, float]:
     return (1.0, 0.0) if slope is None else (slope, intercept or 0.0)
 
 
-def _unit(header: Any, notes: list[str]) -> float:
-    """Millimetres per unit of the file."""
+def millimetres(header: Any, notes: list[str]) -> float:
+    """Return the millimetres per unit of length that a header states; 1 where it states none."""
     try:
         unit = header.get_xyzt_units()[0]
-    except KeyError:
+    except (AttributeError, KeyError):
         unit = "unknown"
     if unit not in _MILLIMETRES:
         notes.append("the unit of length is not stated: mm assumed")

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._files import checked_path
 from lumencut.errors import FormatError
 from lumencut.volume_files.opened import Progress, VolumeFile
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
@@ -195,7 +196,7 @@ def _data_place(path: Path, header: dict[str, Any], end: int) -> tuple[Path, int
 def _after_lines(path: Path, start: int, lines: int) -> int:
     if lines <= 0:
         return start
-    with path.open("rb") as file:
+    with checked_path(path, "a file of voxels").open("rb") as file:
         file.seek(start)
         for _ in range(min(lines, path.stat().st_size)):
             if not file.readline():

@@ -10,12 +10,14 @@ from typing import Any, BinaryIO, Literal
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._files import checked_path
 from lumencut.errors import FormatError
 
 Codec = Literal["raw", "zlib", "bzip2"]
 """``zlib`` stands for zlib and gzip streams alike, whichever the bytes turn out to be."""
 
 _CHUNK = 1 << 14
+_PLAIN_FILE = "a file of voxels"
 
 
 def read_voxels(
@@ -59,7 +61,7 @@ def read_voxels(
         needed *= int(count)
     if start < 0 or skip < 0:
         raise FormatError(str(path), f"voxels at byte {min(start, skip)}", "an offset of 0 or more")
-    with path.open("rb") as file:
+    with checked_path(path, _PLAIN_FILE).open("rb") as file:
         file.seek(start)
         if codec == "raw":
             return _plain(path, file, skip, needed).view(dtype).reshape(shape)
@@ -112,7 +114,7 @@ def read_numbers(
     path: Path, shape: tuple[int, ...], dtype: np.dtype[Any], *, start: int = 0
 ) -> npt.NDArray[Any]:
     """Read voxels written as text, of a shape [k, j, i], from byte `start` of the file."""
-    with path.open("rb") as file:
+    with checked_path(path, _PLAIN_FILE).open("rb") as file:
         file.seek(start)
         words = file.read().split()
     count = 1

@@ -1,0 +1,105 @@
+"""Paths that a file can have, and files that appear only once they are whole."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import stat
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from lumencut.errors import FileError, FormatError
+
+WRITABLE = "a place where files can be written"
+
+
+def checked_path(path: Any, expected: str) -> Path:
+    """Return ``path`` as one that a file or a folder has or could have; nothing is opened, nothing waits.
+
+    Parameters
+    ----------
+    path : path-like
+        What the caller gave.
+    expected : str
+        What was expected there, for the error.
+
+    Raises
+    ------
+    FormatError
+        For what is no path at all.
+    FileError
+        For texts that can name no file, and for pipes and devices.
+    """
+    try:
+        checked = Path(path)
+    except TypeError as error:
+        raise FormatError("path", type(path).__name__, "a text or a pathlib.Path") from error
+    text = os.fspath(path)
+    if not text:
+        raise FileError("path", "an empty text", expected)
+    if "\0" in text:
+        raise FileError(_short(text), "a null character", expected)
+    try:
+        os.fsencode(text)
+        mode = checked.stat().st_mode
+    except UnicodeEncodeError as error:
+        raise FileError(_short(text), "letters that no file's name can have", expected) from error
+    except (FileNotFoundError, NotADirectoryError):
+        return checked
+    except OSError as error:
+        raise FileError(_short(text), error.strerror or str(error), expected) from error
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise FileError(_short(text), "a pipe or a device", expected, "name a plain file")
+    return checked
+
+
+def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
+    """Let ``write`` make a file where nobody else looks, and move it to ``path`` once it is whole."""
+    # Beside the file that a link names: a move across disks would not be at once.
+    place = Path(os.path.realpath(checked_path(path, WRITABLE)))
+    with private_folder(path, place.parent) as folder:
+        write(folder / "whole.part")
+        move(folder / "whole.part", place)
+
+
+@contextmanager
+def private_folder(subject: Path, home: Path) -> Iterator[Path]:
+    """Make a hidden folder in ``home`` that only this user can enter, and leave none behind.
+
+    Errors of the system name ``subject``.
+    """
+    folder = None
+    try:
+        folder = Path(tempfile.mkdtemp(prefix=".lumencut.", suffix=".part", dir=home))
+        yield folder
+    except OSError as error:
+        if isinstance(error, FileError):
+            raise
+        raise FileError(_short(str(subject)), error.strerror or str(error), WRITABLE) from error
+    finally:
+        if folder is not None:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def move(whole: Path, path: Path) -> None:
+    """Put a new file in the place of an old one, behind links and with the permissions of the old one.
+
+    Where there is none, the file keeps the permissions with which the user makes files.
+    """
+    place = os.path.realpath(path)
+    try:
+        mode = stat.S_IMODE(os.stat(place).st_mode)
+    except FileNotFoundError:
+        mode = None
+    if mode is not None and mode != stat.S_IMODE(whole.stat().st_mode):
+        whole.chmod(mode)
+    os.replace(whole, place)
+
+
+def _short(text: str) -> str:
+    """The text, printable and not too long."""
+    shown = text if text.isprintable() else ascii(text)
+    return shown if len(shown) <= 200 else shown[:197] + "..."
