@@ -51,15 +51,16 @@ impl Renderer {
             _ => None,
         };
         let frame = interruptible(py, |stop| {
+            // Locked outside the pool: one of its threads, waiting for a part of this view, could take up another
+            // view and wait for the lock that it holds itself.
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
-            pool::install(|| {
-                let mut core = self.core.lock().unwrap_or_else(PoisonError::into_inner);
-                let frame = match &volume {
-                    Some(volume) => core.render(volume, &camera, &settings, stop),
-                    None => core.cut_surface(&camera, &settings, stop),
-                };
-                frame.map_err(to_python)
-            })?
+            let mut locked = self.core.lock().unwrap_or_else(PoisonError::into_inner);
+            let core = &mut *locked;
+            let frame = pool::install(|| match &volume {
+                Some(volume) => core.render(volume, &camera, &settings, stop),
+                None => core.cut_surface(&camera, &settings, stop),
+            })?;
+            frame.map_err(to_python)
         })?;
         buffers(py, frame)
     }
