@@ -7,12 +7,11 @@ import signal
 import subprocess
 import sys
 import threading
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
-from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, phantom
+from lumencut import Camera, Renderer, Settings, Vessel, VesselTree
 from scenes import wandering
 
 FINEST = Settings(levels=0, depth_filter=False)
