@@ -26,14 +26,15 @@ pub struct Frame {
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
     pub value: Vec<f32>,
+    /// The context alone, RGBA with straight alpha; transparent where none was needed, empty without a context.
+    pub context: Vec<[u8; 4]>,
     /// How long each stage took, in the order they ran.
     pub timings: Vec<Timing>,
 }
 
 impl Frame {
-    /// A frame of `camera` with depth, vessel and distance still zero; `value` and `image` have no pixels yet.
-    pub(crate) fn empty(camera: Camera) -> Self {
-        let pixels = camera.size()[0] * camera.size()[1];
+    /// A frame of `camera` with `pixels` pixels of depth, vessel and distance, still zero; the others have none yet.
+    pub(crate) fn empty(camera: Camera, pixels: usize) -> Self {
         Self {
             camera,
             image: Vec::new(),
@@ -41,6 +42,7 @@ impl Frame {
             vessel: vec![0; pixels],
             distance: vec![0.0; pixels],
             value: Vec::new(),
+            context: Vec::new(),
             timings: Vec::new(),
         }
     }

@@ -8,8 +8,10 @@ use crate::error::Result;
 use crate::frame::{Frame, Timing};
 use crate::math::lanes::Isa;
 use crate::math::projection::{Level, ProjectedLevel};
+use crate::math::ray::{NONE, WHOLE};
 use crate::settings::Settings;
-use crate::stages::composite::composite;
+use crate::stages::composite::{Layers, composite, layer};
+use crate::stages::context::{context, starts};
 use crate::stages::depth::{CutSurface, depth};
 use crate::stages::depth_filter::depth_filter;
 use crate::stages::distance::distance;
@@ -48,7 +50,7 @@ impl Renderer {
         &self.tree
     }
 
-    /// The whole picture: cut surface, volume at the surface, silhouettes, window.
+    /// The whole picture: cut surface, volume at the surface, silhouettes, context, window.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Settings`] for a setting outside its range,
@@ -65,7 +67,7 @@ impl Renderer {
         let mut clock = Clock::start();
         let pixels = frame.depth.len();
         frame.value = vec![0.0; pixels];
-        surface(&view, volume, &frame.depth, &mut frame.value)?;
+        surface(&view, volume, &frame.depth, settings.slab, &mut frame.value)?;
         clock.lap("surface", &mut frame.timings);
         let mut strength = Vec::new();
         if settings.silhouettes {
@@ -73,10 +75,9 @@ impl Renderer {
             silhouette(&view, &frame.depth, &frame.vessel, settings.silhouette_slope, &mut strength)?;
             clock.lap("silhouette", &mut frame.timings);
         }
-        frame.image = vec![[0; 4]; pixels];
-        let lines = settings.silhouettes.then_some(&strength[..]);
-        composite(&view, &frame.value, lines, settings, &mut frame.image)?;
-        clock.lap("composite", &mut frame.timings);
+        let start = starts(&frame.value, &frame.depth, settings);
+        let strength = settings.silhouettes.then_some(&strength[..]);
+        show(&view, volume, settings, &start, strength, &mut frame, &mut clock)?;
         Ok(frame)
     }
 
@@ -86,7 +87,7 @@ impl Renderer {
     /// As [`Renderer::render`].
     pub fn cut_surface(&mut self, camera: &Camera, settings: &Settings, stop: Stop) -> Result<Frame> {
         settings.check()?;
-        let mut frame = Frame::empty(*camera);
+        let mut frame = Frame::empty(*camera, camera.size()[0] * camera.size()[1]);
         let mut clock = Clock::start();
         self.prepare(settings.levels);
         clock.lap("levels", &mut frame.timings);
@@ -126,6 +127,58 @@ impl Renderer {
             .for_each(|(projected, level)| projected.project(level, camera, settings.preserve_lumen));
         CutSurface::new(levels, projected, camera, settings)
     }
+}
+
+/// The context of a volume alone: every ray crosses all of it. Depth, vessel, distance and value stay empty; `isa` does
+/// not change the picture.
+///
+/// # Errors
+/// As [`Renderer::render`].
+pub fn context_alone(
+    volume: &Volume,
+    camera: &Camera,
+    settings: &Settings,
+    isa: Isa,
+    stop: Stop,
+) -> Result<Frame> {
+    settings.check()?;
+    let view = View { camera, isa, stop };
+    let pixels = camera.size()[0] * camera.size()[1];
+    let mut frame = Frame { value: vec![f32::NAN; pixels], ..Frame::empty(*camera, 0) };
+    let start = vec![WHOLE; pixels];
+    show(&view, volume, settings, &start, None, &mut frame, &mut Clock::start())?;
+    frame.value = Vec::new();
+    Ok(frame)
+}
+
+/// The last stages: the context where `start` says that its rays start, and the picture of all layers.
+fn show(
+    view: &View,
+    volume: &Volume,
+    settings: &Settings,
+    start: &[f32],
+    strength: Option<&[f32]>,
+    frame: &mut Frame,
+    clock: &mut Clock,
+) -> Result<()> {
+    let mut behind = Vec::new();
+    if let Some(settings) = &settings.context {
+        behind.resize(start.len(), [0.0; 4]);
+        if start.iter().any(|start| *start < NONE) {
+            let blocks = volume.blocks(view.stop)?;
+            clock.lap("blocks", &mut frame.timings);
+            context(view, volume, Some(blocks), settings, start, &mut behind)?;
+        }
+        clock.lap("context", &mut frame.timings);
+        frame.context = vec![[0; 4]; start.len()];
+        layer(view, &behind, &mut frame.context)?;
+    }
+    frame.image = vec![[0; 4]; start.len()];
+    let context = settings.context.is_some().then_some(&behind[..]);
+    let layers = Layers { value: &frame.value, strength, context };
+    composite(view, &layers, settings, &mut frame.image)?;
+    clock.lap("composite", &mut frame.timings);
+    Ok(())
 }
 
 /// Measures the stages one after the other.

@@ -1,15 +1,29 @@
 //! Volumes: borrowed voxels of any integer or float type on any invertible affine grid.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::{DAffine3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::blocks::Blocks;
+use crate::stages::Stop;
 
 /// A voxel type, widened when it is read.
-pub trait Voxel: Copy + Send + Sync + 'static {
+pub trait Voxel: Copy + Default + PartialOrd + Send + Sync + 'static {
     /// The type that the interpolation computes in: `f32` where it holds every value exactly, else `f64`.
     type Real: Real;
+    /// Two neighbours as one number where there is one of that size: so that one load fetches both.
+    type Pair: Copy;
+    /// The smallest finite value of the type.
+    const SMALLEST: Self;
+    /// The largest finite value of the type.
+    const LARGEST: Self;
     /// The voxel's value.
     fn real(self) -> Self::Real;
+    /// Two neighbours.
+    fn pair(near: Self, far: Self) -> Self::Pair;
+    /// The values of two neighbours.
+    fn ends(pair: Self::Pair) -> (Self::Real, Self::Real);
 }
 
 /// The arithmetic that trilinear interpolation needs.
@@ -23,6 +37,8 @@ pub trait Real:
 {
     /// A weight in [0, 1], narrowed to this type.
     fn from_weight(weight: f64) -> Self;
+    /// A number in this type.
+    fn from_f32(number: f32) -> Self;
     /// The value as stored in a frame.
     fn to_f32(self) -> f32;
 }
@@ -31,6 +47,10 @@ impl Real for f32 {
     #[inline(always)]
     fn from_weight(weight: f64) -> Self {
         weight as f32
+    }
+    #[inline(always)]
+    fn from_f32(number: f32) -> Self {
+        number
     }
     #[inline(always)]
     fn to_f32(self) -> f32 {
@@ -44,24 +64,66 @@ impl Real for f64 {
         weight
     }
     #[inline(always)]
+    fn from_f32(number: f32) -> Self {
+        Self::from(number)
+    }
+    #[inline(always)]
     fn to_f32(self) -> f32 {
         self as f32
     }
 }
 
-macro_rules! voxel {
-    ($real:ty: $($type:ty),*) => {$(
+/// Voxels of a whole number of bits that share a number twice as wide.
+macro_rules! packed {
+    ($real:ty, $unsigned:ty, $pair:ty: $($type:ty),*) => {$(
         impl Voxel for $type {
             type Real = $real;
+            type Pair = $pair;
+            const SMALLEST: Self = <$type>::MIN;
+            const LARGEST: Self = <$type>::MAX;
             #[inline(always)]
             fn real(self) -> $real {
                 self as $real
             }
+            #[inline(always)]
+            fn pair(near: Self, far: Self) -> $pair {
+                <$pair>::from(near as $unsigned) | <$pair>::from(far as $unsigned) << <$unsigned>::BITS
+            }
+            #[inline(always)]
+            fn ends(pair: $pair) -> ($real, $real) {
+                ((pair as $type).real(), ((pair >> <$unsigned>::BITS) as $type).real())
+            }
         }
     )*};
 }
-voxel!(f32: i8, u8, i16, u16, f32);
-voxel!(f64: i32, u32, i64, u64, f64);
+packed!(f32, u8, u16: i8, u8);
+packed!(f32, u16, u32: i16, u16);
+
+/// Other voxels.
+macro_rules! plain {
+    ($real:ty: $($type:ty),*) => {$(
+        impl Voxel for $type {
+            type Real = $real;
+            type Pair = [Self; 2];
+            const SMALLEST: Self = <$type>::MIN;
+            const LARGEST: Self = <$type>::MAX;
+            #[inline(always)]
+            fn real(self) -> $real {
+                self as $real
+            }
+            #[inline(always)]
+            fn pair(near: Self, far: Self) -> [Self; 2] {
+                [near, far]
+            }
+            #[inline(always)]
+            fn ends([near, far]: [Self; 2]) -> ($real, $real) {
+                (near.real(), far.real())
+            }
+        }
+    )*};
+}
+plain!(f32: f32);
+plain!(f64: i32, u32, i64, u64, f64);
 
 /// The voxels of a volume, borrowed in their own type.
 #[derive(Clone, Copy, Debug)]
@@ -98,14 +160,18 @@ macro_rules! with_voxels {
     };
 }
 
+/// The blocks of a volume once they are made, to be shared by volumes over the same voxels.
+pub type SharedBlocks = Arc<OnceLock<Blocks>>;
+
 /// A volume: voxels, the grid they lie on, and the grid's place in world space (LPS, mm).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Volume<'a> {
     voxels: Voxels<'a>,
     size: [usize; 3],
     strides: [usize; 3],
     world_from_index: DAffine3,
     index_from_world: DAffine3,
+    blocks: SharedBlocks,
 }
 
 impl<'a> Volume<'a> {
@@ -144,7 +210,36 @@ impl<'a> Volume<'a> {
                 "a finite, invertible affine (mm per voxel)",
             );
         }
-        Ok(Self { voxels, size, strides, world_from_index, index_from_world: world_from_index.inverse() })
+        let index_from_world = world_from_index.inverse();
+        Ok(Self {
+            voxels,
+            size,
+            strides,
+            world_from_index,
+            index_from_world,
+            blocks: SharedBlocks::default(),
+        })
+    }
+
+    /// The same volume with the blocks of another one over the same voxels, on the same grid, made or not.
+    #[must_use]
+    pub fn sharing(mut self, blocks: SharedBlocks) -> Self {
+        self.blocks = blocks;
+        self
+    }
+
+    /// The smallest and largest values of the volume's blocks, made at the first call.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Interrupted`] once `stop` says so.
+    pub fn blocks(&self, stop: Stop) -> Result<&Blocks> {
+        if let Some(blocks) = self.blocks.get() {
+            return Ok(blocks);
+        }
+        // Made outside the lock: a thread of the pool that waited for its part could take up another view and wait
+        // for itself. Blocks that someone else made meanwhile are the same.
+        let blocks = Blocks::new(self, stop)?;
+        Ok(self.blocks.get_or_init(|| blocks))
     }
 
     /// The voxels in their own type.
@@ -170,6 +265,12 @@ impl<'a> Volume<'a> {
     /// Continuous index of a world position.
     pub fn index_from_world(&self) -> DAffine3 {
         self.index_from_world
+    }
+
+    /// The smallest side of a voxel (mm).
+    pub fn smallest_side(&self) -> f64 {
+        let sides = self.world_from_index.matrix3;
+        sides.x_axis.length().min(sides.y_axis.length()).min(sides.z_axis.length())
     }
 
     /// The eight outer corners of the grid, half a voxel beyond the outermost centres (mm, LPS).

@@ -12,7 +12,7 @@ use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::View;
-use lumencut_core::stages::composite::composite;
+use lumencut_core::stages::composite::{Layers, composite};
 use lumencut_core::stages::depth_filter::depth_filter;
 use lumencut_core::stages::levels::levels;
 use lumencut_core::stages::silhouette::silhouette;
@@ -106,7 +106,7 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
     let depth: Vec<f32> = (0..64 * 64).map(|p| (p % 13) as f32 - 6.0).collect();
     let mut value = vec![0.0; depth.len()];
     let view = whole(&camera);
-    surface(&view, &volume, &depth, &mut value).unwrap();
+    surface(&view, &volume, &depth, None, &mut value).unwrap();
     let (mut inside, mut outside) = (0, 0);
     for p in 0..depth.len() {
         let at = DVec3::new(camera.view_x(p % 64), camera.view_y(p / 64), f64::from(depth[p]));
@@ -133,7 +133,7 @@ fn every_voxel_type_and_memory_order_reads_the_same() {
     let read = |voxels: Voxels, strides: [usize; 3]| {
         let volume = Volume::new(voxels, [9, 8, 7], strides, affine).unwrap();
         let mut value = vec![0.0; 1600];
-        surface(&view, &volume, &[0.5; 1600], &mut value).unwrap();
+        surface(&view, &volume, &[0.5; 1600], None, &mut value).unwrap();
         value.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
     };
     let expected = read(Voxels::I16(&voxels), [1, 9, 72]);
@@ -189,7 +189,8 @@ fn the_picture_follows_window_opacity_and_background() {
     let mut image = vec![[0; 4]; 5];
     let view = whole(&camera);
     let value = [f32::NAN, 300.0, 100.0, 50.0, -50.0];
-    composite(&view, &value, Some(&[0.0, 0.0, 1.0, 0.0, 1.0]), &settings, &mut image).unwrap();
+    let layers = Layers { value: &value, strength: Some(&[0.0, 0.0, 1.0, 0.0, 1.0]), context: None };
+    composite(&view, &layers, &settings, &mut image).unwrap();
     assert_eq!(image[0], [10, 20, 30, 255], "outside the volume: background");
     assert_eq!(image[1], [255, 255, 255, 255], "above the window: white");
     assert_eq!(image[2], [255, 220, 0, 255], "a full silhouette: its colour");

@@ -83,6 +83,8 @@ impl SettingsArgument {
             silhouette_slope: self.silhouette_slope,
             silhouette_color: self.silhouette_color,
             background: self.background,
+            slab: None,
+            context: None,
         };
         settings.check().map_err(to_python)?;
         Ok(settings)

@@ -1,13 +1,20 @@
 //! The arithmetic that the stages share.
 
+pub mod accumulate;
+pub mod blocks;
 pub mod candidates;
 pub mod cost;
 pub mod hierarchy;
 pub mod lanes;
+pub mod light;
 pub mod nearest;
 pub mod pieces;
 pub mod projection;
+pub mod ray;
 pub mod sampling;
+pub mod thickness;
 pub mod tile;
+pub mod trace;
+pub mod transfer;
 pub mod walk;
 pub mod window;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::lanes::FAN;
+use super::lanes::{FAN, larger, smaller};
 use crate::volume::{Real, Volume, Voxel};
 
 /// The grid of a volume, ready to find the voxels around a continuous index.
@@ -17,6 +17,16 @@ pub struct Grid {
     strides: [usize; 3],
 }
 
+/// Continuous indices of sixteen places, axis by axis, counted from a voxel near them so that `f32` holds them to a
+/// millionth of a voxel.
+pub type Places = [[f32; FAN]; 3];
+
+/// Where to sample: sixteen places at each of some steps.
+pub trait Path {
+    /// The places of step `n`, counted from a voxel before all of them.
+    fn places(&self, n: usize) -> Places;
+}
+
 impl Grid {
     /// The grid of `volume`.
     pub fn new(volume: &Volume) -> Self {
@@ -27,6 +37,16 @@ impl Grid {
             step: std::array::from_fn(|a| if size[a] > 1 { strides[a] } else { 0 }),
             strides,
         }
+    }
+
+    /// The last index along (i, j, k).
+    pub fn last(&self) -> [f64; 3] {
+        self.last
+    }
+
+    /// The last voxel along (i, j, k) that has a neighbour above it; 0 along an axis with one voxel.
+    pub fn last_cell(&self) -> [i32; 3] {
+        self.low.map(|n| n as i32)
     }
 
     /// The voxels' value at continuous index `p`: NaN more than half a voxel beyond the outermost centres,
@@ -53,30 +73,97 @@ impl Grid {
                 offset[l] += floor as usize * stride;
             }
         }
-        let corners = self.corners(voxels, &offset);
+        let rows = self.rows(voxels, &[offset.map(|o| o as u64)]);
         let mut value = [0.0; FAN];
         for l in 0..FAN {
-            let [wi, wj, wk] = [0, 1, 2].map(|a| T::Real::from_weight(weight[a][l]));
-            let line = |c: usize| corners[c][l] + (corners[c + 1][l] - corners[c][l]) * wi;
-            let plane = |c: usize| line(c) + (line(c + 2) - line(c)) * wj;
-            let (near, far) = (plane(0), plane(4));
-            let inside = (near + (far - near) * wk).to_f32();
+            let weights = [0, 1, 2].map(|a| T::Real::from_weight(weight[a][l]));
+            let inside = interpolate::<T>(rows.map(|row| row[0][l]), weights).to_f32();
             value[l] = if outside[l] { f32::NAN } else { inside };
         }
         value
     }
 
-    /// The eight voxels around each of sixteen indices, i fastest.
+    /// The volume at N times sixteen places counted from the voxel `base`; beyond the outermost centres their voxels
+    /// go on. Loads and arithmetic take turns over all places: so the compiler uses vectors for the one, and the
+    /// processor has many of the others under way.
     #[inline(always)]
-    fn corners<T: Voxel>(&self, voxels: &[T], offset: &[usize; FAN]) -> [[T::Real; FAN]; 8] {
-        let [si, sj, sk] = self.step;
-        let steps = [0, si, sj, si + sj, sk, si + sk, sj + sk, si + sj + sk];
-        let mut corners = [[T::Real::from_weight(0.0); FAN]; 8];
-        for l in 0..FAN {
-            for (corner, step) in corners.iter_mut().zip(steps) {
-                corner[l] = voxels[offset[l] + step].real();
+    pub fn sample<T: Voxel, const N: usize>(
+        &self,
+        voxels: &[T],
+        base: [i32; 3],
+        path: &impl Path,
+    ) -> [[f32; FAN]; N] {
+        let mut offset = [[0; FAN]; N];
+        let mut weight = [[[0.0; FAN]; 3]; N];
+        let first: usize = (0..3).map(|a| base[a] as usize * self.strides[a]).sum();
+        for n in 0..N {
+            let places = path.places(n);
+            offset[n] = [first as u64; FAN];
+            for a in 0..3 {
+                let farthest = (self.last[a] - f64::from(base[a])) as f32;
+                let low = (self.low[a] as i32 - base[a]) as u32;
+                let stride = self.strides[a] as u32;
+                for l in 0..FAN {
+                    let c = smaller(larger(places[a][l], 0.0), farthest);
+                    let floor = whole(c).min(low);
+                    weight[n][a][l] = c - floor as i32 as f32;
+                    offset[n][l] += u64::from(floor) * u64::from(stride);
+                }
             }
         }
-        corners
+        let rows = self.rows(voxels, &offset);
+        let mut value = [[0.0; FAN]; N];
+        for n in 0..N {
+            for l in 0..FAN {
+                let weights = [0, 1, 2].map(|a| T::Real::from_f32(weight[n][a][l]));
+                value[n][l] = interpolate::<T>([0, 1, 2, 3].map(|r| rows[r][n][l]), weights).to_f32();
+            }
+        }
+        value
     }
+
+    /// The pairs of neighbours along i in the four rows around each place, j fastest.
+    #[inline(always)]
+    fn rows<T: Voxel, const N: usize>(
+        &self,
+        voxels: &[T],
+        offset: &[[u64; FAN]; N],
+    ) -> [[[T::Pair; FAN]; N]; 4] {
+        let [si, sj, sk] = self.step;
+        let steps = [0, sj, sk, sj + sk];
+        let mut rows = [[[T::pair(T::default(), T::default()); FAN]; N]; 4];
+        for n in 0..N {
+            for l in 0..FAN {
+                for r in 0..4 {
+                    let row = &voxels[offset[n][l] as usize + steps[r]..];
+                    rows[r][n][l] = match row.first_chunk() {
+                        // Neighbours side by side: one load fetches both.
+                        Some([near, far]) if si == 1 => T::pair(*near, *far),
+                        _ => T::pair(row[0], row[si]),
+                    };
+                }
+            }
+        }
+        rows
+    }
+}
+
+/// The whole part of a number from 0 to 2²²: from 2²³ on, a float's last bit counts ones.
+#[inline(always)]
+fn whole(c: f32) -> u32 {
+    const ONES: f32 = 8_388_608.0;
+    let nearest = c + ONES;
+    (nearest.to_bits() & 0x7F_FFFF) - u32::from(nearest - ONES > c)
+}
+
+/// The value between four rows of two voxels, by the weights of the farther ones along (i, j, k).
+#[inline(always)]
+fn interpolate<T: Voxel>(rows: [T::Pair; 4], [wi, wj, wk]: [T::Real; 3]) -> T::Real {
+    let line = |r: usize| {
+        let (near, far) = T::ends(rows[r]);
+        near + (far - near) * wi
+    };
+    let plane = |r: usize| line(r) + (line(r + 1) - line(r)) * wj;
+    let (near, far) = (plane(0), plane(2));
+    near + (far - near) * wk
 }

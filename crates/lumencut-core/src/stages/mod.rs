@@ -1,6 +1,7 @@
 //! The stages of the pipeline, one room each, in the order of the paper's Fig. 4.
 
 pub mod composite;
+pub mod context;
 pub mod depth;
 pub mod depth_filter;
 pub mod distance;

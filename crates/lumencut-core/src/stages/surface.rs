@@ -1,60 +1,88 @@
 //! The surface: the volume at the world point that each pixel's depth stands for (paper section 3.3.4).
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::View;
 use crate::camera::Camera;
 use crate::error::Result;
-use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
+use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, larger, smaller};
+use crate::math::ray::IndexFromView;
 use crate::math::sampling::Grid;
+use crate::settings::{Slab, SlabMode};
 use crate::volume::{Volume, Voxel};
 use crate::with_voxels;
 
-/// Writes the volume's value at the cut surface, NaN outside the volume.
+/// Writes the volume's value at the cut surface, NaN outside the volume; with a slab the largest, mean or smallest of
+/// the values within it, as far as it lies in the volume.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn surface(view: &View, volume: &Volume, depth: &[f32], value: &mut [f32]) -> Result<()> {
+pub fn surface(
+    view: &View,
+    volume: &Volume,
+    depth: &[f32],
+    slab: Option<Slab>,
+    value: &mut [f32],
+) -> Result<()> {
+    let offsets = offsets(slab, volume.smallest_side());
+    let kind = slab.map(|slab| slab.mode);
     let grid = Grid::new(volume);
     let index_from_view = IndexFromView::new(volume, view.camera);
     let chunk = view.tile_row();
-    value.par_chunks_mut(chunk).zip(depth.par_chunks(chunk)).enumerate().try_for_each(|(row, (value, depth))| {
-        view.go_on()?;
-        with_voxels!(volume.voxels(), voxels => {
-            let first = row * ROWS;
-            dispatch(view.isa, SurfaceRows { camera: view.camera, grid, index_from_view, voxels, first, depth, value });
-        });
-        Ok(())
-    })
+    value.par_chunks_mut(chunk).zip(depth.par_chunks(chunk)).enumerate().try_for_each(
+        |(row, (value, depth))| {
+            view.go_on()?;
+            with_voxels!(volume.voxels(), voxels => {
+                let sampler = Sampler { camera: view.camera, grid, index_from_view, voxels };
+                let first = row * ROWS;
+                dispatch(view.isa, SurfaceRows { sampler, offsets: &offsets, kind, first, depth, value });
+            });
+            Ok(())
+        },
+    )
 }
 
-/// Continuous index as an affine map of view coordinates.
+/// Where a slab is sampled (mm behind the cut surface): it is cut into equal parts no longer than a voxel's smallest
+/// side, an odd number of them, and each is sampled in its middle. The cut surface itself comes first.
+fn offsets(slab: Option<Slab>, side: f64) -> Vec<f64> {
+    let thickness = slab.map_or(0.0, |slab| slab.thickness);
+    let to_each_side = ((thickness / side - 1.0) / 2.0).ceil().max(0.0) as i64;
+    let part = thickness / (2 * to_each_side + 1) as f64;
+    let beside = (1..=to_each_side).flat_map(|n| [-n as f64 * part, n as f64 * part]);
+    std::iter::once(0.0).chain(beside).collect()
+}
+
+/// The volume in view space.
 #[derive(Clone, Copy)]
-struct IndexFromView {
-    origin: DVec3,
-    x: DVec3,
-    y: DVec3,
-    z: DVec3,
-}
-
-impl IndexFromView {
-    fn new(volume: &Volume, camera: &Camera) -> Self {
-        let index_from_world = volume.index_from_world();
-        Self {
-            origin: index_from_world.transform_point3(camera.center()),
-            x: index_from_world.transform_vector3(camera.right()),
-            y: index_from_world.transform_vector3(camera.up()),
-            z: index_from_world.transform_vector3(camera.direction()),
-        }
-    }
-}
-
-struct SurfaceRows<'a, T: Voxel> {
+struct Sampler<'a, T> {
     camera: &'a Camera,
     grid: Grid,
     index_from_view: IndexFromView,
     voxels: &'a [T],
+}
+
+impl<T: Voxel> Sampler<'_, T> {
+    /// The volume `behind` the depths of sixteen pixels in a row.
+    #[inline(always)]
+    fn sample(&self, i: usize, j: usize, depth: &[f32; FAN], behind: f64) -> [f32; FAN] {
+        let to = &self.index_from_view;
+        let row = (to.origin + to.y * self.camera.view_y(j)).to_array();
+        let mut index = [[0.0; FAN]; 3];
+        for a in 0..3 {
+            let (x_step, z_step) = (to.x[a], to.z[a]);
+            for l in 0..FAN {
+                let z = f64::from(depth[l]) + behind;
+                index[a][l] = row[a] + x_step * self.camera.view_x(i + l) + z_step * z;
+            }
+        }
+        self.grid.trilinear_lanes(self.voxels, &index)
+    }
+}
+
+struct SurfaceRows<'a, T> {
+    sampler: Sampler<'a, T>,
+    offsets: &'a [f64],
+    kind: Option<SlabMode>,
     first: usize,
     depth: &'a [f32],
     value: &'a mut [f32],
@@ -65,25 +93,38 @@ impl<T: Voxel> Kernel for SurfaceRows<'_, T> {
 
     #[inline(always)]
     fn run(self) {
-        let width = self.camera.size()[0];
-        let to = self.index_from_view;
+        let width = self.sampler.camera.size()[0];
         let rows = self.value.chunks_mut(width).zip(self.depth.chunks(width));
         for (j, (value, depth)) in (self.first..).zip(rows) {
-            let row = (to.origin + to.y * self.camera.view_y(j)).to_array();
             for (n, (value, depth)) in value.chunks_mut(FAN).zip(depth.chunks(FAN)).enumerate() {
                 let mut z = [0.0; FAN];
                 z[..depth.len()].copy_from_slice(depth);
-                let mut index = [[0.0; FAN]; 3];
-                for a in 0..3 {
-                    let (x_step, z_step) = (to.x[a], to.z[a]);
-                    for l in 0..FAN {
-                        index[a][l] =
-                            row[a] + x_step * self.camera.view_x(n * FAN + l) + z_step * f64::from(z[l]);
-                    }
+                let mut shown = self.sampler.sample(n * FAN, j, &z, 0.0);
+                let mut count = [1.0; FAN];
+                for behind in &self.offsets[1..] {
+                    let beside = self.sampler.sample(n * FAN, j, &z, *behind);
+                    join(self.kind, &mut shown, &mut count, &beside);
                 }
-                let sampled = self.grid.trilinear_lanes(self.voxels, &index);
-                value.copy_from_slice(&sampled[..value.len()]);
+                for l in 0..value.len() {
+                    value[l] = shown[l] / count[l];
+                }
             }
         }
+    }
+}
+
+/// Takes one more sample of a slab into what is shown; where there is no cut surface, or no sample, nothing changes.
+#[inline(always)]
+fn join(kind: Option<SlabMode>, shown: &mut [f32; FAN], count: &mut [f32; FAN], beside: &[f32; FAN]) {
+    for l in 0..FAN {
+        let (here, there) = (shown[l], beside[l]);
+        let absent = here.is_nan() | there.is_nan();
+        let joined = match kind {
+            Some(SlabMode::Max) => larger(here, there),
+            Some(SlabMode::Min) => smaller(here, there),
+            _ => here + there,
+        };
+        shown[l] = if absent { here } else { joined };
+        count[l] += if absent | (kind != Some(SlabMode::Mean)) { 0.0 } else { 1.0 };
     }
 }

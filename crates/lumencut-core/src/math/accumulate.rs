@@ -1,0 +1,297 @@
+//! What rays make of their samples: one small accumulator for each kind of context.
+
+use super::blocks::{HUGE, Range};
+use super::lanes::{FAN, larger, largest, smaller, smallest};
+use super::thickness::of_thickness;
+use super::transfer::Colors;
+use super::window::Ramp;
+
+/// The opacity from which on nothing behind is seen, unless it is brighter than all before: less than half a grey
+/// value of what is behind is left.
+pub const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
+
+/// Colours times opacity, and opacity, of sixteen pixels, channel by channel, 0 to 1.
+pub type Rgba = [[f32; FAN]; 4];
+
+/// Sixteen samples, one of each ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Samples<'a> {
+    /// The values, where present.
+    pub value: &'a [f32; FAN],
+    /// Whether the ray has this sample.
+    pub present: &'a [bool; FAN],
+    /// How much of the ray each sample stands for (mm).
+    pub thickness: &'a [f32; FAN],
+}
+
+/// How light falls on sixteen samples; asked only where one of them can be seen.
+pub trait Light {
+    /// What each colour is multiplied by, and what is added to it.
+    fn shade(&self) -> [[f32; FAN]; 2];
+}
+
+/// Gathers the samples of sixteen rays.
+pub trait Accumulator {
+    /// How promising a range is where samples may come in any order: the largest should come first. `None` where
+    /// they must come from near to far.
+    fn promise(range: Range) -> Option<f32>;
+    /// Whether samples with values in a range would change nothing.
+    fn ignores(&self, range: Range) -> bool;
+    /// Takes the next samples.
+    fn add(&mut self, samples: &Samples, light: &impl Light);
+    /// The pixels.
+    fn finish(&self) -> Rgba;
+}
+
+/// DVR, MIDA and what lies between them and MIP (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
+#[derive(Clone, Debug)]
+pub struct Blend<'a> {
+    colors: &'a Colors,
+    window: Ramp,
+    /// 1 + min(γ, 0): how far a brighter sample pushes back what was gathered before it.
+    push: f32,
+    /// max(γ, 0): the share of the maximum in the finished pixel.
+    mix: f32,
+    color: [[f32; FAN]; 3],
+    opacity: [f32; FAN],
+    /// The largest sample so far in the window, 0 to 1.
+    most: [f32; FAN],
+    brightest: Brightest<'a>,
+}
+
+impl<'a> Blend<'a> {
+    /// Nothing yet; rays that are not `active` ask for no samples.
+    #[inline(always)]
+    pub fn new(colors: &'a Colors, window: Ramp, gamma: f32, active: &[bool; FAN]) -> Self {
+        // What is transparent changes nothing before the first visible sample, which is brighter than all of it.
+        let most = window.at(colors.first_visible());
+        Self {
+            colors,
+            window,
+            push: 1.0 + smaller(gamma, 0.0),
+            mix: larger(gamma, 0.0),
+            color: [[0.0; FAN]; 3],
+            opacity: active.map(|active| if active { 0.0 } else { 1.0 }),
+            most: active.map(|active| if active { most } else { 1.0 }),
+            brightest: Brightest::new(colors, active),
+        }
+    }
+}
+
+impl Accumulator for Blend<'_> {
+    #[inline(always)]
+    fn promise(_: Range) -> Option<f32> {
+        None
+    }
+
+    #[inline(always)]
+    fn ignores(&self, range: Range) -> bool {
+        let unseen = smallest(&self.opacity) >= OPAQUE || self.colors.is_transparent(range);
+        unseen
+            && (self.push == 0.0 || self.window.at(range.high) <= smallest(&self.most))
+            && (self.mix == 0.0 || self.brightest.ignores(range))
+    }
+
+    #[inline(always)]
+    fn add(&mut self, samples: &Samples, light: &impl Light) {
+        let mut own = self.colors.opacity(samples.value);
+        let mut keep = [1.0; FAN];
+        let mut any = 0;
+        for l in 0..FAN {
+            let intensity = if samples.present[l] { self.window.at(samples.value[l]) } else { 0.0 };
+            let push = larger(intensity - self.most[l], 0.0) * self.push;
+            let hidden = !samples.present[l] | ((self.opacity[l] >= OPAQUE) & (push == 0.0));
+            keep[l] = 1.0 - push;
+            own[l] = if hidden { 0.0 } else { own[l] };
+            any |= own[l].to_bits();
+            self.most[l] = larger(self.most[l], intensity);
+        }
+        if self.mix > 0.0 {
+            self.brightest.add(samples, light);
+        }
+        for l in 0..FAN {
+            self.opacity[l] *= keep[l];
+            for channel in &mut self.color {
+                channel[l] *= keep[l];
+            }
+        }
+        if any == 0 {
+            return;
+        }
+        let own = of_thickness(&own, samples.thickness);
+        let (color, [lit, shine]) = (self.colors.color(samples.value), light.shade());
+        for l in 0..FAN {
+            let share = (1.0 - self.opacity[l]) * own[l];
+            for (sum, color) in self.color.iter_mut().zip(&color) {
+                sum[l] += share * smaller(color[l] * lit[l] + shine[l], 1.0);
+            }
+            self.opacity[l] += share;
+        }
+    }
+
+    #[inline(always)]
+    fn finish(&self) -> Rgba {
+        let brightest = self.brightest.finish();
+        let mut pixels = [self.color[0], self.color[1], self.color[2], self.opacity];
+        for (c, channel) in pixels.iter_mut().enumerate() {
+            for l in 0..FAN {
+                let mixed = channel[l] + (brightest[c][l] - channel[l]) * self.mix;
+                channel[l] = if self.brightest.active[l] { mixed } else { 0.0 };
+            }
+        }
+        pixels
+    }
+}
+
+/// The maximum intensity projection.
+#[derive(Clone, Debug)]
+pub struct Brightest<'a> {
+    colors: &'a Colors,
+    active: [bool; FAN],
+    best: [f32; FAN],
+}
+
+impl<'a> Brightest<'a> {
+    /// Nothing yet; rays that are not `active` ask for no samples.
+    #[inline(always)]
+    pub fn new(colors: &'a Colors, active: &[bool; FAN]) -> Self {
+        Self { colors, active: *active, best: active.map(|active| if active { -HUGE } else { HUGE }) }
+    }
+}
+
+impl Accumulator for Brightest<'_> {
+    #[inline(always)]
+    fn promise(range: Range) -> Option<f32> {
+        Some(range.high)
+    }
+
+    #[inline(always)]
+    fn ignores(&self, range: Range) -> bool {
+        // Beyond the last control point the colour stays the same.
+        smaller(range.high, self.colors.last()) <= smallest(&self.best)
+    }
+
+    #[inline(always)]
+    fn add(&mut self, samples: &Samples, _: &impl Light) {
+        for l in 0..FAN {
+            let value =
+                if samples.present[l] { smaller(samples.value[l], self.colors.last()) } else { -HUGE };
+            self.best[l] = larger(self.best[l], value);
+        }
+    }
+
+    #[inline(always)]
+    fn finish(&self) -> Rgba {
+        let [r, g, b] = self.colors.color(&self.best);
+        let mut found = [false; FAN];
+        for l in 0..FAN {
+            found[l] = self.active[l] & (self.best[l] > -HUGE);
+        }
+        opaque([r, g, b], &found)
+    }
+}
+
+/// The minimum intensity projection, grey.
+#[derive(Clone, Debug)]
+pub struct Darkest {
+    window: Ramp,
+    active: [bool; FAN],
+    best: [f32; FAN],
+}
+
+impl Darkest {
+    /// Nothing yet; rays that are not `active` ask for no samples.
+    #[inline(always)]
+    pub fn new(window: Ramp, active: &[bool; FAN]) -> Self {
+        Self { window, active: *active, best: active.map(|active| if active { HUGE } else { -HUGE }) }
+    }
+}
+
+impl Accumulator for Darkest {
+    #[inline(always)]
+    fn promise(range: Range) -> Option<f32> {
+        Some(-range.low)
+    }
+
+    #[inline(always)]
+    fn ignores(&self, range: Range) -> bool {
+        range.low >= largest(&self.best)
+    }
+
+    #[inline(always)]
+    fn add(&mut self, samples: &Samples, _: &impl Light) {
+        for l in 0..FAN {
+            let value = if samples.present[l] { samples.value[l] } else { HUGE };
+            self.best[l] = smaller(self.best[l], value);
+        }
+    }
+
+    #[inline(always)]
+    fn finish(&self) -> Rgba {
+        let (mut grey, mut found) = ([0.0; FAN], [false; FAN]);
+        for l in 0..FAN {
+            grey[l] = self.window.at(self.best[l]);
+            found[l] = self.active[l] & (self.best[l] < HUGE);
+        }
+        opaque([grey; 3], &found)
+    }
+}
+
+/// The average along the ray, grey.
+#[derive(Clone, Debug)]
+pub struct Average {
+    window: Ramp,
+    sum: [f64; FAN],
+    count: [f32; FAN],
+}
+
+impl Average {
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new(window: Ramp) -> Self {
+        Self { window, sum: [0.0; FAN], count: [0.0; FAN] }
+    }
+}
+
+impl Accumulator for Average {
+    #[inline(always)]
+    fn promise(_: Range) -> Option<f32> {
+        None
+    }
+
+    #[inline(always)]
+    fn ignores(&self, _: Range) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn add(&mut self, samples: &Samples, _: &impl Light) {
+        for l in 0..FAN {
+            let present = samples.present[l];
+            self.sum[l] += f64::from(if present { samples.value[l] } else { 0.0 });
+            self.count[l] += if present { 1.0 } else { 0.0 };
+        }
+    }
+
+    #[inline(always)]
+    fn finish(&self) -> Rgba {
+        let (mut grey, mut found) = ([0.0; FAN], [false; FAN]);
+        for l in 0..FAN {
+            grey[l] = self.window.at((self.sum[l] / f64::from(larger(self.count[l], 1.0))) as f32);
+            found[l] = self.count[l] > 0.0;
+        }
+        opaque([grey; 3], &found)
+    }
+}
+
+/// Opaque pixels where something was found, else nothing.
+#[inline(always)]
+fn opaque(color: [[f32; FAN]; 3], found: &[bool; FAN]) -> Rgba {
+    let mut pixels = [color[0], color[1], color[2], [1.0; FAN]];
+    for channel in &mut pixels {
+        for l in 0..FAN {
+            channel[l] = if found[l] { channel[l] } else { 0.0 };
+        }
+    }
+    pixels
+}

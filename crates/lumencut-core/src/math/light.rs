@@ -1,0 +1,85 @@
+//! Shading by the gradient of the volume, with light from the viewer.
+
+use super::accumulate::Light;
+use super::lanes::FAN;
+use super::ray::IndexFromView;
+use super::sampling::{Grid, Path, Places};
+use crate::volume::Voxel;
+
+/// The share of its colour that a surface keeps edge on, and what it gains towards the viewer.
+const AMBIENT: f32 = 0.35;
+const DIFFUSE: f32 = 0.65;
+/// White mirrored straight towards the viewer; it falls off with the sixteenth power of the cosine.
+const SPECULAR: f32 = 0.2;
+
+/// Light on sixteen places of a volume.
+pub struct Headlight<'a, T> {
+    /// Without it everything keeps its colour.
+    pub shading: bool,
+    /// The volume.
+    pub grid: &'a Grid,
+    /// Its voxels.
+    pub voxels: &'a [T],
+    /// From view to index.
+    pub index_from_view: &'a IndexFromView,
+    /// The voxel from which the places are counted.
+    pub base: [i32; 3],
+    /// The places.
+    pub places: Places,
+}
+
+impl<T: Voxel> Light for Headlight<'_, T> {
+    #[inline(always)]
+    fn shade(&self) -> [[f32; FAN]; 2] {
+        let (mut lit, mut shine) = ([1.0; FAN], [0.0; FAN]);
+        if !self.shading {
+            return [lit, shine];
+        }
+        // One voxel more room towards the first voxels, where there is one.
+        let base = self.base.map(|b| (b - 1).max(0));
+        let shift = [0, 1, 2].map(|a| (self.base[a] - base[a]) as f32);
+        let value: [_; 6] = self.grid.sample(self.voxels, base, &Around { places: &self.places, shift });
+        let to = self.index_from_view;
+        let [x, y, z] = [to.x, to.y, to.z].map(|axis| axis.as_vec3().to_array());
+        for l in 0..FAN {
+            let change = [0, 1, 2].map(|a| value[2 * a][l] - value[2 * a + 1][l]);
+            let along = |axis: [f32; 3]| change[0] * axis[0] + change[1] * axis[1] + change[2] * axis[2];
+            let (gx, gy, gz) = (along(x), along(y), along(z));
+            let square = gx * gx + gy * gy + gz * gz;
+            // Where nothing changes, or a neighbour has no value, there is no surface to shade.
+            let cosine = if square > 0.0 { gz.abs() / square.sqrt() } else { 0.0 };
+            let fourth = cosine * cosine * cosine * cosine;
+            let sixteenth = fourth * fourth * fourth * fourth;
+            lit[l] = if square > 0.0 { AMBIENT + DIFFUSE * cosine } else { 1.0 };
+            shine[l] = SPECULAR * sixteenth;
+        }
+        [lit, shine]
+    }
+}
+
+/// One voxel to both sides along each axis.
+struct Around<'a> {
+    places: &'a Places,
+    shift: [f32; 3],
+}
+
+impl Path for Around<'_> {
+    #[inline(always)]
+    fn places(&self, n: usize) -> Places {
+        let mut places = *self.places;
+        for a in 0..3 {
+            let shift = self.shift[a]
+                + if n == 2 * a {
+                    1.0
+                } else if n == 2 * a + 1 {
+                    -1.0
+                } else {
+                    0.0
+                };
+            for l in 0..FAN {
+                places[a][l] += shift;
+            }
+        }
+        places
+    }
+}

@@ -1,0 +1,211 @@
+//! Transfer functions: the colour and the opacity that an intensity has in the context.
+
+use super::blocks::{HUGE, Range};
+use super::lanes::{FAN, larger, smaller};
+use super::window::Window;
+
+/// The most control points of a transfer function.
+pub const MAX_POINTS: usize = 64;
+
+/// Opacity below which nothing is seen, far below one grey value over a whole body.
+const INVISIBLE: f32 = 1e-6;
+
+/// Colour and opacity at one intensity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlPoint {
+    /// Intensity (unit of the volume, HU for CT).
+    pub intensity: f64,
+    /// RGB.
+    pub color: [u8; 3],
+    /// Opacity of one millimetre of it, 0 to 1.
+    pub opacity: f64,
+}
+
+/// Control points by rising intensity. Between two of them colour and opacity are linear, beyond the outermost ones
+/// constant; two at one intensity make a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransferFunction {
+    /// The points, at least one and at most [`MAX_POINTS`].
+    pub points: Vec<ControlPoint>,
+}
+
+/// Transfer functions by name, placed within the context window: 0 is its black end, 1 its white end. A window from
+/// the data has the tissue around the vessels at 1/6 and their lumen at 1/2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Preset {
+    /// Grey as the window shows it, brighter is more opaque.
+    Grey,
+    /// Vessels red, calcifications, stents and bone ivory, tissue hardly visible.
+    Angio,
+    /// What is brighter than contrast medium, ivory.
+    Bone,
+    /// Skin and muscle as a veil, vessels within.
+    SoftTissue,
+}
+
+impl Preset {
+    /// All presets.
+    pub const ALL: [Self; 4] = [Self::Grey, Self::Angio, Self::Bone, Self::SoftTissue];
+
+    /// The name in Python and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Grey => "grey",
+            Self::Angio => "angio",
+            Self::Bone => "bone",
+            Self::SoftTissue => "soft-tissue",
+        }
+    }
+
+    /// Place in the window, colour and opacity per millimetre of each control point.
+    fn points(self) -> &'static [(f64, [u8; 3], f64)] {
+        match self {
+            Self::Grey => &[(0.0, [0, 0, 0], 0.0), (1.0, [255, 255, 255], 0.3)],
+            Self::Angio => &[
+                (0.28, [110, 40, 30], 0.0),
+                (0.45, [190, 60, 40], 0.12),
+                (0.65, [235, 150, 110], 0.3),
+                (1.0, [255, 245, 225], 0.6),
+            ],
+            Self::Bone => {
+                &[(0.6, [150, 120, 90], 0.0), (0.8, [225, 205, 170], 0.3), (1.2, [255, 250, 240], 0.7)]
+            }
+            Self::SoftTissue => &[
+                (0.03, [120, 70, 50], 0.0),
+                (0.12, [190, 130, 100], 0.02),
+                (0.25, [200, 110, 90], 0.04),
+                (0.5, [220, 90, 70], 0.2),
+                (1.0, [255, 245, 225], 0.5),
+            ],
+        }
+    }
+
+    /// The transfer function in a window.
+    pub fn transfer_function(self, window: Window) -> TransferFunction {
+        let black = window.level - window.width / 2.0;
+        let point = |&(place, color, opacity): &(f64, [u8; 3], f64)| ControlPoint {
+            intensity: black + place * window.width,
+            color,
+            opacity,
+        };
+        TransferFunction { points: self.points().iter().map(point).collect() }
+    }
+}
+
+/// A rise from one control point to the next: what is added to all before it.
+#[derive(Clone, Copy, Debug)]
+struct Rise {
+    start: f32,
+    per_intensity: f32,
+    color: [f32; 3],
+    opacity: f32,
+}
+
+impl Rise {
+    fn between(from: ControlPoint, to: ControlPoint) -> Self {
+        let span = to.intensity - from.intensity;
+        let step = f64::EPSILON.max(from.intensity.abs() * 1e-9);
+        Self {
+            start: from.intensity as f32,
+            per_intensity: (1.0 / span.max(step)) as f32,
+            color: std::array::from_fn(|c| (f32::from(to.color[c]) - f32::from(from.color[c])) / 255.0),
+            opacity: (to.opacity - from.opacity) as f32,
+        }
+    }
+
+    /// How much of the rise lies below an intensity.
+    #[inline(always)]
+    fn share(&self, intensity: f32) -> f32 {
+        smaller(larger((intensity - self.start) * self.per_intensity, 0.0), 1.0)
+    }
+}
+
+/// A transfer function ready for sixteen intensities at once.
+#[derive(Clone, Debug)]
+pub struct Colors {
+    color: [f32; 3],
+    opacity: f32,
+    rises: Vec<Rise>,
+    last: f32,
+    transparent: Vec<Range>,
+}
+
+impl Colors {
+    /// Prepares `function`.
+    pub fn new(function: &TransferFunction) -> Self {
+        let points = &function.points;
+        Self {
+            color: points[0].color.map(|c| f32::from(c) / 255.0),
+            opacity: points[0].opacity as f32,
+            rises: points.windows(2).map(|pair| Rise::between(pair[0], pair[1])).collect(),
+            last: points[points.len() - 1].intensity as f32,
+            transparent: transparent(points),
+        }
+    }
+
+    /// The intensity from which on the colour stays the same.
+    #[inline(always)]
+    pub fn last(&self) -> f32 {
+        self.last
+    }
+
+    /// Whether every value of a range is wholly transparent.
+    #[inline(always)]
+    pub fn is_transparent(&self, range: Range) -> bool {
+        self.transparent.iter().any(|gap| range.low >= gap.low && range.high <= gap.high)
+    }
+
+    /// The intensity up to which everything is transparent.
+    pub fn first_visible(&self) -> f32 {
+        self.transparent.first().filter(|gap| gap.low <= -HUGE).map_or(-HUGE, |gap| gap.high)
+    }
+
+    /// The opacity of one millimetre of sixteen intensities.
+    #[inline(always)]
+    pub fn opacity(&self, intensity: &[f32; FAN]) -> [f32; FAN] {
+        let mut opacity = [self.opacity; FAN];
+        for rise in &self.rises {
+            for l in 0..FAN {
+                opacity[l] += rise.opacity * rise.share(intensity[l]);
+            }
+        }
+        for l in 0..FAN {
+            opacity[l] = if opacity[l] > INVISIBLE { smaller(opacity[l], 1.0) } else { 0.0 };
+        }
+        opacity
+    }
+
+    /// The colours of sixteen intensities, channel by channel, 0 to 1.
+    #[inline(always)]
+    pub fn color(&self, intensity: &[f32; FAN]) -> [[f32; FAN]; 3] {
+        let mut color = self.color.map(|c| [c; FAN]);
+        for rise in &self.rises {
+            for l in 0..FAN {
+                let share = rise.share(intensity[l]);
+                for c in 0..3 {
+                    color[c][l] += rise.color[c] * share;
+                }
+            }
+        }
+        color
+    }
+}
+
+/// The ranges of intensity without opacity, by rising intensity.
+fn transparent(points: &[ControlPoint]) -> Vec<Range> {
+    let mut ranges = Vec::new();
+    let mut low = Some(-HUGE).filter(|_| points[0].opacity == 0.0);
+    for pair in points.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        match low {
+            Some(start) if to.opacity > 0.0 => {
+                ranges.push(Range { low: start, high: from.intensity as f32 });
+                low = None;
+            }
+            None if to.opacity == 0.0 => low = Some(to.intensity as f32),
+            _ => {}
+        }
+    }
+    ranges.extend(low.map(|low| Range { low, high: HUGE }));
+    ranges
+}

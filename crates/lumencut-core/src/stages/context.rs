@@ -1,0 +1,232 @@
+//! The context: rays through the volume behind the cut surface (paper section 3.3.6).
+
+use rayon::prelude::*;
+
+use super::View;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::accumulate::{Average, Blend, Brightest, Darkest, Rgba};
+use crate::math::blocks::Blocks;
+use crate::math::lanes::{COLUMNS, FAN, Kernel, ROWS, dispatch};
+use crate::math::ray::{NONE, PACKET, Packet, Rays, WHOLE};
+use crate::math::trace::{Scene, Waiting, trace};
+use crate::math::transfer::Colors;
+use crate::math::window::Ramp;
+use crate::settings::{Context, ContextMode, Settings};
+use crate::volume::{Volume, Voxel};
+use crate::with_voxels;
+
+/// The most samples along the longest ray.
+const MOST_SAMPLES: f64 = 65_536.0;
+
+/// Where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front of
+/// the volume where the cut surface is outside.
+pub fn starts(value: &[f32], depth: &[f32], settings: &Settings) -> Vec<f32> {
+    let opacity = Ramp::opacity(settings.opacity);
+    let behind = settings.slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
+    let start = |(value, depth): (&f32, &f32)| match *value {
+        value if value.is_nan() => WHOLE,
+        value if opacity.at(value) < 1.0 => depth + behind,
+        _ => NONE,
+    };
+    value.iter().zip(depth).map(start).collect()
+}
+
+/// Writes what the rays gather, colours times opacity and opacity, 0 to 1; nothing where no ray starts.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for a step so small that rays would have more than 65,536 samples,
+/// [`ErrorKind::Interrupted`].
+pub fn context(
+    view: &View,
+    volume: &Volume,
+    blocks: Option<&Blocks>,
+    settings: &Context,
+    start: &[f32],
+    pixels: &mut [[f32; 4]],
+) -> Result<()> {
+    let plan = Plan::new(view, volume, blocks, settings)?;
+    if !settings.preview {
+        return plan.trace(&Raster::fine(view), start, pixels);
+    }
+    let raster = Raster::coarse(view);
+    let [columns, rows] = raster.size;
+    let mut coarse = vec![[0.0; 4]; columns * rows];
+    plan.trace(&raster, &coarse_starts(start, view.size()), &mut coarse)?;
+    spread(&coarse, start, view.size(), pixels);
+    Ok(())
+}
+
+/// Where rays run: the pixels of the view, or squares of four of them.
+#[derive(Clone, Copy)]
+struct Raster {
+    size: [usize; 2],
+    /// View x and y of the first ray, and from one to the next (mm).
+    first: [f64; 2],
+    next: [f64; 2],
+}
+
+impl Raster {
+    fn fine(view: &View) -> Self {
+        let (camera, s) = (view.camera, view.camera.pixel_spacing());
+        Self { size: view.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
+    }
+
+    fn coarse(view: &View) -> Self {
+        let fine = Self::fine(view);
+        let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);
+        Self { size: fine.size.map(|n| n.div_ceil(2)), first, next: fine.next.map(|s| 2.0 * s) }
+    }
+}
+
+/// The nearest start of each square of four pixels.
+fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
+    let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
+    let mut coarse = vec![NONE; columns * rows];
+    for (j, row) in start.chunks(width).enumerate() {
+        for (i, start) in row.iter().enumerate() {
+            let square = &mut coarse[j / 2 * columns + i / 2];
+            *square = square.min(*start);
+        }
+    }
+    coarse
+}
+
+/// Gives each pixel that needs a ray what its square's ray found.
+fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &mut [[f32; 4]]) {
+    let columns = width.div_ceil(2);
+    let rows = pixels.chunks_mut(width).zip(start.chunks(width));
+    for (j, (pixels, start)) in rows.enumerate() {
+        for (i, (pixel, start)) in pixels.iter_mut().zip(start).enumerate() {
+            *pixel = if *start >= NONE { [0.0; 4] } else { coarse[j / 2 * columns + i / 2] };
+        }
+    }
+}
+
+/// All that the rays of a view need, prepared once.
+struct Plan<'a> {
+    view: &'a View<'a>,
+    volume: &'a Volume<'a>,
+    blocks: Option<&'a Blocks>,
+    rays: Rays,
+    mode: ContextMode,
+    window: Ramp,
+    colors: Colors,
+    shading: bool,
+}
+
+impl<'a> Plan<'a> {
+    fn new(
+        view: &'a View,
+        volume: &'a Volume,
+        blocks: Option<&'a Blocks>,
+        settings: &Context,
+    ) -> Result<Self> {
+        let step = settings.step.unwrap_or_else(|| volume.smallest_side());
+        let corners = volume.corners();
+        let longest = corners.iter().map(|c| c.distance(corners[0])).fold(0.0, f64::max);
+        if longest > MOST_SAMPLES * step {
+            let found = format!("{step} mm for a volume {longest:.4} mm across");
+            let expected = format!("at least {:.4} mm", longest / MOST_SAMPLES);
+            return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
+        }
+        Ok(Self {
+            view,
+            volume,
+            blocks,
+            rays: Rays::new(volume, view.camera, step),
+            mode: settings.mode,
+            window: Ramp::grey(settings.window),
+            colors: Colors::new(&settings.transfer),
+            shading: settings.shading,
+        })
+    }
+
+    /// Traces the rays of a raster, tile by tile.
+    fn trace(&self, raster: &Raster, start: &[f32], pixels: &mut [[f32; 4]]) -> Result<()> {
+        let width = raster.size[0];
+        let rows = pixels.par_chunks_mut(ROWS * width).zip(start.par_chunks(ROWS * width));
+        rows.enumerate().try_for_each(|(row, (pixels, start))| {
+            with_voxels!(self.volume.voxels(), voxels => {
+                for column in (0..width).step_by(COLUMNS) {
+                    self.view.go_on()?;
+                    let place = [column, row * ROWS];
+                    let (view, plan) = (self.view, self);
+                    dispatch(view.isa, Tile { plan, voxels, raster, place, start, pixels: &mut *pixels });
+                }
+            });
+            Ok(())
+        })
+    }
+}
+
+/// A tile of rays in the rows that it lies in.
+struct Tile<'a, T> {
+    plan: &'a Plan<'a>,
+    voxels: &'a [T],
+    raster: &'a Raster,
+    /// The column and the row of its first ray.
+    place: [usize; 2],
+    start: &'a [f32],
+    pixels: &'a mut [[f32; 4]],
+}
+
+impl<T: Voxel> Kernel for Tile<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let mut waiting = Vec::new();
+        for n in 0..COLUMNS * ROWS / FAN {
+            let across = COLUMNS / PACKET;
+            let corner = [self.place[0] + n % across * PACKET, n / across * PACKET];
+            self.packet(corner, &mut waiting);
+        }
+    }
+}
+
+impl<T: Voxel> Tile<'_, T> {
+    /// The sixteen rays whose first is in column and row `corner` of these rows.
+    #[inline(always)]
+    fn packet(&mut self, [column, row]: [usize; 2], waiting: &mut Waiting) {
+        let (width, rows) = (self.raster.size[0], self.start.len() / self.raster.size[0]);
+        let (mut x, mut y, mut start) = ([0.0; FAN], [0.0; FAN], [NONE; FAN]);
+        for l in 0..FAN {
+            let (i, j) = (column + l % PACKET, row + l / PACKET);
+            x[l] = self.raster.first[0] + i as f64 * self.raster.next[0];
+            y[l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
+            if i < width && j < rows {
+                start[l] = self.start[j * width + i];
+            }
+        }
+        let gathered = if start.iter().all(|start| *start >= NONE) {
+            [[0.0; FAN]; 4]
+        } else {
+            self.gather(&x, &y, &start, waiting)
+        };
+        for l in 0..FAN {
+            let (i, j) = (column + l % PACKET, row + l / PACKET);
+            if i < width && j < rows {
+                self.pixels[j * width + i] = gathered.map(|channel| channel[l]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn gather(&self, x: &[f64; FAN], y: &[f64; FAN], start: &[f32; FAN], waiting: &mut Waiting) -> Rgba {
+        let plan = self.plan;
+        let packet = Packet::new(&plan.rays, x, y, start);
+        let active = packet.count.map(|count| count > 0);
+        let scene =
+            Scene { rays: &plan.rays, voxels: self.voxels, blocks: plan.blocks, shading: plan.shading };
+        match plan.mode {
+            ContextMode::Blend { gamma } if gamma >= 1.0 => {
+                trace(&scene, &packet, waiting, Brightest::new(&plan.colors, &active))
+            }
+            ContextMode::Blend { gamma } => {
+                trace(&scene, &packet, waiting, Blend::new(&plan.colors, plan.window, gamma as f32, &active))
+            }
+            ContextMode::Minimum => trace(&scene, &packet, waiting, Darkest::new(plan.window, &active)),
+            ContextMode::Average => trace(&scene, &packet, waiting, Average::new(plan.window)),
+        }
+    }
+}
