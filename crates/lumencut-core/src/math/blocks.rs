@@ -9,7 +9,7 @@ use crate::volume::{Real, Volume, Voxel};
 use crate::with_voxels;
 
 /// The side of a block (cells between neighbouring voxels).
-pub const SIDE: usize = 8;
+pub const SIDE: usize = 4;
 
 /// Of more blocks than these the range of the whole volume is taken: asking them all would cost more than samples.
 const MOST_ASKED: i32 = 256;
@@ -56,7 +56,7 @@ impl Range {
 }
 
 /// The ranges of all blocks of a volume. Block b holds the values of all samples whose lower corner is one of the
-/// voxels from 8·b to 8·b + 7 along each axis; voxels that are NaN are left out.
+/// voxels from 4·b to 4·b + 3 along each axis; voxels that are NaN are left out.
 #[derive(Debug)]
 pub struct Blocks {
     size: [usize; 3],
@@ -119,7 +119,7 @@ fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ra
             if strides[0] == 1 {
                 widen(&mut low, &mut high, line[..size[0]].iter());
             } else {
-                widen(&mut low, &mut high, line.iter().step_by(strides[0]));
+                widen(&mut low, &mut high, line.iter().step_by(strides[0].max(1)));
             }
         }
     }
