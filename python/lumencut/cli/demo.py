@@ -31,8 +31,9 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 def demo(directory: Path, cache: Path | None) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
-    Four pictures, one that shows what is behind a transparent cut surface, and a turntable. The CT (3 MB, from the Python package index) is taken once, checked and
-    kept; where it cannot be had, a phantom is shown instead.
+    Four pictures, one more that shows what lies behind a transparent cut surface, and a turntable. The CT
+    (3 MB, from the Python package index) is taken once, checked and kept; where it cannot be had, a phantom
+    is shown instead.
     """
     start = time.perf_counter()
     renderer = _scene(cache)
