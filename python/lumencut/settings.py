@@ -86,7 +86,8 @@ class Settings:
         Only for ``"mida"``: −1 is DVR, 0 MIDA, 1 MIP, between them a blend.
     context_window : Window, optional
         Intensities from 0 to 1 for the differences of MIDA, and from black to white for minimum and mean; the
-        named transfer functions lie within it. Taken from the data where not given, whatever ``window`` is.
+        named transfer functions lie within it. Taken from the data where not given, whatever ``window`` is:
+        for minimum and mean :meth:`Window.whole`, for the others :meth:`Window.from_data`.
     context_transfer : {"grey", "angio", "bone", "soft-tissue"} or TransferFunction, optional
         Colours and opacities of MIDA, DVR and MIP; minimum and mean ignore it. ``"grey"`` for ``"mip"`` and
         ``"angio"`` for the others where not given.
