@@ -20,6 +20,9 @@ pub const NONE: f32 = 1e9;
 
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
 const PARALLEL: f64 = 1e-9;
+/// How much of a step a chord may be longer than whole steps without a part more: n voxels have n parts, however n · side
+/// is rounded.
+const SPARE: f64 = 1e-6;
 /// Wider than what rounding moves a place (voxels).
 const ROUNDING: f64 = 1e-3;
 
@@ -126,8 +129,8 @@ impl Packet {
         for l in 0..FAN {
             let chord = far[l] - near[l];
             // The whole number above the quotient, without the system's function.
-            let parts = (chord / rays.step) as i32;
-            let parts = parts + i32::from(f64::from(parts) * rays.step < chord);
+            let steps = chord / rays.step - SPARE;
+            let parts = steps as i32 + i32::from(f64::from(steps as i32) < steps);
             count[l] = if chord > 0.0 { parts.max(1) } else { 0 };
             part[l] = if chord > 0.0 { chord / f64::from(count[l]) } else { 0.0 };
         }
