@@ -30,10 +30,12 @@ if TYPE_CHECKING:
     )
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer, render
-    from lumencut.settings import Opacity, Settings, Window
+    from lumencut.settings import Settings, Slab
+    from lumencut.transfer import TransferFunction
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
     from lumencut.volume_files import read_volume
+    from lumencut.window import Opacity, Window
 
 #: Where each public name lives; modules are imported on first use, so that ``import lumencut`` is quick.
 _HOME = {
@@ -53,10 +55,12 @@ _HOME = {
     ),
     "frame": ("Frame",),
     "renderer": ("Renderer", "render"),
-    "settings": ("Opacity", "Settings", "Window"),
+    "settings": ("Settings", "Slab"),
+    "transfer": ("TransferFunction",),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),
     "volume_files": ("read_volume",),
+    "window": ("Opacity", "Window"),
 }
 _MODULE = {name: module for module, names in _HOME.items() for name in names}
 
@@ -73,7 +77,9 @@ __all__ = [
     "Renderer",
     "Settings",
     "SettingsError",
+    "Slab",
     "SpaceWarning",
+    "TransferFunction",
     "Vessel",
     "VesselTree",
     "VesselTreeError",

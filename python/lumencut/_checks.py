@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,14 @@ def integers(
     if not ((array >= low) & (array <= high) & (array == np.floor(array))).all():
         raise error(subject, _short(value), f"{count} whole numbers from {low} to {high}")
     return tuple(int(n) for n in array)
+
+
+def choice(
+    error: type[LumencutError], subject: str, value: Any, choices: Sequence[str], others: str = ""
+) -> None:
+    """Refuse what is none of the names; ``others`` says what else the caller takes."""
+    if not (isinstance(value, str) and value in choices):
+        raise error(subject, _short(value), "one of " + ", ".join(map(repr, choices)) + others)
 
 
 def _floats(value: Any) -> npt.NDArray[np.float64] | None:

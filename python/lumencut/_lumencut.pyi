@@ -8,6 +8,9 @@ import numpy.typing as npt
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 
 __all__ = [
+    "CONTEXTS",
+    "PRESETS",
+    "SLAB_MODES",
     "Renderer",
     "__version__",
     "check_camera",
@@ -21,9 +24,14 @@ __all__ = [
 
 __version__: str
 
+# What a setting can be called, in the order to show it to users.
+CONTEXTS: list[str]
+PRESETS: list[str]
+SLAB_MODES: list[str]
+
 @final
 class Renderer:
-    def __new__(cls, vessels: list[_Arrays]) -> Renderer: ...
+    def __new__(cls, vessels: list[_Arrays] | None) -> Renderer: ...
     def render(self, volume: Any, camera: Any, settings: Any) -> dict[str, Any]: ...
 
 def check_camera(camera: Any) -> list[list[float]]: ...

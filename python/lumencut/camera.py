@@ -85,7 +85,7 @@ class Camera:
         """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels."""
         if not isinstance(scene, (VesselTree, Volume)):
             raise CameraError("scene of the view", type(scene).__name__, "a VesselTree or a Volume")
-        points = scene.points if isinstance(scene, VesselTree) else scene.corners
+        points = scene_points(scene)
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
         ahead = numbers(CameraError, "direction of the camera", direction, (3,))
         view = cls(middle, ahead, numbers(CameraError, "up of the camera", up, (3,)), size, 1.0)
@@ -164,6 +164,11 @@ class Camera:
         if not np.isfinite(shift).all():
             raise CameraError("shift of the camera", f"{shift}", "finite distances in mm")
         return replace(self, center=self.center + shift[0] * self.right_axis + shift[1] * self.up)
+
+
+def scene_points(scene: VesselTree | Volume) -> npt.NDArray[np.float64]:
+    """Return the points (mm, LPS) that a view shows all of when it shows all of ``scene``, shape (n, 3)."""
+    return scene.points if isinstance(scene, VesselTree) else scene.corners
 
 
 def _rotation(axis: npt.NDArray[np.float64], angle: float) -> npt.NDArray[np.float64]:

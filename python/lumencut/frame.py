@@ -22,50 +22,90 @@ _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 class Frame:
     """The images of one view, each (H, W) from the top row down.
 
+    Asking for an image that the view does not have raises a ``VolumeError`` that says why: a cut surface
+    without a volume has no picture, the context alone no depth.
+
     Attributes
     ----------
     camera : Camera
         The view.
-    depth : numpy.ndarray of float32, shape (H, W)
-        Depth of the cut surface (mm), growing away from the viewer, 0 at the camera's center.
-    vessel : numpy.ndarray of int32, shape (H, W)
-        Id of the vessel whose influence zone the pixel is in.
-    distance : numpy.ndarray of float32, shape (H, W)
-        Projected distance to the nearest centerline (mm).
     timings : dict of str to float
         Wall time of each stage (ms), in the order they ran.
     """
 
     camera: Camera
-    depth: npt.NDArray[np.float32]
-    vessel: npt.NDArray[np.int32]
-    distance: npt.NDArray[np.float32]
     timings: dict[str, float]
     _image: npt.NDArray[np.uint8] | None = None
+    _depth: npt.NDArray[np.float32] | None = None
+    _vessel: npt.NDArray[np.int32] | None = None
+    _distance: npt.NDArray[np.float32] | None = None
     _value: npt.NDArray[np.float32] | None = None
+    _context: npt.NDArray[np.uint8] | None = None
 
     @property
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4)."""
-        image: npt.NDArray[np.uint8] = _present("image", self._image)
+        image: npt.NDArray[np.uint8] = self._present("image", self._image)
         return image
+
+    @property
+    def depth(self) -> npt.NDArray[np.float32]:
+        """Depth of the cut surface (mm), growing away from the viewer, 0 at the camera's center.
+
+        float32, shape (H, W).
+        """
+        depth: npt.NDArray[np.float32] = self._present("depth", self._depth)
+        return depth
+
+    @property
+    def vessel(self) -> npt.NDArray[np.int32]:
+        """Id of the vessel whose influence zone the pixel is in, int32, shape (H, W)."""
+        vessel: npt.NDArray[np.int32] = self._present("vessel", self._vessel)
+        return vessel
+
+    @property
+    def distance(self) -> npt.NDArray[np.float32]:
+        """Projected distance to the nearest centerline (mm), float32, shape (H, W)."""
+        distance: npt.NDArray[np.float32] = self._present("distance", self._distance)
+        return distance
 
     @property
     def value(self) -> npt.NDArray[np.float32]:
         """The volume at the cut surface, float32, shape (H, W), NaN outside the volume."""
-        value: npt.NDArray[np.float32] = _present("value", self._value)
+        value: npt.NDArray[np.float32] = self._present("value", self._value)
         return value
 
     @property
+    def context(self) -> npt.NDArray[np.uint8]:
+        """The context alone, RGBA, uint8, shape (H, W, 4).
+
+        Its colours are not multiplied by its opacity, and it is transparent where the cut surface hides it.
+        """
+        context: npt.NDArray[np.uint8] = self._present("context", self._context)
+        return context
+
+    @property
     def position(self) -> npt.NDArray[np.float64]:
-        """World point (mm, LPS) that each pixel shows, float64, shape (H, W, 3)."""
+        """World point (mm, LPS) of the cut surface in each pixel, float64, shape (H, W, 3)."""
+        depth = self._present("position", self._depth)[:, :, None].astype(np.float64)
         camera, (width, height) = self.camera, self.camera.size
         x = (np.arange(width) + 0.5 - width / 2) * camera.pixel_spacing
         y = (height / 2 - np.arange(height) - 0.5) * camera.pixel_spacing
         plane = x[None, :, None] * camera.right_axis + y[:, None, None] * camera.up
-        return np.asarray(
-            camera.center + plane + self.depth[:, :, None].astype(np.float64) * camera.direction
-        )
+        return np.asarray(camera.center + plane + depth * camera.direction)
+
+    def _present(self, name: str, array: Any) -> Any:
+        if array is not None:
+            return array
+        if self._image is None:
+            found, expected, mend = "a cut surface without a volume", "a rendered frame", "use render"
+        elif name == "context":
+            found, expected = "a frame rendered without a context", "a frame with one"
+            mend = "give the settings a context such as 'mida'"
+        else:
+            found, expected = "the context alone", "a frame with a cut surface"
+            mend = "give the renderer a vessel tree"
+        raise VolumeError(f"{name} of the frame", found, expected, mend)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
@@ -89,10 +129,11 @@ class Frame:
             save_picture(self.image, path)
 
     def _write_arrays(self, path: Path) -> None:
-        names = ("depth", "vessel", "distance", "position")
-        arrays: dict[str, Any] = {name: getattr(self, name) for name in names}
-        shown = {"image": self._image, "value": self._value}
-        arrays |= {name: array for name, array in shown.items() if array is not None}
+        names = ("image", "depth", "vessel", "distance", "value", "context")
+        kept = {name: getattr(self, f"_{name}") for name in names}
+        arrays: dict[str, Any] = {name: array for name, array in kept.items() if array is not None}
+        if self._depth is not None:
+            arrays["position"] = self.position
         with path.open("wb") as file:
             np.savez_compressed(file, **arrays)
 
@@ -119,10 +160,3 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
             raise FormatError(str(path), f"{kind}: {error}", expected) from error
 
     replace_whole(path, write)
-
-
-def _present(name: str, array: Any) -> Any:
-    if array is None:
-        found = "a cut surface without a volume"
-        raise VolumeError(f"{name} of the frame", found, "a rendered frame", "use render")
-    return array

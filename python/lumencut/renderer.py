@@ -8,48 +8,74 @@ from typing import Any, Literal
 import numpy as np
 
 from lumencut import _lumencut
+from lumencut._checks import choice
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.frame import Frame
-from lumencut.settings import Settings, Window
+from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
+from lumencut.window import Window
 
 
 class Renderer:
-    """Renders views of one volume and one vessel tree.
+    """Renders views of one volume and one vessel tree, or of a volume alone.
 
     What does not depend on the view is made once; a further view allocates nothing of the size of the volume
     or the tree. Views may be rendered from several threads; they take turns.
+
+    The voxels must not be changed after the first view with a context: what that view has learnt of them is
+    used again. For changed voxels make a new renderer.
 
     Parameters
     ----------
     volume : Volume, or an image of SimpleITK, itk, nibabel or vtk, or None
         The angiography; without it only :meth:`cut_surface` works.
-    tree : VesselTree
-        Its centerlines.
+    tree : VesselTree or None
+        Its centerlines; without them :meth:`render` shows the context alone, all of the volume.
     device : {"auto", "cpu"}, default "auto"
         Where to compute.
 
     Raises
     ------
     VolumeError, VesselTreeError, SettingsError
-        For a volume, tree or device of another kind, or a tree that lies wholly outside the volume.
+        For a volume, tree or device of another kind, neither a volume nor a tree, or a tree that lies wholly
+        outside the volume.
     """
 
-    def __init__(self, volume: Any, tree: VesselTree, device: Literal["auto", "cpu"] = "auto") -> None:
-        if not isinstance(tree, VesselTree):
+    def __init__(
+        self, volume: Any, tree: VesselTree | None = None, device: Literal["auto", "cpu"] = "auto"
+    ) -> None:
+        if not isinstance(tree, (VesselTree, type(None))):
             raise VesselTreeError(
-                "tree", f"{type(tree).__name__}", "a VesselTree, such as read_centerlines returns"
+                "tree", type(tree).__name__, "a VesselTree, such as read_centerlines returns, or None"
             )
-        if not (isinstance(device, str) and device in ("auto", "cpu")):
-            raise SettingsError("device", repr(device), "'auto' or 'cpu'")
-        self.volume = None if volume is None else as_volume(volume)
-        self.tree = tree
-        if self.volume is not None:
-            _check_meeting(self.volume, tree)
-        self._core = _lumencut.Renderer(tree._arrays())
+        choice(SettingsError, "device", device, ("auto", "cpu"))
+        self._volume = None if volume is None else as_volume(volume)
+        self._tree = tree
+        scene = self._volume if tree is None else tree
+        if scene is None:
+            raise VolumeError("scene of the renderer", "neither a volume nor a tree", "one of them or both")
+        self._scene = scene
+        if self._volume is not None and tree is not None:
+            _check_meeting(self._volume, tree)
+        self._core = _lumencut.Renderer(None if tree is None else tree._arrays())
         self._window: Window | None = None
+
+    @property
+    def volume(self) -> Volume | None:
+        """The angiography."""
+        return self._volume
+
+    @property
+    def tree(self) -> VesselTree | None:
+        """Its centerlines."""
+        return self._tree
+
+    @property
+    def scene(self) -> VesselTree | Volume:
+        """What views are fitted to: the tree, or the volume where there is no tree."""
+        return self._scene
 
     def render(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return the picture of one view.
@@ -57,28 +83,41 @@ class Renderer:
         Parameters
         ----------
         camera : Camera, optional
-            The view; from the front, fitted to the tree, where not given.
+            The view; from the front, fitted to the tree or else the volume, where not given.
         settings : Settings, optional
-            The knobs; their defaults where not given.
+            The knobs; their defaults where not given. Without a tree those of the cut surface do nothing.
 
         Raises
         ------
         VolumeError
             Without a volume.
+        SettingsError
+            Without a tree for settings without a context, or a ``context_step`` too small for the volume.
         KeyboardInterrupt
             At Ctrl-C; the renderer can be used again.
         """
-        if self.volume is None:
+        if self._volume is None:
             raise VolumeError(
                 "volume of the renderer", "None", "a volume to show", "use cut_surface for depth alone"
             )
         camera, settings = self._view(camera, settings)
-        if settings.window is None:
-            settings = replace(settings, window=self.window)
-        return _frame(camera, self._core.render(self.volume, camera, settings))
+        if settings.context is None and self._tree is None:
+            mend = "give the renderer a tree, or the settings a context such as 'mida'"
+            raise SettingsError("context", "None without a vessel tree", "something to show", mend)
+        return _frame(camera, self._core.render(self._volume, camera, self._windowed(settings)))
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
-        """Return depth, vessel and distance of one view, without reading the volume."""
+        """Return depth, vessel and distance of one view, without reading the volume.
+
+        Raises
+        ------
+        VesselTreeError
+            Without a tree.
+        """
+        if self._tree is None:
+            raise VesselTreeError(
+                "tree of the renderer", "None", "a tree to cut along", "use render for the context alone"
+            )
         camera, settings = self._view(camera, settings)
         return _frame(camera, self._core.render(None, camera, settings))
 
@@ -88,20 +127,31 @@ class Renderer:
             raise CameraError("camera", type(camera).__name__, "a Camera or None")
         if not isinstance(settings, (Settings, type(None))):
             raise SettingsError("settings", type(settings).__name__, "Settings or None")
-        return camera or Camera.anterior(self.tree), settings or Settings()
+        return camera or Camera.anterior(self._scene), settings or Settings()
+
+    def _windowed(self, settings: Settings) -> Settings:
+        """The settings with the windows from the data that they leave open and that are shown."""
+        if settings.window is None and self._tree is not None:
+            settings = replace(settings, window=self.window)
+        if settings.context_window is None and settings.context is not None:
+            settings = replace(settings, context_window=self.window)
+        return settings
 
     @property
     def window(self) -> Window:
         """The window that :meth:`render` uses where the settings name none; see :meth:`Window.from_data`."""
         if self._window is None:
-            if self.volume is None:
+            if self._volume is None:
                 raise VolumeError("volume of the renderer", "None", "a volume to take the window from")
-            self._window = Window.from_data(self.volume, self.tree)
+            self._window = Window.from_data(self._volume, self._tree)
         return self._window
 
 
 def render(
-    volume: Any, tree: VesselTree, camera: Camera | None = None, settings: Settings | None = None
+    volume: Any,
+    tree: VesselTree | None = None,
+    camera: Camera | None = None,
+    settings: Settings | None = None,
 ) -> Frame:
     """Return the picture of one view of an angiography and its centerlines.
 
@@ -109,12 +159,12 @@ def render(
     ----------
     volume : Volume, or an image of SimpleITK, itk, nibabel or vtk
         The angiography.
-    tree : VesselTree
-        Its centerlines.
+    tree : VesselTree, optional
+        Its centerlines; the context alone is shown where not given.
     camera : Camera, optional
-        The view; from the front, fitted to the tree, where not given.
+        The view; from the front, fitted to the tree or else the volume, where not given.
     settings : Settings, optional
-        The knobs; their defaults, with a window from the data along the centerlines, where not given.
+        The knobs; their defaults, with windows from the data, where not given.
     """
     return Renderer(volume, tree).render(camera, settings)
 
@@ -143,6 +193,5 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
 
 
 def _frame(camera: Camera, buffers: dict[str, Any]) -> Frame:
-    own: dict[str, Any] = {name: buffers[name] for name in ("depth", "vessel", "distance", "timings")}
-    own |= {f"_{name}": buffers.get(name) for name in ("image", "value")}
-    return Frame(camera, **own)
+    arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
+    return Frame(camera, buffers["timings"], **arrays)

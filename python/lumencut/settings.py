@@ -3,91 +3,49 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from lumencut import _lumencut
-from lumencut._checks import integers, number
-from lumencut.errors import SettingsError, VesselTreeError, VolumeError
+from lumencut._checks import choice, integers, number
+from lumencut.errors import SettingsError
+from lumencut.transfer import TransferFunction
+from lumencut.window import Opacity, Window
 
-if TYPE_CHECKING:
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
-
-#: How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
-_BESIDE, _UNKNOWN_RADIUS = 10.0, 10.0
-#: The largest level and width that a window can have.
-_LARGEST = 1e12
+ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 
 
 @dataclass(frozen=True)
-class Window:
-    """Intensities shown from black to white: ``level`` ± ``width`` / 2, in the volume's unit (HU for CT)."""
+class Slab:
+    """A thick cut surface.
 
-    level: float
-    width: float
+    Parameters
+    ----------
+    thickness : float
+        The whole slab along the view direction, the cut surface in its middle (mm, 0 to 1000): 4 mm show what
+        is up to 2 mm before and 2 mm behind.
+    mode : {"max", "mean", "min"}, default "max"
+        Which of the values along the view direction is shown.
 
-    def __post_init__(self) -> None:
-        for name in ("level", "width"):
-            object.__setattr__(self, name, number(SettingsError, f"window {name}", getattr(self, name)))
-        Settings(window=self)  # The ranges are known to the settings.
+    Raises
+    ------
+    SettingsError
+        For a thickness out of range or an unknown mode.
+    """
 
-    @classmethod
-    def from_data(cls, volume: Volume, tree: VesselTree) -> Window:
-        """Return a window that shows lumen as middle grey, tissue darker, calcifications and stents brighter.
-
-        The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
-        the tissue around it; the window is centred on the lumen, three times as wide as their difference.
-
-        Raises
-        ------
-        VolumeError
-            For what is no volume, or values beyond all windows.
-        VesselTreeError
-            For what is no tree.
-        """
-        from lumencut.vessel_tree import VesselTree
-        from lumencut.volume_files.memory import as_volume
-
-        if not isinstance(tree, VesselTree):
-            raise VesselTreeError("tree", type(tree).__name__, "a VesselTree")
-        volume = as_volume(volume)
-        lumen = volume.sample(tree.points)
-        lumen = lumen[np.isfinite(lumen)].astype(np.float64)
-        radii = [np.full(len(v), _UNKNOWN_RADIUS) if v.radius is None else v.radius for v in tree]
-        reach = np.concatenate(radii)[:, None, None] + _BESIDE
-        beside = tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)])
-        around = volume.sample(beside.reshape(-1, 3))
-        around = around[np.isfinite(around)].astype(np.float64)
-        if lumen.size == 0 or around.size == 0:
-            return cls(300.0, 900.0)
-        level = float(np.median(lumen))
-        width = 3 * abs(level - float(np.median(around)))
-        width = max(width, 4 * float(lumen.std()), 1e-3 * abs(level), 1e-6)
-        if max(abs(level), width) > _LARGEST:
-            found = f"values around {level:.3g} along the centerlines, {float(np.median(around)):.3g} beside"
-            mend = "scale the voxels, or give window= where these values stand for nothing"
-            raise VolumeError("window from the data", found, f"a window within ±{_LARGEST:.0e}", mend)
-        return cls(level, width)
-
-
-@dataclass(frozen=True)
-class Opacity:
-    """A linear ramp: intensities up to ``transparent`` are not shown, from ``opaque`` on they are opaque."""
-
-    transparent: float
-    opaque: float
+    thickness: float
+    mode: Literal["max", "mean", "min"] = "max"
 
     def __post_init__(self) -> None:
-        for name in ("transparent", "opaque"):
-            object.__setattr__(self, name, number(SettingsError, f"opacity {name}", getattr(self, name)))
-        Settings(opacity=self)
+        object.__setattr__(self, "thickness", number(SettingsError, "slab thickness", self.thickness))
+        choice(SettingsError, "slab mode", self.mode, _lumencut.SLAB_MODES)
+        Settings(slab=self)
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How the cut surface is made and shown (Auzinger et al. 2013, section 3).
+    """How the cut surface is made and shown (Auzinger et al. 2013, section 3), and what is behind it.
 
     Parameters
     ----------
@@ -117,6 +75,28 @@ class Settings:
         RGB, 0 to 255.
     background : (int, int, int, int), default (0, 0, 0, 255)
         RGBA, 0 to 255, where there is nothing to show.
+    slab : Slab, optional
+        Show the largest, mean or smallest value of a slab around the cut surface; one point deep where not
+        given.
+    context : {"mida", "dvr", "mip", "minip", "average"} or None, default "mida"
+        How the volume is shown where the cut surface is outside it, and behind where it is transparent:
+        maximum intensity difference accumulation, direct volume rendering, the largest, the smallest or the
+        mean value. None shows the background there.
+    context_gamma : float, default 0
+        Only for ``"mida"``: −1 is DVR, 0 MIDA, 1 MIP, between them a blend.
+    context_window : Window, optional
+        Intensities from 0 to 1 for the differences of MIDA, and from black to white for minimum and mean; the
+        named transfer functions lie within it. Taken from the data where not given, whatever ``window`` is.
+    context_transfer : {"grey", "angio", "bone", "soft-tissue"} or TransferFunction, optional
+        Colours and opacities of MIDA, DVR and MIP; minimum and mean ignore it. ``"grey"`` for ``"mip"`` and
+        ``"angio"`` for the others where not given.
+    context_step : float, optional
+        The longest distance between samples along a ray (mm, 0.001 to 1000); the smallest side of a voxel
+        where not given.
+    context_shading : bool, default False
+        Shade MIDA and DVR by the gradient, with light from the viewer.
+    context_preview : bool, default False
+        Trace one ray for each square of four pixels: quicker and coarser.
 
     Raises
     ------
@@ -137,23 +117,45 @@ class Settings:
     silhouette_slope: float = 24.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
+    slab: Slab | None = None
+    context: ContextName | None = "mida"
+    context_gamma: float = 0.0
+    context_window: Window | None = None
+    context_transfer: str | TransferFunction | None = None
+    context_step: float | None = None
+    context_shading: bool = False
+    context_preview: bool = False
 
     def __post_init__(self) -> None:
-        for name in ("cost_weight", "lumen_margin", "level_distance", "silhouette_slope"):
+        for name in ("cost_weight", "lumen_margin", "level_distance", "silhouette_slope", "context_gamma"):
             self._set(name, number(SettingsError, name, getattr(self, name)))
         for name in ("preserve_lumen", "lumen_first", "depth_filter", "silhouettes"):
-            if not isinstance(getattr(self, name), (bool, np.bool_)):
-                raise SettingsError(name, repr(getattr(self, name)), "True or False")
-            self._set(name, bool(getattr(self, name)))
+            self._set_flag(name)
         self._set("levels", integers(SettingsError, "levels", [self.levels], 0, 15, 1)[0])
-        self._set(
-            "silhouette_color", integers(SettingsError, "silhouette_color", self.silhouette_color, 0, 255, 3)
-        )
-        self._set("background", integers(SettingsError, "background", self.background, 0, 255, 4))
-        for name, kind in (("window", Window), ("opacity", Opacity)):
+        for name, channels in (("silhouette_color", 3), ("background", 4)):
+            self._set(name, integers(SettingsError, name, getattr(self, name), 0, 255, channels))
+        kinds = (("window", Window), ("opacity", Opacity), ("slab", Slab), ("context_window", Window))
+        for name, kind in kinds:
             if not isinstance(getattr(self, name), (kind, type(None))):
                 raise SettingsError(name, repr(getattr(self, name)), f"a {kind.__name__} or None")
+        self._check_context()
         _lumencut.check_settings(self)
+
+    def _check_context(self) -> None:
+        for name in ("context_shading", "context_preview"):
+            self._set_flag(name)
+        if self.context is not None:
+            choice(SettingsError, "context", self.context, _lumencut.CONTEXTS, " or None")
+        if not isinstance(self.context_transfer, (TransferFunction, type(None))):
+            others = ", a TransferFunction or None"
+            choice(SettingsError, "context_transfer", self.context_transfer, _lumencut.PRESETS, others)
+        if self.context_step is not None:
+            self._set("context_step", number(SettingsError, "context_step", self.context_step))
+
+    def _set_flag(self, name: str) -> None:
+        if not isinstance(getattr(self, name), (bool, np.bool_)):
+            raise SettingsError(name, repr(getattr(self, name)), "True or False")
+        self._set(name, bool(getattr(self, name)))
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)

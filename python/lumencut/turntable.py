@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
     from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
 
 Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLike
 
@@ -42,7 +43,8 @@ def turntable(
     renderer : Renderer
         The scene.
     camera : Camera, optional
-        The first view; it turns about its center. From the front and fitted to the turn where not given.
+        The first view; it turns about its center. From the front and fitted to the turn of the renderer's
+        scene where not given.
     settings : Settings, optional
         The knobs; their defaults where not given.
     frames : int, default 72
@@ -65,24 +67,28 @@ def turntable(
     if camera is None:
         from lumencut.camera import Camera
 
-        camera = fitted_turn(Camera.anterior(renderer.tree), renderer.tree, degrees, axis)
+        camera = fitted_turn(Camera.anterior(renderer.scene), renderer.scene, degrees, axis)
     for view in _views(camera, frames, degrees, axis):
         yield renderer.render(view, settings)
 
 
-def fitted_turn(camera: Camera, tree: VesselTree, degrees: float = 360.0, axis: Axis = "superior") -> Camera:
-    """Return the camera at the middle of the tree, with a pixel spacing at which every frame of a turn fits.
+def fitted_turn(
+    camera: Camera, scene: VesselTree | Volume, degrees: float = 360.0, axis: Axis = "superior"
+) -> Camera:
+    """Return the camera at the middle of the scene, with a pixel spacing at which every frame of a turn fits.
 
     Parameters
     ----------
     camera : Camera
         The first view; its direction, up and size are kept.
-    tree : VesselTree
+    scene : VesselTree or Volume
         What is to fit.
     degrees, axis
         As for :func:`turntable`.
     """
-    points = tree.points
+    from lumencut.camera import scene_points
+
+    points = scene_points(scene)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     view = replace(camera, center=middle)
     # The extent changes slowly: 72 views find the widest to a fraction of the margin.

@@ -2,10 +2,12 @@
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
+use lumencut_core::error::Result;
 use lumencut_core::math::window::{Opacity, Window};
 use lumencut_core::settings::Settings;
 use pyo3::prelude::*;
 
+use crate::context::{ContextArgument, SlabArgument};
 use crate::errors::to_python;
 
 /// The attributes of `lumencut.Camera`.
@@ -34,10 +36,18 @@ pub fn check_camera(camera: CameraArgument) -> PyResult<[[f64; 3]; 3]> {
     Ok([camera.direction(), camera.right(), camera.up()].map(|v| v.to_array()))
 }
 
+/// The attributes of `lumencut.Window`.
 #[derive(FromPyObject)]
-struct WindowArgument {
+pub struct WindowArgument {
     level: f64,
     width: f64,
+}
+
+impl WindowArgument {
+    /// The window of the core.
+    pub fn window(&self) -> Window {
+        Window { level: self.level, width: self.width }
+    }
 }
 
 #[derive(FromPyObject)]
@@ -47,8 +57,22 @@ struct OpacityArgument {
 }
 
 /// The attributes of `lumencut.Settings`.
-#[derive(FromPyObject)]
 pub struct SettingsArgument {
+    surface: SurfaceArgument,
+    context: ContextArgument,
+}
+
+impl<'py> FromPyObject<'_, 'py> for SettingsArgument {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self { surface: object.extract()?, context: object.extract()? })
+    }
+}
+
+/// The attributes of `lumencut.Settings` that make and show the cut surface.
+#[derive(FromPyObject)]
+struct SurfaceArgument {
     cost_weight: f64,
     preserve_lumen: bool,
     lumen_first: bool,
@@ -62,14 +86,28 @@ pub struct SettingsArgument {
     silhouette_slope: f64,
     silhouette_color: [u8; 3],
     background: [u8; 4],
+    slab: Option<SlabArgument>,
 }
 
 impl SettingsArgument {
     /// The settings of the core, checked.
-    pub fn settings(self) -> PyResult<Settings> {
+    pub fn settings(&self) -> PyResult<Settings> {
+        self.checked().map_err(to_python)
+    }
+
+    fn checked(&self) -> Result<Settings> {
+        let mut settings = Settings { context: Some(self.context.context()?), ..self.surface.settings()? };
+        settings.check()?;
+        // Checked even where it is not wanted: what is wrong with it shows at once.
+        settings.context = settings.context.filter(|_| self.context.is_wanted());
+        Ok(settings)
+    }
+}
+
+impl SurfaceArgument {
+    fn settings(&self) -> Result<Settings> {
         let default = Settings::default();
-        let window = self.window.map_or(default.window, |w| Window { level: w.level, width: w.width });
-        let settings = Settings {
+        Ok(Settings {
             cost_weight: self.cost_weight,
             preserve_lumen: self.preserve_lumen,
             lumen_first: self.lumen_first,
@@ -77,22 +115,21 @@ impl SettingsArgument {
             levels: self.levels,
             level_distance: self.level_distance,
             depth_filter: self.depth_filter,
-            window,
-            opacity: self.opacity.map(|o| Opacity { transparent: o.transparent, opaque: o.opaque }),
+            slab: self.slab.as_ref().map(SlabArgument::slab).transpose()?,
+            window: self.window.as_ref().map_or(default.window, WindowArgument::window),
+            opacity: self.opacity.as_ref().map(|o| Opacity { transparent: o.transparent, opaque: o.opaque }),
             silhouettes: self.silhouettes,
             silhouette_slope: self.silhouette_slope,
             silhouette_color: self.silhouette_color,
             background: self.background,
-            slab: None,
             context: None,
-        };
-        settings.check().map_err(to_python)?;
-        Ok(settings)
+        })
     }
 }
 
 /// Checks settings against their ranges.
 #[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
 pub fn check_settings(settings: SettingsArgument) -> PyResult<()> {
     settings.settings().map(drop)
 }

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod arguments;
 mod centerlines;
+mod context;
 mod errors;
 mod phantom;
 mod pool;
@@ -14,6 +15,7 @@ mod volume;
 #[pymodule]
 fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    context::add_names(module)?;
     module.add_class::<renderer::Renderer>()?;
     module.add_function(wrap_pyfunction!(arguments::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(arguments::check_settings, module)?)?;

@@ -5,8 +5,11 @@ use std::sync::mpsc;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
+use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::frame::Frame;
-use lumencut_core::pipeline;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::pipeline::{self, context_alone};
+use lumencut_core::volume::SharedBlocks;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -20,21 +23,25 @@ use crate::volume::VolumeArgument;
 /// How often a rendering asks Python for signals such as Ctrl-C.
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
-/// Renders views of one tree; the buffers of the projected tree are kept from view to view.
+/// Renders views of one tree, or of a volume alone. The buffers of the projected tree and the blocks of the volume are
+/// kept from view to view: every view is of the same volume.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Renderer {
-    core: Mutex<pipeline::Renderer>,
+    core: Mutex<Option<pipeline::Renderer>>,
+    blocks: SharedBlocks,
 }
 
 #[pymethods]
 impl Renderer {
     #[new]
     #[allow(clippy::needless_pass_by_value)]
-    fn new(vessels: Vec<VesselArrays<'_>>) -> PyResult<Self> {
-        Ok(Self { core: Mutex::new(pipeline::Renderer::new(tree(&vessels)?)) })
+    fn new(vessels: Option<Vec<VesselArrays<'_>>>) -> PyResult<Self> {
+        let tree = vessels.map(|vessels| tree(&vessels)).transpose()?;
+        Ok(Self { core: Mutex::new(tree.map(pipeline::Renderer::new)), blocks: SharedBlocks::default() })
     }
 
-    /// The buffers of one view by name: all with a volume, those of the cut surface without.
+    /// The buffers of one view by name: those of the cut surface where there are vessels, those of the picture where
+    /// there is a volume.
     #[pyo3(signature = (volume, camera, settings))]
     #[allow(clippy::needless_pass_by_value)]
     fn render<'py>(
@@ -47,7 +54,7 @@ impl Renderer {
         let (camera, settings) = (camera.camera()?, settings.settings()?);
         let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
         let volume = match (&volume, &borrowed) {
-            (Some(volume), Some(borrowed)) => Some(volume.volume(borrowed)?),
+            (Some(volume), Some(borrowed)) => Some(volume.volume(borrowed)?.sharing(self.blocks.clone())),
             _ => None,
         };
         let frame = interruptible(py, |stop| {
@@ -56,14 +63,25 @@ impl Renderer {
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
             let mut locked = self.core.lock().unwrap_or_else(PoisonError::into_inner);
             let core = &mut *locked;
-            let frame = pool::install(|| match &volume {
-                Some(volume) => core.render(volume, &camera, &settings, stop),
-                None => core.cut_surface(&camera, &settings, stop),
+            let frame = pool::install(|| match (core, &volume) {
+                (Some(core), Some(volume)) => core.render(volume, &camera, &settings, stop),
+                (Some(core), None) => core.cut_surface(&camera, &settings, stop),
+                (None, Some(volume)) => context_alone(volume, &camera, &settings, Isa::widest(), stop),
+                (None, None) => Err(nothing_to_show()),
             })?;
             frame.map_err(to_python)
         })?;
         buffers(py, frame)
     }
+}
+
+fn nothing_to_show() -> Error {
+    Error::new(
+        ErrorKind::Volume,
+        "scene of the renderer",
+        "neither a volume nor vessels",
+        "one of them or both",
+    )
 }
 
 /// Runs `work` on a thread of its own without the GIL while this one listens for signals.
@@ -102,18 +120,24 @@ fn interruptible(
     })
 }
 
-/// The buffers of a frame as arrays, moved and not copied.
+/// The buffers that a frame has as arrays, moved and not copied.
 fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
     let [width, height] = frame.camera.size();
     let shape = [height, width];
     let all = PyDict::new(py);
-    all.set_item("depth", PyArray1::from_vec(py, frame.depth).reshape(shape)?)?;
-    all.set_item("vessel", PyArray1::from_vec(py, frame.vessel).reshape(shape)?)?;
-    all.set_item("distance", PyArray1::from_vec(py, frame.distance).reshape(shape)?)?;
-    if !frame.image.is_empty() {
-        let bytes = frame.image.into_flattened();
-        all.set_item("image", PyArray1::from_vec(py, bytes).reshape([height, width, 4])?)?;
+    if !frame.depth.is_empty() {
+        all.set_item("depth", PyArray1::from_vec(py, frame.depth).reshape(shape)?)?;
+        all.set_item("vessel", PyArray1::from_vec(py, frame.vessel).reshape(shape)?)?;
+        all.set_item("distance", PyArray1::from_vec(py, frame.distance).reshape(shape)?)?;
+    }
+    if !frame.value.is_empty() {
         all.set_item("value", PyArray1::from_vec(py, frame.value).reshape(shape)?)?;
+    }
+    for (name, colors) in [("image", frame.image), ("context", frame.context)] {
+        if !colors.is_empty() {
+            let bytes = colors.into_flattened();
+            all.set_item(name, PyArray1::from_vec(py, bytes).reshape([height, width, 4])?)?;
+        }
     }
     let timings = PyDict::new(py);
     for timing in frame.timings {

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from lumencut.camera import Camera
     from lumencut.renderer import Renderer
     from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
 
 _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 
@@ -37,7 +38,7 @@ def demo(directory: Path, cache: Path | None) -> None:
     start = time.perf_counter()
     renderer = _scene(cache)
     directory.mkdir(parents=True, exist_ok=True)
-    for name, camera in _views(renderer.tree):
+    for name, camera in _views(renderer.scene):
         frame = renderer.render(camera)
         timings(name, frame.timings)
         frame.save(directory / f"{name}.png")
@@ -61,7 +62,7 @@ def _scene(cache: Path | None) -> Renderer:
     return Renderer(volume, tree)
 
 
-def _views(tree: VesselTree) -> Iterator[tuple[str, Camera]]:
+def _views(tree: VesselTree | Volume) -> Iterator[tuple[str, Camera]]:
     from lumencut.camera import Camera
 
     anterior = Camera.anterior(tree, _SIZE)
@@ -76,7 +77,7 @@ def _spin(renderer: Renderer, path: Path) -> None:
     from lumencut.camera import Camera
     from lumencut.turntable import fitted_turn, save_animation, turntable
 
-    camera = fitted_turn(Camera.anterior(renderer.tree, _TURN_SIZE), renderer.tree)
+    camera = fitted_turn(Camera.anterior(renderer.scene, _TURN_SIZE), renderer.scene)
     with bar("turntable", "frame") as told:
         turn = turntable(renderer, camera, frames=_TURN_FRAMES)
         save_animation((told(done, _TURN_FRAMES) or frame for done, frame in enumerate(turn, 1)), path)

@@ -14,8 +14,10 @@ from lumencut.errors import CameraError, FileError, SettingsError
 
 if TYPE_CHECKING:
     from lumencut.camera import Camera
-    from lumencut.settings import Settings, Window
+    from lumencut.settings import Settings
     from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+    from lumencut.window import Window
 
     _Type = click.ParamType[Any]
 else:
@@ -246,7 +248,8 @@ _SETTINGS = (
 
 def settings_from(chosen: dict[str, Any]) -> Settings:
     """Return the settings that the options stand for; what was not given keeps its default."""
-    from lumencut.settings import Opacity, Settings, Window
+    from lumencut.settings import Settings
+    from lumencut.window import Opacity, Window
 
     names = [field.name for field in fields(Settings)]
     given = {name: chosen[name] for name in names if chosen.get(name) is not None}
@@ -280,11 +283,11 @@ def view_from(chosen: dict[str, Any]) -> Camera:
         raise click.UsageError(str(error)) from error
 
 
-def placed(view: Camera, tree: VesselTree, chosen: dict[str, Any]) -> Camera:
-    """Return the camera of this view where all of the tree fits, as far as the options leave that open."""
+def placed(view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any]) -> Camera:
+    """Return the camera of this view where all of the scene fits, as far as the options leave that open."""
     from lumencut.camera import Camera
 
-    return placed_like(Camera.fitted(tree, view.direction, view.up, view.size), chosen)
+    return placed_like(Camera.fitted(scene, view.direction, view.up, view.size), chosen)
 
 
 def placed_like(fitted: Camera, chosen: dict[str, Any]) -> Camera:

@@ -47,7 +47,7 @@ def render(
     for path in output:
         options.check_picture(path)
     renderer = read_scene(volume, centerlines, coordinates, series)
-    frame = renderer.render(options.placed(view, renderer.tree, chosen), settings)
+    frame = renderer.render(options.placed(view, renderer.scene, chosen), settings)
     timings("rendered", frame.timings)
     if is_empty(frame):
         warn_of_emptiness("no pixel of the view", frame.camera, renderer)

@@ -85,7 +85,7 @@ def turntable(
 
     from lumencut import turntable as library
 
-    camera = options.placed_like(library.fitted_turn(view, renderer.tree, degrees, axis), chosen)
+    camera = options.placed_like(library.fitted_turn(view, renderer.scene, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
     empty: list[int] = []
     write(shown(turn, frames, empty), fps)
