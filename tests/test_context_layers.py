@@ -26,12 +26,12 @@ def tree_in(volume, seed=0):
 
 def scene(seed=0, grid="sheared", view="oblique", size=(37, 23)):
     volume = placed(noise(seed, (17, 19, 21)), GRIDS[grid])
-    return volume, tree_in(volume, seed), viewed(volume, view, size)
+    return volume, tree_in(volume, seed), viewed(volume, view, size, zoom=1.7)
 
 
 def layered(mode="mida", opacity=RAMP, background=(10, 60, 200, 255), **changes):
     own = {name: changes.pop(name) for name in ("slab", "depth_filter") if name in changes}
-    made = settings(mode, step=STEP, **changes) if mode else Settings()
+    made = settings(mode, step=STEP, **changes) if mode else Settings(context=None)
     ramp = None if opacity is None else Opacity(*opacity)
     return replace(
         made, window=Window(*GREY), opacity=ramp, background=background, silhouettes=False, **own
@@ -250,9 +250,9 @@ def test_nothing_dimmer_shows_behind_what_is_opaque(mode):
     array[:, 10:13] = 200
     other = array.copy()
     other[:, 14:] = np.random.default_rng(14).uniform(0, 200, other[:, 14:].shape)
-    camera = viewed(placed(array, GRIDS["anisotropic"]), "along j", zoom=1.5)
+    camera = viewed(placed(array, GRIDS["anisotropic"]), "along j", zoom=1.9)
     one, two = (drawn(placed(a, GRIDS["anisotropic"]), camera, mode, points=points) for a in (array, other))
-    assert (one[..., 3] == 255).mean() > 0.5
+    assert (one[..., 3] == 255).mean() > 0.3
     inside = one[..., 3] == 255
     np.testing.assert_array_equal(one[inside], two[inside])
 

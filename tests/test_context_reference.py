@@ -141,7 +141,7 @@ def test_the_comparison_sees_wrong_settings():
         "gamma": {"gamma": 0.05},
         "step": {"step": 1.3 * STEP},
         "shading": {"shading": True},
-        "window": {"window": (WINDOW[0] + 4, WINDOW[1])},
+        "window": {"window": (WINDOW[0], 1.2 * WINDOW[1])},
     }.items():
         layer = expected(volume, camera, "mida", **{"step": STEP, **changes})
         assert difference(drawn(volume, camera, "mida", step=STEP), layer).pixels > 50, name
