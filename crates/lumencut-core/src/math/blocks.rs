@@ -119,7 +119,7 @@ fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ra
             if strides[0] == 1 {
                 widen(&mut low, &mut high, line[..size[0]].iter());
             } else {
-                widen(&mut low, &mut high, line.iter().step_by(strides[0]));
+                widen(&mut low, &mut high, line.iter().step_by(strides[0].max(1)));
             }
         }
     }
