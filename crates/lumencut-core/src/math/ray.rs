@@ -20,6 +20,9 @@ pub const NONE: f32 = 1e9;
 
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
 const PARALLEL: f64 = 1e-9;
+/// How much of a step a chord may be longer than whole steps without a part more: n voxels have n parts, however n · side
+/// is rounded.
+const SPARE: f64 = 1e-6;
 /// Wider than what rounding moves a place (voxels).
 const ROUNDING: f64 = 1e-3;
 
@@ -114,7 +117,7 @@ impl Packet {
             Self { origin, part: [[0.0; FAN]; 3], count: [0; FAN], thickness: [0.0; FAN], longest: 0 };
         for l in 0..FAN {
             let chord = far[l] - near[l];
-            let parts = if chord > 0.0 { (chord / rays.step).ceil() } else { 0.0 };
+            let parts = if chord > 0.0 { (chord / rays.step - SPARE).ceil().max(1.0) } else { 0.0 };
             let length = if chord > 0.0 { chord / parts } else { 0.0 };
             let near = if chord > 0.0 { near[l] } else { 0.0 };
             packet.count[l] = parts as i32;
