@@ -74,7 +74,7 @@ def expected(volume, camera, mode, points=POINTS, window=WINDOW, gamma=0.0, **ch
 
 @dataclass
 class Difference:
-    """The largest difference of any colour and of any opacity (of 255), and the pixels that differ by more than 1."""
+    """The largest differences of colour and opacity (of 255), and how many pixels differ by more than 1."""
 
     colour: float
     opacity: float
@@ -84,8 +84,8 @@ class Difference:
 def difference(found, layer):
     """Compares RGBA bytes with colours times opacity.
 
-    A colour counts where its opacity does not round to 0; the allowance of 1 holds ½ for the byte, ¼ for what a ray
-    leaves out once it is opaque but for 1/1024, and rounding of 32-bit floats.
+    A colour counts where its opacity does not round to 0. The 1 that is allowed holds ½ for the byte, ¼ for
+    what a ray leaves out once it is opaque but for 1/1024, and rounding of 32-bit floats.
     """
     found, alpha = found.reshape(-1, 4).astype(float), layer[:, 3]
     seen = alpha * 255 >= 0.5

@@ -1,7 +1,7 @@
 """The context once more: slow, in numpy with 64-bit floats, written from its description alone.
 
-Every ray is sampled from end to end: nothing is skipped and nothing ends early. Pixels are rows of arrays, the parts
-of their rays are columns; what a ray does not have is NaN.
+Every ray is sampled from end to end: nothing is skipped, nothing ends early. Pixels are rows of arrays, the
+parts of their rays are columns; what a ray does not have is NaN.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import numpy as np
 
 from reference import pixel_centers
 
-#: A chord this close to a whole number of steps may have one part more by rounding.
-WHOLE = 1e-9
+#: By how much of a step a chord may exceed whole steps without a part more, and how exactly that is known.
+SPARE, ROUNDING = 1e-6, 1e-9
 
 
 @dataclass
@@ -70,14 +70,15 @@ def chords(volume, camera, q, start):
 
 
 def trace(volume, camera, step=None, *, start=None, q=None, shading=False):
-    """The samples of the rays at view x and y `q`, those of all pixels where not given, from depth `start` on."""
+    """The samples of the rays at view x and y `q`, where not given of all pixels, from depth `start` on."""
     q = pixel_centers(camera) if q is None else q
     start = np.full(len(q), -np.inf) if start is None else start
     step = volume.spacing.min() if step is None else step
     near, far = chords(volume, camera, q, start)
     hits = far > near
     chord = np.where(hits, far, 0) - np.where(hits, near, 0)
-    count = np.ceil(chord / step - WHOLE).astype(int)
+    steps = chord / step - SPARE
+    count = np.where(hits, np.maximum(np.ceil(steps), 1), 0).astype(int)
     length = chord / np.maximum(count, 1)
     part = np.arange(count.max(initial=1))
     depth = np.where(hits, near, 0)[:, None] + (part + 0.5) * length[:, None]
@@ -86,12 +87,12 @@ def trace(volume, camera, step=None, *, start=None, q=None, shading=False):
     array = volume.array.astype(float)
     value = np.where(part < count[:, None], interpolate(array, index), np.nan)
     cosine = cosines(array, index, matrix) if shading else np.full(value.shape, np.nan)
-    unsure = hits & (np.abs(chord / step - np.round(chord / step)) < WHOLE)
+    unsure = hits & (np.abs(steps - np.round(steps)) < ROUNDING)
     return Rays(value, length, cosine, unsure)
 
 
 def cosines(array, index, matrix):
-    """How far gradients of the volume point along the view; NaN where nothing changes or a neighbour is NaN."""
+    """How far gradients point along the view; NaN where nothing changes or a neighbour is NaN."""
     sides = np.eye(3)
     change = [interpolate(array, index + s) - interpolate(array, index - s) for s in sides]
     gradient = np.stack(change, axis=-1) @ matrix

@@ -16,7 +16,7 @@ ALONG = {"along i": (2, 1), "along j": (1, 1), "against k": (0, -1)}
 
 
 def along(profile, view, others=(5, 4)):
-    """A plain volume that has the values of `profile` along a view, and a camera whose pixels meet voxel centres."""
+    """A plain volume with the values of `profile` along a view, and a camera that sees its voxel centres."""
     axis, sign = ALONG[view]
     values = np.asarray(profile)[::sign]
     shape = np.insert(others, axis, len(values))
@@ -78,9 +78,7 @@ def test_projections_do_not_see_the_opacity():
     camera = viewed(volume, "oblique")
     clear = [(at, rgb, 0.0) for at, rgb, _ in POINTS]
     for mode in ("mip", "minip", "average"):
-        np.testing.assert_array_equal(
-            drawn(volume, camera, mode), drawn(volume, camera, mode, points=clear)
-        )
+        np.testing.assert_array_equal(drawn(volume, camera, mode), drawn(volume, camera, mode, points=clear))
 
 
 def optical_depth(start, end, opacity, length):

@@ -1,4 +1,4 @@
-"""Surface over context over background, thick cut surfaces, and what must not change the context."""
+"""Surface over context over background, thick cut surfaces, previews."""
 
 from __future__ import annotations
 
@@ -8,9 +8,20 @@ import numpy as np
 import pytest
 
 import reference_context
-from context_scenes import GRIDS, POINTS, VIEWS, WINDOW, assert_same, difference, drawn, noise, placed, settings
-from context_scenes import viewed
-from lumencut import Camera, Opacity, Renderer, Settings, Slab, Vessel, VesselTree, Volume, Window
+from context_scenes import (
+    GRIDS,
+    POINTS,
+    VIEWS,
+    WINDOW,
+    assert_same,
+    difference,
+    drawn,
+    noise,
+    placed,
+    settings,
+    viewed,
+)
+from lumencut import Opacity, Renderer, Settings, Slab, Vessel, VesselTree, Window
 
 STEP = 0.437
 GREY = (100.0, 160.0)
@@ -21,7 +32,12 @@ def tree_in(volume, seed=0):
     """A few vessels inside the volume."""
     random = np.random.default_rng(seed)
     low, high = volume.corners.min(axis=0), volume.corners.max(axis=0)
-    return VesselTree([Vessel(random.uniform(0.6 * low + 0.4 * high, 0.4 * low + 0.6 * high, (5, 3)), 0.5) for _ in range(2)])
+    return VesselTree(
+        [
+            Vessel(random.uniform(0.6 * low + 0.4 * high, 0.4 * low + 0.6 * high, (5, 3)), 0.5)
+            for _ in range(2)
+        ]
+    )
 
 
 def scene(seed=0, grid="sheared", view="oblique", size=(37, 23)):
@@ -33,9 +49,7 @@ def layered(mode="mida", opacity=RAMP, background=(10, 60, 200, 255), **changes)
     own = {name: changes.pop(name) for name in ("slab", "depth_filter") if name in changes}
     made = settings(mode, step=STEP, **changes) if mode else Settings(context=None)
     ramp = None if opacity is None else Opacity(*opacity)
-    return replace(
-        made, window=Window(*GREY), opacity=ramp, background=background, silhouettes=False, **own
-    )
+    return replace(made, window=Window(*GREY), opacity=ramp, background=background, silhouettes=False, **own)
 
 
 def context_behind(frame, volume, opacity=RAMP, behind=0.0, mode="mida"):
@@ -58,7 +72,9 @@ def assert_layers(frame, volume, background, opacity=RAMP, behind=0.0, mode="mid
     return layer
 
 
-@pytest.mark.parametrize("background", [(10, 60, 200, 255), (10, 60, 200, 90), (10, 60, 200, 0), (0, 0, 0, 0)])
+@pytest.mark.parametrize(
+    "background", [(10, 60, 200, 255), (10, 60, 200, 90), (10, 60, 200, 0), (0, 0, 0, 0)]
+)
 @pytest.mark.parametrize("mode", ["dvr", "mida", "mip", "average"])
 def test_rays_start_at_a_transparent_surface_and_cross_all_where_it_is_outside(mode, background):
     volume, tree, camera = scene()
@@ -95,7 +111,9 @@ def test_without_a_context_the_background_shows():
     volume, tree, camera = scene(3)
     frame = Renderer(volume, tree).render(camera, layered(None, background=(10, 60, 200, 90)))
     nothing = np.zeros((frame.value.size, 4))
-    picture = reference_context.picture(frame.value.astype(float).ravel(), nothing, GREY, RAMP, (10, 60, 200, 90))
+    picture = reference_context.picture(
+        frame.value.astype(float).ravel(), nothing, GREY, RAMP, (10, 60, 200, 90)
+    )
     assert_same(frame.image, picture)
 
 
@@ -162,111 +180,6 @@ def test_a_preview_of_layers_keeps_the_surface_as_it_is():
     opaque = reference_context.ramp(RAMP, fine.value.astype(float)) == 1
     np.testing.assert_array_equal(fine.image[opaque], coarse.image[opaque])
     assert not coarse.context[opaque].any()
-
-
-def turned(volume, camera, turn, shift):
-    """The whole scene moved: volume and camera alike."""
-    move = np.eye(4)
-    move[:3, :3], move[:3, 3] = turn, shift
-    view = Camera(turn @ camera.center + shift, turn @ camera.direction, turn @ camera.up, camera.size, camera.pixel_spacing)
-    return Volume(volume.array, world_from_index=move @ volume.world_from_index), view
-
-
-@pytest.mark.parametrize("mode", ["dvr", "mida", "mip", "minip", "average"])
-def test_turning_scene_and_camera_together_changes_nothing(mode):
-    volume = placed(noise(10), GRIDS["sheared"])
-    camera = viewed(volume, "oblique")
-    turn, _ = np.linalg.qr(np.random.default_rng(10).normal(size=(3, 3)))
-    turn *= np.sign(np.linalg.det(turn))
-    moved = turned(volume, camera, turn, np.array([500.0, -800, 300]))
-    for shading in (False, True):
-        one = drawn(volume, camera, mode, step=STEP, shading=shading)
-        other = drawn(*moved, mode, step=STEP, shading=shading)
-        np.testing.assert_array_equal(one[..., 3] > 0, other[..., 3] > 0)
-        assert np.abs(one.astype(int) - other)[one[..., 3] > 2].max() <= 1
-
-
-@pytest.mark.parametrize("mode", ["dvr", "mida"])
-def test_a_mirrored_scene_gives_the_mirrored_picture(mode):
-    volume = placed(noise(11), GRIDS["anisotropic"])
-    camera = viewed(volume, "oblique")
-    mirror = np.diag([-1.0, 1, 1])
-    # A camera is right-handed, so the mirrored view has its columns the other way round.
-    flipped, view = turned(volume, camera, mirror, np.zeros(3))
-    one, other = drawn(volume, camera, mode, step=STEP), drawn(flipped, view, mode, step=STEP)
-    assert np.abs(one.astype(int) - other[:, ::-1])[one[..., 3] > 2].max() <= 1
-
-
-def blobs():
-    """Bright blobs in something clear, and the voxels all of whose neighbours are clear too."""
-    random = np.random.default_rng(12)
-    array = random.uniform(0, 55, (40, 44, 48)).astype(np.float32)
-    k, j, i = np.mgrid[:40, :44, :48]
-    for center in random.uniform(8, 32, (5, 3)):
-        near = ((k - center[0]) ** 2 + (j - center[1]) ** 2 + (i - center[2]) ** 2) < 16
-        array[near] = random.uniform(90, 240)
-    padded = np.pad(array > 60, 1)
-    windows = np.lib.stride_tricks.sliding_window_view(padded, (3, 3, 3))
-    return array, ~windows.any(axis=(3, 4, 5))
-
-
-@pytest.mark.parametrize("value", [-1000.0, 0.0, 59.0])
-@pytest.mark.parametrize("mode", [("dvr", {}), ("dvr", {"shading": True}), ("mida", {}), ("mida", {"gamma": -0.5})], ids=str)
-def test_painting_what_is_clear_changes_nothing_to_the_bit(mode, value):
-    # Values that the transfer function hides, in voxels whose neighbours it hides too: no visible sample changes.
-    array, hidden = blobs()
-    assert 0.5 < hidden.mean() < 0.99
-    # Gradients reach one voxel further.
-    still = np.lib.stride_tricks.sliding_window_view(np.pad(hidden, 1), (3, 3, 3)).all(axis=(3, 4, 5))
-    painted = np.where(still, np.float32(value), array)
-    for view in ("along j", "oblique"):
-        camera = viewed(placed(array, GRIDS["sheared"]), view, (61, 47))
-        one, other = (drawn(placed(a, GRIDS["sheared"]), camera, mode[0], **mode[1]) for a in (array, painted))
-        assert one[..., 3].max() > 100
-        np.testing.assert_array_equal(one, other)
-
-
-def test_painting_what_is_too_bright_to_be_seen_changes_nothing_for_dvr():
-    # Clear above 300 as well: DVR does not care, MIDA pushes back what is in front of it.
-    points = [*POINTS, (300.0, (0, 0, 0), 0.0)]
-    array, hidden = blobs()
-    array[:, 34:] = np.where(hidden[:, 34:], 300.0, array[:, 34:])
-    deep = np.lib.stride_tricks.sliding_window_view(np.pad(array >= 300, 1), (3, 3, 3)).all(axis=(3, 4, 5))
-    assert deep.any()
-    painted = np.where(deep, np.float32(5000), array)
-    one, other = (placed(a, GRIDS["isotropic"]) for a in (array, painted))
-    camera = viewed(one, "along j", (61, 47))
-    np.testing.assert_array_equal(
-        *(drawn(volume, camera, "dvr", points=points) for volume in (one, other))
-    )
-    mida = [drawn(volume, camera, "mida", points=points, window=(2500, 5000)) for volume in (one, other)]
-    assert (mida[0] != mida[1]).any(axis=2).mean() > 0.02
-
-
-@pytest.mark.parametrize("mode", ["dvr", "mida"])
-def test_nothing_dimmer_shows_behind_what_is_opaque(mode):
-    points = [(60.0, (20, 200, 90), 0.0), (200.0, (250, 240, 10), 1.0)]
-    array = noise(13, (20, 30, 25)).clip(0, 190)
-    array[:, 10:13] = 200
-    other = array.copy()
-    other[:, 14:] = np.random.default_rng(14).uniform(0, 200, other[:, 14:].shape)
-    camera = viewed(placed(array, GRIDS["anisotropic"]), "along j", zoom=1.9)
-    one, two = (drawn(placed(a, GRIDS["anisotropic"]), camera, mode, points=points) for a in (array, other))
-    assert (one[..., 3] == 255).mean() > 0.3
-    inside = one[..., 3] == 255
-    np.testing.assert_array_equal(one[inside], two[inside])
-
-
-def test_something_brighter_shines_through_what_is_opaque_in_mida():
-    points = [(60.0, (20, 200, 90), 0.0), (200.0, (250, 0, 0), 1.0), (400.0, (0, 0, 250), 1.0)]
-    volume = np.zeros((5, 20, 5), np.float32)
-    volume[:, 5:8] = 200
-    volume[:, 12:15] = 400
-    camera = Camera((2, 0, 2), (0, 1, 0), (0, 0, 1), (5, 5))
-    # Samples on voxel centres: δ = ½ keeps half of the red.
-    image = drawn(Volume(volume), camera, "mida", points=points, window=(200.0, 400.0))
-    assert np.abs(image - [125, 0, 125, 255.0]).max() <= 0.52
-    assert (drawn(Volume(volume), camera, "dvr", points=points)[..., :3] == (250, 0, 0)).all()
 
 
 def test_views_of_one_renderer_do_not_depend_on_each_other():

@@ -1,4 +1,4 @@
-"""The context is what the slow reference makes of the same volume, each channel of each pixel within 1 of 255."""
+"""The context is what the slow reference makes of it, each channel of each pixel within 1 of 255."""
 
 from __future__ import annotations
 
@@ -6,8 +6,19 @@ import numpy as np
 import pytest
 
 import reference_context
-from context_scenes import GRIDS, POINTS, VIEWS, WINDOW, assert_same, difference, drawn, expected, noise
-from context_scenes import placed, viewed
+from context_scenes import (
+    GRIDS,
+    POINTS,
+    VIEWS,
+    WINDOW,
+    assert_same,
+    difference,
+    drawn,
+    expected,
+    noise,
+    placed,
+    viewed,
+)
 from lumencut import Camera, Volume
 
 MODES = {
@@ -57,7 +68,9 @@ def test_every_step(step):
     assert_all_modes(volume, viewed(volume, "oblique", (9, 7)), step)
 
 
-@pytest.mark.parametrize("shape", [(1, 11, 13), (9, 1, 13), (9, 11, 1), (1, 1, 13), (1, 11, 1), (9, 1, 1), (1, 1, 1)])
+@pytest.mark.parametrize(
+    "shape", [(1, 11, 13), (9, 1, 13), (9, 11, 1), (1, 1, 13), (1, 11, 1), (9, 1, 1), (1, 1, 1)]
+)
 def test_volumes_of_one_voxel_along_an_axis(shape):
     volume = placed(noise(4, shape) / 2 + 100, GRIDS["sheared"])
     for view in VIEWS:
@@ -122,12 +135,15 @@ def test_nothing_but_nan_and_nothing_in_sight_leave_no_trace():
 
 
 def test_rays_in_the_faces_of_the_box_and_just_beside_them():
-    # Whole and half numbers only: these rays run exactly in the outer faces, half a voxel beyond the voxels' centres.
+    # Whole and half numbers only: these rays run exactly in the outer faces, half a voxel beyond the centres.
     volume = Volume(noise(10, (8, 8, 8)))
     camera = Camera((3.5, 0, 3.5), (0, 1, 0), (0, 0, 1), (11, 11), 1.0)
     on_faces = Camera((3.5, 0, 3.5), (0, 1, 0), (0, 0, 1), (9, 9), 1.0)
     for mode, changes in MODES.values():
-        assert_same(drawn(volume, camera, mode, step=0.3, **changes), expected(volume, camera, mode, step=0.3, **changes))
+        assert_same(
+            drawn(volume, camera, mode, step=0.3, **changes),
+            expected(volume, camera, mode, step=0.3, **changes),
+        )
         assert drawn(volume, on_faces, mode, step=0.3, **changes)[..., 3].all()
         assert not drawn(volume, camera, mode, step=0.3, **changes)[0].any()
 
@@ -149,7 +165,9 @@ def test_the_comparison_sees_wrong_settings():
 
 def test_the_reference_agrees_with_itself():
     # γ = −1 is what every textbook calls compositing, γ = 1 the maximum.
-    rays = reference_context.trace(placed(noise(12), GRIDS["oblique"]), viewed(placed(noise(12), np.eye(3)), "oblique"), STEP)
+    rays = reference_context.trace(
+        placed(noise(12), GRIDS["oblique"]), viewed(placed(noise(12), np.eye(3)), "oblique"), STEP
+    )
     for gamma, plain in ((-1.0, "dvr"), (1.0, "mip")):
         both = (reference_context.gather(rays, mode, POINTS, WINDOW, gamma) for mode in ("mida", plain))
         np.testing.assert_allclose(*both, rtol=0, atol=1e-12)
