@@ -15,8 +15,8 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from lumencut import VIEWS, Opacity, Renderer, Settings, Window
-from lumencut.cli import main, options
+from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction, Window, _lumencut
+from lumencut.cli import main, options, settings
 from lumencut.cli.render import render
 from lumencut.cli.turntable import turntable
 from scene_files import LUMEN, SIZE, TISSUE, bent_line, write_lines, write_volume
@@ -85,14 +85,22 @@ def test_every_setting_has_an_option_that_states_its_unit_and_default(command, f
         stated = f"default {'yes' if default else 'no'}."
     elif isinstance(default, tuple):
         stated = f"default {bytes(default).hex()}."
+    elif isinstance(default, str):
+        stated = f"default {default}."
     else:
         stated = f"default {default:g}."
     assert stated in option.help
-    assert re.search(r"\((mm|count|yes or no|hexadecimal|unit of the volume)\b", option.help)
+    assert re.search(r"\((mm|count|name|number|yes or no|hexadecimal|unit of the volume)\b", option.help)
 
 
 def test_view_names_are_those_of_the_library():
     assert tuple(VIEWS) == options.VIEW_NAMES
+
+
+def test_names_of_the_settings_are_those_of_the_library():
+    assert tuple(_lumencut.CONTEXTS) == settings.CONTEXT_NAMES
+    assert tuple(_lumencut.PRESETS) == settings.PRESET_NAMES
+    assert tuple(_lumencut.SLAB_MODES) == settings.SLAB_NAMES
 
 
 def test_settings_keep_their_defaults_where_no_option_is_given(rendered):
@@ -103,7 +111,9 @@ def test_every_option_ends_in_its_setting(rendered):
     given = (
         "--cost-weight 30 --no-preserve-lumen --lumen-first --lumen-margin 1.5 --levels 3 --level-distance 5 "
         "--no-depth-filter --window 900/300 --opacity 100:200 --no-silhouettes --silhouette-slope 12 "
-        "--silhouette-color ff8000 --background 10203040"
+        "--silhouette-color ff8000 --background 10203040 --slab 4mm:mean --context mida --context-gamma -0.5 "
+        "--context-window 700/200 --context-transfer -50:000000:0,300:ff8000:0.25,300:ffffff:1 "
+        "--context-step 0.5 --context-shading --context-preview"
     )
     expected = Settings(
         cost_weight=30,
@@ -119,6 +129,16 @@ def test_every_option_ends_in_its_setting(rendered):
         silhouette_slope=12,
         silhouette_color=(255, 128, 0),
         background=(16, 32, 48, 64),
+        slab=Slab(4, "mean"),
+        context="mida",
+        context_gamma=-0.5,
+        context_window=Window(level=200, width=700),
+        context_transfer=TransferFunction(
+            [(-50, (0, 0, 0), 0), (300, (255, 128, 0), 0.25), (300, (255, 255, 255), 1)]
+        ),
+        context_step=0.5,
+        context_shading=True,
+        context_preview=True,
     )
     assert rendered(*given.split())[1] == expected
 
@@ -383,7 +403,7 @@ def test_info_counts_points_with_both_signs_and_warns(files, tmp_path):
     assert one_line(result).startswith("lumencut: warning: lines.vtk: 0 of 25 points")
 
 
-@pytest.mark.parametrize("command", ["render", "turntable"])
-def test_help_keeps_its_examples_on_their_own_lines(command):
+@pytest.mark.parametrize(("command", "examples"), [("render", 3), ("turntable", 2)])
+def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
-    assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == 2
+    assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == examples

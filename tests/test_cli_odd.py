@@ -114,7 +114,7 @@ def test_a_view_that_misses_the_volume_is_a_warning(tmp_path, command, who):
     result = invoke(*words, "--center", "1e5,0,-0.5")
     assert result.exit_code == 0
     assert one_line(result) == (
-        f"lumencut: warning: no pixel of {who} meets the volume: the center is 100000,0,-0.5, "
+        f"lumencut: warning: no pixel of {who} shows the volume: the center is 100000,0,-0.5, "
         "the volume reaches from -0.5,-0.5,-0.5 to 23.5,19.5,31.5 (mm, LPS)"
     )
     assert (tmp_path / "view.png").exists()
@@ -125,4 +125,4 @@ def test_frames_that_miss_the_volume_are_counted(tmp_path):
     words += ["-o", tmp_path / "view.png", "--size", "16x16", "--frames", "4", "--center", "10,100,16"]
     result = invoke(*words)
     assert result.exit_code == 0
-    assert one_line(result).startswith("lumencut: warning: no pixel of 2 frames meets the volume: the center")
+    assert one_line(result).startswith("lumencut: warning: no pixel of 2 frames shows the volume: the center")

@@ -15,7 +15,7 @@ from PIL import Image
 from lumencut import FormatError, Vessel, VesselTree, Volume, demo
 from lumencut.cli import main
 
-PICTURES = ["anterior.png", "inferior.png", "left.png", "oblique.png", "turntable.webp"]
+PICTURES = ["anterior.png", "context.png", "inferior.png", "left.png", "oblique.png", "turntable.webp"]
 
 
 @pytest.fixture
@@ -108,7 +108,7 @@ def test_what_the_index_says_is_told(offline, tmp_path):
         demo.stent_scene(tmp_path)
 
 
-def test_the_demo_makes_four_pictures_and_a_turntable(index, tmp_path):
+def test_the_demo_makes_five_pictures_and_a_turntable(index, tmp_path):
     result = run_demo(tmp_path)
     assert (result.exit_code, result.stderr) == (0, "")
     assert sorted(path.name for path in (tmp_path / "shown").iterdir()) == PICTURES

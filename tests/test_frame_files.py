@@ -39,7 +39,7 @@ def test_jpeg_has_no_transparency(frame, tmp_path):
 def test_arrays_come_back_as_they_were(frame, tmp_path):
     frame.save(tmp_path / "view.npz")
     with np.load(tmp_path / "view.npz") as arrays:
-        assert sorted(arrays) == ["depth", "distance", "image", "position", "value", "vessel"]
+        assert sorted(arrays) == ["context", "depth", "distance", "image", "position", "value", "vessel"]
         for name in arrays:
             np.testing.assert_array_equal(arrays[name], getattr(frame, name))
     assert os.listdir(tmp_path) == ["view.npz"]

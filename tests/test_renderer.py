@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import nibabel
 import numpy as np
@@ -68,12 +69,13 @@ def test_fields_of_a_frame(size):
         "vessel": (np.int32, (height, width)),
         "distance": (np.float32, (height, width)),
         "value": (np.float32, (height, width)),
+        "context": (np.uint8, (height, width, 4)),
         "position": (np.float64, (height, width, 3)),
     }
     for name, (dtype, shape) in expected.items():
         array = getattr(frame, name)
         assert (array.dtype, array.shape) == (dtype, shape), name
-        if name not in ("image", "value"):
+        if name not in ("image", "value", "context"):
             np.testing.assert_array_equal(getattr(bare, name), array)
     assert frame.vessel.min() >= 0
     assert frame.vessel.max() < len(tree)
@@ -82,8 +84,9 @@ def test_fields_of_a_frame(size):
     assert frame.camera is camera
     stages = ["levels", "projection", "distance", "depth", "depth_filter"]
     assert list(bare.timings) == stages
-    assert list(frame.timings) == [*stages, "surface", "silhouette", "composite"]
-    for name in ("image", "value"):
+    assert list(frame.timings)[:7] == [*stages, "surface", "silhouette"]
+    assert list(frame.timings)[-2:] == ["context", "composite"]
+    for name in ("image", "value", "context"):
         with pytest.raises(VolumeError, match=f"{name} of the frame: found a cut surface without a volume"):
             getattr(bare, name)
 
@@ -108,7 +111,7 @@ def test_position_and_value_belong_together(direction):
 def test_the_image_is_the_value_through_the_window_and_the_opacity():
     volume, tree = indices()[2], wandering(1)
     window, background = Window(12, 9), (10, 200, 30, 128)
-    settings = Settings(window=window, silhouettes=False, background=background)
+    settings = Settings(window=window, silhouettes=False, background=background, context=None)
     frame = Renderer(volume, tree).render(None, settings)
     outside = np.isnan(frame.value)
     assert outside.any()
@@ -117,13 +120,11 @@ def test_the_image_is_the_value_through_the_window_and_the_opacity():
     assert (shown[:, 3] == 255).all()
     for channel in shown.T[:3]:
         np.testing.assert_allclose(channel, grey(frame.value[~outside], window), atol=0.51)
-    ramp = Settings(window=window, silhouettes=False, background=background, opacity=Opacity(5, 21))
-    faint = Renderer(volume, tree).render(None, ramp)
-    alpha = np.clip((frame.value[~outside] - 5) / 16, 0, 1)[:, None]
-    opaque = np.column_stack(
-        [np.repeat(grey(frame.value[~outside], window)[:, None], 3, axis=1), alpha * 0 + 255]
-    )
-    expected = background + (opaque - background) * alpha
+    faint = Renderer(volume, tree).render(None, replace(settings, opacity=Opacity(5, 21)))
+    over = np.clip((frame.value[~outside] - 5) / 16, 0, 1)[:, None]
+    behind = (1 - over) * background[3] / 255
+    color = grey(frame.value[~outside], window)[:, None] * over + np.array(background[:3]) * behind
+    expected = np.hstack([color / (over + behind), 255 * (over + behind)])
     np.testing.assert_allclose(faint.image[~outside], expected, atol=0.51)
 
 

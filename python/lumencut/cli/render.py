@@ -9,7 +9,8 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.report import say, timings, verbose_option
-from lumencut.cli.scene import is_empty, read_scene, warn_of_emptiness
+from lumencut.cli.scene import check_scene, is_empty, read_scene, shown, warn_of_emptiness
+from lumencut.cli.settings import setting_options, settings_from
 
 
 @click.command(short_help="Render one picture.")
@@ -24,11 +25,11 @@ from lumencut.cli.scene import is_empty, read_scene, warn_of_emptiness
     "may be repeated.",
 )
 @options.view_options
-@options.setting_options
+@setting_options
 @verbose_option
 def render(
     volume: Path,
-    centerlines: Path,
+    centerlines: Path | None,
     coordinates: Literal["lps", "ras"] | None,
     series: str | None,
     output: tuple[Path, ...],
@@ -37,13 +38,16 @@ def render(
     """Render VOLUME along CENTERLINES as one picture.
 
     VOLUME is a DICOM folder, NIfTI, NRRD or MetaImage file; CENTERLINES a .vtp, .vtk or .mrk.json file.
-    The view fits all vessels unless --center, --pixel-spacing or --zoom say otherwise.
+    Without CENTERLINES the context alone is shown, all of the volume. The view fits all vessels, or the
+    volume, unless --center, --pixel-spacing or --zoom say otherwise.
 
     \b
     lumencut render ct.nii.gz centerlines.vtp -o anterior.png
     lumencut render dicom/ lines.mrk.json -o oblique.png --rotate 30 --tilt 15 --window 900/300
+    lumencut render ct.nii.gz -o body.png --context dvr --context-transfer soft-tissue
     """  # noqa: D301 - click needs the control character itself
-    settings, view = options.settings_from(chosen), options.view_from(chosen)
+    settings, view = settings_from(chosen), options.view_from(chosen)
+    check_scene(centerlines, coordinates, settings)
     for path in output:
         options.check_picture(path)
     renderer = read_scene(volume, centerlines, coordinates, series)
@@ -53,4 +57,4 @@ def render(
         warn_of_emptiness("no pixel of the view", frame.camera, renderer)
     for path in output:
         frame.save(path)
-        say(f"{path}: {options.described(frame.camera, settings.window or renderer.window)}")
+        say(f"{path}: {shown(frame.camera, settings, renderer)}")

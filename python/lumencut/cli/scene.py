@@ -1,4 +1,4 @@
-"""Reading the volume and the centerlines of a picture."""
+"""Reading the volume and the centerlines of a picture, and saying what is shown of them."""
 
 from __future__ import annotations
 
@@ -6,26 +6,41 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+import click
+
+from lumencut.cli.options import described
 from lumencut.cli.report import bar, detail, warn
 
 if TYPE_CHECKING:
     from lumencut.camera import Camera
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+
+
+def check_scene(
+    centerlines: Path | None, coordinates: Literal["lps", "ras"] | None, settings: Settings
+) -> None:
+    """Refuse what cannot be shown without centerlines before any file is read."""
+    if centerlines is None and coordinates is not None:
+        raise click.UsageError("--coordinates without CENTERLINES; give the file that they are the space of")
+    if centerlines is None and settings.context is None:
+        raise click.UsageError("--context none without CENTERLINES shows nothing; give one of them")
 
 
 def read_scene(
-    volume: Path, centerlines: Path, coordinates: Literal["lps", "ras"] | None, series: str | None
+    volume: Path, centerlines: Path | None, coordinates: Literal["lps", "ras"] | None, series: str | None
 ) -> Renderer:
-    """Return a renderer of the two files."""
+    """Return a renderer of the files."""
     from lumencut.centerlines import read_centerlines
     from lumencut.renderer import Renderer
     from lumencut.volume_files import read_volume
 
     start = time.perf_counter()
     # The small file first: what is wrong with it shows before gigabytes are read.
-    tree = read_centerlines(centerlines, coordinates)
-    detail(f"{centerlines}: {tree!r}")
+    tree = None if centerlines is None else read_centerlines(centerlines, coordinates)
+    if tree is not None:
+        detail(f"{centerlines}: {tree!r}")
     with bar(f"reading {volume.name}", "slice") as told:
         voxels = read_volume(volume, series=series, progress=told)
     detail(f"{volume}: {voxels!r}")
@@ -39,7 +54,15 @@ def is_empty(frame: Frame) -> bool:
     """Tell whether a frame shows nothing of the volume."""
     import numpy as np
 
-    return bool(np.isnan(frame.value).all())
+    cut_surface = frame.has("value") and not np.isnan(frame.value).all()
+    return not cut_surface and not (frame.has("context") and frame.context[..., 3].any())
+
+
+def shown(camera: Camera, settings: Settings, renderer: Renderer) -> str:
+    """Say in words what a picture of a renderer shows."""
+    if renderer.tree is None:
+        return described(camera, "context window", settings.context_window or renderer.window)
+    return described(camera, "window", settings.window or renderer.window)
 
 
 def warn_of_emptiness(who: str, camera: Camera, renderer: Renderer) -> None:
@@ -49,4 +72,4 @@ def warn_of_emptiness(who: str, camera: Camera, renderer: Renderer) -> None:
     corners = renderer.volume.corners
     low, high = (",".join(f"{x:.1f}" for x in end) for end in (corners.min(axis=0), corners.max(axis=0)))
     center = ",".join(f"{x:.6g}" for x in camera.center)
-    warn(f"{who} meets the volume: the center is {center}, the volume reaches from {low} to {high} (mm, LPS)")
+    warn(f"{who} shows the volume: the center is {center}, the volume reaches from {low} to {high} (mm, LPS)")

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from lumencut.cli import options
+from lumencut.cli.parameters import Named
 from lumencut.cli.report import bar, say, timings, verbose_option
-from lumencut.cli.scene import is_empty, read_scene, warn_of_emptiness
+from lumencut.cli.scene import check_scene, is_empty, read_scene, shown, warn_of_emptiness
+from lumencut.cli.settings import setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
 
 if TYPE_CHECKING:
@@ -33,7 +35,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 )
 @click.option(
     "--axis",
-    type=options.Named(AXIS_NAMES),
+    type=Named(AXIS_NAMES),
     default="superior",
     show_default=True,
     metavar="NAME|X,Y,Z",
@@ -52,11 +54,11 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @click.option("--fps", type=click.FloatRange(0.1, 100), help="Frames per second; default 12.")
 @click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Duration in all (s), instead of --fps.")
 @options.view_options
-@options.setting_options
+@setting_options
 @verbose_option
 def turntable(
     volume: Path,
-    centerlines: Path,
+    centerlines: Path | None,
     coordinates: Literal["lps", "ras"] | None,
     series: str | None,
     output: str,
@@ -68,7 +70,7 @@ def turntable(
     """Render VOLUME along CENTERLINES as an animation of a turning view.
 
     The view options give the first frame; one pixel spacing fits all frames, so that the vessels keep their
-    size.
+    size. Without CENTERLINES the context alone is shown, all of the volume.
 
     \b
     lumencut turntable ct.nii.gz centerlines.vtp -o spin.webp
@@ -78,7 +80,8 @@ def turntable(
         raise click.UsageError("--fps and --seconds exclude each other")
     fps = fps or (frames / seconds if seconds else 12.0)
     degrees, axis = chosen["degrees"], chosen["axis"]
-    settings, view = options.settings_from(chosen), options.view_from(chosen)
+    settings, view = settings_from(chosen), options.view_from(chosen)
+    check_scene(centerlines, coordinates, settings)
     write = _checked_writer(output, fps)
     _check_turn(view, frames, degrees, axis)
     renderer = read_scene(volume, centerlines, coordinates, series)
@@ -88,15 +91,14 @@ def turntable(
     camera = options.placed_like(library.fitted_turn(view, renderer.scene, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
     empty: list[int] = []
-    write(shown(turn, frames, empty), fps)
+    write(watched(turn, frames, empty), fps)
     if empty:
         who = "no pixel of any frame" if len(empty) == frames else f"no pixel of {len(empty)} frames"
         warn_of_emptiness(who, camera, renderer)
-    described = options.described(camera, settings.window or renderer.window)
-    say(f"{output}: {frames} frames, {frames / fps:.3g} s, {described}")
+    say(f"{output}: {frames} frames, {frames / fps:.3g} s, {shown(camera, settings, renderer)}")
 
 
-def shown(turn: Iterable[Frame], count: int, empty: list[int]) -> Iterator[Frame]:
+def watched(turn: Iterable[Frame], count: int, empty: list[int]) -> Iterator[Frame]:
     """Pass frames on while a progress bar moves, and note which of them show nothing."""
     with bar("turntable", "frame") as told:
         for done, frame in enumerate(turn, 1):

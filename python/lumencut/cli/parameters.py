@@ -1,0 +1,122 @@
+"""How options are written: vectors, sizes, colours, slabs and transfer functions as one word."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import click
+
+if TYPE_CHECKING:
+    _Type = click.ParamType[Any]
+else:
+    # Generic only in recent versions of click.
+    _Type = click.ParamType
+
+_Parameter: TypeAlias = "click.Parameter | None"
+_Context: TypeAlias = "click.Context | None"
+
+
+class Parts(_Type):
+    """Numbers with a separator between them; ``form`` shows the user how to write them."""
+
+    def __init__(self, form: str, separator: str, kind: type[float] | type[int]) -> None:
+        self.name, self._separator, self._kind = form, separator, kind
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[float, ...]:
+        """Return the numbers."""
+        if not isinstance(value, str):
+            return tuple(value)
+        try:
+            numbers = tuple(self._kind(part) for part in value.lower().split(self._separator))
+        except ValueError:
+            numbers = ()
+        count = self.name.lower().count(self._separator) + 1
+        if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
+            self.fail(f"{value!r} is not of the form {self.name}", param, ctx)
+        return numbers
+
+
+class Named(_Type):
+    """One of some names, or a vector."""
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        self.names, self.name = names, "|".join(names) + "|X,Y,Z"
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
+        """Return the name or the vector."""
+        if value in self.names:
+            return value
+        try:
+            return VECTOR.convert(value, param, ctx)
+        except click.BadParameter:
+            self.fail(f"{value!r} is neither one of {', '.join(self.names)} nor a vector X,Y,Z", param, ctx)
+
+
+class Color(_Type):
+    """A colour in hexadecimal, with or without opacity."""
+
+    def __init__(self, form: str, lengths: tuple[int, ...]) -> None:
+        self.name, self._lengths = form, lengths
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[int, ...]:
+        """Return the channels, 0 to 255."""
+        if not isinstance(value, str):
+            return tuple(value)
+        digits = value.removeprefix("#")
+        try:
+            channels = tuple(bytes.fromhex(digits))
+        except ValueError:
+            channels = ()
+        if len(channels) not in self._lengths or len(digits) != 2 * len(channels):
+            self.fail(f"{value!r} is not a colour of the form {self.name}", param, ctx)
+        return channels
+
+
+class Thickness(_Type):
+    """A thickness in mm and, after a colon, what is shown of it."""
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        self.names, self.name = names, "MM[:" + "|".join(names) + "]"
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[float, str]:
+        """Return the thickness and the name, the first one where none is given."""
+        length, colon, name = str(value).lower().partition(":")
+        try:
+            thickness = float(length.removesuffix("mm"))
+        except ValueError:
+            thickness = math.nan
+        if not math.isfinite(thickness) or (colon and name not in self.names):
+            self.fail(f"{value!r} is not of the form {self.name}, such as 4mm:{self.names[-1]}", param, ctx)
+        return thickness, name or self.names[0]
+
+
+class Transfer(_Type):
+    """The name of a transfer function, or its control points."""
+
+    name = "NAME|INTENSITY:RRGGBB:OPACITY,..."
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        self.names = names
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
+        """Return the name, or the control points (intensity, colour, opacity)."""
+        if value in self.names or not isinstance(value, str):
+            return value
+        return tuple(self._point(point, param, ctx) for point in value.split(","))
+
+    def _point(self, text: str, param: _Parameter, ctx: _Context) -> tuple[float, tuple[int, ...], float]:
+        parts = text.split(":")
+        if len(parts) != 3:
+            known = ", ".join(self.names)
+            self.fail(f"{text!r} is neither one of {known} nor INTENSITY:RRGGBB:OPACITY", param, ctx)
+        try:
+            return float(parts[0]), RGB.convert(parts[1], param, ctx), float(parts[2])
+        except ValueError:
+            self.fail(f"{text!r} is not of the form INTENSITY:RRGGBB:OPACITY", param, ctx)
+
+
+VECTOR = Parts("X,Y,Z", ",", float)
+SIZE = Parts("WIDTHxHEIGHT", "x", int)
+WINDOW = Parts("WIDTH/LEVEL", "/", float)
+RGB = Color("RRGGBB", (3,))
