@@ -230,6 +230,37 @@ def test_halving_the_step_converges(mode):
     assert error[3] < 0.25, error
 
 
+@pytest.mark.parametrize("at", [0.0, 100.0, -1000.0, 1e6])
+def test_two_control_points_at_one_intensity_make_a_step(at):
+    points = [
+        (at - 5, (9, 9, 9), 0.1),
+        (at, (20, 30, 40), 0.1),
+        (at, (240, 30, 40), 0.8),
+        (at + 5, (0, 0, 0), 0.8),
+    ]
+    camera = Camera((1, 0, 1), (0, 1, 0), (0, 0, 1), (1, 1))
+    for beside, red, opacity in ((-0.125, 20, 0.1), (0.125, 240, 0.8)):
+        volume = Volume(np.full((3, 1, 3), at + beside))
+        image = drawn(volume, camera, "dvr", points=points)[0, 0]
+        assert abs(image[0] - red * (1 - 0.125 / 5)) <= 0.5 + 0.3
+        assert abs(image[3] - 255 * opacity) <= BYTE
+        assert drawn(volume, camera, "mip", points=points)[0, 0, 3] == 255
+
+
+@pytest.mark.parametrize("value", [np.inf, -np.inf, 1e300, -1e300, 3e38])
+def test_values_beyond_all_windows_count_as_bright_or_dark_as_there_is(value):
+    array = np.full((5, 6, 7), 100.0)
+    array[2, 3, 3] = value
+    camera = viewed(Volume(array), "oblique")
+    for mode in ("dvr", "mida", "mip", "minip", "average"):
+        image = drawn(Volume(array), camera, mode, points=[(0.0, (0, 0, 0), 0.0), (200.0, (250, 0, 0), 0.5)])
+        assert image[..., 3].any()
+        assert not image[..., 1:3].any() or mode in ("minip", "average")
+    mip = drawn(Volume(array), camera, "mip", points=[(0.0, (0, 0, 0), 0.0), (200.0, (250, 0, 0), 0.5)])
+    brightest = 250 if value > 200 else 125
+    assert mip[..., 0].max() == brightest
+
+
 PRESETS = {
     "grey": [(0.0, 0.0), (1.0, 0.3)],
     "angio": [(0.28, 0.0), (1.0, 0.6)],

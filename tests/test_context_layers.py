@@ -63,8 +63,9 @@ def context_behind(frame, volume, opacity=RAMP, behind=0.0, mode="mida"):
 def assert_layers(frame, volume, background, opacity=RAMP, behind=0.0, mode="mida"):
     layer = context_behind(frame, volume, opacity, behind, mode)
     # The surface is just opaque, or not quite, within the rounding of 32-bit floats.
-    edge = np.abs(reference_context.ramp(opacity, frame.value.astype(float)).ravel() - 1) < 1e-6
-    sure = ~edge | (np.nan_to_num(frame.value.ravel(), nan=np.inf) >= (opacity or (0, 0))[1] + 1e-3)
+    transparent, opaque = opacity or (0, 1)
+    share = (frame.value.ravel().astype(float) - transparent) / (opaque - transparent)
+    sure = ~(np.abs(share - 1) < 1e-6)
     assert sure.mean() > 0.99
     assert_same(frame.context.reshape(-1, 4)[sure], layer[sure])
     picture = reference_context.picture(frame.value.astype(float).ravel(), layer, GREY, opacity, background)
@@ -95,6 +96,13 @@ def test_layers_on_every_grid(grid, view):
     volume, tree, camera = scene(1, grid, view)
     frame = Renderer(volume, tree).render(camera, layered())
     assert_layers(frame, volume, (10, 60, 200, 255))
+
+
+def test_layers_where_the_dark_is_opaque():
+    volume, tree, camera = scene(1)
+    frame = Renderer(volume, tree).render(camera, layered(opacity=RAMP[::-1]))
+    assert (reference_context.ramp(RAMP[::-1], frame.value.astype(float)) == 1).any()
+    assert_layers(frame, volume, (10, 60, 200, 255), opacity=RAMP[::-1])
 
 
 def test_without_an_opacity_the_surface_hides_the_context():

@@ -148,6 +148,36 @@ def test_rays_in_the_faces_of_the_box_and_just_beside_them():
         assert not drawn(volume, camera, mode, step=0.3, **changes)[0].any()
 
 
+def test_far_from_the_origin_of_world_space_and_of_the_view():
+    volume = placed(noise(13), GRIDS["sheared"], center=(-200_000.0, 300_000.0, 100_000.0))
+    near = viewed(volume, "oblique")
+    away = Camera(near.center + 3e5 * near.direction, near.direction, near.up, near.size, near.pixel_spacing)
+    for camera in (near, away):
+        assert_all_modes(volume, camera, modes=["mida, shaded", "mip", "average"])
+
+
+def test_large_and_small_values():
+    for scale, shift in ((1e-6, 0.0), (1e6, 0.0), (1.0, -3e4), (1.0, 1e6)):
+        volume = placed(noise(14).astype(np.float64) * scale + shift, GRIDS["oblique"])
+        points = [(at * scale + shift, rgb, opacity) for at, rgb, opacity in POINTS]
+        window = (WINDOW[0] * scale + shift, WINDOW[1] * scale)
+        camera = viewed(volume, "oblique")
+        for mode, changes in (MODES[name] for name in ("dvr, shaded", "mida", "mip", "minip", "average")):
+            same = {"points": points, "window": window, "step": STEP, **changes}
+            assert_same(drawn(volume, camera, mode, **same), expected(volume, camera, mode, **same))
+
+
+def test_as_many_control_points_as_there_may_be():
+    random = np.random.default_rng(15)
+    at = np.linspace(10, 240, 64)
+    points = [(v, tuple(random.integers(0, 256, 3).tolist()), random.uniform(0, 0.3)) for v in at]
+    volume = placed(noise(15), GRIDS["oblique"])
+    camera = viewed(volume, "oblique")
+    for mode in ("dvr", "mip"):
+        same = {"points": points, "step": STEP}
+        assert_same(drawn(volume, camera, mode, **same), expected(volume, camera, mode, **same))
+
+
 def test_the_comparison_sees_wrong_settings():
     volume = placed(noise(11), GRIDS["sheared"])
     camera = viewed(volume, "oblique")
