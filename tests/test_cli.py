@@ -1,7 +1,6 @@
 """The command line: options, pictures, errors and exit codes."""
 
 import errno
-import json
 import re
 import signal
 import subprocess
@@ -19,7 +18,7 @@ from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction,
 from lumencut.cli import main, options, settings
 from lumencut.cli.render import render
 from lumencut.cli.turntable import turntable
-from scene_files import LUMEN, SIZE, TISSUE, bent_line, write_lines, write_volume
+from scene_files import LUMEN, TISSUE, bent_line, write_lines, write_volume
 
 SCRIPT = [sys.executable, "-m", "lumencut"]
 
@@ -346,61 +345,6 @@ def test_help_imports_nothing_heavy(command):
 def test_version():
     result = CliRunner().invoke(main, ["--version"])
     assert re.fullmatch(r"lumencut \d+\.\d+\.\d+\S*\n", result.stdout)
-
-
-# info
-
-
-def info(*words):
-    return CliRunner().invoke(main, ["info", *map(str, words)])
-
-
-def test_info_of_a_volume_and_centerlines(files):
-    result = info(*files)
-    assert result.exit_code == 0, result.output
-    for fact in ("NIfTI", "24, 20, 32", "int16", "40, 300", "LPS", "lps (assumed)"):
-        assert fact in result.stdout
-    assert re.search(r"inside +25\n", result.stdout)
-
-
-def test_info_as_json(files):
-    found = json.loads(info("--json", *files).stdout)
-    volume, lines = found["files"]
-    assert (volume["size"], volume["value_range"]) == (list(SIZE), [TISSUE, LUMEN])
-    assert (lines["vessels"], lines["points"], lines["radius_mm"], lines["loose_ends"]) == (1, 25, [3, 3], 2)
-    length = np.linalg.norm(np.diff(bent_line(), axis=0), axis=1).sum()
-    assert lines["vessel_lengths_mm"] == [pytest.approx(length, abs=1e-3)]
-    assert found["compared"][0]["inside"] == 25
-
-
-def test_info_goes_on_after_a_file_that_cannot_be_read(files, tmp_path):
-    (tmp_path / "odd.nii").write_bytes(b"nothing of the kind")
-    result = info(tmp_path / "odd.nii", files[0], tmp_path / "nowhere.vtp")
-    assert result.exit_code == 1
-    assert result.stderr.count("lumencut: error: ") == result.stderr.count("\n") == 2
-    assert "24, 20, 32" in result.stdout
-    found = json.loads(info("--json", tmp_path / "odd.nii", files[0]).stdout)
-    assert [one["kind"] for one in found["files"]] == ["unreadable", "volume"]
-
-
-def test_info_tells_what_is_odd(files, tmp_path):
-    gap = np.vstack([bent_line(), bent_line()[-1] + np.array([0, 0, 400])])
-    found = info(
-        write_lines(tmp_path / "bare.vtk", gap, radius=None),
-        write_lines(tmp_path / "cm.vtk", bent_line() / 10),
-    )
-    assert "1 of 1 vessels have no radius" in found.stdout
-    assert "a gap of 400.0 mm" in found.stdout
-    assert "perhaps its unit is not mm" in found.stdout
-    assert "a spacing of exactly 1 mm" in info(files[0]).stdout
-
-
-def test_info_counts_points_with_both_signs_and_warns(files, tmp_path):
-    write_lines(Path(files[1]), bent_line() * (-1, -1, 1))
-    result = info(*files)
-    assert "no point lies inside the volume" in result.stdout
-    assert re.search(r"inside with x and y negated +25\n", result.stdout)
-    assert one_line(result).startswith("lumencut: warning: lines.vtk: 0 of 25 points")
 
 
 @pytest.mark.parametrize(("command", "examples"), [("render", 3), ("turntable", 2)])

@@ -21,6 +21,8 @@ from lumencut import (
     Renderer,
     Settings,
     SettingsError,
+    Slab,
+    TransferFunction,
     Vessel,
     VesselTree,
     VesselTreeError,
@@ -250,6 +252,16 @@ def test_window_and_opacity_of_anything(kind, a, b):
         assert all(math.isfinite(value) for value in vars(made).values())
         assert kind is Opacity or made.width > 0
         assert Settings(**{kind.__name__.lower(): made})
+
+
+@thorough
+@given(anything, anything, anything)
+def test_slabs_and_transfer_functions_of_anything(a, b, c):
+    attempt(lambda: Slab(a, b), SettingsError)
+    attempt(lambda: TransferFunction(a), SettingsError)
+    for points in ([(a, b, c)], [(a, (1, 2, 3), c)], [a, b, c]):
+        made = attempt(lambda points=points: TransferFunction(points), SettingsError)
+        assert made is None or Settings(context_transfer=made)
 
 
 @thorough
