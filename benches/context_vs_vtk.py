@@ -1,0 +1,153 @@
+"""How long the context takes, beside VTK's ray caster for the CPU: same volume, view, colours and step.
+
+Both use all cores and run in turn; what each prepares once for a volume is done before. Prints a Markdown
+table. Unshaded, both draw the same picture. Shaded, VTK's is darker: it shades voxels and interpolates their
+light, where Lumencut takes the gradient at the sample itself. VTK has no MIDA.
+
+    python benches/context_vs_vtk.py [--runs 7] [--save FOLDER]
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from lumencut import Camera, Renderer, Settings, TransferFunction, Volume, Window, phantom
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+from vtk_context import Drawing
+
+Picture = npt.NDArray[np.float64]
+SIZE = (512, 512)
+WINDOW = Window(300.0, 1000.0)
+DVR = [
+    (80.0, (110, 40, 30), 0.0),
+    (250.0, (190, 60, 40), 0.12),
+    (450.0, (235, 150, 110), 0.3),
+    (800.0, (255, 245, 225), 0.6),
+]
+GREY = [(-200.0, (0, 0, 0), 0.0), (800.0, (255, 255, 255), 1.0)]
+#: Context of ours, blend mode of VTK, transfer function, shading; VTK has no MIDA.
+MODES = {
+    "MIP": ("mip", "mip", GREY, False),
+    "DVR": ("dvr", "dvr", DVR, False),
+    "DVR, shaded": ("dvr", "dvr", DVR, True),
+    "MIDA": ("mida", None, DVR, False),
+    "MIDA, shaded": ("mida", None, DVR, True),
+}
+
+
+@dataclass
+class Scene:
+    """A volume, the distance of samples (mm) and a view of it."""
+
+    name: str
+    volume: Volume
+    step: float
+    camera: Camera
+
+
+def scenes() -> Iterator[Scene]:
+    """The phantom of an aorta: all of it, and 256 × 256 × 256 voxels of its middle taken as cubes of ½ mm."""
+    whole = phantom.aorta().volume
+    middle = tuple(slice((n - 256) // 2, (n + 256) // 2) for n in whole.array.shape)
+    crop = Volume(np.ascontiguousarray(whole.array[middle]), spacing=(0.5, 0.5, 0.5))
+    plain = Volume(whole.array, spacing=whole.spacing)
+    for volume, step in ((crop, 0.5), (plain, float(whole.spacing.min()))):
+        camera = Camera.anterior(volume, SIZE).rotated(0.4).rotated(0.2, "right").zoomed(1.2)
+        i, j, k = volume.size
+        yield Scene(f"{i} × {j} × {k}, step {step:g} mm", volume, step, camera)
+
+
+def milliseconds(work: Callable[[], object]) -> tuple[float, float]:
+    """Wall time of one call, and what it took of all cores together."""
+    start = time.perf_counter(), time.process_time()
+    work()
+    return (time.perf_counter() - start[0]) * 1e3, (time.process_time() - start[1]) * 1e3
+
+
+def ours(scene: Scene, mode: str, points: list, shading: bool) -> Callable[[], Picture]:
+    """One view of Lumencut, colours times opacity, and opacity."""
+    renderer = Renderer(scene.volume, None)
+    settings = Settings(
+        context=mode,
+        context_transfer=TransferFunction(points),
+        context_window=WINDOW,
+        context_step=scene.step,
+        context_shading=shading,
+    )
+
+    def draw() -> Picture:
+        return renderer.render(scene.camera, settings).context
+
+    return draw
+
+
+def share_of_hits(picture: Picture) -> str:
+    """The share of rays that see something, half a grey value at least."""
+    return f"{(picture[..., 3] * 255 >= 0.5).mean():.1%}"
+
+
+def measure(scene: Scene, name: str, runs: int, save: Path | None) -> str:
+    """One row of the table."""
+    mode, theirs, points, shading = MODES[name]
+    draw = ours(scene, mode, points, shading)
+    image = draw() / 255.0
+    image[..., :3] *= image[..., 3:]
+    pictures, times, hits = [image], {"ours": [], "vtk": []}, [share_of_hits(image)]
+    vtk = None
+    if theirs:
+        looks = {"shading": shading, "threads": os.cpu_count()}
+        vtk = Drawing(scene.volume, scene.camera, theirs, points, scene.step, **looks)
+        pictures.append(vtk.image())
+        hits.append(share_of_hits(pictures[1]))
+    for _ in range(runs):
+        times["ours"].append(milliseconds(draw))
+        if vtk:
+            times["vtk"].append(milliseconds(vtk.render))
+    if save:
+        side_by_side = np.hstack([255 * picture[..., :3] for picture in pictures])
+        path = save / f"{scene.volume.size[2]}-{scene.volume.spacing[0]:g}-{name}.png"
+        Image.fromarray(side_by_side.round().astype(np.uint8)).save(path)
+    wall, cores = (median(column) for column in zip(*times["ours"], strict=True))
+    cells = [scene.name, name, f"{wall:.0f}", f"{cores:.0f}"]
+    if vtk:
+        gap = 255 * np.abs(pictures[0] - pictures[1])[..., :3].mean()
+        other = [median(column) for column in zip(*times["vtk"], strict=True)]
+        cells += [f"{other[0]:.0f}", f"{other[1]:.0f}", f"{other[0] / wall:.2f}", f"{other[1] / cores:.2f}"]
+        cells += [" / ".join(hits), f"{gap:.2f}"]
+    else:
+        cells += ["–", "–", "–", "–", hits[0], "–"]
+    return "| " + " | ".join(cells) + " |"
+
+
+def main() -> None:
+    """Measure every mode in every scene."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--runs", type=int, default=7, help="runs of each, of which the median counts")
+    parser.add_argument("--save", type=Path, help="folder for the pictures, ours on the left")
+    arguments = parser.parse_args()
+    print(
+        f"{SIZE[0]} × {SIZE[1]} pixels, {os.cpu_count()} cores, {platform.machine()}, {arguments.runs} runs\n"
+    )
+    columns = ["volume", "mode", "Lumencut (ms)", "CPU time", "VTK (ms)", "CPU time"]
+    columns += ["VTK / Lumencut", "CPU time", "rays that hit", "mean difference"]
+    print("| " + " | ".join(columns) + " |\n|" + "---|" * len(columns))
+    for scene in scenes():
+        for name in MODES:
+            print(measure(scene, name, arguments.runs, arguments.save), flush=True)
+
+
+if __name__ == "__main__":
+    main()

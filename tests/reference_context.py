@@ -1,0 +1,233 @@
+"""The context once more: slow, in numpy with 64-bit floats, written from its description alone.
+
+Every ray is sampled from end to end: nothing is skipped, nothing ends early. Pixels are rows of arrays, the
+parts of their rays are columns; what a ray does not have is NaN.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reference import pixel_centers
+
+#: By how much of a step a chord may exceed whole steps without a part more, and how exactly that is known.
+SPARE, ROUNDING = 1e-6, 1e-9
+
+
+@dataclass
+class Rays:
+    """The samples of all rays."""
+
+    value: np.ndarray  # (P, N)
+    length: np.ndarray  # of a part of each ray (mm), (P,)
+    cosine: np.ndarray  # between gradient and view direction, NaN where there is none, (P, N)
+    unsure: np.ndarray  # whether rounding decides about the number of parts, (P,)
+
+
+def index_from_view(volume, camera):
+    """Matrix (3, 3) and origin (3,): continuous index as an affine map of view coordinates."""
+    right = np.cross(camera.direction, camera.up)
+    right /= np.linalg.norm(right)
+    axes = np.stack([right, np.cross(right, camera.direction), camera.direction], axis=1)
+    columns = np.linalg.inv(volume.world_from_index[:3, :3])
+    return columns @ axes, columns @ (camera.center - volume.world_from_index[:3, 3])
+
+
+def interpolate(array, index):
+    """The voxels [k, j, i] at continuous indices (..., 3); the outermost ones go on beyond their centres."""
+    last = np.array(array.shape[::-1]) - 1
+    index = np.clip(index, 0, last)
+    low = np.minimum(np.floor(index).astype(int), np.maximum(last - 1, 0))
+    high, share = np.minimum(low + 1, last), index - low
+
+    def between(one, other, axis):
+        return one + (other - one) * share[..., axis]
+
+    def row(j, k):
+        return between(array[k, j, low[..., 0]], array[k, j, high[..., 0]], 0)
+
+    def plane(k):
+        return between(row(low[..., 1], k), row(high[..., 1], k), 1)
+
+    return between(plane(low[..., 2]), plane(high[..., 2]), 2)
+
+
+def chords(volume, camera, q, start):
+    """Depths (mm) at which the rays at view x and y `q` enter and leave the box, no earlier than `start`."""
+    matrix, origin = index_from_view(volume, camera)
+    index, toward = origin + q @ matrix[:, :2].T, matrix[:, 2]
+    near, far = np.array(start, dtype=float), np.full(len(q), np.inf)
+    for axis in range(3):
+        low, high = -0.5 - index[:, axis], volume.size[axis] - 0.5 - index[:, axis]
+        if abs(toward[axis]) < 1e-12:
+            near[(low > 0) | (high < 0)] = np.inf
+            continue
+        ends = np.sort(np.stack([low, high]) / toward[axis], axis=0)
+        near, far = np.maximum(near, ends[0]), np.minimum(far, ends[1])
+    return near, far
+
+
+def trace(volume, camera, step=None, *, start=None, q=None, shading=False):
+    """The samples of the rays at view x and y `q`, where not given of all pixels, from depth `start` on."""
+    q = pixel_centers(camera) if q is None else q
+    start = np.full(len(q), -np.inf) if start is None else start
+    step = volume.spacing.min() if step is None else step
+    near, far = chords(volume, camera, q, start)
+    hits = far > near
+    chord = np.where(hits, far, 0) - np.where(hits, near, 0)
+    steps = chord / step - SPARE
+    count = np.where(hits, np.maximum(np.ceil(steps), 1), 0).astype(int)
+    length = chord / np.maximum(count, 1)
+    part = np.arange(count.max(initial=1))
+    depth = np.where(hits, near, 0)[:, None] + (part + 0.5) * length[:, None]
+    matrix, origin = index_from_view(volume, camera)
+    index = origin + (q @ matrix[:, :2].T)[:, None] + depth[..., None] * matrix[:, 2]
+    array = volume.array.astype(float)
+    value = np.where(part < count[:, None], interpolate(array, index), np.nan)
+    cosine = cosines(array, index, matrix) if shading else np.full(value.shape, np.nan)
+    unsure = hits & (np.abs(steps - np.round(steps)) < ROUNDING)
+    return Rays(value, length, cosine, unsure)
+
+
+def cosines(array, index, matrix):
+    """How far gradients point along the view; NaN where nothing changes or a neighbour is NaN."""
+    sides = np.eye(3)
+    change = [interpolate(array, index + s) - interpolate(array, index - s) for s in sides]
+    gradient = np.stack(change, axis=-1) @ matrix
+    length = np.linalg.norm(gradient, axis=-1)
+    return np.divide(np.abs(gradient[..., 2]), length, out=np.full(length.shape, np.nan), where=length > 0)
+
+
+def normalised(window, value):
+    """0 at the window's black end, 1 at its white end."""
+    level, width = window
+    return np.clip((value - level) / width + 0.5, 0, 1)
+
+
+def colour(points, value):
+    """RGB (..., 3) from 0 to 1 of a transfer function [(intensity, rgb, opacity per mm), …]."""
+    at = [p[0] for p in points]
+    return np.stack([np.interp(value, at, [p[1][c] / 255 for p in points]) for c in range(3)], axis=-1)
+
+
+def opacity(points, value, length):
+    """The opacity of `length` mm."""
+    per_mm = np.interp(value, [p[0] for p in points], [p[2] for p in points])
+    return 1 - (1 - per_mm) ** length
+
+
+def shaded(rgb, cosine):
+    """Light from the viewer on colours."""
+    lit = np.minimum(rgb * (0.35 + 0.65 * cosine[..., None]) + 0.2 * cosine[..., None] ** 16, 1)
+    return np.where(np.isnan(cosine)[..., None], rgb, lit)
+
+
+def blend(rays, points, window, gamma):
+    """γ-blend: colours times opacity, and opacity, (P, 4)."""
+    pixels, parts = rays.value.shape
+    out, most = np.zeros((pixels, 4)), np.zeros(pixels)
+    for n in range(parts):
+        value = rays.value[:, n]
+        there = ~np.isnan(value)
+        value = np.where(there, value, 0)
+        f = normalised(window, value)
+        keep = 1 - np.maximum(0, f - most) * (1 + min(gamma, 0))
+        own = opacity(points, value, rays.length)
+        rgba = np.column_stack([shaded(colour(points, value), rays.cosine[:, n]), np.ones(pixels)])
+        share = (1 - keep * out[:, 3]) * own
+        out = np.where(there[:, None], keep[:, None] * out + share[:, None] * rgba, out)
+        most = np.where(there, np.maximum(most, f), most)
+    if gamma > 0:
+        out += gamma * (brightest(rays, points) - out)
+    return out
+
+
+def plain_dvr(rays, points):
+    """Front-to-back compositing as every textbook has it: the product of what all before let through."""
+    there = ~np.isnan(rays.value)
+    value = np.where(there, rays.value, 0)
+    own = np.where(there, opacity(points, value, rays.length[:, None]), 0)
+    before = np.cumprod(np.column_stack([np.ones(len(own)), 1 - own[:, :-1]]), axis=1)
+    rgba = np.concatenate([shaded(colour(points, value), rays.cosine), np.ones((*own.shape, 1))], axis=-1)
+    return ((before * own)[..., None] * rgba).sum(axis=1)
+
+
+def opaque(rgb, rays):
+    """Opaque where a ray has a sample."""
+    there = ~np.isnan(rays.value).all(axis=1)
+    return np.where(there[:, None], np.column_stack([rgb, np.ones(len(rgb))]), 0)
+
+
+def brightest(rays, points):
+    """MIP: the colour of the largest sample."""
+    return opaque(colour(points, np.where(np.isnan(rays.value), -np.inf, rays.value).max(axis=1)), rays)
+
+
+def darkest(rays, window):
+    """MinIP: the grey of the smallest sample."""
+    grey = normalised(window, np.where(np.isnan(rays.value), np.inf, rays.value).min(axis=1))
+    return opaque(np.column_stack([grey] * 3), rays)
+
+
+def average(rays, window):
+    """The grey of the mean of the samples."""
+    there = ~np.isnan(rays.value)
+    mean = np.where(there, rays.value, 0).sum(axis=1) / np.maximum(there.sum(axis=1), 1)
+    return opaque(np.column_stack([normalised(window, mean)] * 3), rays)
+
+
+def gather(rays, mode, points, window, gamma=0.0):
+    """What a mode makes of the rays: colours times opacity, and opacity, (P, 4), 0 to 1."""
+    made = {
+        "mida": lambda: blend(rays, points, window, gamma),
+        "dvr": lambda: plain_dvr(rays, points),
+        "mip": lambda: brightest(rays, points),
+        "minip": lambda: darkest(rays, window),
+        "average": lambda: average(rays, window),
+    }
+    return made[mode]()
+
+
+def starts(value, depth, behind, opacity):
+    """Where the rays of pixels start whose cut surface has these values: nowhere (∞) where it is opaque."""
+    shown = np.where(np.isnan(value), 0, ramp(opacity, value))
+    return np.where(np.isnan(value), -np.inf, np.where(shown < 1, depth + behind, np.inf)).ravel()
+
+
+def ramp(opacity, value):
+    """The opacity ramp (transparent, opaque); `None` is opaque everywhere."""
+    if opacity is None:
+        return np.ones(np.shape(value))
+    return np.clip((value - opacity[0]) / (opacity[1] - opacity[0]), 0, 1)
+
+
+def picture(value, context, window, opacity, background):
+    """Surface over context over background, (P, 4), colours times opacity, and opacity."""
+    there = ~np.isnan(value)
+    shown = np.where(there, ramp(opacity, np.where(there, value, 0)), 0)[:, None]
+    grey = normalised(window, np.where(there, value, 0))
+    surface = np.column_stack([grey, grey, grey, np.ones(len(grey))]) * shown
+    behind = np.array(background) / 255
+    behind = np.append(behind[:3] * behind[3], behind[3])
+    return surface + (1 - shown) * (context + (1 - context[:, 3:]) * behind)
+
+
+def slab(volume, camera, depth, thickness, kind):
+    """The values (H, W) of a thick cut surface at `depth` (H, W)."""
+    parts = int(np.ceil(thickness / volume.spacing.min()))
+    parts = max(parts + 1 - parts % 2, 1)
+    behind = ((np.arange(parts) + 0.5) / parts - 0.5) * thickness
+    matrix, origin = index_from_view(volume, camera)
+    flat = origin + pixel_centers(camera) @ matrix[:, :2].T
+    index = flat[:, None] + (depth.reshape(-1, 1) + behind)[..., None] * matrix[:, 2]
+    outside = ((index < -0.5) | (index > np.array(volume.size) - 0.5)).any(axis=-1)
+    value = np.where(outside, np.nan, interpolate(volume.array.astype(float), index))
+    there = ~np.isnan(value)
+    joined = {
+        "max": np.where(there, value, -np.inf).max(axis=1),
+        "min": np.where(there, value, np.inf).min(axis=1),
+        "mean": np.where(there, value, 0).sum(axis=1) / np.maximum(there.sum(axis=1), 1),
+    }
+    return np.where(there[:, parts // 2], joined[kind], np.nan).reshape(depth.shape)
