@@ -263,7 +263,7 @@ def test_values_beyond_all_windows_count_as_bright_or_dark_as_there_is(value):
 
 PRESETS = {
     "grey": [(0.0, 0.0), (1.0, 0.3)],
-    "angio": [(0.28, 0.0), (1.0, 0.6)],
+    "angio": [(0.28, 0.0), (1.0, 0.7)],
     "bone": [(0.6, 0.0), (1.2, 0.7)],
     "soft-tissue": [(0.03, 0.0), (1.0, 0.5)],
 }

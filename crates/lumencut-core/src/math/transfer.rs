@@ -68,21 +68,6 @@ impl Preset {
                 (0.72, [240, 215, 180], 0.4),
                 (1.0, [255, 250, 235], 0.7),
             ],
-            Self::Bone => "bone",
-            Self::SoftTissue => "soft-tissue",
-        }
-    }
-
-    /// Place in the window, colour and opacity per millimetre of each control point.
-    fn points(self) -> &'static [(f64, [u8; 3], f64)] {
-        match self {
-            Self::Grey => &[(0.0, [0, 0, 0], 0.0), (1.0, [255, 255, 255], 0.3)],
-            Self::Angio => &[
-                (0.28, [110, 40, 30], 0.0),
-                (0.45, [190, 60, 40], 0.12),
-                (0.65, [235, 150, 110], 0.3),
-                (1.0, [255, 245, 225], 0.6),
-            ],
             Self::Bone => {
                 &[(0.6, [150, 120, 90], 0.0), (0.8, [225, 205, 170], 0.3), (1.2, [255, 250, 240], 0.7)]
             }
