@@ -92,8 +92,8 @@ class Settings:
         Colours and opacities of MIDA, DVR and MIP; minimum and mean ignore it. ``"grey"`` for ``"mip"`` and
         ``"angio"`` for the others where not given.
     context_step : float, optional
-        The longest distance between samples along a ray (mm, 0.001 to 1000); the smallest side of a voxel
-        where not given.
+        The longest distance between samples along a ray (mm, 0.001 to 1000); where not given
+        the smallest side of a voxel, and half of it for MIDA and DVR unless they are a preview.
     context_shading : bool, default False
         Shade MIDA and DVR by the gradient, with light from the viewer.
     context_preview : bool, default False

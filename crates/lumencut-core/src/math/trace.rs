@@ -3,7 +3,7 @@
 use super::accumulate::{Accumulator, Rgba, Samples};
 use super::blocks::Blocks;
 use super::lanes::FAN;
-use super::light::Headlight;
+use super::light::{Headlight, Shading};
 use super::ray::{Packet, Rays, STEPS, Segment};
 use super::sampling::Path;
 use crate::volume::Voxel;
@@ -17,8 +17,8 @@ pub struct Scene<'a, T> {
     pub voxels: &'a [T],
     /// What can be skipped; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// Whether colours are shaded.
-    pub shading: bool,
+    /// How colours are shaded, where they are.
+    pub shading: Option<Shading>,
 }
 
 /// Sixteen rays and what they have gathered.

@@ -7,6 +7,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::math::accumulate::{Accumulator, Average, Blend, Brightest, Darkest, Palette};
 use crate::math::blocks::Blocks;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
+use crate::math::light::Shading;
 use crate::math::ray::{NONE, PACKET, Packet, Rays, WHOLE};
 use crate::math::trace::{Scene, Walker, trace};
 use crate::math::transfer::Colors;
@@ -102,6 +103,13 @@ fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &m
     }
 }
 
+/// The step where the settings name none. Along an axis of the volume a voxel's side meets every voxel's centre, which
+/// maximum, minimum and average want; colours and opacities that rise within a voxel want more.
+fn default_step(volume: &Volume, settings: &Context) -> f64 {
+    let blended = matches!(settings.mode, ContextMode::Blend { gamma } if gamma < 1.0);
+    volume.smallest_side() * if blended && !settings.preview { 0.5 } else { 1.0 }
+}
+
 /// All that the rays of a view need, prepared once.
 struct Plan<'a> {
     view: &'a View<'a>,
@@ -110,7 +118,7 @@ struct Plan<'a> {
     rays: Rays,
     mode: ContextMode,
     palette: Palette,
-    shading: bool,
+    shading: Option<Shading>,
 }
 
 impl<'a> Plan<'a> {
@@ -120,7 +128,7 @@ impl<'a> Plan<'a> {
         blocks: Option<&'a Blocks>,
         settings: &Context,
     ) -> Result<Self> {
-        let step = settings.step.unwrap_or_else(|| volume.smallest_side());
+        let step = settings.step.unwrap_or_else(|| default_step(volume, settings));
         let corners = volume.corners();
         let longest = corners.iter().map(|c| c.distance(corners[0])).fold(0.0, f64::max);
         if longest > MOST_SAMPLES * step {
@@ -143,7 +151,7 @@ impl<'a> Plan<'a> {
                 window: Ramp::grey(settings.window),
                 gamma,
             },
-            shading: settings.shading,
+            shading: settings.shading.then(|| Shading::new(settings.window)),
         })
     }
 
