@@ -15,6 +15,8 @@ pub struct Grid {
     low: [usize; 3],
     step: [usize; 3],
     strides: [usize; 3],
+    /// Whether the voxels lie too far apart for offsets of 32 bits.
+    wide: bool,
 }
 
 /// Continuous indices of sixteen places, axis by axis, counted from a voxel near them so that `f32` holds them to a
@@ -31,7 +33,9 @@ impl Grid {
     /// The grid of `volume`.
     pub fn new(volume: &Volume) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
+        let farthest: usize = (0..3).map(|a| (size[a] - 1) * strides[a]).sum();
         Self {
+            wide: u32::try_from(farthest).is_err(),
             last: size.map(|n| (n - 1) as f64),
             low: size.map(|n| n.saturating_sub(2)),
             step: std::array::from_fn(|a| if size[a] > 1 { strides[a] } else { 0 }),
@@ -73,7 +77,7 @@ impl Grid {
                 offset[l] += floor as usize * stride;
             }
         }
-        let rows = self.rows(voxels, &[offset.map(|o| o as u64)]);
+        let rows = self.rows(voxels, &[offset]);
         let mut value = [0.0; FAN];
         for l in 0..FAN {
             let weights = [0, 1, 2].map(|a| T::Real::from_weight(weight[a][l]));
@@ -93,12 +97,17 @@ impl Grid {
         base: [i32; 3],
         path: &impl Path,
     ) -> [[f32; FAN]; N] {
-        let mut offset = [[0; FAN]; N];
+        let mut value = [[0.0; FAN]; N];
+        if self.wide {
+            for n in 0..N {
+                value[n] = self.trilinear_lanes(voxels, &self.indices(base, &path.places(n)));
+            }
+            return value;
+        }
+        let mut offset = [[0u32; FAN]; N];
         let mut weight = [[[0.0; FAN]; 3]; N];
-        let first: usize = (0..3).map(|a| base[a] as usize * self.strides[a]).sum();
         for n in 0..N {
             let places = path.places(n);
-            offset[n] = [first as u64; FAN];
             for a in 0..3 {
                 let farthest = (self.last[a] - f64::from(base[a])) as f32;
                 let low = (self.low[a] as i32 - base[a]) as u32;
@@ -107,12 +116,12 @@ impl Grid {
                     let c = smaller(larger(places[a][l], 0.0), farthest);
                     let floor = whole(c).min(low);
                     weight[n][a][l] = c - floor as i32 as f32;
-                    offset[n][l] += u64::from(floor) * u64::from(stride);
+                    offset[n][l] = offset[n][l].wrapping_add(floor.wrapping_mul(stride));
                 }
             }
         }
-        let rows = self.rows(voxels, &offset);
-        let mut value = [[0.0; FAN]; N];
+        let first: usize = (0..3).map(|a| base[a] as usize * self.strides[a]).sum();
+        let rows = self.rows(&voxels[first..], &offset);
         for n in 0..N {
             for l in 0..FAN {
                 let weights = [0, 1, 2].map(|a| T::Real::from_f32(weight[n][a][l]));
@@ -122,12 +131,19 @@ impl Grid {
         value
     }
 
+    /// Continuous indices within the outermost centres, of places counted from the voxel `base`.
+    fn indices(&self, base: [i32; 3], places: &Places) -> [[f64; FAN]; 3] {
+        std::array::from_fn(|a| {
+            places[a].map(|c| (f64::from(base[a]) + f64::from(c)).clamp(0.0, self.last[a]))
+        })
+    }
+
     /// The pairs of neighbours along i in the four rows around each place, j fastest.
     #[inline(always)]
-    fn rows<T: Voxel, const N: usize>(
+    fn rows<T: Voxel, O: Offset, const N: usize>(
         &self,
         voxels: &[T],
-        offset: &[[u64; FAN]; N],
+        offset: &[[O; FAN]; N],
     ) -> [[[T::Pair; FAN]; N]; 4] {
         let [si, sj, sk] = self.step;
         let steps = [0, sj, sk, sj + sk];
@@ -135,16 +151,38 @@ impl Grid {
         for n in 0..N {
             for l in 0..FAN {
                 for r in 0..4 {
-                    let row = &voxels[offset[n][l] as usize + steps[r]..];
-                    rows[r][n][l] = match row.first_chunk() {
-                        // Neighbours side by side: one load fetches both.
-                        Some([near, far]) if si == 1 => T::pair(*near, *far),
-                        _ => T::pair(row[0], row[si]),
+                    let near = offset[n][l].elements() + steps[r];
+                    rows[r][n][l] = if si == 1 {
+                        // Neighbours side by side: one load fetches both. No pair begins at the last voxel; to say so
+                        // costs less than to have it checked.
+                        let near = near.min(voxels.len() - 2);
+                        T::pair(voxels[near], voxels[near + 1])
+                    } else {
+                        T::pair(voxels[near], voxels[near + si])
                     };
                 }
             }
         }
         rows
+    }
+}
+
+/// The distance of a voxel in elements.
+trait Offset: Copy {
+    fn elements(self) -> usize;
+}
+
+impl Offset for u32 {
+    #[inline(always)]
+    fn elements(self) -> usize {
+        self as usize
+    }
+}
+
+impl Offset for usize {
+    #[inline(always)]
+    fn elements(self) -> usize {
+        self
     }
 }
 
