@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     fn exact(opacity: f32, thickness: f32) -> f64 {
-        1.0 - (1.0 - f64::from(opacity)).powf(f64::from(thickness))
+        -(f64::from(thickness) * (-f64::from(opacity)).ln_1p()).exp_m1()
     }
 
     #[test]
