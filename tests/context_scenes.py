@@ -61,7 +61,8 @@ def settings(mode, points=POINTS, window=WINDOW, **changes):
 
 
 def drawn(volume, camera, mode, **changes):
-    """The context alone, RGBA with straight alpha, (H, W, 4)."""
+    """The context alone, RGBA with straight alpha, (H, W, 4); the default step is a side."""
+    changes.setdefault("step", volume.spacing.min())
     return Renderer(volume, None).render(camera, settings(mode, **changes)).context
 
 

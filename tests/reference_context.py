@@ -22,7 +22,7 @@ class Rays:
 
     value: np.ndarray  # (P, N)
     length: np.ndarray  # of a part of each ray (mm), (P,)
-    cosine: np.ndarray  # between gradient and view direction, NaN where there is none, (P, N)
+    slope: np.ndarray  # cosine between gradient and view, NaN without; change over two voxels, (P, N, 2)
     unsure: np.ndarray  # whether rounding decides about the number of parts, (P,)
 
 
@@ -86,18 +86,20 @@ def trace(volume, camera, step=None, *, start=None, q=None, shading=False):
     index = origin + (q @ matrix[:, :2].T)[:, None] + depth[..., None] * matrix[:, 2]
     array = volume.array.astype(float)
     value = np.where(part < count[:, None], interpolate(array, index), np.nan)
-    cosine = cosines(array, index, matrix) if shading else np.full(value.shape, np.nan)
+    slope = slopes(array, index, matrix) if shading else np.full((*value.shape, 2), np.nan)
     unsure = hits & (np.abs(steps - np.round(steps)) < ROUNDING)
-    return Rays(value, length, cosine, unsure)
+    return Rays(value, length, slope, unsure)
 
 
-def cosines(array, index, matrix):
-    """How far gradients point along the view; NaN where nothing changes or a neighbour is NaN."""
+def slopes(array, index, matrix):
+    """How far gradients point along the view, NaN where none or a neighbour is NaN; the change."""
     sides = np.eye(3)
     change = [interpolate(array, index + s) - interpolate(array, index - s) for s in sides]
-    gradient = np.stack(change, axis=-1) @ matrix
+    change = np.stack(change, axis=-1)
+    gradient = change @ matrix
     length = np.linalg.norm(gradient, axis=-1)
-    return np.divide(np.abs(gradient[..., 2]), length, out=np.full(length.shape, np.nan), where=length > 0)
+    cosine = np.divide(np.abs(gradient[..., 2]), length, out=np.full(length.shape, np.nan), where=length > 0)
+    return np.stack([cosine, np.linalg.norm(change, axis=-1)], axis=-1)
 
 
 def normalised(window, value):
@@ -118,10 +120,12 @@ def opacity(points, value, length):
     return 1 - (1 - per_mm) ** length
 
 
-def shaded(rgb, cosine):
-    """Light from the viewer on colours."""
-    lit = np.minimum(rgb * (0.35 + 0.65 * cosine[..., None]) + 0.2 * cosine[..., None] ** 16, 1)
-    return np.where(np.isnan(cosine)[..., None], rgb, lit)
+def shaded(rgb, slope, window):
+    """Light from the viewer on colours, half of it where the change is a tenth of the window."""
+    cosine, change = slope[..., :1], slope[..., 1:]
+    share = change**2 / (change**2 + (0.1 * window[1]) ** 2)
+    lit = rgb * (1 + share * (0.4 + 0.6 * cosine - 1)) + share * 0.2 * cosine**16
+    return np.where(np.isnan(cosine), rgb, np.minimum(lit, 1))
 
 
 def blend(rays, points, window, gamma):
@@ -135,7 +139,7 @@ def blend(rays, points, window, gamma):
         f = normalised(window, value)
         keep = 1 - np.maximum(0, f - most) * (1 + min(gamma, 0))
         own = opacity(points, value, rays.length)
-        rgba = np.column_stack([shaded(colour(points, value), rays.cosine[:, n]), np.ones(pixels)])
+        rgba = np.column_stack([shaded(colour(points, value), rays.slope[:, n], window), np.ones(pixels)])
         share = (1 - keep * out[:, 3]) * own
         out = np.where(there[:, None], keep[:, None] * out + share[:, None] * rgba, out)
         most = np.where(there, np.maximum(most, f), most)
@@ -144,13 +148,15 @@ def blend(rays, points, window, gamma):
     return out
 
 
-def plain_dvr(rays, points):
+def plain_dvr(rays, points, window):
     """Front-to-back compositing as every textbook has it: the product of what all before let through."""
     there = ~np.isnan(rays.value)
     value = np.where(there, rays.value, 0)
     own = np.where(there, opacity(points, value, rays.length[:, None]), 0)
     before = np.cumprod(np.column_stack([np.ones(len(own)), 1 - own[:, :-1]]), axis=1)
-    rgba = np.concatenate([shaded(colour(points, value), rays.cosine), np.ones((*own.shape, 1))], axis=-1)
+    rgba = np.concatenate(
+        [shaded(colour(points, value), rays.slope, window), np.ones((*own.shape, 1))], axis=-1
+    )
     return ((before * own)[..., None] * rgba).sum(axis=1)
 
 
@@ -182,7 +188,7 @@ def gather(rays, mode, points, window, gamma=0.0):
     """What a mode makes of the rays: colours times opacity, and opacity, (P, 4), 0 to 1."""
     made = {
         "mida": lambda: blend(rays, points, window, gamma),
-        "dvr": lambda: plain_dvr(rays, points),
+        "dvr": lambda: plain_dvr(rays, points, window),
         "mip": lambda: brightest(rays, points),
         "minip": lambda: darkest(rays, window),
         "average": lambda: average(rays, window),

@@ -54,12 +54,18 @@ def test_every_mode_on_every_grid_in_every_view(grid, mode):
 
 
 @pytest.mark.parametrize("grid", ["anisotropic", "oblique", "sheared"])
-def test_the_default_step_is_the_smallest_side_of_a_voxel(grid):
+def test_the_default_step_is_the_smallest_side_of_a_voxel_and_half_of_it_where_colours_blend(grid):
     volume = placed(noise(2), GRIDS[grid])
     camera = viewed(volume, "oblique")
     side = min(np.linalg.norm(GRIDS[grid], axis=0))
-    for mode in ("mip", "average", "dvr"):
-        assert_same(drawn(volume, camera, mode), expected(volume, camera, mode, step=side))
+    for mode, step in (
+        ("mip", side),
+        ("minip", side),
+        ("average", side),
+        ("dvr", side / 2),
+        ("mida", side / 2),
+    ):
+        assert_same(drawn(volume, camera, mode, step=None), expected(volume, camera, mode, step=step))
 
 
 @pytest.mark.parametrize("step", [0.011, 0.1, 1.03, 3.1, 50.0])

@@ -97,6 +97,25 @@ def test_the_window_of_the_context_does_not_follow_the_window(made):
     np.testing.assert_array_equal(named.image, expected.image)
 
 
+def test_windows_from_the_data_are_those_that_settings_leave_open(made, alone):
+    renderer = Renderer(made.volume, made.tree)
+    along, whole = Window.from_data(made.volume, made.tree), Window.whole(made.volume)
+    assert renderer.windowed(Settings()) == Settings(window=along, context_window=along)
+    given = Settings(window=WINDOW, context_window=WINDOW, context="dvr")
+    assert renderer.windowed(given) == given
+    assert renderer.windowed(Settings(context=None)) == Settings(window=along, context=None)
+    for name in ("minip", "average"):
+        low = Settings(context=name)
+        assert renderer.windowed(low) == replace(low, window=along, context_window=whole)
+        assert alone.windowed(low) == replace(low, context_window=whole)
+    image = alone.render(Camera.anterior(made.volume, SIZE), Settings(context="average")).image
+    assert image[..., :3].max() > 100, "means of much air are seen"
+    with pytest.raises(
+        VolumeError, match="volume of the renderer: found None; expected a volume to take the"
+    ):
+        Renderer(None, made.tree).windowed(Settings())
+
+
 def test_a_slab_shows_larger_and_smaller_values(made):
     renderer, camera = Renderer(made.volume, made.tree), Camera.anterior(made.tree, SIZE)
     values = [renderer.render(camera, Settings(slab=Slab(6, mode))).value for mode in ("min", "mean", "max")]

@@ -200,11 +200,16 @@ def test_every_preset_and_every_context_is_taken_and_makes_another_picture():
 # The window of a volume alone
 
 
-def test_the_window_of_a_volume_is_taken_from_its_brightest_voxels():
+def lumen_and_width(array):
+    """What the window of a volume alone is made from, of all of its voxels."""
+    air, lumen = np.percentile(array, [1, 99])
+    return lumen, 3 * (lumen - np.median(array[array > air + (lumen - air) / 4]))
+
+
+def test_the_window_of_a_volume_is_taken_from_its_bright_voxels():
     array = np.arange(100 * 90 * 80, dtype=np.float32).reshape(100, 90, 80)
     window = Window.from_data(Volume(array))
-    black, white = window.level - window.width / 2, window.level + window.width / 2
-    np.testing.assert_allclose([black, white], np.percentile(array, [90, 99.9]), rtol=1e-3)
+    np.testing.assert_allclose([window.level, window.width], lumen_and_width(array), rtol=1e-3)
     assert Window.from_data(Volume(np.asfortranarray(array))) == window
 
 
@@ -212,8 +217,16 @@ def test_the_window_of_a_large_volume_looks_at_a_part_of_it():
     random = np.random.default_rng(1)
     array = random.normal(100, 30, (128, 256, 192)).astype(np.int16)
     window = Window.from_data(Volume(array))
-    black, white = np.percentile(array, [90, 99.9])
-    np.testing.assert_allclose([window.level, window.width], [(black + white) / 2, white - black], rtol=0.03)
+    np.testing.assert_allclose([window.level, window.width], lumen_and_width(array), rtol=0.03)
+
+
+@pytest.mark.parametrize("name", ["aorta", "runoff", "cervical"])
+def test_the_window_of_a_volume_alone_shows_the_lumen_and_not_the_tissue(name):
+    made = getattr(phantom, name)(scale=0.3)
+    alone, along = Window.from_data(made.volume), Window.from_data(made.volume, made.tree)
+    lumen, tissue = along.level, along.level - along.width / 3
+    assert 0.3 < (lumen - alone.level) / alone.width + 0.5 < 0.7
+    assert (tissue - alone.level) / alone.width + 0.5 < 0.28
 
 
 @pytest.mark.parametrize("value", [0, 7, -3000])
@@ -227,7 +240,7 @@ def test_voxels_that_are_not_finite_are_left_out_of_the_window():
     array = np.full((6, 6, 6), np.nan, np.float32)
     assert Window.from_data(Volume(array)) == Window(300, 900)
     array[2:4], array[4:, 0, 0] = np.linspace(0, 1, 72).reshape(2, 6, 6), np.inf
-    assert 0.8 < Window.from_data(Volume(array)).level < 1
+    assert 0.95 < Window.from_data(Volume(array)).level < 1
 
 
 def test_windows_of_what_is_no_volume_or_beyond_all_windows():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -104,7 +105,7 @@ class Renderer:
         if settings.context is None and self._tree is None:
             mend = "give the renderer a tree, or the settings a context such as 'mida'"
             raise SettingsError("context", "None without a vessel tree", "something to show", mend)
-        return _frame(camera, self._core.render(self._volume, camera, self._windowed(settings)))
+        return _frame(camera, self._core.render(self._volume, camera, self.windowed(settings)))
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
@@ -129,22 +130,42 @@ class Renderer:
             raise SettingsError("settings", type(settings).__name__, "Settings or None")
         return camera or Camera.anterior(self._scene), settings or Settings()
 
-    def _windowed(self, settings: Settings) -> Settings:
-        """The settings with the windows from the data that they leave open and that are shown."""
-        if settings.window is None and self._tree is not None:
-            settings = replace(settings, window=self.window)
-        if settings.context_window is None and settings.context is not None:
-            settings = replace(settings, context_window=self.window)
-        return settings
+    def windowed(self, settings: Settings) -> Settings:
+        """Return the settings as :meth:`render` uses them: with windows from the data where they name none.
+
+        Raises
+        ------
+        VolumeError
+            Without a volume.
+        """
+        window, context_window = settings.window, settings.context_window
+        if window is None and self._tree is not None:
+            window = self.window
+        if context_window is None and settings.context is not None:
+            # The smallest values and the means along rays lie far below those of the vessels.
+            low = settings.context in ("minip", "average")
+            context_window = self._whole_window if low else self.window
+        return replace(settings, window=window, context_window=context_window)
 
     @property
     def window(self) -> Window:
-        """The window that :meth:`render` uses where the settings name none; see :meth:`Window.from_data`."""
+        """The window of cut surface and context where the settings name none; see :meth:`Window.from_data`.
+
+        Contexts of minimum and mean have their own, see :meth:`windowed`.
+        """
         if self._window is None:
-            if self._volume is None:
-                raise VolumeError("volume of the renderer", "None", "a volume to take the window from")
-            self._window = Window.from_data(self._volume, self._tree)
+            self._window = Window.from_data(self._shown, self._tree)
         return self._window
+
+    @functools.cached_property
+    def _whole_window(self) -> Window:
+        return Window.whole(self._shown)
+
+    @property
+    def _shown(self) -> Volume:
+        if self._volume is None:
+            raise VolumeError("volume of the renderer", "None", "a volume to take the window from")
+        return self._volume
 
 
 def render(

@@ -86,13 +86,14 @@ class Settings:
         Only for ``"mida"``: −1 is DVR, 0 MIDA, 1 MIP, between them a blend.
     context_window : Window, optional
         Intensities from 0 to 1 for the differences of MIDA, and from black to white for minimum and mean; the
-        named transfer functions lie within it. Taken from the data where not given, whatever ``window`` is.
+        named transfer functions lie within it. Taken from the data where not given, whatever ``window`` is:
+        for minimum and mean :meth:`Window.whole`, for the others :meth:`Window.from_data`.
     context_transfer : {"grey", "angio", "bone", "soft-tissue"} or TransferFunction, optional
         Colours and opacities of MIDA, DVR and MIP; minimum and mean ignore it. ``"grey"`` for ``"mip"`` and
         ``"angio"`` for the others where not given.
     context_step : float, optional
-        The longest distance between samples along a ray (mm, 0.001 to 1000); the smallest side of a voxel
-        where not given.
+        The longest distance between samples along a ray (mm, 0.001 to 1000); where not given
+        the smallest side of a voxel, and half of it for MIDA and DVR unless they are a preview.
     context_shading : bool, default False
         Shade MIDA and DVR by the gradient, with light from the viewer.
     context_preview : bool, default False

@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 _BESIDE, _UNKNOWN_RADIUS = 10.0, 10.0
 #: The largest level and width that a window can have.
 _LARGEST = 1e12
-#: Of a volume alone: how many voxels are looked at, and which percentiles of them are black and white.
-_MOST_VOXELS, _BLACK, _WHITE = 1e6, 90.0, 99.9
+#: Of a volume alone: how many voxels are looked at; which percentiles of them stand for air and for lumen;
+#: how far from the one to the other tissue begins.
+_MOST_VOXELS, _AIR, _LUMEN, _TISSUE = 1e6, 1.0, 99.0, 0.25
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,9 @@ class Window:
         The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
         the tissue around it; the window is centred on the lumen, three times as wide as their difference.
 
-        Without a tree it reaches from the 90th percentile of the volume to the 99.9th, of at most about a
-        million voxels, evenly spread.
+        Without a tree the 99th percentile of the volume stands for the lumen, and for the tissue the median
+        of the voxels above a quarter of the way to it from the 1st percentile; of at most about a million
+        voxels, evenly spread.
 
         Raises
         ------
@@ -61,6 +63,23 @@ class Window:
             raise VesselTreeError("tree", type(tree).__name__, "a VesselTree or None")
         volume = as_volume(volume)
         return cls._of_volume(volume) if tree is None else cls._along(volume, tree)
+
+    @classmethod
+    def whole(cls, volume: Volume) -> Window:
+        """Return a window that shows air to lumen: from the 1st percentile of the volume to the 99th.
+
+        Raises
+        ------
+        VolumeError
+            For what is no volume, or values beyond all windows.
+        """
+        from lumencut.volume_files.memory import as_volume
+
+        values = _spread(as_volume(volume))
+        if values.size == 0:
+            return cls(300.0, 900.0)
+        black, white = (float(end) for end in np.percentile(values, (_AIR, _LUMEN)))
+        return cls._within((black + white) / 2, white - black, f"values from {black:.3g} to {white:.3g}")
 
     @classmethod
     def _along(cls, volume: Volume, tree: VesselTree) -> Window:
@@ -79,12 +98,13 @@ class Window:
 
     @classmethod
     def _of_volume(cls, volume: Volume) -> Window:
-        step = max(int(np.ceil((volume.array.size / _MOST_VOXELS) ** (1 / 3))), 1)
-        values = _finite(volume.array[::step, ::step, ::step])
+        values = _spread(volume)
         if values.size == 0:
             return cls(300.0, 900.0)
-        black, white = (float(end) for end in np.percentile(values, (_BLACK, _WHITE)))
-        return cls._within((black + white) / 2, white - black, f"values from {black:.3g} to {white:.3g}")
+        air, lumen = (float(end) for end in np.percentile(values, (_AIR, _LUMEN)))
+        brighter = values[values > air + _TISSUE * (lumen - air)]
+        tissue = float(np.median(brighter)) if brighter.size else air
+        return cls._within(lumen, 3 * abs(lumen - tissue), f"values from {air:.3g} to {lumen:.3g}")
 
     @classmethod
     def _within(cls, level: float, width: float, found: str) -> Window:
@@ -109,6 +129,12 @@ class Opacity:
         for name in ("transparent", "opaque"):
             object.__setattr__(self, name, number(SettingsError, f"opacity {name}", getattr(self, name)))
         Settings(opacity=self)
+
+
+def _spread(volume: Volume) -> npt.NDArray[np.float64]:
+    """About as many finite voxels as are looked at, evenly spread."""
+    step = max(int(np.ceil((volume.array.size / _MOST_VOXELS) ** (1 / 3))), 1)
+    return _finite(volume.array[::step, ::step, ::step])
 
 
 def _finite(values: npt.NDArray[np.generic]) -> npt.NDArray[np.float64]:

@@ -31,7 +31,8 @@ pub struct Context {
     pub window: Window,
     /// Colour and opacity of the intensities.
     pub transfer: TransferFunction,
-    /// The longest distance between samples (mm); `None` is the smallest side of a voxel.
+    /// The longest distance between samples (mm); `None` is the smallest side of a voxel, and half of it for DVR and
+    /// MIDA at full resolution, whose opaque borders would show rings otherwise.
     pub step: Option<f64>,
     /// Shade DVR and MIDA by the gradient, with light from the viewer.
     pub shading: bool,

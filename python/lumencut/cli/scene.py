@@ -60,9 +60,10 @@ def is_empty(frame: Frame) -> bool:
 
 def shown(camera: Camera, settings: Settings, renderer: Renderer) -> str:
     """Say in words what a picture of a renderer shows."""
+    used = renderer.windowed(settings)
     if renderer.tree is None:
-        return described(camera, "context window", settings.context_window or renderer.window)
-    return described(camera, "window", settings.window or renderer.window)
+        return described(camera, "context window", used.context_window or renderer.window)
+    return described(camera, "window", used.window or renderer.window)
 
 
 def warn_of_emptiness(who: str, camera: Camera, renderer: Renderer) -> None:

@@ -138,7 +138,8 @@ _SETTINGS = (
         "--context-step",
         type=float,
         metavar="MM",
-        help="Longest distance between samples along a ray (mm); default: the smallest side of a voxel.",
+        help="Longest distance between samples along a ray (mm); default: the smallest side of a voxel, "
+        "half of it for mida and dvr.",
     ),
     click.option(
         "--context-shading/--no-context-shading",

@@ -30,11 +30,28 @@ pub trait Light {
     fn shade(&self) -> [[f32; FAN]; 2];
 }
 
+/// How intensities look.
+#[derive(Clone, Debug)]
+pub struct Palette {
+    /// Colour and opacity.
+    pub colors: Colors,
+    /// The intensities from 0 to 1.
+    pub window: Ramp,
+    /// γ, from −1 to 1.
+    pub gamma: f32,
+}
+
 /// Gathers the samples of sixteen rays.
-pub trait Accumulator {
-    /// How promising a range is where samples may come in any order: the largest should come first. `None` where
-    /// they must come from near to far.
-    fn promise(range: Range) -> Option<f32>;
+pub trait Accumulator<'a> {
+    /// Whether samples may come in any order, and more than once; else they come from near to far.
+    const ANY_ORDER: bool = false;
+    /// Nothing yet; rays that are not `active` ask for no samples.
+    fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self;
+    /// How much the samples of a range can change, where they may come in any order.
+    #[inline(always)]
+    fn promise(_: Range) -> f32 {
+        0.0
+    }
     /// Whether samples with values in a range would change nothing.
     fn ignores(&self, range: Range) -> bool;
     /// Takes the next samples.
@@ -46,8 +63,7 @@ pub trait Accumulator {
 /// DVR, MIDA and what lies between them and MIP (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
 #[derive(Clone, Debug)]
 pub struct Blend<'a> {
-    colors: &'a Colors,
-    window: Ramp,
+    palette: &'a Palette,
     /// 1 + min(γ, 0): how far a brighter sample pushes back what was gathered before it.
     push: f32,
     /// max(γ, 0): the share of the maximum in the finished pixel.
@@ -59,46 +75,37 @@ pub struct Blend<'a> {
     brightest: Brightest<'a>,
 }
 
-impl<'a> Blend<'a> {
-    /// Nothing yet; rays that are not `active` ask for no samples.
+impl<'a> Accumulator<'a> for Blend<'a> {
     #[inline(always)]
-    pub fn new(colors: &'a Colors, window: Ramp, gamma: f32, active: &[bool; FAN]) -> Self {
+    fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
         // What is transparent changes nothing before the first visible sample, which is brighter than all of it.
-        let most = window.at(colors.first_visible());
+        let most = palette.window.at(palette.colors.first_visible());
         Self {
-            colors,
-            window,
-            push: 1.0 + smaller(gamma, 0.0),
-            mix: larger(gamma, 0.0),
+            palette,
+            push: 1.0 + smaller(palette.gamma, 0.0),
+            mix: larger(palette.gamma, 0.0),
             color: [[0.0; FAN]; 3],
             opacity: active.map(|active| if active { 0.0 } else { 1.0 }),
             most: active.map(|active| if active { most } else { 1.0 }),
-            brightest: Brightest::new(colors, active),
+            brightest: Brightest::new(palette, active),
         }
-    }
-}
-
-impl Accumulator for Blend<'_> {
-    #[inline(always)]
-    fn promise(_: Range) -> Option<f32> {
-        None
     }
 
     #[inline(always)]
     fn ignores(&self, range: Range) -> bool {
-        let unseen = smallest(&self.opacity) >= OPAQUE || self.colors.is_transparent(range);
+        let unseen = smallest(&self.opacity) >= OPAQUE || self.palette.colors.is_transparent(range);
         unseen
-            && (self.push == 0.0 || self.window.at(range.high) <= smallest(&self.most))
+            && (self.push == 0.0 || self.palette.window.at(range.high) <= smallest(&self.most))
             && (self.mix == 0.0 || self.brightest.ignores(range))
     }
 
     #[inline(always)]
     fn add(&mut self, samples: &Samples, light: &impl Light) {
-        let mut own = self.colors.opacity(samples.value);
+        let mut own = self.palette.colors.opacity(samples.value);
         let mut keep = [1.0; FAN];
         let mut any = 0;
         for l in 0..FAN {
-            let intensity = if samples.present[l] { self.window.at(samples.value[l]) } else { 0.0 };
+            let intensity = if samples.present[l] { self.palette.window.at(samples.value[l]) } else { 0.0 };
             let push = larger(intensity - self.most[l], 0.0) * self.push;
             let hidden = !samples.present[l] | ((self.opacity[l] >= OPAQUE) & (push == 0.0));
             keep[l] = 1.0 - push;
@@ -119,7 +126,7 @@ impl Accumulator for Blend<'_> {
             return;
         }
         let own = of_thickness(&own, samples.thickness);
-        let (color, [lit, shine]) = (self.colors.color(samples.value), light.shade());
+        let (color, [lit, shine]) = (self.palette.colors.color(samples.value), light.shade());
         for l in 0..FAN {
             let share = (1.0 - self.opacity[l]) * own[l];
             for (sum, color) in self.color.iter_mut().zip(&color) {
@@ -151,18 +158,21 @@ pub struct Brightest<'a> {
     best: [f32; FAN],
 }
 
-impl<'a> Brightest<'a> {
-    /// Nothing yet; rays that are not `active` ask for no samples.
-    #[inline(always)]
-    pub fn new(colors: &'a Colors, active: &[bool; FAN]) -> Self {
-        Self { colors, active: *active, best: active.map(|active| if active { -HUGE } else { HUGE }) }
-    }
-}
+impl<'a> Accumulator<'a> for Brightest<'a> {
+    const ANY_ORDER: bool = true;
 
-impl Accumulator for Brightest<'_> {
     #[inline(always)]
-    fn promise(range: Range) -> Option<f32> {
-        Some(range.high)
+    fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
+        Self {
+            colors: &palette.colors,
+            active: *active,
+            best: active.map(|active| if active { -HUGE } else { HUGE }),
+        }
+    }
+
+    #[inline(always)]
+    fn promise(range: Range) -> f32 {
+        range.high
     }
 
     #[inline(always)]
@@ -199,18 +209,18 @@ pub struct Darkest {
     best: [f32; FAN],
 }
 
-impl Darkest {
-    /// Nothing yet; rays that are not `active` ask for no samples.
-    #[inline(always)]
-    pub fn new(window: Ramp, active: &[bool; FAN]) -> Self {
-        Self { window, active: *active, best: active.map(|active| if active { HUGE } else { -HUGE }) }
-    }
-}
+impl<'a> Accumulator<'a> for Darkest {
+    const ANY_ORDER: bool = true;
 
-impl Accumulator for Darkest {
     #[inline(always)]
-    fn promise(range: Range) -> Option<f32> {
-        Some(-range.low)
+    fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
+        let best = active.map(|active| if active { HUGE } else { -HUGE });
+        Self { window: palette.window, active: *active, best }
+    }
+
+    #[inline(always)]
+    fn promise(range: Range) -> f32 {
+        -range.low
     }
 
     #[inline(always)]
@@ -245,18 +255,10 @@ pub struct Average {
     count: [f32; FAN],
 }
 
-impl Average {
-    /// Nothing yet.
+impl<'a> Accumulator<'a> for Average {
     #[inline(always)]
-    pub fn new(window: Ramp) -> Self {
-        Self { window, sum: [0.0; FAN], count: [0.0; FAN] }
-    }
-}
-
-impl Accumulator for Average {
-    #[inline(always)]
-    fn promise(_: Range) -> Option<f32> {
-        None
+    fn new(palette: &'a Palette, _: &[bool; FAN]) -> Self {
+        Self { window: palette.window, sum: [0.0; FAN], count: [0.0; FAN] }
     }
 
     #[inline(always)]

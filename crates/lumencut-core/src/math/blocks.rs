@@ -9,7 +9,7 @@ use crate::volume::{Real, Volume, Voxel};
 use crate::with_voxels;
 
 /// The side of a block (cells between neighbouring voxels).
-pub const SIDE: usize = 8;
+pub const SIDE: usize = 4;
 
 /// Of more blocks than these the range of the whole volume is taken: asking them all would cost more than samples.
 const MOST_ASKED: i32 = 256;
@@ -56,7 +56,7 @@ impl Range {
 }
 
 /// The ranges of all blocks of a volume. Block b holds the values of all samples whose lower corner is one of the
-/// voxels from 8·b to 8·b + 7 along each axis; voxels that are NaN are left out.
+/// voxels from 4·b to 4·b + 3 along each axis; voxels that are NaN are left out.
 #[derive(Debug)]
 pub struct Blocks {
     size: [usize; 3],

@@ -74,16 +74,29 @@ impl Rays {
 /// parts no longer than a step; each is sampled in its middle. So the parts of a ray fill it, whatever the step.
 #[derive(Clone, Debug)]
 pub struct Packet {
-    /// Continuous index where each ray's first part begins.
-    origin: [[f64; FAN]; 3],
-    /// Index per part of each ray.
-    part: [[f64; FAN]; 3],
+    /// Continuous index of each ray at depth 0, and what 1 mm of depth adds to it.
+    foot: [[f64; FAN]; 3],
+    toward: [f64; 3],
+    /// Depth where the first part of each ray begins, and the length of a part (mm).
+    near: [f64; FAN],
+    part: [f64; FAN],
     /// The number of parts of each ray; 0 where it misses the volume or is not needed.
     pub count: [i32; FAN],
     /// The length of a part (mm).
     pub thickness: [f32; FAN],
     /// The largest number of parts.
     pub longest: i32,
+    bounds: Bounds,
+}
+
+/// The smallest and the largest of a packet's numbers.
+#[derive(Clone, Copy, Debug, Default)]
+struct Bounds {
+    foot: [[f64; 2]; 3],
+    near: [f64; 2],
+    part: [f64; 2],
+    /// The largest depth where a ray ends.
+    far: f64,
 }
 
 impl Packet {
@@ -92,17 +105,16 @@ impl Packet {
     pub fn new(rays: &Rays, x: &[f64; FAN], y: &[f64; FAN], start: &[f32; FAN]) -> Self {
         let to = &rays.index_from_view;
         let (toward, last) = (to.z.to_array(), rays.grid.last());
-        let mut origin = [[0.0; FAN]; 3];
-        let (mut near, mut far) = ([0.0; FAN], [1e9; FAN]);
+        let mut foot = [[0.0; FAN]; 3];
+        let (mut near, mut far) = ([0.0; FAN], [f64::from(NONE); FAN]);
         for l in 0..FAN {
             near[l] = f64::from(start[l]);
         }
         for a in 0..3 {
-            let (ox, oy) = (to.x[a], to.y[a]);
             let parallel = toward[a].abs() < PARALLEL;
             let per_voxel = if parallel { 0.0 } else { 1.0 / toward[a] };
             for l in 0..FAN {
-                let o = to.origin[a] + ox * x[l] + oy * y[l];
+                let o = to.origin[a] + to.x[a] * x[l] + to.y[a] * y[l];
                 let (one, other) = ((-0.5 - o) * per_voxel, (last[a] + 0.5 - o) * per_voxel);
                 let (enter, leave) = if one < other { (one, other) } else { (other, one) };
                 let outside = (o < -0.5) | (o > last[a] + 0.5);
@@ -110,62 +122,87 @@ impl Packet {
                 let leave = if parallel { 2e9 } else { leave };
                 near[l] = if enter > near[l] { enter } else { near[l] };
                 far[l] = if leave < far[l] { leave } else { far[l] };
-                origin[a][l] = o;
+                foot[a][l] = o;
             }
         }
-        let mut packet =
-            Self { origin, part: [[0.0; FAN]; 3], count: [0; FAN], thickness: [0.0; FAN], longest: 0 };
+        let (mut count, mut part) = ([0; FAN], [0.0; FAN]);
         for l in 0..FAN {
             let chord = far[l] - near[l];
-            let parts = if chord > 0.0 { (chord / rays.step - SPARE).ceil().max(1.0) } else { 0.0 };
-            let length = if chord > 0.0 { chord / parts } else { 0.0 };
-            let near = if chord > 0.0 { near[l] } else { 0.0 };
-            packet.count[l] = parts as i32;
-            packet.thickness[l] = length as f32;
-            packet.longest = packet.longest.max(parts as i32);
-            for a in 0..3 {
-                packet.origin[a][l] += near * toward[a];
-                packet.part[a][l] = length * toward[a];
-            }
+            // The whole number above the quotient, without the system's function.
+            let steps = chord / rays.step - SPARE;
+            let parts = steps as i32 + i32::from(f64::from(steps as i32) < steps);
+            count[l] = if chord > 0.0 { parts.max(1) } else { 0 };
+            part[l] = if chord > 0.0 { chord / f64::from(count[l]) } else { 0.0 };
+        }
+        let mut packet = Self {
+            foot,
+            toward,
+            near,
+            part,
+            count,
+            thickness: [0.0; FAN],
+            longest: 0,
+            bounds: Bounds::default(),
+        };
+        for l in 0..FAN {
+            packet.thickness[l] = part[l] as f32;
+            packet.longest = packet.longest.max(count[l]);
         }
         packet.settle_idle();
+        packet.bound();
         packet
     }
 
     /// Lets the rays that see nothing run along with one that does, so that they widen no range.
     #[inline(always)]
     fn settle_idle(&mut self) {
-        let Some(busy) = (0..FAN).find(|l| self.count[*l] > 0) else { return };
+        let mut busy = 0;
         for l in 0..FAN {
-            for a in 0..3 {
-                let idle = self.count[l] == 0;
-                self.origin[a][l] = if idle { self.origin[a][busy] } else { self.origin[a][l] };
-                self.part[a][l] = if idle { self.part[a][busy] } else { self.part[a][l] };
+            busy = if self.count[l] > 0 { l } else { busy };
+        }
+        for l in 0..FAN {
+            let model = if self.count[l] > 0 { l } else { busy };
+            (self.near[l], self.part[l]) = (self.near[model], self.part[model]);
+            for foot in &mut self.foot {
+                foot[l] = foot[model];
             }
         }
     }
 
-    /// The parts from `first` on that are sampled together.
+    #[inline(always)]
+    fn bound(&mut self) {
+        self.bounds = Bounds {
+            foot: [ends(&self.foot[0]), ends(&self.foot[1]), ends(&self.foot[2])],
+            near: ends(&self.near),
+            part: ends(&self.part),
+            far: f64::MIN,
+        };
+        for l in 0..FAN {
+            let far = self.near[l] + self.part[l] * f64::from(self.count[l]);
+            self.bounds.far = if far > self.bounds.far { far } else { self.bounds.far };
+        }
+    }
+
+    /// The parts from `first` on that are sampled together, within bounds of the whole packet.
     #[inline(always)]
     pub fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
-        let mut low = [0; 3];
-        let mut high = [0; 3];
+        let Bounds { foot, near, part, far } = &self.bounds;
+        let begin = near[0] + part[0] * (f64::from(first) + 0.5);
+        let end = near[1] + part[1] * (f64::from(first + STEPS as i32) - 0.5);
+        let end = if end < *far { end } else { *far };
+        let (mut low, mut high) = ([0; 3], [0; 3]);
         let last_cell = grid.last_cell();
         for a in 0..3 {
-            let (mut least, mut most) = (i32::MAX, 0);
-            for l in 0..FAN {
-                let last = self.count[l].max(1) - 1;
-                let (from, to) = (first.min(last), (first + STEPS as i32 - 1).min(last));
-                let begin = self.origin[a][l] + self.part[a][l] * (f64::from(from) + 0.5);
-                let end = self.origin[a][l] + self.part[a][l] * (f64::from(to) + 0.5);
-                let (one, other) = if begin < end { (begin, end) } else { (end, begin) };
-                least = least.min((one - ROUNDING) as i32);
-                most = most.max((other + ROUNDING) as i32);
-            }
-            low[a] = least.clamp(0, last_cell[a]);
-            high[a] = most.clamp(0, last_cell[a]);
+            let (one, other) = (self.toward[a] * begin, self.toward[a] * end);
+            let (less, more) = if one < other { (one, other) } else { (other, one) };
+            low[a] = ((foot[a][0] + less - ROUNDING) as i32).clamp(0, last_cell[a]);
+            high[a] = ((foot[a][1] + more + ROUNDING) as i32).clamp(0, last_cell[a]);
         }
-        Segment { first, base: low, range: blocks.map_or(Range::ALL, |blocks| blocks.range(low, high)) }
+        let range = match blocks {
+            Some(blocks) => blocks.range(low, high),
+            None => Range::ALL,
+        };
+        Segment { first, base: low, range }
     }
 
     /// The places of a segment's samples.
@@ -174,13 +211,25 @@ impl Packet {
         let mut line = Line { start: [[0.0; FAN]; 3], part: [[0.0; FAN]; 3] };
         for a in 0..3 {
             for l in 0..FAN {
-                let begin = self.origin[a][l] + self.part[a][l] * (f64::from(segment.first) + 0.5);
+                let depth = self.near[l] + self.part[l] * (f64::from(segment.first) + 0.5);
+                let begin = self.foot[a][l] + self.toward[a] * depth;
                 line.start[a][l] = (begin - f64::from(segment.base[a])) as f32;
-                line.part[a][l] = self.part[a][l] as f32;
+                line.part[a][l] = (self.part[l] * self.toward[a]) as f32;
             }
         }
         line
     }
+}
+
+/// The smallest and the largest of sixteen numbers.
+#[inline(always)]
+fn ends(numbers: &[f64; FAN]) -> [f64; 2] {
+    let (mut low, mut high) = (numbers[0], numbers[0]);
+    for number in numbers {
+        low = if *number < low { *number } else { low };
+        high = if *number > high { *number } else { high };
+    }
+    [low, high]
 }
 
 /// Some parts of a packet's rays in a row.

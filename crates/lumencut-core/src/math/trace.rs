@@ -1,9 +1,9 @@
-//! The one ray loop of the context: segment by segment, skipping what would change nothing.
+//! The one ray loop of the context: segment by segment, all rays of a tile abreast, skipping what changes nothing.
 
 use super::accumulate::{Accumulator, Rgba, Samples};
 use super::blocks::Blocks;
 use super::lanes::FAN;
-use super::light::Headlight;
+use super::light::{Headlight, Shading};
 use super::ray::{Packet, Rays, STEPS, Segment};
 use super::sampling::Path;
 use crate::volume::Voxel;
@@ -17,44 +17,93 @@ pub struct Scene<'a, T> {
     pub voxels: &'a [T],
     /// What can be skipped; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// Whether colours are shaded.
-    pub shading: bool,
+    /// How colours are shaded, where they are.
+    pub shading: Option<Shading>,
 }
 
-/// Segments that wait for more promising ones.
-pub type Waiting = Vec<(f32, Segment)>;
+/// Sixteen rays and what they have gathered.
+#[derive(Clone, Debug)]
+pub struct Walker<A> {
+    packet: Packet,
+    gathered: A,
+    /// The segments, where the most promising one went first.
+    segments: Vec<Segment>,
+}
 
-/// Lets sixteen rays gather their samples, near to far, or the most promising first where the order does not matter.
+impl<'a, A: Accumulator<'a>> Walker<A> {
+    /// Rays at their start.
+    #[inline(always)]
+    pub fn new(packet: Packet, gathered: A) -> Self {
+        Self { packet, gathered, segments: Vec::new() }
+    }
+
+    /// The pixels.
+    #[inline(always)]
+    pub fn finish(&self) -> Rgba {
+        self.gathered.finish()
+    }
+}
+
+/// Lets rays side by side gather their samples. They walk abreast: what one of them fetches from memory its neighbours
+/// need next.
 #[inline(always)]
-pub fn trace<T: Voxel, A: Accumulator>(
-    scene: &Scene<T>,
-    packet: &Packet,
-    waiting: &mut Waiting,
-    mut gathered: A,
-) -> Rgba {
-    waiting.clear();
+pub fn trace<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walkers: &mut [Walker<A>]) {
+    if A::ANY_ORDER {
+        for walker in &mut *walkers {
+            begin_with_the_best(scene, walker);
+        }
+    }
+    let mut longest = 0;
+    for walker in &*walkers {
+        longest = longest.max(walker.packet.longest);
+    }
     let mut first = 0;
-    while first < packet.longest {
-        let segment = packet.segment(&scene.rays.grid, scene.blocks, first);
-        match A::promise(segment.range) {
-            Some(promise) => waiting.push((promise, segment)),
-            None if gathered.ignores(segment.range) => {}
-            None => visit(scene, packet, &segment, &mut gathered),
+    while first < longest {
+        for walker in &mut *walkers {
+            if first >= walker.packet.longest {
+                continue;
+            }
+            let segment = if A::ANY_ORDER {
+                walker.segments[first as usize / STEPS]
+            } else {
+                walker.packet.segment(&scene.rays.grid, scene.blocks, first)
+            };
+            if !walker.gathered.ignores(segment.range) {
+                visit(scene, &walker.packet, &segment, &mut walker.gathered);
+            }
         }
         first += STEPS as i32;
     }
-    waiting.sort_unstable_by(|one, other| other.0.total_cmp(&one.0));
-    for (_, segment) in &*waiting {
-        if !gathered.ignores(segment.range) {
-            visit(scene, packet, segment, &mut gathered);
-        }
+}
+
+/// Looks up all segments of a packet and visits the one that can change the most: little is left of the others.
+#[inline(always)]
+fn begin_with_the_best<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walker: &mut Walker<A>) {
+    let mut best = None;
+    let mut first = 0;
+    while first < walker.packet.longest {
+        let segment = walker.packet.segment(&scene.rays.grid, scene.blocks, first);
+        let promise = A::promise(segment.range);
+        best = match best {
+            Some((most, _)) if most >= promise => best,
+            _ => Some((promise, segment)),
+        };
+        walker.segments.push(segment);
+        first += STEPS as i32;
     }
-    gathered.finish()
+    if let Some((_, segment)) = best {
+        visit(scene, &walker.packet, &segment, &mut walker.gathered);
+    }
 }
 
 /// Takes the samples of one segment.
 #[inline(always)]
-fn visit<T: Voxel, A: Accumulator>(scene: &Scene<T>, packet: &Packet, segment: &Segment, gathered: &mut A) {
+fn visit<'a, T: Voxel, A: Accumulator<'a>>(
+    scene: &Scene<T>,
+    packet: &Packet,
+    segment: &Segment,
+    gathered: &mut A,
+) {
     let line = packet.line(segment);
     let grid = &scene.rays.grid;
     let values: [_; STEPS] = grid.sample(scene.voxels, segment.base, &line);

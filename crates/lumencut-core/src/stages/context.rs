@@ -4,11 +4,12 @@ use rayon::prelude::*;
 
 use super::View;
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::accumulate::{Average, Blend, Brightest, Darkest, Rgba};
+use crate::math::accumulate::{Accumulator, Average, Blend, Brightest, Darkest, Palette};
 use crate::math::blocks::Blocks;
-use crate::math::lanes::{COLUMNS, FAN, Kernel, ROWS, dispatch};
+use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
+use crate::math::light::Shading;
 use crate::math::ray::{NONE, PACKET, Packet, Rays, WHOLE};
-use crate::math::trace::{Scene, Waiting, trace};
+use crate::math::trace::{Scene, Walker, trace};
 use crate::math::transfer::Colors;
 use crate::math::window::Ramp;
 use crate::settings::{Context, ContextMode, Settings};
@@ -102,6 +103,13 @@ fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &m
     }
 }
 
+/// The step where the settings name none. Along an axis of the volume a voxel's side meets every voxel's centre, which
+/// maximum, minimum and average want; colours and opacities that rise within a voxel want more.
+fn default_step(volume: &Volume, settings: &Context) -> f64 {
+    let blended = matches!(settings.mode, ContextMode::Blend { gamma } if gamma < 1.0);
+    volume.smallest_side() * if blended && !settings.preview { 0.5 } else { 1.0 }
+}
+
 /// All that the rays of a view need, prepared once.
 struct Plan<'a> {
     view: &'a View<'a>,
@@ -109,9 +117,8 @@ struct Plan<'a> {
     blocks: Option<&'a Blocks>,
     rays: Rays,
     mode: ContextMode,
-    window: Ramp,
-    colors: Colors,
-    shading: bool,
+    palette: Palette,
+    shading: Option<Shading>,
 }
 
 impl<'a> Plan<'a> {
@@ -121,7 +128,7 @@ impl<'a> Plan<'a> {
         blocks: Option<&'a Blocks>,
         settings: &Context,
     ) -> Result<Self> {
-        let step = settings.step.unwrap_or_else(|| volume.smallest_side());
+        let step = settings.step.unwrap_or_else(|| default_step(volume, settings));
         let corners = volume.corners();
         let longest = corners.iter().map(|c| c.distance(corners[0])).fold(0.0, f64::max);
         if longest > MOST_SAMPLES * step {
@@ -129,15 +136,22 @@ impl<'a> Plan<'a> {
             let expected = format!("at least {:.4} mm", longest / MOST_SAMPLES);
             return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
         }
+        let gamma = match settings.mode {
+            ContextMode::Blend { gamma } => gamma as f32,
+            _ => 0.0,
+        };
         Ok(Self {
             view,
             volume,
             blocks,
             rays: Rays::new(volume, view.camera, step),
             mode: settings.mode,
-            window: Ramp::grey(settings.window),
-            colors: Colors::new(&settings.transfer),
-            shading: settings.shading,
+            palette: Palette {
+                colors: Colors::new(&settings.transfer),
+                window: Ramp::grey(settings.window),
+                gamma,
+            },
+            shading: settings.shading.then(|| Shading::new(settings.window)),
         })
     }
 
@@ -147,7 +161,7 @@ impl<'a> Plan<'a> {
         let rows = pixels.par_chunks_mut(ROWS * width).zip(start.par_chunks(ROWS * width));
         rows.enumerate().try_for_each(|(row, (pixels, start))| {
             with_voxels!(self.volume.voxels(), voxels => {
-                for column in (0..width).step_by(COLUMNS) {
+                for column in (0..width).step_by(TILE[0]) {
                     self.view.go_on()?;
                     let place = [column, row * ROWS];
                     let (view, plan) = (self.view, self);
@@ -158,6 +172,11 @@ impl<'a> Plan<'a> {
         })
     }
 }
+
+/// The size of a tile of rays (pixels).
+const TILE: [usize; 2] = [32, ROWS];
+/// The packets side by side in a tile.
+const ACROSS: usize = TILE[0] / PACKET;
 
 /// A tile of rays in the rows that it lies in.
 struct Tile<'a, T> {
@@ -174,59 +193,61 @@ impl<T: Voxel> Kernel for Tile<'_, T> {
     type Output = ();
 
     #[inline(always)]
-    fn run(mut self) {
-        let mut waiting = Vec::new();
-        for n in 0..COLUMNS * ROWS / FAN {
-            let across = COLUMNS / PACKET;
-            let corner = [self.place[0] + n % across * PACKET, n / across * PACKET];
-            self.packet(corner, &mut waiting);
+    fn run(self) {
+        match self.plan.mode {
+            ContextMode::Blend { gamma } if gamma >= 1.0 => self.walk::<Brightest>(),
+            ContextMode::Blend { .. } => self.walk::<Blend>(),
+            ContextMode::Minimum => self.walk::<Darkest>(),
+            ContextMode::Average => self.walk::<Average>(),
         }
     }
 }
 
-impl<T: Voxel> Tile<'_, T> {
-    /// The sixteen rays whose first is in column and row `corner` of these rows.
+impl<'a, T: Voxel> Tile<'a, T> {
+    /// Traces all rays of the tile.
     #[inline(always)]
-    fn packet(&mut self, [column, row]: [usize; 2], waiting: &mut Waiting) {
-        let (width, rows) = (self.raster.size[0], self.start.len() / self.raster.size[0]);
-        let (mut x, mut y, mut start) = ([0.0; FAN], [0.0; FAN], [NONE; FAN]);
-        for l in 0..FAN {
-            let (i, j) = (column + l % PACKET, row + l / PACKET);
-            x[l] = self.raster.first[0] + i as f64 * self.raster.next[0];
-            y[l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
-            if i < width && j < rows {
-                start[l] = self.start[j * width + i];
-            }
+    fn walk<A: Accumulator<'a>>(self) {
+        let plan = self.plan;
+        let mut walkers: Vec<Walker<A>> = Vec::with_capacity(TILE[0] * TILE[1] / FAN);
+        for n in 0..TILE[0] * TILE[1] / FAN {
+            let packet = self.packet(n);
+            let active = packet.count.map(|count| count > 0);
+            walkers.push(Walker::new(packet, A::new(&plan.palette, &active)));
         }
-        let gathered = if start.iter().all(|start| *start >= NONE) {
-            [[0.0; FAN]; 4]
-        } else {
-            self.gather(&x, &y, &start, waiting)
-        };
-        for l in 0..FAN {
-            let (i, j) = (column + l % PACKET, row + l / PACKET);
-            if i < width && j < rows {
-                self.pixels[j * width + i] = gathered.map(|channel| channel[l]);
+        let Plan { rays, blocks, shading, .. } = plan;
+        trace(&Scene { rays, voxels: self.voxels, blocks: *blocks, shading: *shading }, &mut walkers);
+        let width = self.raster.size[0];
+        for (n, walker) in walkers.iter().enumerate() {
+            let gathered = walker.finish();
+            for l in 0..FAN {
+                let [i, j] = self.ray(n, l);
+                if i < width && j * width < self.pixels.len() {
+                    self.pixels[j * width + i] = gathered.map(|channel| channel[l]);
+                }
             }
         }
     }
 
+    /// The column of a ray, and its row counted from the first of these rows.
     #[inline(always)]
-    fn gather(&self, x: &[f64; FAN], y: &[f64; FAN], start: &[f32; FAN], waiting: &mut Waiting) -> Rgba {
-        let plan = self.plan;
-        let packet = Packet::new(&plan.rays, x, y, start);
-        let active = packet.count.map(|count| count > 0);
-        let scene =
-            Scene { rays: &plan.rays, voxels: self.voxels, blocks: plan.blocks, shading: plan.shading };
-        match plan.mode {
-            ContextMode::Blend { gamma } if gamma >= 1.0 => {
-                trace(&scene, &packet, waiting, Brightest::new(&plan.colors, &active))
+    fn ray(&self, packet: usize, lane: usize) -> [usize; 2] {
+        let column = self.place[0] + packet % ACROSS * PACKET + lane % PACKET;
+        [column, packet / ACROSS * PACKET + lane / PACKET]
+    }
+
+    /// The rays of one packet; those beyond the image see nothing.
+    #[inline(always)]
+    fn packet(&self, n: usize) -> Packet {
+        let width = self.raster.size[0];
+        let (mut x, mut y, mut start) = ([0.0; FAN], [0.0; FAN], [NONE; FAN]);
+        for l in 0..FAN {
+            let [i, j] = self.ray(n, l);
+            x[l] = self.raster.first[0] + i as f64 * self.raster.next[0];
+            y[l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
+            if i < width && j * width < self.start.len() {
+                start[l] = self.start[j * width + i];
             }
-            ContextMode::Blend { gamma } => {
-                trace(&scene, &packet, waiting, Blend::new(&plan.colors, plan.window, gamma as f32, &active))
-            }
-            ContextMode::Minimum => trace(&scene, &packet, waiting, Darkest::new(plan.window, &active)),
-            ContextMode::Average => trace(&scene, &packet, waiting, Average::new(plan.window)),
         }
+        Packet::new(&self.plan.rays, &x, &y, &start)
     }
 }

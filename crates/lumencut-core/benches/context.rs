@@ -1,0 +1,223 @@
+//! The context: the sampler against a scalar loop, and every mode with and without the blocks of the volume.
+//!
+//! `cargo bench -p lumencut-core --bench context`
+
+mod common;
+
+use common::{fitted, head, row, time};
+use glam::{DAffine3, DVec3};
+use lumencut_core::camera::Camera;
+use lumencut_core::error::Result;
+use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch, larger};
+use lumencut_core::math::ray::WHOLE;
+use lumencut_core::math::sampling::{Grid, Path, Places};
+use lumencut_core::math::transfer::Preset;
+use lumencut_core::phantom::{Phantom, aorta, cervical, runoff};
+use lumencut_core::pipeline::Renderer;
+use lumencut_core::settings::{Context, ContextMode, Settings};
+use lumencut_core::stages::View;
+use lumencut_core::stages::context::context;
+use lumencut_core::volume::{Real, Volume, Voxel, Voxels};
+
+/// The side of the sampler's volume (voxels), and the rays and samples along each.
+const SIDE: usize = 256;
+const PACKETS: usize = 2048;
+const SAMPLES: usize = 128;
+/// The samples of a ray that are taken together.
+const STEPS: usize = 8;
+
+/// Sixteen parallel rays.
+struct Line {
+    toward: [f32; 3],
+    from: usize,
+}
+
+impl Path for Line {
+    #[inline(always)]
+    fn places(&self, n: usize) -> Places {
+        let mut places = [[0.0; FAN]; 3];
+        for l in 0..FAN {
+            places[0][l] = (l % 4) as f32 * 0.7;
+            places[1][l] = (l / 4) as f32 * 0.7;
+            for a in 0..3 {
+                places[a][l] += self.toward[a] * (self.from + n) as f32;
+            }
+        }
+        places
+    }
+}
+
+/// The voxel where a packet of rays begins.
+fn base(packet: usize) -> [i32; 3] {
+    [4 + (packet % 64 * 2) as i32, 3 + (packet / 64 * 2 % 64) as i32, 2]
+}
+
+/// The largest sample of each ray, summed up.
+struct ByLanes<'a, T> {
+    grid: Grid,
+    voxels: &'a [T],
+    toward: [f32; 3],
+}
+
+impl<T: Voxel> Kernel for ByLanes<'_, T> {
+    type Output = f32;
+
+    #[inline(always)]
+    fn run(self) -> f32 {
+        let mut sum = 0.0;
+        for packet in 0..PACKETS {
+            let mut most = [-1e9; FAN];
+            for from in (0..SAMPLES).step_by(STEPS) {
+                let line = Line { toward: self.toward, from };
+                let values: [_; STEPS] = self.grid.sample(self.voxels, base(packet), &line);
+                for value in &values {
+                    for l in 0..FAN {
+                        most[l] = larger(most[l], value[l]);
+                    }
+                }
+            }
+            sum += most.iter().sum::<f32>();
+        }
+        sum
+    }
+}
+
+/// The same, one sample after the other.
+fn one_by_one<T: Voxel>(voxels: &[T], toward: [f32; 3]) -> f32 {
+    let last = (SIDE - 1) as f32;
+    let strides = [1, SIDE, SIDE * SIDE];
+    let mut sum = 0.0;
+    for packet in 0..PACKETS {
+        for l in 0..FAN {
+            let start = [(l % 4) as f32 * 0.7, (l / 4) as f32 * 0.7, 0.0];
+            let mut most = -1e9;
+            for n in 0..SAMPLES {
+                let (mut first, mut weight) = (0, [0.0; 3]);
+                for a in 0..3 {
+                    let c = base(packet)[a] as f32 + start[a] + toward[a] * n as f32;
+                    let c = c.clamp(0.0, last);
+                    let floor = (c as usize).min(SIDE - 2);
+                    weight[a] = c - floor as f32;
+                    first += floor * strides[a];
+                }
+                let line = |o: usize| {
+                    let (near, far) =
+                        (voxels[first + o].real().to_f32(), voxels[first + o + 1].real().to_f32());
+                    near + (far - near) * weight[0]
+                };
+                let plane = |o: usize| line(o) + (line(o + SIDE) - line(o)) * weight[1];
+                let (near, far) = (plane(0), plane(SIDE * SIDE));
+                most = larger(most, std::hint::black_box(near + (far - near) * weight[2]));
+            }
+            sum += most;
+        }
+    }
+    sum
+}
+
+fn sampler<T: Voxel>(name: &str, voxels: &[T], volume: &Volume) {
+    let grid = Grid::new(volume);
+    let samples = (PACKETS * SAMPLES * FAN) as f64 / 1e3;
+    for (direction, toward) in
+        [("oblique", [0.3, 0.5, 0.8]), ("along i", [0.9, 0.1, 0.1]), ("along k", [0.02, 0.03, 0.9])]
+    {
+        let scalar = time(5, || {
+            std::hint::black_box(one_by_one(voxels, toward));
+        });
+        for isa in Isa::available() {
+            let lanes = time(5, || {
+                std::hint::black_box(dispatch(isa, ByLanes { grid, voxels, toward }));
+            });
+            let set = format!("{isa:?}");
+            let [ours, theirs] = [lanes, scalar].map(|t| format!("{:.0}", samples / t.minimum));
+            let ratio = format!("{:.1}", scalar.minimum / lanes.minimum);
+            row([name, direction, &set, &ours, &theirs, &ratio]);
+        }
+    }
+}
+
+fn samplers() -> Result<()> {
+    let numbers = || (0..SIDE * SIDE * SIDE).map(|n| (n * 7919 % 3001) as i16 - 1000);
+    head(
+        "Trilinear samples (millions per second, one thread)",
+        &["voxels", "rays", "set", "lanes", "scalar", "ratio"],
+    );
+    let volume = |voxels| Volume::new(voxels, [SIDE; 3], [1, SIDE, SIDE * SIDE], DAffine3::IDENTITY);
+    let integers: Vec<i16> = numbers().collect();
+    sampler("int16", &integers, &volume(Voxels::I16(&integers))?);
+    let floats: Vec<f32> = numbers().map(f32::from).collect();
+    sampler("float32", &floats, &volume(Voxels::F32(&floats))?);
+    Ok(())
+}
+
+/// The modes, by their names.
+fn modes() -> Vec<(&'static str, Context)> {
+    let preset = |preset: Preset| preset.transfer_function(Context::default().window);
+    let blend = |gamma| Context { mode: ContextMode::Blend { gamma }, ..Context::default() };
+    let mode = |mode| Context { mode, ..Context::default() };
+    vec![
+        ("mida", blend(0.0)),
+        ("mida, preview", Context { preview: true, ..blend(0.0) }),
+        ("mida, shaded", Context { shading: true, ..blend(0.0) }),
+        ("mida, soft tissue", Context { transfer: preset(Preset::SoftTissue), ..blend(0.0) }),
+        ("dvr", blend(-1.0)),
+        ("dvr, shaded", Context { shading: true, ..blend(-1.0) }),
+        ("mip", Context { transfer: preset(Preset::Grey), ..blend(1.0) }),
+        ("minip", mode(ContextMode::Minimum)),
+        ("average", mode(ContextMode::Average)),
+    ]
+}
+
+/// The milliseconds of one mode, every ray through the whole volume.
+fn whole(volume: &Volume, camera: &Camera, settings: &Context, skip: bool, runs: usize) -> Result<f64> {
+    let view = View { camera, isa: Isa::widest(), stop: &|| false };
+    let start = vec![WHOLE; 512 * 512];
+    let mut pixels = vec![[0.0; 4]; 512 * 512];
+    let blocks = if skip { Some(volume.blocks(view.stop)?) } else { None };
+    let mut result = Ok(());
+    let times = time(runs, || result = context(&view, volume, blocks, settings, &start, &mut pixels));
+    result.map(|()| times.median)
+}
+
+/// Makes a workload from a seed and a scale.
+type Maker = fn(u64, f64) -> Result<Phantom>;
+
+fn main() -> Result<()> {
+    let only = std::env::var("ONLY").unwrap_or_default();
+    if only.is_empty() || only == "sampler" {
+        samplers()?;
+    }
+    let makers: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
+    head("Context, all rays", &["workload", "direction", "mode", "ms", "ms without blocks", "ratio"]);
+    for (name, make) in makers.iter().filter(|m| only.is_empty() || only == m.0) {
+        let phantom = make(0, 1.0)?;
+        let volume = phantom.volume()?;
+        let start = std::time::Instant::now();
+        volume.blocks(&|| false)?;
+        println!("blocks {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
+        let mut renderer = Renderer::new(phantom.tree.clone());
+        for (direction, toward) in [("front", DVec3::Y), ("oblique", DVec3::new(-0.6, 0.7, 0.4))] {
+            let camera = fitted(&phantom.tree, toward);
+            for (mode, settings) in
+                modes().into_iter().filter(|m| std::env::var("MODE").map_or(true, |w| m.0 == w))
+            {
+                let (fast, slow) = (
+                    whole(&volume, &camera, &settings, true, 3)?,
+                    whole(&volume, &camera, &settings, false, 1)?,
+                );
+                let cells = [fast, slow, slow / fast].map(|c| format!("{c:.1}"));
+                row([name, direction, mode, &cells[0], &cells[1], &cells[2]]);
+            }
+            let settings = Settings::default();
+            let mut laps = String::new();
+            let frame = time(5, || {
+                if let Ok(frame) = renderer.render(&volume, &camera, &settings, &|| false) {
+                    laps =
+                        frame.timings.iter().map(|t| format!("{} {:.1} ", t.stage, t.milliseconds)).collect();
+                }
+            });
+            row([name, direction, "whole frame, mida", &*format!("{:.1}", frame.median), &laps, ""]);
+        }
+    }
+    Ok(())
+}
