@@ -45,8 +45,8 @@ def volume_property(points, mode, shading):
     made.SetScalarOpacityUnitDistance(1.0)
     made.SetInterpolationTypeToLinear()
     made.SetShade(shading)
-    made.SetAmbient(0.35)
-    made.SetDiffuse(0.65)
+    made.SetAmbient(0.4)
+    made.SetDiffuse(0.6)
     made.SetSpecular(0.2)
     made.SetSpecularPower(16)
     return made

@@ -217,7 +217,17 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
         assert_eq!(frame.image[common::pixel(&frame, x, y)][0], expected, "at {x}, {y}");
     }
     let names: Vec<_> = frame.timings.iter().map(|t| t.stage).collect();
-    let stages =
-        ["levels", "projection", "distance", "depth", "depth_filter", "surface", "silhouette", "composite"];
+    let stages = [
+        "levels",
+        "projection",
+        "distance",
+        "depth",
+        "depth_filter",
+        "surface",
+        "silhouette",
+        "blocks",
+        "context",
+        "composite",
+    ];
     assert_eq!(names, stages);
 }
