@@ -8,8 +8,8 @@ use super::sampling::{Grid, Path, Places};
 use crate::camera::Camera;
 use crate::volume::Volume;
 
-/// The side of a packet (pixels).
-pub const PACKET: usize = 4;
+/// The columns and rows of a packet (pixels).
+pub const PACKET: [usize; 2] = [4, 4];
 /// The parts of a ray that are sampled, or skipped, together.
 pub const STEPS: usize = 8;
 

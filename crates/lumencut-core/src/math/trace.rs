@@ -48,14 +48,18 @@ impl<'a, A: Accumulator<'a>> Walker<A> {
 /// need next.
 #[inline(always)]
 pub fn trace<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walkers: &mut [Walker<A>]) {
-    if A::ANY_ORDER {
-        for walker in &mut *walkers {
-            begin_with_the_best(scene, walker);
-        }
-    }
     let mut longest = 0;
-    for walker in &*walkers {
+    for walker in &mut *walkers {
         longest = longest.max(walker.packet.longest);
+        if A::ANY_ORDER {
+            walker.segments.clear();
+            let mut first = 0;
+            while first < walker.packet.longest {
+                walker.segments.push(walker.packet.segment(&scene.rays.grid, scene.blocks, first));
+                first += STEPS as i32;
+            }
+            walker.segments.sort_unstable_by(|one, other| A::promise(other.range).total_cmp(&A::promise(one.range)));
+        }
     }
     let mut first = 0;
     while first < longest {
@@ -73,26 +77,6 @@ pub fn trace<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walkers: &mut [
             }
         }
         first += STEPS as i32;
-    }
-}
-
-/// Looks up all segments of a packet and visits the one that can change the most: little is left of the others.
-#[inline(always)]
-fn begin_with_the_best<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walker: &mut Walker<A>) {
-    let mut best = None;
-    let mut first = 0;
-    while first < walker.packet.longest {
-        let segment = walker.packet.segment(&scene.rays.grid, scene.blocks, first);
-        let promise = A::promise(segment.range);
-        best = match best {
-            Some((most, _)) if most >= promise => best,
-            _ => Some((promise, segment)),
-        };
-        walker.segments.push(segment);
-        first += STEPS as i32;
-    }
-    if let Some((_, segment)) = best {
-        visit(scene, &walker.packet, &segment, &mut walker.gathered);
     }
 }
 

@@ -176,7 +176,7 @@ impl<'a> Plan<'a> {
 /// The size of a tile of rays (pixels).
 const TILE: [usize; 2] = [32, ROWS];
 /// The packets side by side in a tile.
-const ACROSS: usize = TILE[0] / PACKET;
+const ACROSS: usize = TILE[0] / PACKET[0];
 
 /// A tile of rays in the rows that it lies in.
 struct Tile<'a, T> {
@@ -231,8 +231,8 @@ impl<'a, T: Voxel> Tile<'a, T> {
     /// The column of a ray, and its row counted from the first of these rows.
     #[inline(always)]
     fn ray(&self, packet: usize, lane: usize) -> [usize; 2] {
-        let column = self.place[0] + packet % ACROSS * PACKET + lane % PACKET;
-        [column, packet / ACROSS * PACKET + lane / PACKET]
+        let column = self.place[0] + packet % ACROSS * PACKET[0] + lane % PACKET[0];
+        [column, packet / ACROSS * PACKET[1] + lane / PACKET[0]]
     }
 
     /// The rays of one packet; those beyond the image see nothing.
