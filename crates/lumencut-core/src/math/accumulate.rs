@@ -18,8 +18,8 @@ pub type Rgba = [[f32; FAN]; 4];
 pub struct Samples<'a> {
     /// The values, where present.
     pub value: &'a [f32; FAN],
-    /// Whether the ray has this sample.
-    pub present: &'a [bool; FAN],
+    /// 1 where the ray has this sample, else 0: a number, so that the compiler keeps to vectors.
+    pub present: &'a [f32; FAN],
     /// How much of the ray each sample stands for (mm).
     pub thickness: &'a [f32; FAN],
 }
@@ -54,6 +54,11 @@ pub trait Accumulator<'a> {
     }
     /// Whether samples with values in a range would change nothing.
     fn ignores(&self, range: Range) -> bool;
+    /// Whether no sample at all would change anything.
+    #[inline(always)]
+    fn is_done(&self) -> bool {
+        self.ignores(Range::ALL)
+    }
     /// Takes the next samples.
     fn add(&mut self, samples: &Samples, light: &impl Light);
     /// The pixels.
@@ -105,11 +110,12 @@ impl<'a> Accumulator<'a> for Blend<'a> {
         let mut keep = [1.0; FAN];
         let mut any = 0;
         for l in 0..FAN {
-            let intensity = if samples.present[l] { self.palette.window.at(samples.value[l]) } else { 0.0 };
+            let intensity = self.palette.window.at(samples.value[l]) * samples.present[l];
             let push = larger(intensity - self.most[l], 0.0) * self.push;
-            let hidden = !samples.present[l] | ((self.opacity[l] >= OPAQUE) & (push == 0.0));
+            let seen = if self.opacity[l] < OPAQUE { samples.present[l] } else { 0.0 };
+            let seen = if push > 0.0 { samples.present[l] } else { seen };
             keep[l] = 1.0 - push;
-            own[l] = if hidden { 0.0 } else { own[l] };
+            own[l] *= seen;
             any |= own[l].to_bits();
             self.most[l] = larger(self.most[l], intensity);
         }
@@ -184,8 +190,8 @@ impl<'a> Accumulator<'a> for Brightest<'a> {
     #[inline(always)]
     fn add(&mut self, samples: &Samples, _: &impl Light) {
         for l in 0..FAN {
-            let value =
-                if samples.present[l] { smaller(samples.value[l], self.colors.last()) } else { -HUGE };
+            let value = smaller(samples.value[l], self.colors.last());
+            let value = if samples.present[l] > 0.0 { value } else { -HUGE };
             self.best[l] = larger(self.best[l], value);
         }
     }
@@ -205,6 +211,7 @@ impl<'a> Accumulator<'a> for Brightest<'a> {
 #[derive(Clone, Debug)]
 pub struct Darkest {
     window: Ramp,
+    black: f32,
     active: [bool; FAN],
     best: [f32; FAN],
 }
@@ -215,7 +222,7 @@ impl<'a> Accumulator<'a> for Darkest {
     #[inline(always)]
     fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
         let best = active.map(|active| if active { HUGE } else { -HUGE });
-        Self { window: palette.window, active: *active, best }
+        Self { window: palette.window, black: palette.window.zero(), active: *active, best }
     }
 
     #[inline(always)]
@@ -225,13 +232,15 @@ impl<'a> Accumulator<'a> for Darkest {
 
     #[inline(always)]
     fn ignores(&self, range: Range) -> bool {
-        range.low >= largest(&self.best)
+        // Below the black end of the window everything is black.
+        larger(range.low, self.black) >= largest(&self.best)
     }
 
     #[inline(always)]
     fn add(&mut self, samples: &Samples, _: &impl Light) {
         for l in 0..FAN {
-            let value = if samples.present[l] { samples.value[l] } else { HUGE };
+            let value = larger(samples.value[l], self.black);
+            let value = if samples.present[l] > 0.0 { value } else { HUGE };
             self.best[l] = smaller(self.best[l], value);
         }
     }
@@ -269,9 +278,9 @@ impl<'a> Accumulator<'a> for Average {
     #[inline(always)]
     fn add(&mut self, samples: &Samples, _: &impl Light) {
         for l in 0..FAN {
-            let present = samples.present[l];
-            self.sum[l] += f64::from(if present { samples.value[l] } else { 0.0 });
-            self.count[l] += if present { 1.0 } else { 0.0 };
+            let value = if samples.present[l] > 0.0 { samples.value[l] } else { 0.0 };
+            self.sum[l] += f64::from(value);
+            self.count[l] += samples.present[l];
         }
     }
 

@@ -58,7 +58,9 @@ pub fn trace<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walkers: &mut [
                 walker.segments.push(walker.packet.segment(&scene.rays.grid, scene.blocks, first));
                 first += STEPS as i32;
             }
-            walker.segments.sort_unstable_by(|one, other| A::promise(other.range).total_cmp(&A::promise(one.range)));
+            walker
+                .segments
+                .sort_unstable_by(|one, other| A::promise(other.range).total_cmp(&A::promise(one.range)));
         }
     }
     let mut first = 0;
@@ -72,8 +74,12 @@ pub fn trace<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walkers: &mut [
             } else {
                 walker.packet.segment(&scene.rays.grid, scene.blocks, first)
             };
-            if !walker.gathered.ignores(segment.range) {
-                visit(scene, &walker.packet, &segment, &mut walker.gathered);
+            if walker.gathered.ignores(segment.range) {
+                continue;
+            }
+            visit(scene, &walker.packet, &segment, &mut walker.gathered);
+            if walker.gathered.is_done() {
+                walker.packet.longest = 0;
             }
         }
         first += STEPS as i32;
@@ -93,9 +99,10 @@ fn visit<'a, T: Voxel, A: Accumulator<'a>>(
     let values: [_; STEPS] = grid.sample(scene.voxels, segment.base, &line);
     for n in 0..STEPS {
         let value = &values[n];
-        let mut present = [false; FAN];
+        let mut present = [0.0; FAN];
         for l in 0..FAN {
-            present[l] = (segment.first + (n as i32) < packet.count[l]) & !value[l].is_nan();
+            let there = if segment.first + (n as i32) < packet.count[l] { 1.0 } else { 0.0 };
+            present[l] = if value[l].is_nan() { 0.0 } else { there };
         }
         let light = Headlight {
             shading: scene.shading,

@@ -43,6 +43,11 @@ impl Ramp {
         opacity.map_or(Self { scale: 0.0, offset: 1.0 }, |o| Self::between(o.transparent, o.opaque))
     }
 
+    /// The intensity at which the ramp begins to rise from 0.
+    pub fn zero(&self) -> f32 {
+        -self.offset / self.scale
+    }
+
     /// The ramp at an intensity, in [0, 1].
     #[inline(always)]
     pub fn at(&self, intensity: f32) -> f32 {
