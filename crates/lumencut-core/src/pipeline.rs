@@ -163,10 +163,10 @@ fn show(
 ) -> Result<()> {
     let mut behind = Vec::new();
     if let Some(settings) = &settings.context {
-        behind.resize(start.len(), [0.0; 4]);
         if start.iter().any(|start| *start < NONE) {
             let blocks = volume.blocks(view.stop)?;
             clock.lap("blocks", &mut frame.timings);
+            behind.resize(start.len(), [0.0; 4]);
             context(view, volume, Some(blocks), settings, start, &mut behind)?;
         }
         clock.lap("context", &mut frame.timings);
@@ -174,7 +174,8 @@ fn show(
         layer(view, &behind, &mut frame.context)?;
     }
     frame.image = vec![[0; 4]; start.len()];
-    let context = settings.context.is_some().then_some(&behind[..]);
+    // Behind a cut surface that hides everything there is nothing.
+    let context = Some(&behind[..]).filter(|behind| !behind.is_empty());
     let layers = Layers { value: &frame.value, strength, context };
     composite(view, &layers, settings, &mut frame.image)?;
     clock.lap("composite", &mut frame.timings);

@@ -10,7 +10,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::math::window::Window;
 use lumencut_core::pipeline::Renderer;
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
 
@@ -66,6 +66,11 @@ fn settings_errors() -> Vec<Error> {
         change(&mut settings);
         settings.check().unwrap_err()
     };
+    let with = |change: fn(&mut Context)| {
+        let mut context = Context::default();
+        change(&mut context);
+        Settings { context: Some(context), ..Settings::default() }.check().unwrap_err()
+    };
     vec![
         wrong(|s| s.cost_weight = -1.0),
         wrong(|s| s.cost_weight = f64::NAN),
@@ -74,6 +79,16 @@ fn settings_errors() -> Vec<Error> {
         wrong(|s| s.level_distance = 0.0),
         wrong(|s| s.silhouette_slope = 0.0),
         wrong(|s| s.window = Window { level: 0.0, width: 0.0 }),
+        wrong(|s| s.slab = Some(Slab { thickness: -1.0, mode: SlabMode::Max })),
+        with(|c| c.mode = ContextMode::Blend { gamma: 1.5 }),
+        with(|c| c.mode = ContextMode::Blend { gamma: f64::NAN }),
+        with(|c| c.window = Window { level: 0.0, width: 0.0 }),
+        with(|c| c.step = Some(0.0)),
+        with(|c| c.transfer.points.clear()),
+        with(|c| c.transfer.points.swap(0, 1)),
+        with(|c| c.transfer.points[0].opacity = 1.5),
+        with(|c| c.transfer.points[0].intensity = f64::NAN),
+        with(|c| c.transfer.points = vec![c.transfer.points[0]; 65]),
     ]
 }
 

@@ -11,8 +11,8 @@ use crate::with_voxels;
 /// The side of a block (cells between neighbouring voxels).
 pub const SIDE: usize = 4;
 
-/// Of more blocks than these the range of the whole volume is taken: asking them all would cost more than samples.
-const MOST_ASKED: i32 = 256;
+/// The most blocks along an axis that are asked one by one; for more, larger blocks are asked.
+const MOST_ASKED: i32 = 3;
 
 /// More than trilinear interpolation rounds, as a share of the larger end of a range.
 const ROUNDING: f32 = 1e-6;
@@ -56,12 +56,18 @@ impl Range {
 }
 
 /// The ranges of all blocks of a volume. Block b holds the values of all samples whose lower corner is one of the
-/// voxels from 4·b to 4·b + 3 along each axis; voxels that are NaN are left out.
+/// voxels from 4·b to 4·b + 3 along each axis; voxels that are NaN are left out. Above them lie larger blocks, each of
+/// two along each axis, up to one that holds all.
 #[derive(Debug)]
 pub struct Blocks {
+    levels: Vec<Level>,
+}
+
+/// Blocks of one size.
+#[derive(Debug)]
+struct Level {
     size: [usize; 3],
     ranges: Vec<Range>,
-    whole: Range,
 }
 
 impl Blocks {
@@ -82,29 +88,50 @@ impl Blocks {
             row_of_blocks(voxels, volume, [row % size[1], row / size[1]], ranges);
             Ok(())
         }))?;
-        let whole = ranges.iter().fold(NOTHING, |all, range| all.with(*range));
-        Ok(Self { size, ranges, whole })
+        let mut levels = vec![Level { size, ranges }];
+        while let Some(level) = levels.last().and_then(Level::coarser) {
+            levels.push(level);
+        }
+        Ok(Self { levels })
     }
 
-    /// The range of the samples whose lower corners lie between two voxels, both included.
+    /// The range of the samples whose lower corners lie between two voxels, both included, or a wider one.
     #[inline(always)]
     pub fn range(&self, first: [i32; 3], last: [i32; 3]) -> Range {
         let side = SIDE as i32;
-        let (first, last) = (first.map(|c| c / side), last.map(|c| c / side));
-        let asked = [0, 1, 2].map(|a| last[a] - first[a] + 1);
-        if asked[0].max(asked[1]).max(asked[2]) > MOST_ASKED || asked[0] * asked[1] * asked[2] > MOST_ASKED {
-            return self.whole;
+        let (mut first, mut last) = (first.map(|c| c / side), last.map(|c| c / side));
+        let mut level = 0;
+        while (0..3).any(|a| last[a] - first[a] >= MOST_ASKED) {
+            (first, last) = (first.map(|b| b / 2), last.map(|b| b / 2));
+            level += 1;
         }
+        let Level { size, ranges } = &self.levels[level];
         let mut range = NOTHING;
         for k in first[2]..=last[2] {
             for j in first[1]..=last[1] {
-                let row = (k as usize * self.size[1] + j as usize) * self.size[0];
+                let row = (k as usize * size[1] + j as usize) * size[0];
                 for i in first[0]..=last[0] {
-                    range = range.with(self.ranges[row + i as usize]);
+                    range = range.with(ranges[row + i as usize]);
                 }
             }
         }
         range
+    }
+}
+
+impl Level {
+    /// The blocks of twice the size; none above the one that holds all.
+    fn coarser(&self) -> Option<Self> {
+        let size = self.size.map(|n| n.div_ceil(2));
+        let mut ranges = vec![NOTHING; size.iter().product()];
+        for (row, fine) in self.ranges.chunks(self.size[0]).enumerate() {
+            let (j, k) = (row % self.size[1] / 2, row / self.size[1] / 2);
+            let coarse = &mut ranges[(k * size[1] + j) * size[0]..];
+            for (i, range) in fine.iter().enumerate() {
+                coarse[i / 2] = coarse[i / 2].with(*range);
+            }
+        }
+        (self.ranges.len() > 1).then_some(Self { size, ranges })
     }
 }
 
@@ -125,7 +152,10 @@ fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ra
     }
     for (block, range) in ranges.iter_mut().enumerate() {
         let along = reach(block, size[0]);
-        *range = along.fold(NOTHING, |range, i| range.with(Range::between(low[i], high[i]))).rounded();
+        let least =
+            low[along.clone()].iter().fold(T::LARGEST, |least, v| if *v < least { *v } else { least });
+        let most = high[along].iter().fold(T::SMALLEST, |most, v| if *v > most { *v } else { most });
+        *range = Range::between(least, most).rounded();
     }
 }
 

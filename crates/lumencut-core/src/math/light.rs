@@ -3,9 +3,8 @@
 use super::accumulate::Light;
 use super::lanes::FAN;
 use super::ray::IndexFromView;
-use super::sampling::{Grid, Path, Places};
+use super::sampling::{Path, Places, Sampler};
 use super::window::Window;
-use crate::volume::Voxel;
 
 /// The share of its colour that a surface keeps edge on, and what it gains towards the viewer.
 const AMBIENT: f32 = 0.4;
@@ -31,14 +30,20 @@ impl Shading {
     }
 }
 
+/// A change within what can be squared; NaN stays.
+#[inline(always)]
+fn bounded(change: f32) -> f32 {
+    const STEEPEST: f32 = 1e12;
+    let change = if change > STEEPEST { STEEPEST } else { change };
+    if change < -STEEPEST { -STEEPEST } else { change }
+}
+
 /// Light on sixteen places of a volume.
-pub struct Headlight<'a, T> {
+pub struct Headlight<'a> {
     /// Without it everything keeps its colour.
     pub shading: Option<Shading>,
     /// The volume.
-    pub grid: &'a Grid,
-    /// Its voxels.
-    pub voxels: &'a [T],
+    pub sampler: &'a dyn Sampler,
     /// From view to index.
     pub index_from_view: &'a IndexFromView,
     /// The voxel from which the places are counted.
@@ -47,7 +52,7 @@ pub struct Headlight<'a, T> {
     pub places: Places,
 }
 
-impl<T: Voxel> Light for Headlight<'_, T> {
+impl Light for Headlight<'_> {
     #[inline(always)]
     fn shade(&self) -> [[f32; FAN]; 2] {
         let (mut lit, mut shine) = ([1.0; FAN], [0.0; FAN]);
@@ -57,11 +62,11 @@ impl<T: Voxel> Light for Headlight<'_, T> {
         // One voxel more room towards the first voxels, where there is one.
         let base = self.base.map(|b| (b - 1).max(0));
         let shift = [0, 1, 2].map(|a| (self.base[a] - base[a]) as f32);
-        let value: [_; 6] = self.grid.sample(self.voxels, base, &Around { places: &self.places, shift });
+        let value = self.sampler.around(base, &Around { places: self.places, shift });
         let to = self.index_from_view;
         let [x, y, z] = [to.x, to.y, to.z].map(|axis| axis.as_vec3().to_array());
         for l in 0..FAN {
-            let change = [0, 1, 2].map(|a| value[2 * a][l] - value[2 * a + 1][l]);
+            let change = [0, 1, 2].map(|a| bounded(value[2 * a][l] - value[2 * a + 1][l]));
             let along = |axis: [f32; 3]| change[0] * axis[0] + change[1] * axis[1] + change[2] * axis[2];
             let (gx, gy, gz) = (along(x), along(y), along(z));
             let square = gx * gx + gy * gy + gz * gz;
@@ -79,15 +84,16 @@ impl<T: Voxel> Light for Headlight<'_, T> {
 }
 
 /// One voxel to both sides along each axis.
-struct Around<'a> {
-    places: &'a Places,
+#[derive(Clone, Copy, Debug)]
+pub struct Around {
+    places: Places,
     shift: [f32; 3],
 }
 
-impl Path for Around<'_> {
+impl Path for Around {
     #[inline(always)]
     fn places(&self, n: usize) -> Places {
-        let mut places = *self.places;
+        let mut places = self.places;
         for a in 0..3 {
             let shift = self.shift[a]
                 + if n == 2 * a {

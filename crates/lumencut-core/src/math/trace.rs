@@ -5,16 +5,15 @@ use super::blocks::Blocks;
 use super::lanes::FAN;
 use super::light::{Headlight, Shading};
 use super::ray::{Packet, Rays, STEPS, Segment};
-use super::sampling::Path;
-use crate::volume::Voxel;
+use super::sampling::{Path, Sampler};
 
 /// What rays run through.
-#[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, T> {
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
     /// The rays' geometry.
     pub rays: &'a Rays,
-    /// The voxels.
-    pub voxels: &'a [T],
+    /// The volume.
+    pub sampler: &'a dyn Sampler,
     /// What can be skipped; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
     /// How colours are shaded, where they are.
@@ -47,7 +46,7 @@ impl<'a, A: Accumulator<'a>> Walker<A> {
 /// Lets rays side by side gather their samples. They walk abreast: what one of them fetches from memory its neighbours
 /// need next.
 #[inline(always)]
-pub fn trace<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walkers: &mut [Walker<A>]) {
+pub fn trace<'a, A: Accumulator<'a>>(scene: &Scene, walkers: &mut [Walker<A>]) {
     let mut longest = 0;
     for walker in &mut *walkers {
         longest = longest.max(walker.packet.longest);
@@ -88,15 +87,9 @@ pub fn trace<'a, T: Voxel, A: Accumulator<'a>>(scene: &Scene<T>, walkers: &mut [
 
 /// Takes the samples of one segment.
 #[inline(always)]
-fn visit<'a, T: Voxel, A: Accumulator<'a>>(
-    scene: &Scene<T>,
-    packet: &Packet,
-    segment: &Segment,
-    gathered: &mut A,
-) {
+fn visit<'a, A: Accumulator<'a>>(scene: &Scene, packet: &Packet, segment: &Segment, gathered: &mut A) {
     let line = packet.line(segment);
-    let grid = &scene.rays.grid;
-    let values: [_; STEPS] = grid.sample(scene.voxels, segment.base, &line);
+    let values = scene.sampler.along(segment.base, &line);
     for n in 0..STEPS {
         let value = &values[n];
         let mut present = [0.0; FAN];
@@ -106,8 +99,7 @@ fn visit<'a, T: Voxel, A: Accumulator<'a>>(
         }
         let light = Headlight {
             shading: scene.shading,
-            grid,
-            voxels: scene.voxels,
+            sampler: scene.sampler,
             index_from_view: &scene.rays.index_from_view,
             base: segment.base,
             places: line.places(n),

@@ -9,11 +9,12 @@ use crate::math::blocks::Blocks;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
 use crate::math::light::Shading;
 use crate::math::ray::{NONE, PACKET, Packet, Rays, WHOLE};
+use crate::math::sampling::{Sampler, TypedSampler};
 use crate::math::trace::{Scene, Walker, trace};
 use crate::math::transfer::Colors;
 use crate::math::window::Ramp;
 use crate::settings::{Context, ContextMode, Settings};
-use crate::volume::{Volume, Voxel};
+use crate::volume::Volume;
 use crate::with_voxels;
 
 /// The most samples along the longest ray.
@@ -128,9 +129,10 @@ impl<'a> Plan<'a> {
         blocks: Option<&'a Blocks>,
         settings: &Context,
     ) -> Result<Self> {
-        let step = settings.step.unwrap_or_else(|| default_step(volume, settings));
         let corners = volume.corners();
-        let longest = corners.iter().map(|c| c.distance(corners[0])).fold(0.0, f64::max);
+        let longest = (0..4).map(|c| corners[c].distance(corners[7 - c])).fold(0.0, f64::max);
+        let step =
+            settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));
         if longest > MOST_SAMPLES * step {
             let found = format!("{step} mm for a volume {longest:.4} mm across");
             let expected = format!("at least {:.4} mm", longest / MOST_SAMPLES);
@@ -155,19 +157,31 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// Traces the rays of a raster, tile by tile.
+    /// Traces the rays of a raster.
     fn trace(&self, raster: &Raster, start: &[f32], pixels: &mut [[f32; 4]]) -> Result<()> {
+        let (grid, isa) = (self.rays.grid, self.view.isa);
+        with_voxels!(self.volume.voxels(), voxels => {
+            self.trace_tiles(&TypedSampler { grid, voxels, isa }, raster, start, pixels)
+        })
+    }
+
+    /// Traces the rays of a raster, tile by tile.
+    fn trace_tiles(
+        &self,
+        sampler: &dyn Sampler,
+        raster: &Raster,
+        start: &[f32],
+        pixels: &mut [[f32; 4]],
+    ) -> Result<()> {
         let width = raster.size[0];
         let rows = pixels.par_chunks_mut(ROWS * width).zip(start.par_chunks(ROWS * width));
         rows.enumerate().try_for_each(|(row, (pixels, start))| {
-            with_voxels!(self.volume.voxels(), voxels => {
-                for column in (0..width).step_by(TILE[0]) {
-                    self.view.go_on()?;
-                    let place = [column, row * ROWS];
-                    let (view, plan) = (self.view, self);
-                    dispatch(view.isa, Tile { plan, voxels, raster, place, start, pixels: &mut *pixels });
-                }
-            });
+            for column in (0..width).step_by(TILE[0]) {
+                self.view.go_on()?;
+                let place = [column, row * ROWS];
+                let tile = Tile { plan: self, sampler, raster, place, start, pixels: &mut *pixels };
+                dispatch(self.view.isa, tile);
+            }
             Ok(())
         })
     }
@@ -179,9 +193,9 @@ const TILE: [usize; 2] = [32, ROWS];
 const ACROSS: usize = TILE[0] / PACKET[0];
 
 /// A tile of rays in the rows that it lies in.
-struct Tile<'a, T> {
+struct Tile<'a> {
     plan: &'a Plan<'a>,
-    voxels: &'a [T],
+    sampler: &'a dyn Sampler,
     raster: &'a Raster,
     /// The column and the row of its first ray.
     place: [usize; 2],
@@ -189,7 +203,7 @@ struct Tile<'a, T> {
     pixels: &'a mut [[f32; 4]],
 }
 
-impl<T: Voxel> Kernel for Tile<'_, T> {
+impl Kernel for Tile<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -203,7 +217,7 @@ impl<T: Voxel> Kernel for Tile<'_, T> {
     }
 }
 
-impl<'a, T: Voxel> Tile<'a, T> {
+impl<'a> Tile<'a> {
     /// Traces all rays of the tile.
     #[inline(always)]
     fn walk<A: Accumulator<'a>>(self) {
@@ -215,7 +229,7 @@ impl<'a, T: Voxel> Tile<'a, T> {
             walkers.push(Walker::new(packet, A::new(&plan.palette, &active)));
         }
         let Plan { rays, blocks, shading, .. } = plan;
-        trace(&Scene { rays, voxels: self.voxels, blocks: *blocks, shading: *shading }, &mut walkers);
+        trace(&Scene { rays, sampler: self.sampler, blocks: *blocks, shading: *shading }, &mut walkers);
         let width = self.raster.size[0];
         for (n, walker) in walkers.iter().enumerate() {
             let gathered = walker.finish();

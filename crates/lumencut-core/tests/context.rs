@@ -1,0 +1,241 @@
+//! The context gives the same bits whatever is skipped, on every instruction set and number of threads, and however the
+//! voxels lie in memory.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use common::view;
+use glam::{DAffine3, DMat3, DVec3};
+use lumencut_core::camera::Camera;
+use lumencut_core::error::ErrorKind;
+use lumencut_core::math::blocks::Blocks;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::math::ray::{NONE, WHOLE};
+use lumencut_core::math::transfer::{ControlPoint, Preset, TransferFunction};
+use lumencut_core::math::window::Window;
+use lumencut_core::pipeline::context_alone;
+use lumencut_core::settings::{Context, ContextMode, Settings};
+use lumencut_core::stages::View;
+use lumencut_core::stages::context::context;
+use lumencut_core::volume::{Volume, Voxels};
+
+const SIZE: [usize; 3] = [41, 37, 29];
+const WINDOW: Window = Window { level: 300.0, width: 900.0 };
+
+/// A bright ball and a bright rod in noise, between 0 and 1000.
+fn scene() -> Vec<i16> {
+    let value = |n: usize| {
+        let [i, j, k] = [n % SIZE[0], n / SIZE[0] % SIZE[1], n / (SIZE[0] * SIZE[1])].map(|c| c as f64);
+        let noise = (n * 7919 % 61) as i16;
+        let ball = (i - 14.0).hypot(j - 20.0).hypot(k - 12.0) < 7.0;
+        let rod = (i - 30.0).hypot(k - 20.0) < 2.5;
+        if rod {
+            900 + noise
+        } else if ball {
+            350 + noise
+        } else {
+            noise
+        }
+    };
+    (0..SIZE.iter().product()).map(value).collect()
+}
+
+fn sheared() -> DAffine3 {
+    let columns =
+        DMat3::from_cols(DVec3::new(0.8, 0.1, 0.0), DVec3::new(0.2, -0.7, 0.1), DVec3::new(0.3, 0.2, 1.9));
+    let middle = columns * DVec3::new(20.0, 18.0, 14.0);
+    DAffine3::from_mat3_translation(columns, -middle)
+}
+
+fn volume(voxels: Voxels<'_>) -> Volume<'_> {
+    Volume::new(voxels, SIZE, [1, SIZE[0], SIZE[0] * SIZE[1]], sheared()).unwrap()
+}
+
+/// Visible between 20 and 40 and from 320 on, clear between.
+fn gaps() -> TransferFunction {
+    let point = |(intensity, opacity)| ControlPoint { intensity, color: [250, 120, 30], opacity };
+    let points = [(20.0, 0.0), (30.0, 0.05), (40.0, 0.0), (320.0, 0.0), (320.0, 0.2), (950.0, 1.0)];
+    TransferFunction { points: points.map(point).to_vec() }
+}
+
+fn contexts() -> Vec<Context> {
+    let base = Context { window: WINDOW, ..Context::default() };
+    let mut all = Vec::new();
+    for gamma in [-1.0, -0.4, 0.0, 0.3, 1.0] {
+        for transfer in [Preset::Angio.transfer_function(WINDOW), gaps()] {
+            let mode = ContextMode::Blend { gamma };
+            all.push(Context { mode, transfer, shading: gamma < 0.2, ..base.clone() });
+        }
+    }
+    all.push(Context { mode: ContextMode::Minimum, ..base.clone() });
+    all.push(Context { mode: ContextMode::Average, preview: true, ..base });
+    all
+}
+
+fn cameras() -> Vec<Camera> {
+    let far = view([0.3, 1.0, -0.4], [11, 9], 9.0);
+    vec![
+        view([0.0, 1.0, 0.0], [67, 45], 0.7),
+        view([0.5, -0.6, 0.4], [64, 33], 0.9),
+        view([0.0, 0.0, 1.0], [40, 40], 1.3),
+        far,
+    ]
+}
+
+/// Rays that start everywhere: before the volume, within it, behind it, nowhere.
+fn starts(camera: &Camera) -> Vec<f32> {
+    let start = |p| match p % 5 {
+        0 => NONE,
+        1 => (p % 37) as f32 - 18.0,
+        _ => WHOLE,
+    };
+    (0..camera.size()[0] * camera.size()[1]).map(start).collect()
+}
+
+fn traced(
+    volume: &Volume,
+    camera: &Camera,
+    isa: Isa,
+    settings: &Context,
+    blocks: Option<&Blocks>,
+) -> Vec<[u32; 4]> {
+    let start = starts(camera);
+    let mut pixels = vec![[-1.0f32; 4]; start.len()];
+    let view = View { camera, isa, stop: &|| false };
+    context(&view, volume, blocks, settings, &start, &mut pixels).unwrap();
+    assert!(
+        pixels.iter().flatten().all(|c| (0.0..=1.001).contains(c)),
+        "colours and opacities lie between 0 and 1"
+    );
+    pixels.iter().map(|pixel| pixel.map(f32::to_bits)).collect()
+}
+
+fn assert_skipping_changes_nothing(volume: &Volume, what: &str) {
+    let blocks = volume.blocks(&|| false).unwrap();
+    for camera in cameras() {
+        for settings in contexts() {
+            let whole = traced(volume, &camera, Isa::widest(), &settings, None);
+            let skipped = traced(volume, &camera, Isa::widest(), &settings, Some(blocks));
+            assert!(whole.iter().flatten().any(|c| *c != 0), "{what}: something is seen");
+            assert!(whole == skipped, "{what}: {:?} in a view along {}", settings.mode, camera.direction());
+        }
+    }
+}
+
+#[test]
+fn skipping_changes_no_bit() {
+    let integers = scene();
+    assert_skipping_changes_nothing(&volume(Voxels::I16(&integers)), "int16");
+    let bytes: Vec<u8> = integers.iter().map(|v| (v / 4) as u8).collect();
+    assert_skipping_changes_nothing(&volume(Voxels::U8(&bytes)), "uint8");
+    let doubles: Vec<f64> = integers.iter().map(|v| f64::from(*v) / 3.0).collect();
+    assert_skipping_changes_nothing(&volume(Voxels::F64(&doubles)), "float64");
+}
+
+#[test]
+fn skipping_changes_no_bit_beside_voxels_without_a_number() {
+    let mut floats: Vec<f32> = scene().into_iter().map(f32::from).collect();
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, -1e30];
+    for n in (0..floats.len()).step_by(977) {
+        floats[n] = odd[n % odd.len()];
+    }
+    floats[..2000].fill(f32::NAN);
+    assert_skipping_changes_nothing(&volume(Voxels::F32(&floats)), "float32");
+}
+
+#[test]
+fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
+    let voxels = scene();
+    let volume = volume(Voxels::I16(&voxels));
+    let blocks = volume.blocks(&|| false).unwrap();
+    for camera in &cameras()[1..3] {
+        for settings in contexts() {
+            let trace = |isa| traced(&volume, camera, isa, &settings, Some(blocks));
+            let widest = trace(Isa::widest());
+            for isa in Isa::available() {
+                assert!(trace(isa) == widest, "{isa:?}, {:?}", settings.mode);
+            }
+            let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+            assert!(alone.install(|| trace(Isa::widest())) == widest, "one thread, {:?}", settings.mode);
+        }
+    }
+}
+
+#[test]
+fn the_order_of_voxels_in_memory_changes_no_bit() {
+    let voxels = scene();
+    let [ni, nj, nk] = SIZE;
+    let mut turned = vec![0; voxels.len()];
+    let strides = [nj * nk, nk, 1];
+    for (n, voxel) in voxels.iter().enumerate() {
+        turned[n % ni * strides[0] + n / ni % nj * strides[1] + n / (ni * nj)] = *voxel;
+    }
+    let turned = Volume::new(Voxels::I16(&turned), SIZE, strides, sheared()).unwrap();
+    let straight = volume(Voxels::I16(&voxels));
+    for settings in contexts() {
+        let trace = |volume: &Volume| {
+            let blocks = volume.blocks(&|| false).unwrap();
+            traced(volume, &cameras()[1], Isa::widest(), &settings, Some(blocks))
+        };
+        assert!(trace(&turned) == trace(&straight), "{:?}", settings.mode);
+    }
+}
+
+#[test]
+fn voxels_more_than_32_bits_apart_are_found() {
+    // The allocator hands out zeros without touching them: the memory is not really taken.
+    let far = (1usize << 32) + 1;
+    let mut sparse = vec![0u8; far + 4];
+    let near = [10u8, 50, 200, 90, 40, 160, 120, 240];
+    for (n, voxel) in near.iter().enumerate() {
+        sparse[n % 2 + n / 2 % 2 * 2 + n / 4 * far] = *voxel;
+    }
+    let place = DAffine3::from_translation(DVec3::splat(-0.5));
+    let sparse = Volume::new(Voxels::U8(&sparse), [2; 3], [1, 2, far], place).unwrap();
+    let dense = Volume::new(Voxels::U8(&near), [2; 3], [1, 2, 4], place).unwrap();
+    let camera = view([0.4, 1.0, 0.3], [9, 9], 0.3);
+    let transfer = Preset::Grey.transfer_function(Window { level: 120.0, width: 240.0 });
+    for gamma in [0.0, 1.0] {
+        let context =
+            Context { mode: ContextMode::Blend { gamma }, transfer: transfer.clone(), ..Context::default() };
+        let settings = Settings { context: Some(context), ..Settings::default() };
+        let draw =
+            |volume| context_alone(volume, &camera, &settings, Isa::widest(), &|| false).unwrap().image;
+        let (found, expected) = (draw(&sparse), draw(&dense));
+        let difference = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).map(|c| a[c].abs_diff(b[c])).max().unwrap();
+        assert!(found.iter().zip(&expected).all(|pair| difference(pair) <= 1));
+        assert!(expected.iter().any(|pixel| pixel[0] > 20));
+    }
+}
+
+#[test]
+fn a_context_stops_when_asked() {
+    let voxels = scene();
+    let camera = view([0.0, 1.0, 0.0], [256, 256], 0.2);
+    // Before the blocks, and between tiles of rays.
+    for patience in [0, 100] {
+        let asked = AtomicUsize::new(0);
+        let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
+        let volume = volume(Voxels::I16(&voxels));
+        let error = context_alone(&volume, &camera, &Settings::default(), Isa::widest(), &stop).unwrap_err();
+        assert_eq!(error.kind, ErrorKind::Interrupted);
+    }
+}
+
+#[test]
+fn a_step_too_small_for_the_volume_is_refused_and_the_default_never_is() {
+    let voxels = [0i16; 64];
+    let flat = DAffine3::from_scale(DVec3::new(1e-3, 1e3, 1e3));
+    let volume = Volume::new(Voxels::I16(&voxels), [4; 3], [1, 4, 16], flat).unwrap();
+    let draw = |step| {
+        let settings =
+            Settings { context: Some(Context { step, ..Context::default() }), ..Settings::default() };
+        let camera = view([0.0, 1.0, 0.0], [3, 3], 1.0);
+        context_alone(&volume, &camera, &settings, Isa::widest(), &|| false)
+    };
+    let error = draw(Some(0.01)).unwrap_err();
+    assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "context_step"));
+    assert!(draw(None).is_ok());
+}
