@@ -32,8 +32,9 @@ format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
 	$(BIN)/ruff check --fix --quiet
 	$(BIN)/ruff format --quiet
 
-bench: toolchain ## Measure the core on this machine; prints tables, keeps nothing.
+bench: develop tools ## Measure this machine, VTK beside it; prints tables, keeps nothing.
 	cargo bench --locked --package lumencut-core --bench '*'
+	$(BIN)/python benches/context_vs_vtk.py
 
 wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
 	$(BIN)/maturin build --release --locked --out dist

@@ -126,6 +126,14 @@ def test_a_view_beside_a_volume_alone_is_a_warning(volume, tmp_path):
     assert "warning: no pixel of the view shows the volume: the center is 500,0,0" in result.stderr
 
 
+def test_a_volume_that_is_wholly_transparent_is_a_warning_of_its_own(volume, tmp_path):
+    transfer = ["--context-transfer", "5000:ffffff:0,6000:ffffff:1"]
+    result = invoke("render", volume, "-o", tmp_path / "out.png", "--context", "dvr", *transfer)
+    assert result.exit_code == 0
+    assert "shows the volume: all of it in view is transparent" in result.stderr
+    assert "--context-transfer" in result.stderr
+
+
 def test_a_cut_surface_beside_the_volume_is_no_warning_where_its_context_is_seen(volume, tmp_path):
     lines = write_lines(tmp_path / "lines.vtk", [[12, -40, 2], [12, -40, 30], [12, 5, 31]])
     words = ["render", volume, lines, "-o", tmp_path / "out.png", "--size", "24x24"]

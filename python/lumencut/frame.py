@@ -21,7 +21,7 @@ _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 _IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Frame:
     """The images of one view, each (H, W) from the top row down.
 
@@ -96,6 +96,12 @@ class Frame:
         y = (height / 2 - np.arange(height) - 0.5) * camera.pixel_spacing
         plane = x[None, :, None] * camera.right_axis + y[:, None, None] * camera.up
         return np.asarray(camera.center + plane + depth * camera.direction)
+
+    def __repr__(self) -> str:
+        """Return the size and the names of the images."""
+        names = ("image", "depth", "vessel", "distance", "value", "context")
+        width, height = self.camera.size
+        return f"Frame({width} × {height} pixels: {', '.join(name for name in names if self.has(name))})"
 
     def has(self, name: str) -> bool:
         """Tell whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""

@@ -4,6 +4,8 @@
 
 mod common;
 
+use std::time::Instant;
+
 use common::{fitted, head, row, time};
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
@@ -182,42 +184,44 @@ fn whole(volume: &Volume, camera: &Camera, settings: &Context, skip: bool, runs:
 /// Makes a workload from a seed and a scale.
 type Maker = fn(u64, f64) -> Result<Phantom>;
 
-fn main() -> Result<()> {
-    let only = std::env::var("ONLY").unwrap_or_default();
-    if only.is_empty() || only == "sampler" {
-        samplers()?;
-    }
-    let makers: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
-    head("Context, all rays", &["workload", "direction", "mode", "ms", "ms without blocks", "ratio"]);
-    for (name, make) in makers.iter().filter(|m| only.is_empty() || only == m.0) {
-        let phantom = make(0, 1.0)?;
-        let volume = phantom.volume()?;
-        let start = std::time::Instant::now();
-        volume.blocks(&|| false)?;
-        println!("blocks {:.1} ms", start.elapsed().as_secs_f64() * 1e3);
-        let mut renderer = Renderer::new(phantom.tree.clone());
-        for (direction, toward) in [("front", DVec3::Y), ("oblique", DVec3::new(-0.6, 0.7, 0.4))] {
-            let camera = fitted(&phantom.tree, toward);
-            for (mode, settings) in
-                modes().into_iter().filter(|m| std::env::var("MODE").map_or(true, |w| m.0 == w))
-            {
-                let (fast, slow) = (
-                    whole(&volume, &camera, &settings, true, 3)?,
-                    whole(&volume, &camera, &settings, false, 1)?,
-                );
-                let cells = [fast, slow, slow / fast].map(|c| format!("{c:.1}"));
-                row([name, direction, mode, &cells[0], &cells[1], &cells[2]]);
-            }
-            let settings = Settings::default();
-            let mut laps = String::new();
-            let frame = time(5, || {
-                if let Ok(frame) = renderer.render(&volume, &camera, &settings, &|| false) {
-                    laps =
-                        frame.timings.iter().map(|t| format!("{} {:.1} ", t.stage, t.milliseconds)).collect();
-                }
-            });
-            row([name, direction, "whole frame, mida", &*format!("{:.1}", frame.median), &laps, ""]);
+/// Every mode from two directions, and the whole picture.
+fn workload(name: &str, phantom: &Phantom) -> Result<()> {
+    let volume = phantom.volume()?;
+    let start = Instant::now();
+    volume.blocks(&|| false)?;
+    let made = start.elapsed().as_secs_f64() * 1e3;
+    row([name, "", "the blocks, once", &*format!("{made:.1}"), "", ""]);
+    for (direction, toward) in [("front", DVec3::Y), ("oblique", DVec3::new(-0.6, 0.7, 0.4))] {
+        let camera = fitted(&phantom.tree, toward);
+        for (mode, settings) in modes() {
+            let fast = whole(&volume, &camera, &settings, true, 5)?;
+            let slow = whole(&volume, &camera, &settings, false, 1)?;
+            let cells = [fast, slow, slow / fast].map(|c| format!("{c:.1}"));
+            row([name, direction, mode, &cells[0], &cells[1], &cells[2]]);
         }
+        let mut renderer = Renderer::new(phantom.tree.clone());
+        for (what, preview) in [("whole frame, mida", false), ("whole frame, mida, preview", true)] {
+            let context = Some(Context { preview, ..Context::default() });
+            let settings = Settings { context, ..Settings::default() };
+            let mut result = Ok(());
+            let frame =
+                time(9, || result = renderer.render(&volume, &camera, &settings, &|| false).map(drop));
+            result?;
+            row([name, direction, what, &*format!("{:.1}", frame.median), "", ""]);
+        }
+    }
+    Ok(())
+}
+
+fn main() -> Result<()> {
+    samplers()?;
+    head(
+        "Context, 512 × 512 pixels; but for whole frames every ray through the whole volume",
+        &["workload", "direction", "mode", "ms", "ms without blocks", "ratio"],
+    );
+    let makers: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
+    for (name, make) in makers {
+        workload(name, &make(0, 1.0)?)?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Every knob of the method, with its unit and its default.
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::transfer::{MAX_POINTS, Preset, TransferFunction};
+use crate::math::transfer::{MAX_POINTS, MOST_INTENSITY, Preset, TransferFunction};
 use crate::math::window::{Opacity, Window};
 
 /// The most levels of detail beyond the finest.
@@ -192,7 +192,7 @@ impl TransferFunction {
         }
         for (n, point) in points.iter().enumerate() {
             let name = |what: &str| format!("{what} of control point {} of context_transfer", n + 1);
-            range(&name("intensity"), point.intensity, -1e12, 1e12, INTENSITY)?;
+            range(&name("intensity"), point.intensity, -MOST_INTENSITY, MOST_INTENSITY, INTENSITY)?;
             range(&name("opacity"), point.opacity, 0.0, 1.0, "per mm")?;
             if n > 0 && point.intensity < points[n - 1].intensity {
                 let found = format!("{} after {}", point.intensity, points[n - 1].intensity);

@@ -199,6 +199,10 @@ impl<'a> Volume<'a> {
             let found = format!("size {size:?} with strides {strides:?} over {length} voxels");
             return wrong("voxels of the volume", found, "every voxel inside the array");
         }
+        if (0..3).any(|a| size[a] > 1 && strides[a] == 0) {
+            let found = format!("size {size:?} with strides {strides:?}");
+            return wrong("voxels of the volume", found, "an element for every voxel");
+        }
         let columns = world_from_index.matrix3;
         let scale = columns.x_axis.length() * columns.y_axis.length() * columns.z_axis.length();
         let singular = columns.determinant().abs() <= 1e-9 * scale;
@@ -271,6 +275,12 @@ impl<'a> Volume<'a> {
     pub fn smallest_side(&self) -> f64 {
         let sides = self.world_from_index.matrix3;
         sides.x_axis.length().min(sides.y_axis.length()).min(sides.z_axis.length())
+    }
+
+    /// The longest way through the volume (mm).
+    pub fn longest_way(&self) -> f64 {
+        let corners = self.corners();
+        (0..4).map(|c| corners[c].distance(corners[7 - c])).fold(0.0, f64::max)
     }
 
     /// The eight outer corners of the grid, half a voxel beyond the outermost centres (mm, LPS).

@@ -146,6 +146,52 @@ fn skipping_changes_no_bit_beside_voxels_without_a_number() {
 }
 
 #[test]
+fn a_falling_step_at_a_value_that_blocks_hold_alone_is_seen() {
+    let point = |(intensity, opacity)| ControlPoint { intensity, color: [255; 3], opacity };
+    for at in [0.0, 1.0, 300.0] {
+        let transfer = TransferFunction {
+            points: [(-10.0, 1.0), (at, 1.0), (at, 0.0), (900.0, 0.0)].map(point).to_vec(),
+        };
+        let context = Context { mode: ContextMode::Blend { gamma: -1.0 }, transfer, ..Context::default() };
+        let voxels = vec![at as i16; SIZE.iter().product()];
+        let volume = volume(Voxels::I16(&voxels));
+        let blocks = volume.blocks(&|| false).unwrap();
+        let camera = &cameras()[0];
+        let seen = traced(&volume, camera, Isa::widest(), &context, Some(blocks));
+        assert!(seen == traced(&volume, camera, Isa::widest(), &context, None), "at {at}");
+        assert!(
+            seen.iter().any(|pixel| f32::from_bits(pixel[3]) > 0.99),
+            "at {at}: the value of a step is its first"
+        );
+    }
+}
+
+#[test]
+fn a_preview_shows_nothing_before_the_cut_surface() {
+    // White before depth 0, black behind it; the cut surface at depth 0, and beside it none.
+    let voxels: Vec<i16> = (0..20 * 20 * 20).map(|n| if n / 20 % 20 < 10 { 1000 } else { 0 }).collect();
+    let place = DAffine3::from_translation(DVec3::splat(-9.5));
+    let volume = Volume::new(Voxels::I16(&voxels), [20; 3], [1, 20, 400], place).unwrap();
+    let camera = view([0.0, 1.0, 0.0], [9, 8], 1.0);
+    let start: Vec<f32> = (0..72).map(|p| if p % 9 < 5 { WHOLE } else { 1.0 }).collect();
+    let mode = ContextMode::Blend { gamma: 1.0 };
+    let settings = Context {
+        mode,
+        preview: true,
+        transfer: Preset::Grey.transfer_function(WINDOW),
+        ..Context::default()
+    };
+    let mut pixels = vec![[0.0; 4]; 72];
+    let view = View { camera: &camera, isa: Isa::widest(), stop: &|| false };
+    context(&view, &volume, None, &settings, &start, &mut pixels).unwrap();
+    for (p, pixel) in pixels.iter().enumerate() {
+        let white = p % 9 < 4;
+        assert_eq!(pixel[0] > 0.5, white, "pixel {p}: white where the ray starts in front, {pixel:?}");
+        assert_eq!(pixel[3], 1.0);
+    }
+}
+
+#[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
     let voxels = scene();
     let volume = volume(Voxels::I16(&voxels));
@@ -238,4 +284,6 @@ fn a_step_too_small_for_the_volume_is_refused_and_the_default_never_is() {
     let error = draw(Some(0.01)).unwrap_err();
     assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "context_step"));
     assert!(draw(None).is_ok());
+    let named: f64 = error.expected.split(' ').nth(2).unwrap().parse().unwrap();
+    assert!(draw(Some(named)).is_ok(), "the step that the error names is taken: {}", error.expected);
 }

@@ -53,6 +53,7 @@ fn volume_errors() -> Vec<Error> {
     vec![
         make([2, 3, 0], [1, 2, 6], DAffine3::IDENTITY),
         make([2, 3, 5], [1, 2, 6], DAffine3::IDENTITY),
+        make([2, 3, 4], [1, 0, 6], DAffine3::IDENTITY),
         make([2, 3, usize::MAX], [1, 2, 6], DAffine3::IDENTITY),
         make([2, 3, 4], [1, 2, 6], flat),
         make([2, 3, 4], [1, 2, 6], DAffine3::ZERO),

@@ -12,6 +12,9 @@ from lumencut.cli.options import described
 from lumencut.cli.report import bar, detail, warn
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
     from lumencut.camera import Camera
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer
@@ -66,11 +69,26 @@ def shown(camera: Camera, settings: Settings, renderer: Renderer) -> str:
     return described(camera, "window", used.window or renderer.window)
 
 
+def _meets(camera: Camera, corners: npt.NDArray[np.float64]) -> bool:
+    """Tell whether a box around the volume reaches into the picture."""
+    import numpy as np
+
+    place = (corners - camera.center) @ np.stack([camera.right_axis, camera.up], axis=1)
+    half = np.array(camera.size) * camera.pixel_spacing / 2
+    return bool(((place.min(axis=0) < half) & (place.max(axis=0) > -half)).all())
+
+
 def warn_of_emptiness(who: str, camera: Camera, renderer: Renderer) -> None:
     """Say in one line that nothing of the volume is to be seen, and where it would be."""
     if renderer.volume is None:
         return
     corners = renderer.volume.corners
+    if _meets(camera, corners):
+        warn(
+            f"{who} shows the volume: all of it in view is transparent or beside the cut surface; "
+            "see --context, --context-transfer, --context-window and --opacity"
+        )
+        return
     low, high = (",".join(f"{x:.1f}" for x in end) for end in (corners.min(axis=0), corners.max(axis=0)))
     center = ",".join(f"{x:.6g}" for x in camera.center)
     warn(f"{who} shows the volume: the center is {center}, the volume reaches from {low} to {high} (mm, LPS)")

@@ -33,13 +33,14 @@ _SETTINGS = (
     click.option(
         "--window",
         type=WINDOW,
-        help="Intensities from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT); "
-        "default: from the data.",
+        help="Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU "
+        "for CT); default: from the data.",
     ),
     click.option(
         "--opacity",
         type=Parts("TRANSPARENT:OPAQUE", ":", float),
-        help="Ramp of opacity over intensities (unit of the volume, HU for CT); default: all opaque.",
+        help="Ramp of opacity of the cut surface over intensities (unit of the volume, HU for CT); "
+        "default: all opaque.",
     ),
     click.option(
         "--background",
@@ -111,8 +112,8 @@ _SETTINGS = (
         "--context",
         type=click.Choice([*CONTEXT_NAMES, NO_CONTEXT]),
         help="What is shown where the cut surface is outside the volume or transparent (name): maximum "
-        "intensity difference accumulation, direct volume rendering, largest, smallest or mean value; "
-        "default mida.",
+        "intensity difference accumulation, direct volume rendering, largest, smallest or mean value, "
+        "or the background alone; default mida.",
     ),
     click.option(
         "--context-gamma",
@@ -139,7 +140,7 @@ _SETTINGS = (
         type=float,
         metavar="MM",
         help="Longest distance between samples along a ray (mm); default: the smallest side of a voxel, "
-        "half of it for mida and dvr.",
+        "half of it for mida and dvr unless a preview.",
     ),
     click.option(
         "--context-shading/--no-context-shading",

@@ -90,21 +90,21 @@ def turntable(
 
     camera = options.placed_like(library.fitted_turn(view, renderer.scene, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
-    empty: list[int] = []
+    empty: list[Camera] = []
     write(watched(turn, frames, empty), fps)
     if empty:
         who = "no pixel of any frame" if len(empty) == frames else f"no pixel of {len(empty)} frames"
-        warn_of_emptiness(who, camera, renderer)
+        warn_of_emptiness(who, empty[0], renderer)
     say(f"{output}: {frames} frames, {frames / fps:.3g} s, {shown(camera, settings, renderer)}")
 
 
-def watched(turn: Iterable[Frame], count: int, empty: list[int]) -> Iterator[Frame]:
+def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[Frame]:
     """Pass frames on while a progress bar moves, and note which of them show nothing."""
     with bar("turntable", "frame") as told:
         for done, frame in enumerate(turn, 1):
             timings(f"frame {done}", frame.timings)
             if is_empty(frame):
-                empty.append(done)
+                empty.append(frame.camera)
             yield frame
             told(done, count)
 

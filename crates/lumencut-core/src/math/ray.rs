@@ -18,6 +18,9 @@ pub const WHOLE: f32 = -1e9;
 /// Where a ray starts that is not needed.
 pub const NONE: f32 = 1e9;
 
+/// The most samples along a ray, and of a slab.
+pub const MOST_SAMPLES: f64 = 65_536.0;
+
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
 const PARALLEL: f64 = 1e-9;
 /// How much of a step a chord may be longer than whole steps without a part more: n voxels have n parts, however n · side

@@ -7,6 +7,9 @@ use super::window::Window;
 /// The most control points of a transfer function.
 pub const MAX_POINTS: usize = 64;
 
+/// The largest intensity of a control point.
+pub const MOST_INTENSITY: f64 = 1e12;
+
 /// Opacity below which nothing is seen, far below one grey value over a whole body.
 const INVISIBLE: f32 = 1e-6;
 
@@ -86,7 +89,8 @@ impl Preset {
     pub fn transfer_function(self, window: Window) -> TransferFunction {
         let black = window.level - window.width / 2.0;
         let point = |&(place, color, opacity): &(f64, [u8; 3], f64)| ControlPoint {
-            intensity: black + place * window.width,
+            // Windows may reach farther than control points.
+            intensity: (black + place * window.width).clamp(-MOST_INTENSITY, MOST_INTENSITY),
             color,
             opacity,
         };
@@ -113,6 +117,11 @@ impl Rise {
             color: std::array::from_fn(|c| (f32::from(to.color[c]) - f32::from(from.color[c])) / 255.0),
             opacity: (to.opacity - from.opacity) as f32,
         }
+    }
+
+    /// The intensity from which on all of it lies below: past a step, at which it has not begun.
+    fn end(&self) -> f32 {
+        larger(self.start.next_up(), self.start + 1.0 / self.per_intensity)
     }
 
     /// How much of the rise lies below an intensity.
@@ -204,7 +213,9 @@ fn transparent(points: &[ControlPoint]) -> Vec<Range> {
                 ranges.push(Range { low: start, high: from.intensity as f32 });
                 low = None;
             }
-            None if to.opacity == 0.0 => low = Some(to.intensity as f32),
+            None if to.opacity == 0.0 => {
+                low = Some(larger(Rise::between(from, to).end(), to.intensity as f32));
+            }
             _ => {}
         }
     }

@@ -8,7 +8,7 @@ use crate::math::accumulate::{Accumulator, Average, Blend, Brightest, Darkest, P
 use crate::math::blocks::Blocks;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
 use crate::math::light::Shading;
-use crate::math::ray::{NONE, PACKET, Packet, Rays, WHOLE};
+use crate::math::ray::{MOST_SAMPLES, NONE, PACKET, Packet, Rays, WHOLE};
 use crate::math::sampling::{Sampler, TypedSampler};
 use crate::math::trace::{Scene, Walker, trace};
 use crate::math::transfer::Colors;
@@ -16,9 +16,6 @@ use crate::math::window::Ramp;
 use crate::settings::{Context, ContextMode, Settings};
 use crate::volume::Volume;
 use crate::with_voxels;
-
-/// The most samples along the longest ray.
-const MOST_SAMPLES: f64 = 65_536.0;
 
 /// Where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front of
 /// the volume where the cut surface is outside.
@@ -80,17 +77,20 @@ impl Raster {
     }
 }
 
-/// The nearest start of each square of four pixels.
+/// The start of each square of four pixels: the nearest behind a cut surface, so that none of them shows what lies before
+/// its own; else in front of the volume, where one of them starts there.
 fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
+    // Later than behind every cut surface, sooner than nowhere.
+    const IN_FRONT: f32 = NONE / 2.0;
     let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
     let mut coarse = vec![NONE; columns * rows];
     for (j, row) in start.chunks(width).enumerate() {
         for (i, start) in row.iter().enumerate() {
             let square = &mut coarse[j / 2 * columns + i / 2];
-            *square = square.min(*start);
+            *square = square.min(if *start <= WHOLE { IN_FRONT } else { *start });
         }
     }
-    coarse
+    coarse.into_iter().map(|start| if (IN_FRONT..NONE).contains(&start) { WHOLE } else { start }).collect()
 }
 
 /// Gives each pixel that needs a ray what its square's ray found.
@@ -102,6 +102,12 @@ fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &m
             *pixel = if *start >= NONE { [0.0; 4] } else { coarse[j / 2 * columns + i / 2] };
         }
     }
+}
+
+/// A number of four digits that is no smaller.
+fn rounded_up(number: f64) -> f64 {
+    let scale = 10f64.powf(3.0 - number.log10().floor());
+    (number * scale).ceil() / scale
 }
 
 /// The step where the settings name none. Along an axis of the volume a voxel's side meets every voxel's centre, which
@@ -129,13 +135,12 @@ impl<'a> Plan<'a> {
         blocks: Option<&'a Blocks>,
         settings: &Context,
     ) -> Result<Self> {
-        let corners = volume.corners();
-        let longest = (0..4).map(|c| corners[c].distance(corners[7 - c])).fold(0.0, f64::max);
+        let longest = volume.longest_way();
         let step =
             settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));
         if longest > MOST_SAMPLES * step {
             let found = format!("{step} mm for a volume {longest:.4} mm across");
-            let expected = format!("at least {:.4} mm", longest / MOST_SAMPLES);
+            let expected = format!("at least {} mm", rounded_up(longest / MOST_SAMPLES));
             return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
         }
         let gamma = match settings.mode {

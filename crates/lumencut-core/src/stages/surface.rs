@@ -4,9 +4,9 @@ use rayon::prelude::*;
 
 use super::View;
 use crate::camera::Camera;
-use crate::error::Result;
-use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, larger, smaller};
-use crate::math::ray::IndexFromView;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::lanes::{FAN, Kernel, dispatch, larger, smaller};
+use crate::math::ray::{IndexFromView, MOST_SAMPLES};
 use crate::math::sampling::Grid;
 use crate::settings::{Slab, SlabMode};
 use crate::volume::{Volume, Voxel};
@@ -16,7 +16,7 @@ use crate::with_voxels;
 /// the values within it, as far as it lies in the volume.
 ///
 /// # Errors
-/// [`crate::error::ErrorKind::Interrupted`].
+/// [`ErrorKind::Settings`] for a slab of more than 65,536 voxels, [`ErrorKind::Interrupted`].
 pub fn surface(
     view: &View,
     volume: &Volume,
@@ -24,18 +24,18 @@ pub fn surface(
     slab: Option<Slab>,
     value: &mut [f32],
 ) -> Result<()> {
-    let offsets = offsets(slab, volume.smallest_side());
+    let offsets = offsets(slab, volume)?;
     let kind = slab.map(|slab| slab.mode);
     let grid = Grid::new(volume);
     let index_from_view = IndexFromView::new(volume, view.camera);
-    let chunk = view.tile_row();
-    value.par_chunks_mut(chunk).zip(depth.par_chunks(chunk)).enumerate().try_for_each(
+    // Row by row: slabs can take their time.
+    let width = view.size()[0];
+    value.par_chunks_mut(width).zip(depth.par_chunks(width)).enumerate().try_for_each(
         |(row, (value, depth))| {
             view.go_on()?;
             with_voxels!(volume.voxels(), voxels => {
                 let sampler = Sampler { camera: view.camera, grid, index_from_view, voxels };
-                let first = row * ROWS;
-                dispatch(view.isa, SurfaceRows { sampler, offsets: &offsets, kind, first, depth, value });
+                dispatch(view.isa, SurfaceRow { sampler, offsets: &offsets, kind, row, depth, value });
             });
             Ok(())
         },
@@ -44,12 +44,19 @@ pub fn surface(
 
 /// Where a slab is sampled (mm behind the cut surface): it is cut into equal parts no longer than a voxel's smallest
 /// side, an odd number of them, and each is sampled in its middle. The cut surface itself comes first.
-fn offsets(slab: Option<Slab>, side: f64) -> Vec<f64> {
-    let thickness = slab.map_or(0.0, |slab| slab.thickness);
+fn offsets(slab: Option<Slab>, volume: &Volume) -> Result<Vec<f64>> {
+    let (thickness, side) = (slab.map_or(0.0, |slab| slab.thickness), volume.smallest_side());
+    if thickness > side * MOST_SAMPLES {
+        let found = format!("{thickness} mm for voxels of {side:.3e} mm");
+        let expected = format!("at most {MOST_SAMPLES} voxels");
+        return Err(Error::new(ErrorKind::Settings, "slab thickness", found, expected));
+    }
     let to_each_side = ((thickness / side - 1.0) / 2.0).ceil().max(0.0) as i64;
     let part = thickness / (2 * to_each_side + 1) as f64;
-    let beside = (1..=to_each_side).flat_map(|n| [-n as f64 * part, n as f64 * part]);
-    std::iter::once(0.0).chain(beside).collect()
+    // Farther from the cut surface than the volume is long there is nothing.
+    let within = if to_each_side > 0 { (volume.longest_way() / part).ceil() as i64 } else { 0 };
+    let beside = (1..=to_each_side.min(within)).flat_map(|n| [-n as f64 * part, n as f64 * part]);
+    Ok(std::iter::once(0.0).chain(beside).collect())
 }
 
 /// The volume in view space.
@@ -79,35 +86,31 @@ impl<T: Voxel> Sampler<'_, T> {
     }
 }
 
-struct SurfaceRows<'a, T> {
+struct SurfaceRow<'a, T> {
     sampler: Sampler<'a, T>,
     offsets: &'a [f64],
     kind: Option<SlabMode>,
-    first: usize,
+    row: usize,
     depth: &'a [f32],
     value: &'a mut [f32],
 }
 
-impl<T: Voxel> Kernel for SurfaceRows<'_, T> {
+impl<T: Voxel> Kernel for SurfaceRow<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let width = self.sampler.camera.size()[0];
-        let rows = self.value.chunks_mut(width).zip(self.depth.chunks(width));
-        for (j, (value, depth)) in (self.first..).zip(rows) {
-            for (n, (value, depth)) in value.chunks_mut(FAN).zip(depth.chunks(FAN)).enumerate() {
-                let mut z = [0.0; FAN];
-                z[..depth.len()].copy_from_slice(depth);
-                let mut shown = self.sampler.sample(n * FAN, j, &z, 0.0);
-                let mut count = [1.0; FAN];
-                for behind in &self.offsets[1..] {
-                    let beside = self.sampler.sample(n * FAN, j, &z, *behind);
-                    join(self.kind, &mut shown, &mut count, &beside);
-                }
-                for l in 0..value.len() {
-                    value[l] = shown[l] / count[l];
-                }
+        for (n, (value, depth)) in self.value.chunks_mut(FAN).zip(self.depth.chunks(FAN)).enumerate() {
+            let mut z = [0.0; FAN];
+            z[..depth.len()].copy_from_slice(depth);
+            let mut shown = self.sampler.sample(n * FAN, self.row, &z, 0.0);
+            let mut count = [1.0; FAN];
+            for behind in &self.offsets[1..] {
+                let beside = self.sampler.sample(n * FAN, self.row, &z, *behind);
+                join(self.kind, &mut shown, &mut count, &beside);
+            }
+            for l in 0..value.len() {
+                value[l] = shown[l] / count[l];
             }
         }
     }
