@@ -196,18 +196,26 @@ impl Grid {
         let [si, sj, sk] = self.step;
         let steps = [0, sj, sk, sj + sk];
         let mut rows = [[[T::pair(T::default(), T::default()); FAN]; N]; 4];
+        // Neighbours side by side: one load fetches both. No pair begins after `last`; to say so costs less than to have
+        // it checked.
+        if si == 1
+            && let Some(last) = voxels.len().checked_sub(2)
+        {
+            for n in 0..N {
+                for l in 0..FAN {
+                    for r in 0..4 {
+                        let near = (offset[n][l].elements() + steps[r]).min(last);
+                        rows[r][n][l] = T::pair(voxels[near], voxels[near + 1]);
+                    }
+                }
+            }
+            return rows;
+        }
         for n in 0..N {
             for l in 0..FAN {
                 for r in 0..4 {
                     let near = offset[n][l].elements() + steps[r];
-                    rows[r][n][l] = if si == 1 {
-                        // Neighbours side by side: one load fetches both. No pair begins at the last voxel; to say so
-                        // costs less than to have it checked.
-                        let near = near.min(voxels.len() - 2);
-                        T::pair(voxels[near], voxels[near + 1])
-                    } else {
-                        T::pair(voxels[near], voxels[near + si])
-                    };
+                    rows[r][n][l] = T::pair(voxels[near], voxels[near + si]);
                 }
             }
         }
