@@ -33,10 +33,11 @@ fn stages(phantom: &Phantom) -> Result<BTreeMap<&'static str, f64>> {
     let volume = phantom.volume()?;
     let camera = fitted(&phantom.tree, DVec3::Y);
     let mut renderer = Renderer::new(phantom.tree.clone());
+    let settings = Settings { context: None, ..Settings::default() };
     let mut all: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     for run in 0..32 {
         let start = Instant::now();
-        let frame = renderer.render(&volume, &camera, &Settings::default(), &|| false)?;
+        let frame = renderer.render(&volume, &camera, &settings, &|| false)?;
         let frame_time = start.elapsed().as_secs_f64() * 1e3;
         // The first view makes the levels and warms the caches.
         if run > 0 {

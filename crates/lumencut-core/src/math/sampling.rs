@@ -104,33 +104,41 @@ impl Grid {
     /// The voxels' value at continuous index `p`: NaN more than half a voxel beyond the outermost centres,
     /// the outermost voxels' within that half voxel.
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
-        self.trilinear_lanes(voxels, &p.to_array().map(|c| [c; FAN]))[0]
+        self.trilinear_lanes(voxels, &[p.to_array().map(|c| [c; FAN])])[0][0]
     }
 
-    /// [`Grid::trilinear`] at sixteen indices, given axis by axis.
+    /// [`Grid::trilinear`] at N times sixteen indices, given axis by axis.
     #[inline(always)]
-    pub fn trilinear_lanes<T: Voxel>(&self, voxels: &[T], p: &[[f64; FAN]; 3]) -> [f32; FAN] {
-        let mut offset = [0; FAN];
-        let mut weight = [[0.0; FAN]; 3];
-        let mut outside = [false; FAN];
-        for a in 0..3 {
-            let (last, low, stride) = (self.last[a], self.low[a] as i32, self.strides[a]);
-            for l in 0..FAN {
-                let c = p[a][l];
-                outside[l] |= (c < -0.5) | (c > last + 0.5);
-                let c = if c > 0.0 { c } else { 0.0 };
-                let c = if c < last { c } else { last };
-                let floor = (c as i32).min(low);
-                weight[a][l] = c - f64::from(floor);
-                offset[l] += floor as usize * stride;
+    pub fn trilinear_lanes<T: Voxel, const N: usize>(
+        &self,
+        voxels: &[T],
+        p: &[[[f64; FAN]; 3]; N],
+    ) -> [[f32; FAN]; N] {
+        let mut offset = [[0; FAN]; N];
+        let mut weight = [[[0.0; FAN]; 3]; N];
+        let mut outside = [[false; FAN]; N];
+        for n in 0..N {
+            for a in 0..3 {
+                let (last, low, stride) = (self.last[a], self.low[a] as i32, self.strides[a]);
+                for l in 0..FAN {
+                    let c = p[n][a][l];
+                    outside[n][l] |= (c < -0.5) | (c > last + 0.5);
+                    let c = if c > 0.0 { c } else { 0.0 };
+                    let c = if c < last { c } else { last };
+                    let floor = (c as i32).min(low);
+                    weight[n][a][l] = c - f64::from(floor);
+                    offset[n][l] += floor as usize * stride;
+                }
             }
         }
-        let rows = self.rows(voxels, &[offset]);
-        let mut value = [0.0; FAN];
-        for l in 0..FAN {
-            let weights = [0, 1, 2].map(|a| T::Real::from_weight(weight[a][l]));
-            let inside = interpolate::<T>(rows.map(|row| row[0][l]), weights).to_f32();
-            value[l] = if outside[l] { f32::NAN } else { inside };
+        let rows = self.rows(voxels, &offset);
+        let mut value = [[0.0; FAN]; N];
+        for n in 0..N {
+            for l in 0..FAN {
+                let weights = [0, 1, 2].map(|a| T::Real::from_weight(weight[n][a][l]));
+                let inside = interpolate::<T>([0, 1, 2, 3].map(|r| rows[r][n][l]), weights).to_f32();
+                value[n][l] = if outside[n][l] { f32::NAN } else { inside };
+            }
         }
         value
     }
@@ -148,7 +156,7 @@ impl Grid {
         let mut value = [[0.0; FAN]; N];
         if self.wide {
             for n in 0..N {
-                value[n] = self.trilinear_lanes(voxels, &self.indices(base, &path.places(n)));
+                [value[n]] = self.trilinear_lanes(voxels, &[self.indices(base, &path.places(n))]);
             }
             return value;
         }

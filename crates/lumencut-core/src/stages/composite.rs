@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::View;
 use crate::error::Result;
-use crate::math::lanes::{Kernel, dispatch, smaller};
+use crate::math::lanes::{FAN, Kernel, dispatch, smaller};
 use crate::math::window::Ramp;
 use crate::settings::Settings;
 
@@ -65,33 +65,67 @@ struct Paint {
     line: [f32; 3],
 }
 
+/// Sixteen pixels, channel by channel.
+type Pixels = [[f32; FAN]; 4];
+
 impl Paint {
     /// The surface, grey with the silhouette's colour over it, over the context over the background. Where there is no
-    /// value there is no surface.
+    /// value there is no surface. Colours times opacity, and opacity.
     #[inline(always)]
-    fn pixel(&self, value: f32, strength: f32, context: [f32; 4]) -> [u8; 4] {
-        let nothing = value.is_nan();
-        let value = if nothing { 0.0 } else { value };
-        let grey = self.grey.at(value);
-        let opacity = if nothing { 0.0 } else { self.opacity.at(value) };
-        let through = 1.0 - opacity;
-        let rest = (1.0 - context[3]) * self.background[3];
-        let channel = |c: usize| {
-            let surface = grey + (self.line[c] - grey) * strength;
-            surface * opacity + (context[c] + self.background[c] * rest) * through
-        };
-        let alpha = opacity + (context[3] + rest) * through;
-        straight([channel(0), channel(1), channel(2)], alpha, self.background)
+    fn pixels(&self, value: &[f32; FAN], strength: &[f32; FAN], context: &Pixels) -> Pixels {
+        let mut pixels = [[0.0; FAN]; 4];
+        for l in 0..FAN {
+            let nothing = value[l].is_nan();
+            let value = if nothing { 0.0 } else { value[l] };
+            let grey = self.grey.at(value);
+            let opacity = if nothing { 0.0 } else { self.opacity.at(value) };
+            let through = 1.0 - opacity;
+            let rest = (1.0 - context[3][l]) * self.background[3];
+            for c in 0..3 {
+                let surface = grey + (self.line[c] - grey) * strength[l];
+                pixels[c][l] = surface * opacity + (context[c][l] + self.background[c] * rest) * through;
+            }
+            pixels[3][l] = opacity + (context[3][l] + rest) * through;
+        }
+        pixels
     }
 }
 
 /// RGBA with straight alpha of colours times opacity; without any opacity the colour is `behind`.
 #[inline(always)]
-fn straight(color: [f32; 3], alpha: f32, behind: [f32; 4]) -> [u8; 4] {
-    let any = alpha > 0.0;
-    let per_alpha = 255.0 / if any { alpha } else { 1.0 };
-    let [r, g, b] = [0, 1, 2].map(|c| byte(if any { color[c] * per_alpha } else { behind[c] * 255.0 }));
-    (r | g << 8 | b << 16 | byte(alpha * 255.0) << 24).to_le_bytes()
+fn straight(pixels: &Pixels, behind: [f32; 4]) -> [[u8; 4]; FAN] {
+    let mut packed = [0; FAN];
+    for l in 0..FAN {
+        let alpha = pixels[3][l];
+        let any = alpha > 0.0;
+        let per_alpha = 255.0 / if any { alpha } else { 1.0 };
+        packed[l] = byte(alpha * 255.0) << 24;
+        for c in 0..3 {
+            let color = pixels[c][l] * per_alpha;
+            packed[l] |= byte(if any { color } else { behind[c] * 255.0 }) << (8 * c);
+        }
+    }
+    packed.map(u32::to_le_bytes)
+}
+
+/// Sixteen pixels channel by channel; those beyond the end are nothing.
+#[inline(always)]
+fn channels(colors: &[[f32; 4]]) -> Pixels {
+    let mut pixels = [[0.0; FAN]; 4];
+    for (l, color) in colors.iter().enumerate().take(FAN) {
+        for c in 0..4 {
+            pixels[c][l] = color[c];
+        }
+    }
+    pixels
+}
+
+/// Sixteen numbers; those beyond the end are 0.
+#[inline(always)]
+fn lanes(numbers: &[f32]) -> [f32; FAN] {
+    let mut lanes = [0.0; FAN];
+    lanes[..numbers.len()].copy_from_slice(numbers);
+    lanes
 }
 
 /// The nearest whole number to a value from 0 to 255, as which a little more counts too. From 2²³ on, a float's last bit
@@ -114,9 +148,16 @@ impl Kernel for PaintRows<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let layers = self.value.iter().zip(self.strength).zip(self.context);
-        for (pixel, ((value, strength), context)) in self.image.iter_mut().zip(layers) {
-            *pixel = self.paint.pixel(*value, *strength, *context);
+        let layers = self.value.chunks(FAN).zip(self.strength.chunks(FAN)).zip(self.context.chunks(FAN));
+        for (image, ((value, strength), context)) in self.image.chunks_mut(FAN).zip(layers) {
+            // Most of a picture has no context.
+            let behind = if context.as_flattened().iter().all(|c| *c == 0.0) {
+                [[0.0; FAN]; 4]
+            } else {
+                channels(context)
+            };
+            let pixels = self.paint.pixels(&lanes(value), &lanes(&strength[..value.len()]), &behind);
+            image.copy_from_slice(&straight(&pixels, self.paint.background)[..image.len()]);
         }
     }
 }
@@ -131,8 +172,12 @@ impl Kernel for StraightRows<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (pixel, [r, g, b, alpha]) in self.image.iter_mut().zip(self.colors) {
-            *pixel = straight([*r, *g, *b], *alpha, [0.0; 4]);
+        for (image, colors) in self.image.chunks_mut(FAN).zip(self.colors.chunks(FAN)) {
+            if colors.as_flattened().iter().all(|c| *c == 0.0) {
+                image.fill([0; 4]);
+            } else {
+                image.copy_from_slice(&straight(&channels(colors), [0.0; 4])[..image.len()]);
+            }
         }
     }
 }

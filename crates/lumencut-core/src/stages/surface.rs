@@ -68,18 +68,24 @@ struct Sampler<'a, T> {
     voxels: &'a [T],
 }
 
+/// Pixels in a row that are sampled together.
+const RUN: usize = 8 * FAN;
+type Run = [[f32; FAN]; RUN / FAN];
+
 impl<T: Voxel> Sampler<'_, T> {
-    /// The volume `behind` the depths of sixteen pixels in a row.
+    /// The volume `behind` the depths of a run of pixels.
     #[inline(always)]
-    fn sample(&self, i: usize, j: usize, depth: &[f32; FAN], behind: f64) -> [f32; FAN] {
+    fn sample(&self, i: usize, j: usize, depth: &Run, behind: f64) -> Run {
         let to = &self.index_from_view;
         let row = (to.origin + to.y * self.camera.view_y(j)).to_array();
-        let mut index = [[0.0; FAN]; 3];
-        for a in 0..3 {
-            let (x_step, z_step) = (to.x[a], to.z[a]);
-            for l in 0..FAN {
-                let z = f64::from(depth[l]) + behind;
-                index[a][l] = row[a] + x_step * self.camera.view_x(i + l) + z_step * z;
+        let mut index = [[[0.0; FAN]; 3]; RUN / FAN];
+        for n in 0..RUN / FAN {
+            for a in 0..3 {
+                let (x_step, z_step) = (to.x[a], to.z[a]);
+                for l in 0..FAN {
+                    let z = f64::from(depth[n][l]) + behind;
+                    index[n][a][l] = row[a] + x_step * self.camera.view_x(i + n * FAN + l) + z_step * z;
+                }
             }
         }
         self.grid.trilinear_lanes(self.voxels, &index)
@@ -100,17 +106,20 @@ impl<T: Voxel> Kernel for SurfaceRow<'_, T> {
 
     #[inline(always)]
     fn run(self) {
-        for (n, (value, depth)) in self.value.chunks_mut(FAN).zip(self.depth.chunks(FAN)).enumerate() {
-            let mut z = [0.0; FAN];
-            z[..depth.len()].copy_from_slice(depth);
-            let mut shown = self.sampler.sample(n * FAN, self.row, &z, 0.0);
-            let mut count = [1.0; FAN];
+        for (n, (value, depth)) in self.value.chunks_mut(RUN).zip(self.depth.chunks(RUN)).enumerate() {
+            let mut z = [[0.0; FAN]; RUN / FAN];
+            z.as_flattened_mut()[..depth.len()].copy_from_slice(depth);
+            let mut shown = self.sampler.sample(n * RUN, self.row, &z, 0.0);
+            let mut count = [[1.0; FAN]; RUN / FAN];
             for behind in &self.offsets[1..] {
-                let beside = self.sampler.sample(n * FAN, self.row, &z, *behind);
-                join(self.kind, &mut shown, &mut count, &beside);
+                let beside = self.sampler.sample(n * RUN, self.row, &z, *behind);
+                for n in 0..RUN / FAN {
+                    join(self.kind, &mut shown[n], &mut count[n], &beside[n]);
+                }
             }
-            for l in 0..value.len() {
-                value[l] = shown[l] / count[l];
+            let sums = shown.as_flattened().iter().zip(count.as_flattened());
+            for (value, (sum, count)) in value.iter_mut().zip(sums) {
+                *value = sum / count;
             }
         }
     }
