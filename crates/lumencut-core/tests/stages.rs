@@ -6,11 +6,12 @@ mod common;
 use common::{tree, trefoil, vessel, view};
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
+use lumencut_core::error::ErrorKind;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::math::window::{Opacity, Window};
 use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::pipeline::Renderer;
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{Settings, Slab, SlabMode};
 use lumencut_core::stages::View;
 use lumencut_core::stages::composite::{Layers, composite};
 use lumencut_core::stages::depth_filter::depth_filter;
@@ -230,4 +231,20 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
         "composite",
     ];
     assert_eq!(names, stages);
+}
+
+#[test]
+fn a_slab_of_too_many_voxels_is_refused_and_one_beyond_the_volume_is_not() {
+    let voxels = [7i16; 8];
+    let camera = view([0.0, 1.0, 0.0], [3, 2], 1e-3);
+    let thick = |side: f64, thickness: f64| {
+        let affine = DAffine3::from_scale(DVec3::splat(side));
+        let volume = Volume::new(Voxels::I16(&voxels), [2; 3], [1, 2, 4], affine).unwrap();
+        let slab = Some(Slab { thickness, mode: SlabMode::Mean });
+        let mut value = vec![0.0; 6];
+        surface(&whole(&camera), &volume, &[0.0; 6], slab, &mut value).map(|()| value)
+    };
+    let error = thick(1e-6, 1000.0).unwrap_err();
+    assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "slab thickness"));
+    assert_eq!(thick(1.0, 1000.0).unwrap(), [7.0; 6]);
 }
