@@ -14,17 +14,20 @@ pub enum ErrorKind {
     Camera,
     /// A setting outside its range.
     Settings,
+    /// A GPU that is not there, too small for the work, or failed.
+    Device,
     /// The caller asked to stop.
     Interrupted,
 }
 
 impl ErrorKind {
     /// Every kind, for tests that each of them can be met.
-    pub const ALL: [ErrorKind; 5] = [
+    pub const ALL: [ErrorKind; 6] = [
         ErrorKind::Volume,
         ErrorKind::VesselTree,
         ErrorKind::Camera,
         ErrorKind::Settings,
+        ErrorKind::Device,
         ErrorKind::Interrupted,
     ];
 }

@@ -11,6 +11,7 @@ pub mod math;
 pub mod phantom;
 pub mod pipeline;
 pub mod settings;
+pub mod shaders;
 pub mod stages;
 pub mod vessel_tree;
 pub mod volume;

@@ -12,6 +12,7 @@ pub fn to_python(error: Error) -> PyErr {
         ErrorKind::VesselTree => "VesselTreeError",
         ErrorKind::Camera => "CameraError",
         ErrorKind::Settings => "SettingsError",
+        ErrorKind::Device => "DeviceError",
         ErrorKind::Interrupted => return PyKeyboardInterrupt::new_err(error.to_string()),
     };
     exception(class, &error.subject, &error.found, &error.expected, &error.mend)

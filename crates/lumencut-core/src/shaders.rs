@@ -1,0 +1,20 @@
+//! The stages once more, as WGSL: each room's shader lies beside its Rust, under the same name. Their text is all that
+//! this crate knows of GPUs.
+
+/// A room's shader.
+#[derive(Clone, Copy, Debug)]
+pub struct Shader {
+    /// The room, such as `stages/depth`.
+    pub room: &'static str,
+    /// WGSL; lines `// import ROOM` name the rooms whose declarations it uses.
+    pub text: &'static str,
+}
+
+macro_rules! shaders {
+    ($($room:literal),* $(,)?) => {
+        &[$(Shader { room: $room, text: include_str!(concat!($room, ".wgsl")) }),*]
+    };
+}
+
+/// The shaders of all rooms.
+pub const SHADERS: &[Shader] = shaders!["math/lanes", "math/view", "stages/depth_filter",];

@@ -1,0 +1,108 @@
+//! A GPU that is ready to compute, and what went wrong on it.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use lumencut_core::error::{Error, ErrorKind, Result};
+use wgpu::{Features, Limits};
+
+use crate::adapter::{Choice, Description, choose};
+
+/// The limits that every stage stays within: those that each browser and driver has.
+const NEEDED: Limits = Limits::defaults();
+
+/// A GPU that is ready to compute.
+#[derive(Debug)]
+pub struct Device {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) limits: Limits,
+    pub(crate) has_timestamps: bool,
+    description: Description,
+    failure: Failure,
+}
+
+/// The first thing that went wrong since it was last asked for.
+type Failure = Arc<Mutex<Option<String>>>;
+
+impl Device {
+    /// Opens a GPU.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Device`] where there is none, or one whose limits are too small.
+    pub async fn open(choice: Choice) -> Result<Self> {
+        let adapter = choose(choice).await?;
+        let description = Description::of(&adapter);
+        check_limits(&description.name, &adapter.limits())?;
+        let has_timestamps = adapter.features().contains(Features::TIMESTAMP_QUERY);
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("lumencut"),
+            required_features: if has_timestamps { Features::TIMESTAMP_QUERY } else { Features::empty() },
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let opened = adapter.request_device(&descriptor).await;
+        let (device, queue) = opened.map_err(|error| broken(&description.name, &error.to_string()))?;
+        let failure = Failure::default();
+        watch(&device, &failure);
+        Ok(Self { limits: device.limits(), device, queue, has_timestamps, description, failure })
+    }
+
+    /// What its driver says of it.
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// An error where something went wrong since the last call.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Device`] with the driver's words.
+    pub fn check(&self) -> Result<()> {
+        let failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
+        failure.map_or(Ok(()), |words| Err(broken(&self.description.name, &words)))
+    }
+
+    /// An error for work that the GPU did not finish.
+    pub(crate) fn unfinished(&self) -> Error {
+        self.check().err().unwrap_or_else(|| broken(&self.description.name, "no result"))
+    }
+
+    /// An error for something that is larger than the GPU allows.
+    pub(crate) fn too_large(&self, subject: &str, found: String, limit: &str) -> Error {
+        let expected = format!("at most {limit} on {}", self.description.name);
+        Error::new(ErrorKind::Device, subject, found, expected).mend("compute with the device 'cpu'")
+    }
+
+    /// Simulates the loss of the GPU, for tests of what follows.
+    pub fn lose(&self) {
+        self.device.destroy();
+    }
+}
+
+/// Listens for what the driver reports between calls.
+fn watch(device: &wgpu::Device, failure: &Failure) {
+    let note = |failure: &Failure, words: String| {
+        failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(words);
+    };
+    let (on_error, on_loss) = (Arc::clone(failure), Arc::clone(failure));
+    device.on_uncaptured_error(Arc::new(move |error| note(&on_error, error.to_string())));
+    device.set_device_lost_callback(move |reason, words| {
+        note(&on_loss, format!("device lost ({reason:?}) {words}"));
+    });
+}
+
+fn broken(name: &str, words: &str) -> Error {
+    let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
+    Error::new(ErrorKind::Device, format!("GPU {name}"), words, "a GPU that computes to the end")
+        .mend("try a smaller picture or volume, or compute with the device 'cpu'")
+}
+
+/// Refuses a GPU that has less of something than the stages need.
+fn check_limits(name: &str, limits: &Limits) -> Result<()> {
+    let mut short = Ok(());
+    NEEDED.check_limits_with_fail_fn(limits, true, |limit, needed, found| {
+        let subject = format!("limit {limit} of the GPU {name}");
+        short = Err(Error::new(ErrorKind::Device, subject, found.to_string(), format!("at least {needed}"))
+            .mend("compute with the device 'cpu'"));
+    });
+    short
+}

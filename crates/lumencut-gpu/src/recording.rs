@@ -1,0 +1,155 @@
+//! A list of named stages that the GPU runs at once, how long each took, and what is read back.
+
+use lumencut_core::error::{Error, Result};
+use lumencut_core::frame::Timing;
+use lumencut_core::stages::Stop;
+use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, MapMode};
+
+use crate::device::Device;
+use crate::stage::Stage;
+
+/// The most stages of a recording.
+const MOST_STAGES: u32 = 64;
+
+/// Stages in the order they run.
+pub(crate) struct Recording<'a> {
+    device: &'a Device,
+    encoder: CommandEncoder,
+    clock: Option<wgpu::QuerySet>,
+    names: Vec<&'static str>,
+    reads: Vec<(Buffer, u64)>,
+}
+
+/// What a recording left behind.
+pub(crate) struct Results {
+    /// The milliseconds of each stage, where the GPU has a clock.
+    pub timings: Vec<Timing>,
+    /// The bytes of each buffer that was asked for, in that order.
+    pub bytes: Vec<Vec<u8>>,
+}
+
+impl<'a> Recording<'a> {
+    /// Nothing to do yet.
+    pub fn new(device: &'a Device) -> Self {
+        let clock = device.has_timestamps.then(|| {
+            device.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("clock"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2 * MOST_STAGES,
+            })
+        });
+        let encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        Self { device, encoder, clock, names: Vec::new(), reads: Vec::new() }
+    }
+
+    /// Runs `stage` over `groups` of threads.
+    pub fn run(&mut self, stage: &Stage, resources: &[BindingResource], [x, y]: [u32; 2]) {
+        let bound = stage.bind(self.device, resources);
+        let n = 2 * self.names.len() as u32;
+        let timestamp_writes = self.clock.as_ref().map(|clock| wgpu::ComputePassTimestampWrites {
+            query_set: clock,
+            beginning_of_pass_write_index: Some(n),
+            end_of_pass_write_index: Some(n + 1),
+        });
+        let descriptor = wgpu::ComputePassDescriptor { label: Some(stage.name), timestamp_writes };
+        let mut pass = self.encoder.begin_compute_pass(&descriptor);
+        pass.set_pipeline(&stage.pipeline);
+        pass.set_bind_group(0, &bound, &[]);
+        pass.dispatch_workgroups(x, y, 1);
+        self.names.push(stage.name);
+    }
+
+    /// Asks for the first `bytes` of a buffer as they are once all stages have run.
+    pub fn read(&mut self, buffer: &Buffer, bytes: u64) {
+        self.reads.push((buffer.clone(), bytes));
+    }
+
+    /// Runs everything.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Interrupted`] once `stop` says so,
+    /// [`lumencut_core::error::ErrorKind::Device`] where the GPU failed.
+    pub async fn finish(mut self, stop: Stop<'_>) -> Result<Results> {
+        let times = self.names.len() as u64 * 2 * 8;
+        if let Some(clock) = &self.clock {
+            let usage = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;
+            let resolved = self.device.buffer("clock", times.max(8), usage);
+            self.encoder.resolve_query_set(clock, 0..2 * self.names.len() as u32, &resolved, 0);
+            self.reads.push((resolved, times));
+        }
+        let total = self.reads.iter().map(|(_, bytes)| bytes.next_multiple_of(8)).sum::<u64>().max(8);
+        let staging = self.device.buffer("read back", total, BufferUsages::COPY_DST | BufferUsages::MAP_READ);
+        let mut offset = 0;
+        for (buffer, bytes) in &self.reads {
+            self.encoder.copy_buffer_to_buffer(buffer, 0, &staging, offset, Some(*bytes));
+            offset += bytes.next_multiple_of(8);
+        }
+        self.device.queue.submit([self.encoder.finish()]);
+        let all = self.device.map(&staging, stop).await?;
+        let mut offset = 0;
+        let mut bytes: Vec<Vec<u8>> = Vec::with_capacity(self.reads.len());
+        for (_, length) in &self.reads {
+            bytes.push(all[offset..offset + *length as usize].to_vec());
+            offset += length.next_multiple_of(8) as usize;
+        }
+        drop(all);
+        staging.unmap();
+        self.device.check()?;
+        let ticks = if self.clock.is_some() { bytes.pop().unwrap_or_default() } else { Vec::new() };
+        let period = f64::from(self.device.queue.get_timestamp_period()) * 1e-6;
+        Ok(Results { timings: timings(&self.names, &bytemuck::pod_collect_to_vec(&ticks), period), bytes })
+    }
+}
+
+/// The time between each stage's two ticks; the passes of one stage in a row count together.
+fn timings(names: &[&'static str], ticks: &[u64], period: f64) -> Vec<Timing> {
+    let mut timings: Vec<Timing> = Vec::new();
+    for (stage, ticks) in names.iter().zip(ticks.chunks_exact(2)) {
+        let milliseconds = ticks[1].saturating_sub(ticks[0]) as f64 * period;
+        match timings.last_mut() {
+            Some(last) if last.stage == *stage => last.milliseconds += milliseconds,
+            _ => timings.push(Timing { stage, milliseconds }),
+        }
+    }
+    timings
+}
+
+impl Device {
+    /// A buffer of `size` bytes.
+    pub(crate) fn buffer(&self, label: &str, size: u64, usage: BufferUsages) -> Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// Waits for all work, and gives the bytes of a buffer.
+    async fn map(&self, buffer: &Buffer, stop: Stop<'_>) -> Result<wgpu::BufferView> {
+        let (done, is_done) = futures_channel::oneshot::channel();
+        buffer.map_async(MapMode::Read, .., move |mapped| {
+            // Nobody waits for it any more after an interruption.
+            let _ = done.send(mapped);
+        });
+        self.wait(stop)?;
+        match is_done.await {
+            Ok(Ok(())) => buffer.get_mapped_range(..).map_err(|_| self.unfinished()),
+            _ => Err(self.unfinished()),
+        }
+    }
+
+    /// Waits until the GPU has done its work, where waiting is possible; in a browser it reports by itself.
+    fn wait(&self, stop: Stop) -> Result<()> {
+        const PATIENCE: std::time::Duration = std::time::Duration::from_millis(20);
+        loop {
+            let poll = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
+            match self.device.poll(poll) {
+                Err(wgpu::PollError::Timeout) if stop() => return Err(Error::interrupted()),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(_) => return Err(self.unfinished()),
+                Ok(_) => return Ok(()),
+            }
+        }
+    }
+}

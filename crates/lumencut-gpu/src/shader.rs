@@ -1,0 +1,32 @@
+//! Shaders from rooms: the one import mechanism.
+
+use lumencut_core::shaders::SHADERS;
+
+/// How a line begins that names a room whose declarations a shader uses.
+const IMPORT: &str = "// import ";
+
+/// The WGSL of `room` after that of all rooms it imports, each once.
+///
+/// # Panics
+/// For a room that has no shader: the rooms are written in this repository, and a test assembles all of them.
+pub fn assemble(room: &str) -> String {
+    let mut done = Vec::new();
+    let mut text = String::new();
+    append(room, &mut done, &mut text);
+    text
+}
+
+fn append(room: &str, done: &mut Vec<String>, text: &mut String) {
+    if done.iter().any(|other| other == room) {
+        return;
+    }
+    done.push(room.to_owned());
+    let Some(shader) = SHADERS.iter().find(|shader| shader.room == room) else {
+        panic!("no shader for the room {room}");
+    };
+    for import in shader.text.lines().filter_map(|line| line.strip_prefix(IMPORT)) {
+        append(import.trim(), done, text);
+    }
+    text.push_str(shader.text);
+    text.push('\n');
+}

@@ -1,0 +1,46 @@
+//! A stage of the pipeline on the GPU: its shader, compiled.
+
+use wgpu::{BindGroup, BindGroupEntry, BindingResource, ComputePipeline};
+
+use crate::device::Device;
+use crate::shader::assemble;
+
+/// A room's entry point, ready to run. It carries the room's name, as do its label and its timings.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    pub name: &'static str,
+    pub pipeline: ComputePipeline,
+}
+
+impl Stage {
+    /// Compiles `room`, such as `stages/depth`, with its overrides set to `constants`.
+    pub fn new(device: &Device, room: &'static str, constants: &[(&str, f64)]) -> Self {
+        let name = room.rsplit('/').next().unwrap_or(room);
+        let source = wgpu::ShaderSource::Wgsl(assemble(room).into());
+        let descriptor = wgpu::ShaderModuleDescriptor { label: Some(name), source };
+        let module = device.device.create_shader_module(descriptor);
+        let options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+        let pipeline = device.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(name),
+            layout: None,
+            module: &module,
+            entry_point: Some(name),
+            compilation_options: options,
+            cache: None,
+        });
+        Self { name, pipeline }
+    }
+
+    /// Binds `resources` to the bindings 0, 1, 2 and so on of the shader.
+    pub fn bind(&self, device: &Device, resources: &[BindingResource]) -> BindGroup {
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| BindGroupEntry { binding, resource: resource.clone() })
+            .collect();
+        device.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(self.name),
+            layout: &self.pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        })
+    }
+}
