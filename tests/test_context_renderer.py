@@ -72,8 +72,10 @@ def test_a_frame_of_the_context_alone(alone, made, tmp_path):
     frame.save(tmp_path / "view.png")
 
 
-def test_a_frame_is_described_without_its_pixels(alone):
+def test_a_frame_is_described_without_its_pixels(alone, made):
     assert repr(alone.render(Camera.left(alone.volume, (9, 8)))) == "Frame(9 × 8 pixels: image, context)"
+    cut = Renderer(None, made.tree).cut_surface(Camera.left(made.tree, (9, 8)))
+    assert repr(cut) == "Frame(9 × 8 pixels: depth, vessel, distance, position)"
 
 
 def test_the_context_of_a_frame_is_what_is_behind_its_surface(made):
