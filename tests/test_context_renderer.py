@@ -155,8 +155,8 @@ def test_threads_share_a_renderer_of_a_volume_alone(alone, made):
         np.testing.assert_array_equal(image, other)
 
 
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_a_context_and_the_renderer_goes_on(alone, made):
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     ended, main = threading.Event(), threading.get_ident()
 
     def interrupt_once_it_runs():
@@ -176,7 +176,6 @@ def test_ctrl_c_ends_a_context_and_the_renderer_goes_on(alone, made):
     finally:
         ended.set()
         thread.join()
-        signal.signal(signal.SIGINT, before)
     small = Camera.anterior(made.volume, SIZE)
     np.testing.assert_array_equal(alone.render(small).image, Renderer(made.volume).render(small).image)
 
