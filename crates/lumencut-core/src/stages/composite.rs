@@ -112,7 +112,7 @@ fn straight(pixels: &Pixels, behind: [f32; 4]) -> [[u8; 4]; FAN] {
 #[inline(always)]
 fn channels(colors: &[[f32; 4]]) -> Pixels {
     let mut pixels = [[0.0; FAN]; 4];
-    for (l, color) in colors.iter().enumerate().take(FAN) {
+    for (l, color) in colors.iter().enumerate() {
         for c in 0..4 {
             pixels[c][l] = color[c];
         }
