@@ -72,8 +72,10 @@ def test_a_frame_of_the_context_alone(alone, made, tmp_path):
     frame.save(tmp_path / "view.png")
 
 
-def test_a_frame_is_described_without_its_pixels(alone):
+def test_a_frame_is_described_without_its_pixels(alone, made):
     assert repr(alone.render(Camera.left(alone.volume, (9, 8)))) == "Frame(9 × 8 pixels: image, context)"
+    cut = Renderer(None, made.tree).cut_surface(Camera.left(made.tree, (9, 8)))
+    assert repr(cut) == "Frame(9 × 8 pixels: depth, vessel, distance, position)"
 
 
 def test_the_context_of_a_frame_is_what_is_behind_its_surface(made):
@@ -153,8 +155,8 @@ def test_threads_share_a_renderer_of_a_volume_alone(alone, made):
         np.testing.assert_array_equal(image, other)
 
 
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_a_context_and_the_renderer_goes_on(alone, made):
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     ended, main = threading.Event(), threading.get_ident()
 
     def interrupt_once_it_runs():
@@ -174,7 +176,6 @@ def test_ctrl_c_ends_a_context_and_the_renderer_goes_on(alone, made):
     finally:
         ended.set()
         thread.join()
-        signal.signal(signal.SIGINT, before)
     small = Camera.anterior(made.volume, SIZE)
     np.testing.assert_array_equal(alone.render(small).image, Renderer(made.volume).render(small).image)
 

@@ -25,14 +25,6 @@ def endless_tree():
     return VesselTree([Vessel(points, 1e5) for points in flat])
 
 
-@pytest.fixture
-def interruptible():
-    """Ctrl-C raises KeyboardInterrupt, even where whoever started the tests ignores it."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 @pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
     renderer, fresh = (Renderer(None, endless_tree()) for _ in range(2))

@@ -99,9 +99,8 @@ class Frame:
 
     def __repr__(self) -> str:
         """Return the size and the names of the images."""
-        names = ("image", "depth", "vessel", "distance", "value", "context")
         width, height = self.camera.size
-        return f"Frame({width} × {height} pixels: {', '.join(name for name in names if self.has(name))})"
+        return f"Frame({width} × {height} pixels: {', '.join(name for name in _IMAGES if self.has(name))})"
 
     def has(self, name: str) -> bool:
         """Tell whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""

@@ -61,7 +61,6 @@ class Renderer:
         if self._volume is not None and tree is not None:
             _check_meeting(self._volume, tree)
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays())
-        self._window: Window | None = None
 
     @property
     def volume(self) -> Volume | None:
@@ -153,9 +152,11 @@ class Renderer:
 
         Contexts of minimum and mean have their own, see :meth:`windowed`.
         """
-        if self._window is None:
-            self._window = Window.from_data(self._shown, self._tree)
         return self._window
+
+    @functools.cached_property
+    def _window(self) -> Window:
+        return Window.from_data(self._shown, self._tree)
 
     @functools.cached_property
     def _whole_window(self) -> Window:

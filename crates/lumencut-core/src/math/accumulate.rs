@@ -43,7 +43,7 @@ pub struct Palette {
 
 /// Gathers the samples of sixteen rays.
 pub trait Accumulator<'a> {
-    /// Whether samples may come in any order, and more than once; else they come from near to far.
+    /// Whether samples may come in any order; else they come from near to far.
     const ANY_ORDER: bool = false;
     /// Nothing yet; rays that are not `active` ask for no samples.
     fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self;

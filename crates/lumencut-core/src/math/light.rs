@@ -95,14 +95,7 @@ impl Path for Around {
     fn places(&self, n: usize) -> Places {
         let mut places = self.places;
         for a in 0..3 {
-            let shift = self.shift[a]
-                + if n == 2 * a {
-                    1.0
-                } else if n == 2 * a + 1 {
-                    -1.0
-                } else {
-                    0.0
-                };
+            let shift = self.shift[a] + if n / 2 == a { [1.0, -1.0][n % 2] } else { 0.0 };
             for l in 0..FAN {
                 places[a][l] += shift;
             }

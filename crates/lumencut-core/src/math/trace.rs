@@ -25,7 +25,7 @@ pub struct Scene<'a> {
 pub struct Walker<A> {
     packet: Packet,
     gathered: A,
-    /// The segments, where the most promising one went first.
+    /// The segments, sorted once, the most promising first; for accumulators of any order only.
     segments: Vec<Segment>,
 }
 
@@ -51,7 +51,6 @@ pub fn trace<'a, A: Accumulator<'a>>(scene: &Scene, walkers: &mut [Walker<A>]) {
     for walker in &mut *walkers {
         longest = longest.max(walker.packet.longest);
         if A::ANY_ORDER {
-            walker.segments.clear();
             let mut first = 0;
             while first < walker.packet.longest {
                 walker.segments.push(walker.packet.segment(&scene.rays.grid, scene.blocks, first));

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::View;
 use crate::error::Result;
+use crate::math::accumulate::Rgba;
 use crate::math::lanes::{FAN, Kernel, dispatch, smaller};
 use crate::math::window::Ramp;
 use crate::settings::Settings;
@@ -65,14 +66,11 @@ struct Paint {
     line: [f32; 3],
 }
 
-/// Sixteen pixels, channel by channel.
-type Pixels = [[f32; FAN]; 4];
-
 impl Paint {
     /// The surface, grey with the silhouette's colour over it, over the context over the background. Where there is no
     /// value there is no surface. Colours times opacity, and opacity.
     #[inline(always)]
-    fn pixels(&self, value: &[f32; FAN], strength: &[f32; FAN], context: &Pixels) -> Pixels {
+    fn pixels(&self, value: &[f32; FAN], strength: &[f32; FAN], context: &Rgba) -> Rgba {
         let mut pixels = [[0.0; FAN]; 4];
         for l in 0..FAN {
             let nothing = value[l].is_nan();
@@ -93,7 +91,7 @@ impl Paint {
 
 /// RGBA with straight alpha of colours times opacity; without any opacity the colour is `behind`.
 #[inline(always)]
-fn straight(pixels: &Pixels, behind: [f32; 4]) -> [[u8; 4]; FAN] {
+fn straight(pixels: &Rgba, behind: [f32; 4]) -> [[u8; 4]; FAN] {
     let mut packed = [0; FAN];
     for l in 0..FAN {
         let alpha = pixels[3][l];
@@ -110,9 +108,9 @@ fn straight(pixels: &Pixels, behind: [f32; 4]) -> [[u8; 4]; FAN] {
 
 /// Sixteen pixels channel by channel; those beyond the end are nothing.
 #[inline(always)]
-fn channels(colors: &[[f32; 4]]) -> Pixels {
+fn channels(colors: &[[f32; 4]]) -> Rgba {
     let mut pixels = [[0.0; FAN]; 4];
-    for (l, color) in colors.iter().enumerate().take(FAN) {
+    for (l, color) in colors.iter().enumerate() {
         for c in 0..4 {
             pixels[c][l] = color[c];
         }

@@ -235,13 +235,11 @@ impl<'a> Tile<'a> {
         }
         let Plan { rays, blocks, shading, .. } = plan;
         trace(&Scene { rays, sampler: self.sampler, blocks: *blocks, shading: *shading }, &mut walkers);
-        let width = self.raster.size[0];
         for (n, walker) in walkers.iter().enumerate() {
             let gathered = walker.finish();
             for l in 0..FAN {
-                let [i, j] = self.ray(n, l);
-                if i < width && j * width < self.pixels.len() {
-                    self.pixels[j * width + i] = gathered.map(|channel| channel[l]);
+                if let Some(pixel) = self.pixel(n, l) {
+                    self.pixels[pixel] = gathered.map(|channel| channel[l]);
                 }
             }
         }
@@ -254,17 +252,23 @@ impl<'a> Tile<'a> {
         [column, packet / ACROSS * PACKET[1] + lane / PACKET[0]]
     }
 
+    /// Where a ray's pixel is in these rows; `None` beyond the image.
+    #[inline(always)]
+    fn pixel(&self, packet: usize, lane: usize) -> Option<usize> {
+        let ([i, j], width) = (self.ray(packet, lane), self.raster.size[0]);
+        (i < width && j * width < self.pixels.len()).then_some(j * width + i)
+    }
+
     /// The rays of one packet; those beyond the image see nothing.
     #[inline(always)]
     fn packet(&self, n: usize) -> Packet {
-        let width = self.raster.size[0];
         let (mut x, mut y, mut start) = ([0.0; FAN], [0.0; FAN], [NONE; FAN]);
         for l in 0..FAN {
             let [i, j] = self.ray(n, l);
             x[l] = self.raster.first[0] + i as f64 * self.raster.next[0];
             y[l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
-            if i < width && j * width < self.start.len() {
-                start[l] = self.start[j * width + i];
+            if let Some(pixel) = self.pixel(n, l) {
+                start[l] = self.start[pixel];
             }
         }
         Packet::new(&self.plan.rays, &x, &y, &start)
