@@ -116,6 +116,12 @@ impl Renderer {
         }
     }
 
+    /// The tree and its `count` levels of detail, finest first.
+    pub fn levels(&mut self, count: usize) -> &[Level] {
+        self.prepare(count);
+        &self.levels[..=count]
+    }
+
     /// The first levels in the view of `camera`.
     pub fn project(&mut self, camera: &Camera, settings: &Settings) -> CutSurface<'_> {
         self.prepare(settings.levels);

@@ -17,4 +17,19 @@ macro_rules! shaders {
 }
 
 /// The shaders of all rooms.
-pub const SHADERS: &[Shader] = shaders!["math/lanes", "math/view", "stages/depth_filter",];
+pub const SHADERS: &[Shader] = shaders![
+    "math/candidates",
+    "math/cost",
+    "math/hierarchy",
+    "math/lanes",
+    "math/levels",
+    "math/nearest",
+    "math/pieces",
+    "math/projection",
+    "math/tile",
+    "math/view",
+    "math/walk",
+    "stages/depth",
+    "stages/depth_filter",
+    "stages/distance",
+];

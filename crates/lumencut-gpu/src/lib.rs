@@ -5,9 +5,12 @@
 
 pub mod adapter;
 #[allow(dead_code)]
+mod cut_surface;
 pub mod device;
-#[allow(dead_code)]
+mod images;
+mod levels;
 mod recording;
+pub mod renderer;
 pub mod shader;
 #[allow(dead_code)]
 mod stage;

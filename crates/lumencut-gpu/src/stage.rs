@@ -10,12 +10,19 @@ use crate::shader::assemble;
 pub(crate) struct Stage {
     pub name: &'static str,
     pub pipeline: ComputePipeline,
+    /// The first binding that the shader uses.
+    first_binding: u32,
 }
 
 impl Stage {
     /// Compiles `room`, such as `stages/depth`, with its overrides set to `constants`.
     pub fn new(device: &Device, room: &'static str, constants: &[(&str, f64)]) -> Self {
-        let name = room.rsplit('/').next().unwrap_or(room);
+        Self::entry(device, room, name_of(room), constants)
+    }
+
+    /// Another entry point of `room`; it counts as a part of the room's stage.
+    pub fn entry(device: &Device, room: &'static str, entry: &str, constants: &[(&str, f64)]) -> Self {
+        let name = name_of(room);
         let source = wgpu::ShaderSource::Wgsl(assemble(room).into());
         let descriptor = wgpu::ShaderModuleDescriptor { label: Some(name), source };
         let module = device.device.create_shader_module(descriptor);
@@ -24,16 +31,22 @@ impl Stage {
             label: Some(name),
             layout: None,
             module: &module,
-            entry_point: Some(name),
+            entry_point: Some(entry),
             compilation_options: options,
             cache: None,
         });
-        Self { name, pipeline }
+        Self { name, pipeline, first_binding: 0 }
     }
 
-    /// Binds `resources` to the bindings 0, 1, 2 and so on of the shader.
+    /// The same stage for an entry point whose bindings begin later.
+    pub fn from_binding(mut self, first_binding: u32) -> Self {
+        self.first_binding = first_binding;
+        self
+    }
+
+    /// Binds `resources` to the bindings of the shader, in their order.
     pub fn bind(&self, device: &Device, resources: &[BindingResource]) -> BindGroup {
-        let entries: Vec<_> = (0..)
+        let entries: Vec<_> = (self.first_binding..)
             .zip(resources)
             .map(|(binding, resource)| BindGroupEntry { binding, resource: resource.clone() })
             .collect();
@@ -43,4 +56,9 @@ impl Stage {
             entries: &entries,
         })
     }
+}
+
+/// The last part of a room's path.
+fn name_of(room: &str) -> &str {
+    room.rsplit('/').next().unwrap_or(room)
 }

@@ -1,6 +1,7 @@
 //! The view as shaders read it, and the images of its pixels.
 
 use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
 use lumencut_core::camera::Camera;
 use wgpu::{Buffer, BufferUsages};
 
@@ -14,20 +15,52 @@ pub struct View {
     pub size: [u32; 2],
     /// The side of a pixel (mm): twelve digits, and the rest.
     pub spacing: [f32; 2],
+    /// The axes of view space in world space.
+    pub axes: [Axis; 3],
+}
+
+/// `Axis` of `math/view.wgsl`: a unit vector as a part of few digits and the rest.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Axis {
+    /// Whole multiples of 2⁻¹⁰.
+    pub coarse: [f32; 4],
+    /// The rest.
+    pub fine: [f32; 4],
+}
+
+/// What the coarse parts of axes are multiples of.
+pub(crate) const AXIS_UNIT: f64 = 1.0 / 1024.0;
+
+impl Axis {
+    fn new(axis: DVec3) -> Self {
+        let [x, y, z] = axis.to_array().map(|c| split_at(c, AXIS_UNIT));
+        Self { coarse: [x[0], y[0], z[0], 0.0], fine: [x[1], y[1], z[1], 0.0] }
+    }
 }
 
 impl View {
     /// The view of `camera`.
     pub fn new(camera: &Camera) -> Self {
-        Self { size: camera.size().map(|n| n as u32), spacing: split(camera.pixel_spacing(), 12) }
+        let axes = [camera.right(), camera.up(), camera.direction()].map(Axis::new);
+        Self { size: camera.size().map(|n| n as u32), spacing: split(camera.pixel_spacing(), 12), axes }
     }
 }
 
 /// A number as one of `digits` binary digits and the rest.
 pub(crate) fn split(number: f64, digits: i32) -> [f32; 2] {
-    let unit = 2f64.powi(number.abs().max(f64::MIN_POSITIVE).log2().floor() as i32 + 1 - digits);
+    split_at(number, power_above(number) * 2f64.powi(-digits))
+}
+
+/// A number as a multiple of `unit` and the rest.
+pub(crate) fn split_at(number: f64, unit: f64) -> [f32; 2] {
     let coarse = (number / unit).round() * unit;
     [coarse as f32, (number - coarse) as f32]
+}
+
+/// The smallest power of two that is larger than the size of a number.
+pub(crate) fn power_above(number: f64) -> f64 {
+    2f64.powi(number.abs().max(1e-30).log2().floor() as i32 + 1)
 }
 
 impl Device {

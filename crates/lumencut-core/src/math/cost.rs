@@ -7,15 +7,15 @@ use crate::settings::Settings;
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
     /// λ.
-    weight: f32,
+    pub weight: f32,
     /// How far beyond the wall lumen reaches under *lumen first* (mm).
-    margin: f32,
+    pub margin: f32,
     /// More than the depth range of the tree (mm): lifts every lumen before every surrounding.
-    lift: f32,
+    pub lift: f32,
     /// More than the rounding error of a projected distance (mm).
-    distance_slack: f32,
+    pub distance_slack: f32,
     /// More than the rounding error of a depth (mm).
-    depth_slack: f32,
+    pub depth_slack: f32,
 }
 
 impl Rule {

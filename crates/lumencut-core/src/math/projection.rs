@@ -15,11 +15,13 @@ pub const COLLINEAR_LENGTH: f32 = 1e-3;
 #[derive(Debug)]
 pub struct Level {
     /// The first slot of each vessel, and the number of slots at the end.
-    first_slot: Vec<u32>,
-    points: Vec<DVec3>,
-    radii: Vec<f32>,
+    pub first_slot: Vec<u32>,
+    /// The point of each slot (mm, LPS).
+    pub points: Vec<DVec3>,
+    /// The radius at each slot (mm), 0 where unknown.
+    pub radii: Vec<f32>,
     /// The slot in each place of the bundles.
-    order: Vec<u32>,
+    pub order: Vec<u32>,
     /// The bundle of each slot.
     pub bundle_of_slot: Vec<u32>,
     /// The vessel of each slot.

@@ -5,6 +5,13 @@ struct View {
     size: vec2u,
     // The side of a pixel (mm): a part of few digits, whose products with whole numbers are exact, and the rest.
     spacing: vec2f,
+    // The axes of view space in world space, each as a part of few digits and the rest.
+    axes: array<Axis, 3>,
+}
+
+struct Axis {
+    coarse: vec4f,
+    fine: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -12,6 +19,12 @@ struct View {
 // View x of the centre of column `i`.
 fn view_x(i: u32) -> f32 {
     let n = f32(i) + 0.5 - 0.5 * f32(view.size.x);
+    return n * view.spacing.x + n * view.spacing.y;
+}
+
+// View x of the centres of four columns.
+fn views_x(i: vec4u) -> vec4f {
+    let n = vec4f(i) + 0.5 - 0.5 * f32(view.size.x);
     return n * view.spacing.x + n * view.spacing.y;
 }
 

@@ -1,0 +1,223 @@
+// The levels in one view: points in projection, the edges, what stands at each point, and the boxes around them.
+// import math/lanes
+// import math/view
+// import math/levels
+// import math/pieces
+// import math/hierarchy
+
+// A point of a level, counted from the middle of the tree (mm): a part of few digits, whose products with the coarse axes
+// of the view are exact, and the rest.
+struct Point {
+    coarse: vec3f,
+    radius: f32,
+    fine: vec3f,
+    // Its place among the slots of all bundles.
+    place: u32,
+}
+
+// The points of one vessel at one level.
+struct Span {
+    first: u32,
+    end: u32,
+    // The first point of its level.
+    level: u32,
+}
+
+@group(0) @binding(2) var<storage, read> spans: array<Span>;
+@group(0) @binding(3) var<storage, read> points: array<Point>;
+@group(0) @binding(4) var<storage, read_write> projected: array<Slot>;
+
+const SPAN_THREADS = 64u;
+// A segment whose projection is shorter than this (mm) is collinear with the view direction.
+const COLLINEAR_LENGTH: f32 = 1e-3;
+const NOWHERE = 0xffffffffu;
+
+var<workgroup> first_stripe: atomic<u32>;
+var<workgroup> last_stripe: atomic<u32>;
+var<workgroup> nearest_depth: atomic<u32>;
+var<workgroup> nearest_point: atomic<u32>;
+
+fn along(axis: u32, point: Point) -> f32 {
+    let coarse = view.axes[axis].coarse.xyz;
+    let fine = view.axes[axis].fine.xyz;
+    // Exact, in whatever order and with whatever rounding it is computed.
+    let exact = dot(coarse, point.coarse) + cut_surface.origin_coarse[axis];
+    return exact + (dot(fine, point.coarse) + dot(coarse + fine, point.fine) + cut_surface.origin_fine[axis]);
+}
+
+// View coordinates of a point (mm).
+fn view_from_world(point: Point) -> vec3f {
+    return vec3f(along(0u, point), along(1u, point), along(2u, point));
+}
+
+// The edge from a point to the next of its vessel; zero where it is collinear with the view or not there.
+fn edge_after(span: Span, i: u32) -> vec2f {
+    if i + 1u >= span.end {
+        return vec2f(0.0);
+    }
+    let edge = view_from_world(points[i + 1u]).xy - view_from_world(points[i]).xy;
+    return select(edge, vec2f(0.0), dot(edge, edge) < COLLINEAR_LENGTH * COLLINEAR_LENGTH);
+}
+
+// An integer that orders as the number does.
+fn ordered(number: f32) -> u32 {
+    let bits = bitcast<u32>(number);
+    return select(bits | 0x80000000u, ~bits, (bits & 0x80000000u) != 0u);
+}
+
+// Finds the first and the last stripe of a vessel, or its nearest point where it has none.
+fn survey(span: Span, thread: u32) {
+    if thread == 0u {
+        atomicStore(&first_stripe, NOWHERE);
+        atomicStore(&last_stripe, 0u);
+        atomicStore(&nearest_depth, NOWHERE);
+        atomicStore(&nearest_point, NOWHERE);
+    }
+    workgroupBarrier();
+    for (var i = span.first + thread; i < span.end; i += SPAN_THREADS) {
+        if any(edge_after(span, i) != vec2f(0.0)) {
+            atomicMin(&first_stripe, i);
+            atomicMax(&last_stripe, i);
+        }
+        atomicMin(&nearest_depth, ordered(view_from_world(points[i]).z));
+    }
+    workgroupBarrier();
+    for (var i = span.first + thread; i < span.end; i += SPAN_THREADS) {
+        if ordered(view_from_world(points[i]).z) == atomicLoad(&nearest_depth) {
+            atomicMin(&nearest_point, i);
+        }
+    }
+    workgroupBarrier();
+}
+
+// What stands at a point: the edge before it, and 1 where something stands.
+fn stand(span: Span, i: u32) -> vec3f {
+    let first = atomicLoad(&first_stripe);
+    let last = atomicLoad(&last_stripe);
+    let end = span.end - 1u;
+    if first == NOWHERE {
+        // A vessel that is a point in projection: one plane at its smallest depth.
+        return vec3f(0.0, 0.0, select(0.0, 1.0, i == atomicLoad(&nearest_point)));
+    }
+    if i == end {
+        // A half-plane, or a plane where a run ends the vessel.
+        return vec3f(select(vec2f(0.0), edge_after(span, last), last + 1u == end), 1.0);
+    }
+    if i == span.first {
+        // With no edge before it, a half-plane, or a plane before a run.
+        return vec3f(0.0, 0.0, 1.0);
+    }
+    if i <= first || i > last {
+        return vec3f(0.0);
+    }
+    // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.
+    let before = edge_after(span, i - 1u);
+    return vec3f(before, select(0.0, 1.0, any(before != vec2f(0.0))));
+}
+
+// Writes a point into its place in the bundles.
+fn put(span: Span, i: u32) {
+    let point = points[i];
+    let here = view_from_world(point);
+    let stands = stand(span, i);
+    let edge = edge_after(span, i);
+    let square = dot(edge, edge);
+    let stripe = square > 0.0;
+    // A collinear segment keeps no extent: its other end has a slot of its own.
+    let following = points[select(i, i + 1u, stripe)];
+    let end = view_from_world(following);
+    let radius = point.radius * cut_surface.radius_scale;
+    var slot: Slot;
+    slot.start = here.xy;
+    slot.next = end.xy;
+    slot.edge = edge;
+    slot.before = stands.xy;
+    slot.inverse_length = select(0.0, 1.0 / sqrt(max(square, 1e-30)), stripe);
+    slot.stripe_z = select(ABSENT, here.z, stripe);
+    slot.stripe_dz = select(0.0, end.z - here.z, stripe);
+    slot.wedge_z = select(ABSENT, here.z, stands.z > 0.0);
+    slot.radius = radius;
+    slot.radius_change = following.radius * cut_surface.radius_scale - radius;
+    slot.slot = i - span.level;
+    projected[point.place] = slot;
+}
+
+// One group of threads for each vessel at each level.
+@compute @workgroup_size(SPAN_THREADS)
+fn projection(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let n = group.y * groups.x + group.x;
+    if n >= arrayLength(&spans) {
+        return;
+    }
+    let span = spans[n];
+    survey(span, thread);
+    for (var i = span.first + thread; i < span.end; i += SPAN_THREADS) {
+        put(span, i);
+    }
+}
+
+const LEVEL_THREADS = 256u;
+
+@group(0) @binding(3) var<storage, read_write> drawn: array<Box>;
+
+// A box with nothing inside.
+fn nothing() -> Box {
+    return Box(vec2f(FAR), vec2f(-FAR), ABSENT, 0.0, vec2f(0.0));
+}
+
+// Draws the box of a node around all slots of its bundle.
+fn enclose_bundle(level: u32, n: u32) {
+    let first = (cut_surface.levels[level].first_bundle + n) * FAN;
+    var box = nothing();
+    for (var s = first; s < first + FAN; s++) {
+        let slot = slots[s];
+        if slot.slot != NO_SLOT {
+            box.low = min(box.low, min(slot.start, slot.next));
+            box.high = max(box.high, max(slot.start, slot.next));
+            box.z = min(box.z, min(min(slot.stripe_z, slot.stripe_z + slot.stripe_dz), slot.wedge_z));
+            box.radius = max(box.radius, max(slot.radius, slot.radius + slot.radius_change));
+        }
+    }
+    drawn[first_box(level, 0u) + n] = box;
+}
+
+// Draws the box of a node around the boxes within it.
+fn enclose_boxes(level: u32, height: u32, n: u32) {
+    let first = first_box(level, height - 1u) + n * FAN;
+    var box = nothing();
+    for (var b = first; b < first + FAN; b++) {
+        let inner = drawn[b];
+        if inner.low.x < FAR {
+            box.low = min(box.low, inner.low);
+            box.high = max(box.high, inner.high);
+            box.z = min(box.z, inner.z);
+            box.radius = max(box.radius, inner.radius);
+        }
+    }
+    drawn[first_box(level, height) + n] = box;
+}
+
+// One group of threads for each level, which draws the boxes height by height.
+@compute @workgroup_size(LEVEL_THREADS)
+fn enclose(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let level = group.x;
+    let heights = cut_surface.levels[level].height_count;
+    var nodes = cut_surface.levels[level].bundle_count;
+    for (var n = thread; n < nodes; n += LEVEL_THREADS) {
+        enclose_bundle(level, n);
+    }
+    for (var height = 1u; height < heights; height++) {
+        nodes = (nodes + FAN - 1u) / FAN;
+        storageBarrier();
+        for (var n = thread; n < nodes; n += LEVEL_THREADS) {
+            enclose_boxes(level, height, n);
+        }
+    }
+}

@@ -1,0 +1,65 @@
+// Tiles of pixels: each thread has one, so that what it reads of a piece serves many pixels. Four pixels of a row make a
+// vector, a quad.
+// import math/view
+
+// The quads side by side and the rows of a tile; at most MAX_ACROSS and MAX_ROWS.
+override ACROSS: u32 = 1u;
+override ROWS: u32 = 4u;
+const MAX_ACROSS = 2u;
+const MAX_ROWS = 8u;
+const MAX_QUADS = 16u;
+const QUAD = 4u;
+
+// The pixel centres of a tile in view space (mm); pixels beyond the image repeat its last column and row.
+struct Tile {
+    // The first pixel.
+    pixel: vec2u,
+    // The box around all pixels: its middle, half its sides and a little more than the rounding of the middle.
+    center: vec2f,
+    half: vec2f,
+    // Half the diagonal of the box.
+    radius: f32,
+}
+
+var<private> quad_x: array<vec4f, MAX_ACROSS>;
+var<private> row_y: array<f32, MAX_ROWS>;
+
+// The tile of a thread; its pixels go to `quad_x` and `row_y`.
+fn tile_at(thread: vec2u) -> Tile {
+    let pixel = thread * vec2u(ACROSS * QUAD, ROWS);
+    let last = view.size - 1u;
+    for (var a = 0u; a < ACROSS; a++) {
+        let i = vec4u(pixel.x + a * QUAD) + vec4u(0u, 1u, 2u, 3u);
+        quad_x[a] = views_x(min(i, vec4u(last.x)));
+    }
+    for (var r = 0u; r < ROWS; r++) {
+        row_y[r] = view_y(min(pixel.y + r, last.y));
+    }
+    let first = vec2f(quad_x[0].x, row_y[0]);
+    let end = vec2f(quad_x[ACROSS - 1u].w, row_y[ROWS - 1u]);
+    var tile: Tile;
+    tile.pixel = pixel;
+    tile.center = (first + end) * 0.5;
+    tile.half = abs(end - first) * 0.500001 + 4e-7 * max(abs(first), abs(end));
+    tile.radius = length(tile.half);
+    return tile;
+}
+
+// Where quad `a` of row `r` is among the quads of the tile.
+fn quad_of(a: u32, r: u32) -> u32 {
+    return r * ACROSS + a;
+}
+
+// Pixel `c` of quad `a` in row `r`.
+fn pixel_of(tile: Tile, a: u32, r: u32, c: u32) -> vec2u {
+    return tile.pixel + vec2u(a * QUAD + c, r);
+}
+
+// The largest of the numbers of a tile.
+fn largest(numbers: array<vec4f, MAX_QUADS>) -> f32 {
+    var most = numbers[0];
+    for (var q = 1u; q < ACROSS * ROWS; q++) {
+        most = max(most, numbers[q]);
+    }
+    return max(max(most.x, most.y), max(most.z, most.w));
+}

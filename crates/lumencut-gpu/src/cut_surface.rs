@@ -1,0 +1,100 @@
+//! The stages that make the cut surface: projection, distance and depth.
+
+use lumencut_core::camera::Camera;
+use lumencut_core::settings::Settings;
+use wgpu::Buffer;
+
+use crate::device::Device;
+use crate::levels::{CutSurface, DeviceLevels};
+use crate::recording::Recording;
+use crate::stage::Stage;
+use crate::view::groups;
+
+/// The quads side by side and the rows of a thread's tile. Software has fewer threads and pays more for what each reads.
+const HARDWARE_TILE: [usize; 2] = [1, 4];
+const SOFTWARE_TILE: [usize; 2] = [1, 4];
+/// The pixels of a quad, and the threads of a group.
+const QUAD: usize = 4;
+const THREADS: [usize; 2] = [4, 16];
+/// The most groups along one side of a dispatch.
+const MOST_GROUPS: u32 = 65_535;
+
+/// The stages, and what they read in every view.
+#[derive(Debug)]
+pub(crate) struct CutSurfaceStages {
+    projection: Stage,
+    enclose: Stage,
+    distance: Stage,
+    /// Without and with *lumen first*.
+    depth: [Stage; 2],
+    cut_surface: Buffer,
+    /// The pixels of a group of threads.
+    group: [usize; 2],
+}
+
+impl CutSurfaceStages {
+    /// Compiles the stages.
+    pub fn new(device: &Device) -> Self {
+        let [across, rows] = if device.description().is_software { SOFTWARE_TILE } else { HARDWARE_TILE };
+        let tile = [("ACROSS", across as f64), ("ROWS", rows as f64)];
+        let depth = |lumen_first| {
+            Stage::new(device, "stages/depth", &[tile[0], tile[1], ("LUMEN_FIRST", lumen_first)])
+        };
+        Self {
+            projection: Stage::new(device, "math/projection", &[]),
+            enclose: Stage::entry(device, "math/projection", "enclose", &[]).from_binding(1),
+            distance: Stage::new(device, "stages/distance", &tile),
+            depth: [depth(0.0), depth(1.0)],
+            group: [across * QUAD * THREADS[0], rows * THREADS[1]],
+            cut_surface: device.uniform::<CutSurface>("cut surface"),
+        }
+    }
+
+    /// Tells the shaders of a view of `levels`.
+    pub fn look(&self, device: &Device, levels: &DeviceLevels, camera: &Camera, settings: &Settings) {
+        device.write(&self.cut_surface, &[levels.cut_surface(camera, settings)]);
+    }
+
+    /// Projects the levels that are needed.
+    pub fn project(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, coarsest: usize) {
+        let all = [view, &self.cut_surface, &levels.spans, &levels.points, &levels.slots];
+        let spans = levels.span_count(coarsest);
+        let across = spans.min(MOST_GROUPS);
+        recording.run(
+            &self.projection,
+            &all.map(Buffer::as_entire_binding),
+            [across, spans.div_ceil(across)],
+        );
+        let all = [&self.cut_surface, &levels.slots, &levels.boxes];
+        recording.run(&self.enclose, &all.map(Buffer::as_entire_binding), [coarsest as u32 + 1, 1]);
+    }
+
+    /// The distance of every pixel to the finest level.
+    pub fn distance(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        levels: &DeviceLevels,
+        size: [usize; 2],
+        distance: &Buffer,
+    ) {
+        let all = [view, &self.cut_surface, &levels.slots, &levels.boxes, distance];
+        recording.run(&self.distance, &all.map(Buffer::as_entire_binding), groups(size, self.group));
+    }
+
+    /// Depth and vessel of every pixel.
+    pub fn depth(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        levels: &DeviceLevels,
+        lumen_first: bool,
+        [distance, depth, vessel]: [&Buffer; 3],
+        size: [usize; 2],
+    ) {
+        let (cut_surface, of_slot) = (&self.cut_surface, &levels.vessel_of_slot);
+        let all = [view, cut_surface, &levels.slots, &levels.boxes, distance, of_slot, depth, vessel];
+        let stage = &self.depth[usize::from(lumen_first)];
+        recording.run(stage, &all.map(Buffer::as_entire_binding), groups(size, self.group));
+    }
+}

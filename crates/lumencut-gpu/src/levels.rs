@@ -1,0 +1,278 @@
+//! The levels of detail of a tree on the GPU: uploaded once, projected there for every view.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+use lumencut_core::camera::Camera;
+use lumencut_core::error::Result;
+use lumencut_core::math::cost::Rule;
+use lumencut_core::math::hierarchy::{Hierarchy, NO_SLOT};
+use lumencut_core::math::lanes::{ABSENT, FAN, FAR};
+use lumencut_core::math::projection::Level;
+use lumencut_core::settings::{MAX_LEVELS, Settings};
+use wgpu::Buffer;
+
+use crate::device::Device;
+use crate::view::{AXIS_UNIT, power_above, split_at};
+
+/// The most heights of boxes that the shaders know: 2³² slots have eight.
+const MAX_HEIGHTS: usize = 8;
+
+/// `Level` of `math/levels.wgsl`.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+pub struct LevelPlace {
+    /// The first slot among those of all levels.
+    pub first_slot: u32,
+    /// The first bundle among those of all levels.
+    pub first_bundle: u32,
+    /// The number of bundles.
+    pub bundle_count: u32,
+    /// The number of heights of boxes above them.
+    pub height_count: u32,
+    /// The first box of each height, bottom up.
+    pub heights: [u32; MAX_HEIGHTS],
+}
+
+/// `CutSurface` of `math/levels.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct CutSurface {
+    /// The rule that orders the pieces.
+    pub weight: f32,
+    #[allow(missing_docs)]
+    pub margin: f32,
+    #[allow(missing_docs)]
+    pub lift: f32,
+    #[allow(missing_docs)]
+    pub distance_slack: f32,
+    #[allow(missing_docs)]
+    pub depth_slack: f32,
+    /// N / σ (levels² per mm).
+    pub selection: f32,
+    /// N.
+    pub coarsest: u32,
+    /// 1 where radii count, else 0.
+    pub radius_scale: f32,
+    /// View coordinates of the tree's origin (mm): the part that adds to products without rounding.
+    pub origin_coarse: [f32; 4],
+    /// The rest of them.
+    pub origin_fine: [f32; 4],
+    /// Where each level lies in the buffers.
+    pub levels: [LevelPlace; MAX_LEVELS + 1],
+}
+
+/// `Point` of `math/projection.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Point {
+    /// From the tree's origin (mm): multiples of the tree's unit.
+    pub coarse: [f32; 3],
+    /// Radius (mm).
+    pub radius: f32,
+    /// The rest.
+    pub fine: [f32; 3],
+    /// Its place among the slots of all bundles.
+    pub place: u32,
+}
+
+/// `Span` of `math/projection.wgsl`: the slots of one vessel at one level.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Span {
+    /// The first slot.
+    pub first: u32,
+    /// The slot after the last.
+    pub end: u32,
+    /// The first slot of its level.
+    pub level: u32,
+}
+
+/// `Slot` of `math/pieces.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs)]
+pub struct Slot {
+    pub start: [f32; 2],
+    pub next: [f32; 2],
+    pub edge: [f32; 2],
+    pub before: [f32; 2],
+    pub inverse_length: f32,
+    pub stripe_z: f32,
+    pub stripe_dz: f32,
+    pub wedge_z: f32,
+    pub radius: f32,
+    pub radius_change: f32,
+    pub slot: u32,
+    pub room: u32,
+}
+
+impl Slot {
+    /// A place without a slot.
+    const EMPTY: Self = Self {
+        start: [FAR; 2],
+        next: [FAR; 2],
+        edge: [0.0; 2],
+        before: [0.0; 2],
+        inverse_length: 0.0,
+        stripe_z: ABSENT,
+        stripe_dz: 0.0,
+        wedge_z: ABSENT,
+        radius: 0.0,
+        radius_change: 0.0,
+        slot: NO_SLOT,
+        room: 0,
+    };
+}
+
+/// `Box` of `math/hierarchy.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs)]
+pub struct NodeBox {
+    pub low: [f32; 2],
+    pub high: [f32; 2],
+    pub z: f32,
+    pub radius: f32,
+    pub room: [f32; 2],
+}
+
+impl NodeBox {
+    /// A node with nothing inside.
+    const EMPTY: Self = Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, room: [0.0; 2] };
+}
+
+/// A tree's levels on the GPU.
+#[derive(Debug)]
+pub(crate) struct DeviceLevels {
+    /// The number of levels beyond the finest.
+    pub coarsest: usize,
+    /// The spans of each level and those before it.
+    spans_up_to: Vec<u32>,
+    places: [LevelPlace; MAX_LEVELS + 1],
+    /// What points are counted from (mm, LPS), and the largest distance of a point from it.
+    origin: DVec3,
+    reach: f64,
+    unit: f64,
+    pub spans: Buffer,
+    pub points: Buffer,
+    pub slots: Buffer,
+    pub boxes: Buffer,
+    pub vessel_of_slot: Buffer,
+}
+
+impl DeviceLevels {
+    /// Uploads `levels`, finest first.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Device`] for more points than the GPU's buffers hold.
+    pub fn new(device: &Device, levels: &[Level]) -> Result<Self> {
+        let origin = middle(&levels[0].points);
+        let points = levels.iter().flat_map(|level| &level.points);
+        let reach = points.map(|point| point.distance(origin)).fold(1.0, f64::max);
+        // Eleven digits: their products with those of the axes have 22, and sums of four such 24.
+        let unit = power_above(reach) / 2048.0;
+        let mut all = Arrays::default();
+        for level in levels {
+            all.append(level, origin, unit);
+        }
+        let slots = all.points.len();
+        let limit = device.limits.max_storage_buffer_binding_size;
+        if (all.bundles * FAN * size_of::<Slot>()) as u64 > limit {
+            let most = limit as usize / size_of::<Slot>();
+            let found = format!("{slots} points on all levels of detail");
+            return Err(device.too_large("vessel tree", found, &format!("{most} points")));
+        }
+        Ok(Self {
+            coarsest: levels.len() - 1,
+            spans_up_to: all.spans_up_to,
+            places: all.places,
+            origin,
+            reach,
+            unit,
+            spans: device.upload("spans", &all.spans),
+            points: device.upload("points", &all.points),
+            slots: device.upload("slots", &vec![Slot::EMPTY; all.bundles * FAN]),
+            boxes: device.upload("boxes", &vec![NodeBox::EMPTY; all.boxes]),
+            vessel_of_slot: device.upload("vessels", &all.vessel_of_slot),
+        })
+    }
+
+    /// The vessels of the first levels, each counted once per level.
+    pub fn span_count(&self, coarsest: usize) -> u32 {
+        self.spans_up_to[coarsest]
+    }
+
+    /// What the shaders need to know of a view of the tree.
+    pub fn cut_surface(&self, camera: &Camera, settings: &Settings) -> CutSurface {
+        let origin = camera.view_from_world(self.origin).to_array();
+        let away = origin.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+        let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
+        let rule = Rule::new(settings, (self.reach + away) as f32, view_reach);
+        let split = origin.map(|c| split_at(c, self.unit * AXIS_UNIT));
+        let four = |n: usize| [split[0][n], split[1][n], split[2][n], 0.0];
+        CutSurface {
+            weight: rule.weight,
+            margin: rule.margin,
+            lift: rule.lift,
+            distance_slack: rule.distance_slack,
+            depth_slack: rule.depth_slack,
+            selection: (settings.levels as f64 / settings.level_distance) as f32,
+            coarsest: settings.levels as u32,
+            radius_scale: f32::from(u8::from(settings.preserve_lumen)),
+            origin_coarse: four(0),
+            origin_fine: four(1),
+            levels: self.places,
+        }
+    }
+}
+
+/// The middle of the box around some points.
+fn middle(points: &[DVec3]) -> DVec3 {
+    let ends = points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
+    (ends.0 + ends.1) * 0.5
+}
+
+/// What is uploaded, level after level.
+#[derive(Default)]
+struct Arrays {
+    spans_up_to: Vec<u32>,
+    places: [LevelPlace; MAX_LEVELS + 1],
+    spans: Vec<Span>,
+    points: Vec<Point>,
+    vessel_of_slot: Vec<i32>,
+    bundles: usize,
+    boxes: usize,
+}
+
+impl Arrays {
+    fn append(&mut self, level: &Level, origin: DVec3, unit: f64) {
+        let first_slot = self.points.len() as u32;
+        let mut place_of_slot = vec![0; level.points.len()];
+        for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
+            place_of_slot[*slot as usize] = (self.bundles * FAN + place) as u32;
+        }
+        for ((point, radius), place) in level.points.iter().zip(&level.radii).zip(place_of_slot) {
+            let split = (*point - origin).to_array().map(|c| split_at(c, unit));
+            let (coarse, fine) = (split.map(|s| s[0]), split.map(|s| s[1]));
+            self.points.push(Point { coarse, radius: *radius, fine, place });
+        }
+        let span =
+            |ends: &[u32]| Span { first: first_slot + ends[0], end: first_slot + ends[1], level: first_slot };
+        self.spans.extend(level.first_slot.windows(2).map(span));
+        self.vessel_of_slot.extend(&level.vessel_of_slot);
+        let mut place = LevelPlace {
+            first_slot,
+            first_bundle: self.bundles as u32,
+            bundle_count: level.bundle_count() as u32,
+            ..LevelPlace::default()
+        };
+        for (height, boxes) in Hierarchy::new(level.bundle_count()).heights.iter().enumerate() {
+            place.heights[height] = self.boxes as u32;
+            place.height_count += 1;
+            self.boxes += boxes.len() * FAN;
+        }
+        self.places[self.spans_up_to.len()] = place;
+        self.spans_up_to.push(self.spans.len() as u32);
+        self.bundles += level.bundle_count();
+    }
+}
