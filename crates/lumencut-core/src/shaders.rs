@@ -17,4 +17,4 @@ macro_rules! shaders {
 }
 
 /// The shaders of all rooms.
-pub const SHADERS: &[Shader] = shaders!["math/lanes", "math/view", "stages/depth_filter",];
+pub const SHADERS: &[Shader] = shaders!["math/lanes", "math/view", "math/window", "stages/depth_filter",];

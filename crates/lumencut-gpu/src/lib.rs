@@ -13,3 +13,5 @@ pub mod shader;
 mod stage;
 #[allow(dead_code)]
 pub mod view;
+#[allow(dead_code)]
+pub mod window;
