@@ -5,12 +5,20 @@
 
 pub mod adapter;
 #[allow(dead_code)]
+mod composite;
+#[allow(dead_code)]
+mod depth_filter;
+#[allow(dead_code)]
 pub mod device;
 #[allow(dead_code)]
 mod recording;
 pub mod shader;
 #[allow(dead_code)]
+mod silhouette;
+#[allow(dead_code)]
 mod stage;
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests;
 #[allow(dead_code)]
 pub mod view;
 #[allow(dead_code)]

@@ -42,8 +42,24 @@ impl<'a> Recording<'a> {
         Self { device, encoder, clock, names: Vec::new(), reads: Vec::new() }
     }
 
+    /// The GPU it is for.
+    pub fn device(&self) -> &'a Device {
+        self.device
+    }
+
     /// Runs `stage` over `groups` of threads.
-    pub fn run(&mut self, stage: &Stage, resources: &[BindingResource], [x, y]: [u32; 2]) {
+    pub fn run(&mut self, stage: &Stage, resources: &[BindingResource], groups: [u32; 2]) {
+        self.run_as(stage.name, stage, resources, groups);
+    }
+
+    /// Runs `stage` as a part of the stage `name`, whose time it counts to.
+    pub fn run_as(
+        &mut self,
+        name: &'static str,
+        stage: &Stage,
+        resources: &[BindingResource],
+        [x, y]: [u32; 2],
+    ) {
         let bound = stage.bind(self.device, resources);
         let n = 2 * self.names.len() as u32;
         let timestamp_writes = self.clock.as_ref().map(|clock| wgpu::ComputePassTimestampWrites {
@@ -51,12 +67,12 @@ impl<'a> Recording<'a> {
             beginning_of_pass_write_index: Some(n),
             end_of_pass_write_index: Some(n + 1),
         });
-        let descriptor = wgpu::ComputePassDescriptor { label: Some(stage.name), timestamp_writes };
+        let descriptor = wgpu::ComputePassDescriptor { label: Some(name), timestamp_writes };
         let mut pass = self.encoder.begin_compute_pass(&descriptor);
         pass.set_pipeline(&stage.pipeline);
         pass.set_bind_group(0, &bound, &[]);
         pass.dispatch_workgroups(x, y, 1);
-        self.names.push(stage.name);
+        self.names.push(name);
     }
 
     /// Asks for the first `bytes` of a buffer as they are once all stages have run.

@@ -15,7 +15,12 @@ pub(crate) struct Stage {
 impl Stage {
     /// Compiles `room`, such as `stages/depth`, with its overrides set to `constants`.
     pub fn new(device: &Device, room: &'static str, constants: &[(&str, f64)]) -> Self {
-        let name = room.rsplit('/').next().unwrap_or(room);
+        Self::entry(device, room, name_of(room), constants)
+    }
+
+    /// Another entry point of `room`; it counts as a part of the room's stage.
+    pub fn entry(device: &Device, room: &'static str, entry: &str, constants: &[(&str, f64)]) -> Self {
+        let name = name_of(room);
         let source = wgpu::ShaderSource::Wgsl(assemble(room).into());
         let descriptor = wgpu::ShaderModuleDescriptor { label: Some(name), source };
         let module = device.device.create_shader_module(descriptor);
@@ -24,7 +29,7 @@ impl Stage {
             label: Some(name),
             layout: None,
             module: &module,
-            entry_point: Some(name),
+            entry_point: Some(entry),
             compilation_options: options,
             cache: None,
         });
@@ -43,4 +48,9 @@ impl Stage {
             entries: &entries,
         })
     }
+}
+
+/// The last part of a room's path.
+fn name_of(room: &str) -> &str {
+    room.rsplit('/').next().unwrap_or(room)
 }
