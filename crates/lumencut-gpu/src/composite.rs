@@ -61,7 +61,7 @@ pub(crate) struct Composite {
     stages: [OnceLock<Stage>; 8],
     layer: OnceLock<Stage>,
     paint: Buffer,
-    /// Bound where a layer is not there.
+    /// Bound where a layer is not there, and never read: it is white, so that one would see it.
     nothing: Buffer,
 }
 
@@ -71,7 +71,7 @@ impl Composite {
             stages: Default::default(),
             layer: OnceLock::new(),
             paint: device.image("paint", 1, size_of::<Paint>()),
-            nothing: device.upload::<u32>("nothing", &[]),
+            nothing: device.upload("nothing", &[1f32; 4]),
         }
     }
 
