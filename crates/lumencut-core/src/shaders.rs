@@ -29,7 +29,10 @@ pub const SHADERS: &[Shader] = shaders![
     "math/tile",
     "math/view",
     "math/walk",
+    "math/window",
+    "stages/composite",
     "stages/depth",
     "stages/depth_filter",
     "stages/distance",
+    "stages/silhouette",
 ];

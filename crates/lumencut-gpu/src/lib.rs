@@ -3,16 +3,20 @@
 //! Every stage is the shader beside the core's own, under the same name; the pictures are those of the CPU but for
 //! rounding.
 
+#![allow(dead_code)]
 pub mod adapter;
-#[allow(dead_code)]
+mod composite;
 mod cut_surface;
+mod depth_filter;
 pub mod device;
 mod images;
 mod levels;
 mod recording;
 pub mod renderer;
 pub mod shader;
-#[allow(dead_code)]
+mod silhouette;
 mod stage;
-#[allow(dead_code)]
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests;
 pub mod view;
+pub mod window;

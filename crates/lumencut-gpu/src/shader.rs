@@ -1,6 +1,6 @@
 //! Shaders from rooms: the one import mechanism.
 
-use lumencut_core::shaders::SHADERS;
+use lumencut_core::shaders::{SHADERS, Shader};
 
 /// How a line begins that names a room whose declarations a shader uses.
 const IMPORT: &str = "// import ";
@@ -10,22 +10,27 @@ const IMPORT: &str = "// import ";
 /// # Panics
 /// For a room that has no shader: the rooms are written in this repository, and a test assembles all of them.
 pub fn assemble(room: &str) -> String {
+    assemble_from(SHADERS, room)
+}
+
+/// The same with other shaders.
+pub(crate) fn assemble_from(shaders: &[Shader], room: &str) -> String {
     let mut done = Vec::new();
     let mut text = String::new();
-    append(room, &mut done, &mut text);
+    append(shaders, room, &mut done, &mut text);
     text
 }
 
-fn append(room: &str, done: &mut Vec<String>, text: &mut String) {
+fn append(shaders: &[Shader], room: &str, done: &mut Vec<String>, text: &mut String) {
     if done.iter().any(|other| other == room) {
         return;
     }
     done.push(room.to_owned());
-    let Some(shader) = SHADERS.iter().find(|shader| shader.room == room) else {
+    let Some(shader) = shaders.iter().find(|shader| shader.room == room) else {
         panic!("no shader for the room {room}");
     };
     for import in shader.text.lines().filter_map(|line| line.strip_prefix(IMPORT)) {
-        append(import.trim(), done, text);
+        append(shaders, import.trim(), done, text);
     }
     text.push_str(shader.text);
     text.push('\n');

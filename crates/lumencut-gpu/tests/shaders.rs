@@ -1,18 +1,133 @@
-//! Every shader parses and validates, with the rooms that it imports.
+//! Every shader parses and validates, with the rooms that it imports, and stays within what every GPU has.
+
+use std::path::{Path, PathBuf};
 
 use lumencut_core::shaders::SHADERS;
 use lumencut_gpu::shader::assemble;
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{AddressSpace, GlobalVariable, Handle, Module};
+
+/// Rooms without Rust of the same name: the view is the camera's in the core.
+const WITHOUT_RUST: [&str; 1] = ["math/view"];
+
+/// The most storage buffers of a stage that every GPU allows.
+const MOST_STORAGE: usize = 8;
+
+fn parse(room: &str) -> (Module, ModuleInfo) {
+    let text = assemble(room);
+    let module = naga::front::wgsl::parse_str(&text)
+        .unwrap_or_else(|error| panic!("{room}: {}", error.emit_to_string(&text)));
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .unwrap_or_else(|error| panic!("{room}: {}", error.emit_to_string(&text)));
+    (module, info)
+}
+
+fn core_sources() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../lumencut-core/src")
+}
+
+/// The rooms of all `.wgsl` files below a folder.
+fn rooms_on_disk(folder: &Path, root: &Path, rooms: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).expect("the core's sources") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            rooms_on_disk(&path, root, rooms);
+        } else if path.extension().is_some_and(|extension| extension == "wgsl") {
+            let room = path.with_extension("");
+            let parts = room.strip_prefix(root).expect("below the root").iter();
+            rooms.push(parts.map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/"));
+        }
+    }
+}
 
 #[test]
 fn every_shader_is_valid() {
-    assert!(SHADERS.len() >= 3, "{} shaders", SHADERS.len());
+    assert!(SHADERS.len() >= 6, "{} shaders", SHADERS.len());
     for shader in SHADERS {
-        let text = assemble(shader.room);
-        let module = naga::front::wgsl::parse_str(&text)
-            .unwrap_or_else(|error| panic!("{}: {}", shader.room, error.emit_to_string(&text)));
-        Validator::new(ValidationFlags::all(), Capabilities::empty())
-            .validate(&module)
-            .unwrap_or_else(|error| panic!("{}: {}", shader.room, error.emit_to_string(&text)));
+        parse(shader.room);
     }
+}
+
+#[test]
+fn the_table_holds_every_file_once() {
+    let root = core_sources();
+    let mut on_disk = Vec::new();
+    rooms_on_disk(&root, &root, &mut on_disk);
+    on_disk.sort();
+    let mut listed: Vec<_> = SHADERS.iter().map(|shader| shader.room).collect();
+    listed.sort_unstable();
+    assert_eq!(listed, on_disk);
+}
+
+#[test]
+fn every_shader_lies_beside_its_rust() {
+    for shader in SHADERS {
+        let rust = core_sources().join(shader.room).with_extension("rs");
+        assert_eq!(rust.is_file(), !WITHOUT_RUST.contains(&shader.room), "{}", rust.display());
+    }
+}
+
+#[test]
+fn every_stage_has_an_entry_point_of_its_name_and_no_other_room_has_any() {
+    for shader in SHADERS {
+        let (module, _) = parse(shader.room);
+        let entries: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+        match shader.room.strip_prefix("stages/") {
+            Some(name) => assert!(entries.contains(&name), "{}: {entries:?}", shader.room),
+            None => assert!(entries.is_empty(), "{}: {entries:?}", shader.room),
+        }
+    }
+}
+
+#[test]
+fn bindings_are_the_first_of_group_0_with_few_storage_buffers() {
+    for shader in SHADERS {
+        let (module, info) = parse(shader.room);
+        for (n, entry) in module.entry_points.iter().enumerate() {
+            let name = format!("{} of {}", entry.name, shader.room);
+            let used =
+                |(handle, _): &(Handle<GlobalVariable>, _)| !info.get_entry_point(n)[*handle].is_empty();
+            let bound: Vec<_> = module
+                .global_variables
+                .iter()
+                .filter(used)
+                .filter_map(|(_, global)| Some((global.binding?, global)))
+                .collect();
+            assert!(bound.iter().all(|(place, _)| place.group == 0), "{name}");
+            let mut bindings: Vec<_> = bound.iter().map(|(place, _)| place.binding).collect();
+            bindings.sort_unstable();
+            assert!(bindings.iter().copied().eq(0..bindings.len() as u32), "{name}: {bindings:?}");
+            assert!(bindings.len() >= 2, "{name}: {bindings:?}");
+            let view = bound.iter().find(|(place, _)| place.binding == 0).map(|(_, global)| global);
+            assert_eq!(view.and_then(|view| view.name.as_deref()), Some("view"), "{name}");
+            let is_storage = |space: AddressSpace| matches!(space, AddressSpace::Storage { .. });
+            let storage = bound.iter().filter(|(_, global)| is_storage(global.space)).count();
+            assert!(storage <= MOST_STORAGE, "{name}: {storage} storage buffers");
+            let threads: u32 = entry.workgroup_size.iter().product();
+            assert!((1..=256).contains(&threads), "{name}: {threads} threads in a group");
+        }
+    }
+}
+
+/// The words of WGSL, comments left out, that stand for what is not a finite number.
+fn not_finite(text: &str) -> Vec<&str> {
+    text.lines()
+        .flat_map(|line| line.split("//").next())
+        .flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_'))
+        .filter(|word| {
+            let word = word.to_lowercase();
+            ["inf", "nan", "infinity", "isinf", "isnan", "is_inf", "is_nan"].contains(&word.as_str())
+        })
+        .collect()
+}
+
+#[test]
+fn no_shader_speaks_of_inf_or_nan() {
+    for shader in SHADERS {
+        assert!(!shader.text.contains("/*"), "{}: comments begin with //", shader.room);
+        assert_eq!(not_finite(shader.text), [""; 0], "{}", shader.room);
+    }
+    let text = "let a = inf; // NaN\nif isNan(b) || b == -INF { information(nan_count); }";
+    assert_eq!(not_finite(text), ["inf", "isNan", "INF"]);
 }

@@ -43,6 +43,11 @@ impl Ramp {
         opacity.map_or(Self { scale: 0.0, offset: 1.0 }, |o| Self::between(o.transparent, o.opaque))
     }
 
+    /// What an intensity is multiplied by, and what is added then.
+    pub fn parts(&self) -> [f32; 2] {
+        [self.scale, self.offset]
+    }
+
     /// The intensity at which the ramp begins to rise from 0.
     pub fn zero(&self) -> f32 {
         -self.offset / self.scale

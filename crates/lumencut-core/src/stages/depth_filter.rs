@@ -11,7 +11,7 @@ use crate::math::lanes::{Kernel, ROWS, dispatch};
 const REACH: usize = 3;
 
 /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
-fn weights() -> [f32; REACH + 1] {
+pub fn weights() -> [f32; REACH + 1] {
     let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
     let bell: [f64; REACH + 1] = std::array::from_fn(|n| (-((n * n) as f64) / (2.0 * sigma * sigma)).exp());
     let sum = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();

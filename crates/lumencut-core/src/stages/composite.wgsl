@@ -1,0 +1,76 @@
+// The picture: the cut surface with its silhouettes over the context over the background.
+// import math/lanes
+// import math/view
+// import math/window
+
+// Whether silhouettes are drawn; without, their binding holds nothing.
+override HAS_STRENGTH = true;
+// Whether there is a context; without, its binding holds nothing.
+override HAS_CONTEXT = true;
+// Whether there is no cut surface; its binding holds nothing then.
+override ALONE = false;
+
+// The colours of one picture, 0 to 1.
+struct Paint {
+    background: vec4f,
+    // Of the silhouettes; the last number is not used.
+    line: vec4f,
+    grey: Ramp,
+    opacity: Ramp,
+}
+
+// Colours times opacity and opacity.
+@group(0) @binding(1) var<storage, read> context: array<vec4f>;
+// RGBA with straight alpha, a byte each, red lowest.
+@group(0) @binding(2) var<storage, read_write> image: array<u32>;
+@group(0) @binding(3) var<storage, read> paint: Paint;
+@group(0) @binding(4) var<storage, read> value: array<f32>;
+@group(0) @binding(5) var<storage, read> strength: array<f32>;
+
+// The nearest whole number to a value from 0 to 255, the even one of two, as which a little more counts too.
+fn byte(value: f32) -> u32 {
+    return u32(round(min(value, 255.0)));
+}
+
+// RGBA with straight alpha of colours times opacity; without any opacity the colour is `behind`.
+fn straight(pixel: vec4f, behind: vec3f) -> u32 {
+    let any = pixel.w > 0.0;
+    let per_alpha = 255.0 / select(1.0, pixel.w, any);
+    let color = select(behind * 255.0, pixel.xyz * per_alpha, any);
+    return byte(color.x) | byte(color.y) << 8u | byte(color.z) << 16u | byte(pixel.w * 255.0) << 24u;
+}
+
+@compute @workgroup_size(16, 4)
+fn composite(@builtin(global_invocation_id) thread: vec3u) {
+    if !in_view(thread.xy) {
+        return;
+    }
+    let place = place_of(thread.xy);
+    var behind = vec4f(0.0);
+    if HAS_CONTEXT {
+        behind = context[place];
+    }
+    let rest = (1.0 - behind.w) * paint.background.w;
+    let back = vec4f(behind.xyz + paint.background.xyz * rest, behind.w + rest);
+    var pixel = back;
+    // Where there is no value there is no surface.
+    if !ALONE && value[place] < HUGE {
+        let grey = ramp_at(paint.grey, value[place]);
+        let opacity = ramp_at(paint.opacity, value[place]);
+        var color = vec3f(grey);
+        if HAS_STRENGTH {
+            color += (paint.line.xyz - grey) * strength[place];
+        }
+        pixel = vec4f(color, 1.0) * opacity + back * (1.0 - opacity);
+    }
+    image[place] = straight(pixel, paint.background.xyz);
+}
+
+// The context alone.
+@compute @workgroup_size(16, 4)
+fn layer(@builtin(global_invocation_id) thread: vec3u) {
+    if !in_view(thread.xy) {
+        return;
+    }
+    image[place_of(thread.xy)] = straight(context[place_of(thread.xy)], vec3f(0.0));
+}

@@ -1,0 +1,113 @@
+//! Structures lie in memory as shaders read them: every field of every host structure has the name, the offset and the
+//! size of the field in WGSL.
+
+use std::collections::BTreeSet;
+
+use bytemuck::Zeroable;
+use lumencut_core::shaders::SHADERS;
+use naga::{AddressSpace, Handle, Module, Type, TypeInner};
+
+use crate::shader::assemble;
+
+/// A field: its name, offset and size.
+type Field = (String, u32, u32);
+
+/// A structure: its fields and its size in all.
+#[derive(Clone, Debug, PartialEq)]
+struct Layout {
+    fields: Vec<Field>,
+    span: u32,
+}
+
+/// The room, the name and the layout of a structure of a module of this crate; every field has to be listed.
+macro_rules! host {
+    ($room:literal, $module:ident, $name:ident { $($field:ident),+ $(,)? }) => {{
+        use crate::$module::$name as Host;
+        let Host { $($field),+ } = Host::zeroed();
+        let fields = vec![$((
+            stringify!($field).to_owned(),
+            std::mem::offset_of!(Host, $field) as u32,
+            size_of_val(&$field) as u32,
+        )),+];
+        ($room, stringify!($name), Layout { fields, span: size_of::<Host>() as u32 })
+    }};
+}
+
+/// Every structure that Rust writes for shaders.
+fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
+    vec![
+        host!("math/view", view, View { size, spacing }),
+        host!("math/window", window, Ramp { scale, offset }),
+        host!("stages/composite", composite, Paint { background, line, grey, opacity }),
+        host!("stages/depth_filter", depth_filter, Gaussian { weights }),
+        host!("stages/silhouette", silhouette, Slope { per_slope, half }),
+    ]
+}
+
+/// The layout of the structure `name` in WGSL, where there is one.
+fn shader_layout(text: &str, name: &str) -> Option<Layout> {
+    let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+    module.types.iter().find_map(|(_, ty)| match &ty.inner {
+        TypeInner::Struct { members, span } if ty.name.as_deref() == Some(name) => {
+            let size = |ty: Handle<Type>| module.types[ty].inner.size(module.to_ctx());
+            let field = |m: &naga::StructMember| (m.name.clone().unwrap_or_default(), m.offset, size(m.ty));
+            Some(Layout { fields: members.iter().map(field).collect(), span: *span })
+        }
+        _ => None,
+    })
+}
+
+/// The names of the structures that lie in buffers, elements of arrays and fields included.
+fn in_buffers(module: &Module) -> BTreeSet<String> {
+    fn collect(module: &Module, ty: Handle<Type>, names: &mut BTreeSet<String>) {
+        match &module.types[ty].inner {
+            TypeInner::Array { base, .. } => collect(module, *base, names),
+            TypeInner::Struct { members, .. } => {
+                names.extend(module.types[ty].name.clone());
+                members.iter().for_each(|member| collect(module, member.ty, names));
+            }
+            _ => {}
+        }
+    }
+    let mut names = BTreeSet::new();
+    for (_, global) in module.global_variables.iter() {
+        if matches!(global.space, AddressSpace::Uniform | AddressSpace::Storage { .. }) {
+            collect(module, global.ty, &mut names);
+        }
+    }
+    names
+}
+
+#[test]
+fn host_structures_lie_as_shaders_read_them() {
+    for (room, name, host) in hosts() {
+        assert_eq!(shader_layout(&assemble(room), name), Some(host), "{name} of {room}");
+    }
+}
+
+#[test]
+fn every_structure_in_a_buffer_is_compared() {
+    let compared: BTreeSet<String> = hosts().iter().map(|(_, name, _)| (*name).to_owned()).collect();
+    for shader in SHADERS {
+        let module = naga::front::wgsl::parse_str(&assemble(shader.room)).unwrap();
+        let missing: Vec<_> = in_buffers(&module).difference(&compared).cloned().collect();
+        assert!(missing.is_empty(), "{}: add a line to `hosts` for {missing:?}", shader.room);
+    }
+}
+
+#[test]
+fn the_comparison_sees_every_difference() {
+    let (_, _, host) = host!("math/view", view, View { size, spacing });
+    let same =
+        |fields: &str| shader_layout(&format!("struct View {{ {fields} }}"), "View").as_ref() == Some(&host);
+    assert!(same("size: vec2u, spacing: vec2f"));
+    assert!(!same("extent: vec2u, spacing: vec2f"), "renamed");
+    assert!(!same("spacing: vec2f, size: vec2u"), "swapped");
+    assert!(!same("size: vec4u, spacing: vec2f"), "widened");
+    assert!(!same("size: vec2u, spacing: vec3f"), "widened at the end");
+    assert!(!same("size: vec2u, spacing: f32"), "narrowed");
+    assert!(!same("size: vec2u, @align(16) spacing: vec2f"), "moved");
+    assert!(!same("size: vec2u"), "missing");
+    assert!(!same("size: vec2u, spacing: vec2f, more: u32"), "more");
+    assert_eq!(shader_layout("struct Other { size: vec2u }", "View"), None);
+}

@@ -1,0 +1,85 @@
+//! Silhouettes against the CPU's: within 1e-5 where the depth is smooth, also where zones meet and at single leaps.
+
+use lumencut_core::stages::silhouette::silhouette;
+
+use super::{Random, SIZES, camera, device, finish, on_cpu, on_gpu};
+use crate::depth_filter::DepthFilter;
+use crate::recording::Recording;
+use crate::silhouette::{Images, Silhouette};
+
+/// Both strengths of an image, and the names of the timings.
+fn both(
+    size: [usize; 2],
+    depth: &[f32],
+    vessel: &[i32],
+    half_slope: f64,
+) -> Option<(Vec<f32>, Vec<f32>, Vec<&'static str>)> {
+    let device = device()?;
+    let camera = camera(size, 0.4);
+    let mut expected = vec![0.0; depth.len()];
+    silhouette(&on_cpu(&camera), depth, vessel, half_slope, &mut expected).unwrap();
+    let (stage, filter) = (Silhouette::new(device), DepthFilter::new(device));
+    let [raised, strength] = ["raised", "strength"].map(|label| device.image(label, depth.len(), 4));
+    let images = Images {
+        depth: &device.upload("depth", depth),
+        vessel: &device.upload("vessel", vessel),
+        raised: &raised,
+        strength: &strength,
+    };
+    let mut recording = Recording::new(device);
+    stage.record(&mut recording, &filter, &on_gpu(device, &camera), &camera, half_slope, images);
+    recording.read(&strength, 4 * depth.len() as u64);
+    let results = finish(recording);
+    let names = results.timings.iter().map(|timing| timing.stage).collect();
+    Some((bytemuck::pod_collect_to_vec(&results.bytes[0]), expected, names))
+}
+
+fn largest_difference(found: &[f32], expected: &[f32]) -> f32 {
+    assert_eq!(found.len(), expected.len());
+    found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+#[test]
+fn strengths_are_those_of_the_cpu() {
+    for size in SIZES {
+        let at = |p: usize| ((p % size[0]) as f32, (p / size[0]) as f32);
+        let pixels = 0..size[0] * size[1];
+        // Waves, with two leaps and zones that end elsewhere too.
+        let height = |(x, y): (f32, f32)| {
+            let leap = if x + 0.3 * y > 20.0 { 35.0 } else { 0.0 } + if y > 9.5 { -20.0 } else { 0.0 };
+            30.0 * (0.11 * x).sin() * (0.07 * y).cos() + leap
+        };
+        let zone = |(x, y): (f32, f32)| i32::from(x + 0.3 * y > 20.0) + 2 * i32::from(y > 5.0) - 1;
+        let depth: Vec<f32> = pixels.clone().map(|p| height(at(p))).collect();
+        let vessel: Vec<i32> = pixels.map(|p| zone(at(p))).collect();
+        let Some((found, expected, _)) = both(size, &depth, &vessel, 24.0) else { return };
+        let worst = largest_difference(&found, &expected);
+        println!("silhouette of {size:?}: at most {worst:e} apart");
+        assert!(worst <= 1e-5, "{size:?}: {worst:e}");
+        if size[0] > 100 {
+            let range = expected.iter().fold([1f32, 0.0], |[low, high], s| [low.min(*s), high.max(*s)]);
+            assert!(range[0] < 0.01 && range[1] > 0.9, "nothing to see: {range:?}");
+        }
+    }
+}
+
+#[test]
+fn strengths_of_noise_are_those_of_the_cpu() {
+    for size in SIZES {
+        let mut random = Random::new(3);
+        let pixels = size[0] * size[1];
+        let depth = random.image(pixels, -9.0, 9.0);
+        let vessel: Vec<i32> = (0..pixels).map(|_| random.between(0.0, 3.0) as i32).collect();
+        let Some((found, expected, _)) = both(size, &depth, &vessel, 60.0) else { return };
+        let worst = largest_difference(&found, &expected);
+        println!("silhouette of noise of {size:?}: at most {worst:e} apart");
+        assert!(worst <= 1e-5, "{size:?}: {worst:e}");
+    }
+}
+
+#[test]
+fn three_passes_are_one_stage() {
+    let Some((found, _, names)) = both([8, 8], &[1.0; 64], &[0; 64], 24.0) else { return };
+    assert!(found.iter().all(|s| *s == 0.0), "a plane has no silhouette");
+    assert!(names.is_empty() || names == ["silhouette"], "{names:?}");
+}
