@@ -17,4 +17,11 @@ macro_rules! shaders {
 }
 
 /// The shaders of all rooms.
-pub const SHADERS: &[Shader] = shaders!["math/lanes", "math/view", "stages/depth_filter",];
+pub const SHADERS: &[Shader] = shaders![
+    "math/lanes",
+    "math/ray",
+    "math/sampling",
+    "math/view",
+    "stages/depth_filter",
+    "stages/surface",
+];

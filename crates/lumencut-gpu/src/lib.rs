@@ -5,6 +5,8 @@
 
 pub mod adapter;
 #[allow(dead_code)]
+mod blocks;
+#[allow(dead_code)]
 pub mod device;
 #[allow(dead_code)]
 mod recording;
@@ -12,4 +14,10 @@ pub mod shader;
 #[allow(dead_code)]
 mod stage;
 #[allow(dead_code)]
+mod surface;
+#[cfg(test)]
+mod tests;
+#[allow(dead_code)]
 pub mod view;
+#[allow(dead_code)]
+mod volume;

@@ -13,7 +13,7 @@ const MOST_STAGES: u32 = 64;
 
 /// Stages in the order they run.
 pub(crate) struct Recording<'a> {
-    device: &'a Device,
+    pub device: &'a Device,
     encoder: CommandEncoder,
     clock: Option<wgpu::QuerySet>,
     names: Vec<&'static str>,

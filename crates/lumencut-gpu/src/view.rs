@@ -25,7 +25,7 @@ impl View {
 
 /// A number as one of `digits` binary digits and the rest.
 pub(crate) fn split(number: f64, digits: i32) -> [f32; 2] {
-    let unit = 2f64.powi(number.abs().max(f64::MIN_POSITIVE).log2().floor() as i32 + 1 - digits);
+    let unit = 2f64.powi(number.abs().max(1e-30).log2().floor() as i32 + 1 - digits);
     let coarse = (number / unit).round() * unit;
     [coarse as f32, (number - coarse) as f32]
 }
