@@ -18,10 +18,19 @@ macro_rules! shaders {
 
 /// The shaders of all rooms.
 pub const SHADERS: &[Shader] = shaders![
+    "math/accumulate",
+    "math/blocks",
     "math/lanes",
+    "math/light",
     "math/ray",
     "math/sampling",
+    "math/thickness",
+    "math/trace",
+    "math/transfer",
     "math/view",
+    "math/window",
+    "settings",
+    "stages/context",
     "stages/depth_filter",
     "stages/surface",
 ];

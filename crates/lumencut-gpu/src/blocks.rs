@@ -27,11 +27,9 @@ impl DeviceBlocks {
     /// [`lumencut_core::error::ErrorKind::Device`] where it has no room.
     pub fn new(device: &Device, blocks: &Blocks) -> Result<Self> {
         let room = device.limits.max_storage_buffer_binding_size.min(device.limits.max_buffer_size);
-        let most = room as usize / size_of::<[f32; 2]>();
         let all: Vec<_> = blocks.levels().collect();
-        let length = |first: usize| all[first..].iter().map(|(_, ranges)| ranges.len()).sum::<usize>();
-        let finest = (0..all.len() - 1).find(|first| length(*first) <= most).unwrap_or(all.len() - 1);
-        let mut ranges: Vec<[f32; 2]> = Vec::with_capacity(length(finest));
+        let finest = first_that_fits(&all, room as usize / size_of::<[f32; 2]>());
+        let mut ranges: Vec<[f32; 2]> = Vec::with_capacity(length(&all[finest..]));
         let mut levels = Vec::new();
         for (size, level) in &all[finest..] {
             let [i, j, k] = size.map(|n| n as u32);
@@ -42,4 +40,14 @@ impl DeviceBlocks {
         device.check()?;
         Ok(Self { ranges, levels, finest: finest as u32 })
     }
+}
+
+/// The first level that fits in a buffer with room for `most` blocks, together with those above it.
+pub(crate) fn first_that_fits(levels: &[([usize; 3], &[Range])], most: usize) -> usize {
+    (0..levels.len()).find(|first| length(&levels[*first..]) <= most).unwrap_or(levels.len() - 1)
+}
+
+/// The number of blocks of some levels.
+fn length(levels: &[([usize; 3], &[Range])]) -> usize {
+    levels.iter().map(|(_, ranges)| ranges.len()).sum()
 }

@@ -7,6 +7,8 @@ pub mod adapter;
 #[allow(dead_code)]
 mod blocks;
 #[allow(dead_code)]
+mod context;
+#[allow(dead_code)]
 pub mod device;
 #[allow(dead_code)]
 mod recording;

@@ -196,16 +196,20 @@ impl DeviceVolume {
         device.write(&self.grid, &[Grid::new(volume, camera, self.shift)]);
     }
 
-    /// The blocks, made and sent at the first call.
+    /// Makes the blocks and sends them, where that has not been done yet.
     ///
     /// # Errors
     /// As [`DeviceVolume::new`].
-    pub fn blocks(&mut self, device: &Device, volume: &Volume, stop: Stop) -> Result<&DeviceBlocks> {
-        let blocks = match self.blocks.take() {
-            Some(blocks) => blocks,
-            None => DeviceBlocks::new(device, volume.blocks(stop)?)?,
-        };
-        Ok(self.blocks.insert(blocks))
+    pub fn prepare_blocks(&mut self, device: &Device, volume: &Volume, stop: Stop) -> Result<()> {
+        if self.blocks.is_none() {
+            self.blocks = Some(DeviceBlocks::new(device, volume.blocks(stop)?)?);
+        }
+        Ok(())
+    }
+
+    /// The blocks, once they are prepared.
+    pub fn blocks(&self) -> Option<&DeviceBlocks> {
+        self.blocks.as_ref()
     }
 }
 
