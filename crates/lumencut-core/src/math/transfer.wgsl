@@ -1,4 +1,5 @@
 // Transfer functions: the colour and the opacity of intensities.
+// import math/window
 // import settings
 
 // Opacity below which nothing is seen.
@@ -13,7 +14,7 @@ fn share_of(rise: u32, intensity: f32) -> f32 {
 fn opacity_of(intensity: f32) -> f32 {
     var opacity = settings.first_opacity;
     for (var n = 0u; n < settings.rise_count; n++) {
-        opacity += settings.rises[n].opacity * share_of(n, intensity);
+        opacity += settings.rises[n].opacity * share_of(n, within(intensity));
     }
     return select(0.0, min(opacity, 1.0), opacity > INVISIBLE);
 }
@@ -21,7 +22,7 @@ fn opacity_of(intensity: f32) -> f32 {
 fn color_of(intensity: f32) -> vec3f {
     var color = settings.first_color;
     for (var n = 0u; n < settings.rise_count; n++) {
-        color += settings.rises[n].color * share_of(n, intensity);
+        color += settings.rises[n].color * share_of(n, within(intensity));
     }
     return color;
 }
