@@ -13,7 +13,7 @@ import numpy as np
 from reference import pixel_centers
 
 #: By how much of a step a chord may exceed whole steps without a part more, and how exactly that is known.
-SPARE, ROUNDING = 1e-6, 1e-9
+SPARE, ROUNDING = 1e-3, 1e-9
 
 
 @dataclass

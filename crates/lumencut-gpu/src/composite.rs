@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use bytemuck::{Pod, Zeroable};
-use lumencut_core::math::window;
+use lumencut_core::math::window::Ramp;
 use lumencut_core::settings::Settings;
 use wgpu::Buffer;
 
@@ -12,7 +12,6 @@ use crate::device::Device;
 use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
-use crate::window::Ramp;
 
 const ROOM: &str = "stages/composite";
 
@@ -25,9 +24,9 @@ pub(crate) struct Paint {
     /// Of the silhouettes; the last number is not used.
     pub line: [f32; 4],
     /// The values from black to white.
-    pub grey: Ramp,
+    pub grey: [f32; 2],
     /// The values from transparent to opaque.
-    pub opacity: Ramp,
+    pub opacity: [f32; 2],
 }
 
 impl From<&Settings> for Paint {
@@ -37,8 +36,8 @@ impl From<&Settings> for Paint {
         Self {
             background: unit(settings.background),
             line: unit([red, green, blue, 0]),
-            grey: window::Ramp::grey(settings.window).into(),
-            opacity: window::Ramp::opacity(settings.opacity).into(),
+            grey: Ramp::grey(settings.window).parts(),
+            opacity: Ramp::opacity(settings.opacity).parts(),
         }
     }
 }
@@ -85,7 +84,7 @@ impl Composite {
         settings: &Settings,
         image: &Buffer,
     ) {
-        let device = recording.device();
+        let device = recording.device;
         device.write(&self.paint, &[Paint::from(settings)]);
         let Layers { value, strength, context } = layers;
         let there = [value, strength, context].map(|layer| f64::from(u8::from(layer.is_some())));
@@ -110,7 +109,7 @@ impl Composite {
         context: &Buffer,
         image: &Buffer,
     ) {
-        let device = recording.device();
+        let device = recording.device;
         let stage = self.layer.get_or_init(|| Stage::entry(device, ROOM, "layer", &[]));
         let buffers = [view, context, image].map(Buffer::as_entire_binding);
         recording.run(stage, &buffers, groups(size, GROUP));

@@ -5,7 +5,9 @@
 
 #![allow(dead_code)]
 pub mod adapter;
+mod blocks;
 mod composite;
+mod context;
 mod cut_surface;
 mod depth_filter;
 pub mod device;
@@ -16,7 +18,8 @@ pub mod renderer;
 pub mod shader;
 mod silhouette;
 mod stage;
+mod surface;
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests;
-pub mod view;
-pub mod window;
+mod view;
+mod volume;

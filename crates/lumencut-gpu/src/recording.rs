@@ -1,6 +1,9 @@
 //! A list of named stages that the GPU runs at once, how long each took, and what is read back.
 
-use lumencut_core::error::{Error, Result};
+use futures_channel::oneshot::Receiver;
+#[cfg(not(target_arch = "wasm32"))]
+use lumencut_core::error::Error;
+use lumencut_core::error::Result;
 use lumencut_core::frame::Timing;
 use lumencut_core::stages::Stop;
 use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, MapMode};
@@ -13,7 +16,7 @@ const MOST_STAGES: u32 = 64;
 
 /// Stages in the order they run.
 pub(crate) struct Recording<'a> {
-    device: &'a Device,
+    pub device: &'a Device,
     encoder: CommandEncoder,
     clock: Option<wgpu::QuerySet>,
     names: Vec<&'static str>,
@@ -148,24 +151,38 @@ impl Device {
             // Nobody waits for it any more after an interruption.
             let _ = done.send(mapped);
         });
-        self.wait(stop)?;
-        match is_done.await {
-            Ok(Ok(())) => buffer.get_mapped_range(..).map_err(|_| self.unfinished()),
+        match self.patience(is_done, stop).await? {
+            Some(Ok(())) => buffer.get_mapped_range(..).map_err(|_| self.unfinished()),
             _ => Err(self.unfinished()),
         }
     }
 
-    /// Waits until the GPU has done its work, where waiting is possible; in a browser it reports by itself.
-    fn wait(&self, stop: Stop) -> Result<()> {
-        const PATIENCE: std::time::Duration = std::time::Duration::from_millis(20);
+    /// What is sent once the GPU has done its work; nothing where it will never be.
+    #[cfg(not(target_arch = "wasm32"))]
+    async fn patience<T>(&self, mut sent: Receiver<T>, stop: Stop<'_>) -> Result<Option<T>> {
+        let start = std::time::Instant::now();
         loop {
-            let poll = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
-            match self.device.poll(poll) {
-                Err(wgpu::PollError::Timeout) if stop() => return Err(Error::interrupted()),
-                Err(wgpu::PollError::Timeout) => {}
-                Err(_) => return Err(self.unfinished()),
-                Ok(_) => return Ok(()),
+            // To wait within wgpu from two threads at once makes it panic now and then.
+            if self.device.poll(wgpu::PollType::Poll).is_err() {
+                return Err(self.unfinished());
             }
+            match sent.try_recv() {
+                Ok(None) if stop() => return Err(Error::interrupted()),
+                Ok(None) => {}
+                Ok(sent) => return Ok(sent),
+                Err(_) => return Ok(None),
+            }
+            // A hundredth of what has passed: neither late nor busy.
+            let nap = start.elapsed() / 100;
+            std::thread::sleep(
+                nap.clamp(std::time::Duration::from_micros(20), std::time::Duration::from_millis(2)),
+            );
         }
+    }
+
+    /// What is sent once the GPU has done its work; the browser reports it by itself.
+    #[cfg(target_arch = "wasm32")]
+    async fn patience<T>(&self, sent: Receiver<T>, _: Stop<'_>) -> Result<Option<T>> {
+        Ok(sent.await.ok())
     }
 }

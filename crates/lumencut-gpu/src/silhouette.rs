@@ -62,7 +62,7 @@ impl Silhouette {
         images: Images,
     ) {
         let per_slope = (1.0 / (8.0 * camera.pixel_spacing())) as f32;
-        recording.device().write(&self.slope, &[Slope { per_slope, half: (half_slope * half_slope) as f32 }]);
+        recording.device.write(&self.slope, &[Slope { per_slope, half: (half_slope * half_slope) as f32 }]);
         let across = groups(camera.size(), GROUP);
         let Images { depth, vessel, raised, strength } = images;
         let buffers = [view, &self.slope, raised, depth, vessel].map(Buffer::as_entire_binding);

@@ -95,6 +95,11 @@ impl Blocks {
         Ok(Self { levels })
     }
 
+    /// The blocks along each axis and the range of each, i fastest, level by level, the smallest blocks first.
+    pub fn levels(&self) -> impl Iterator<Item = ([usize; 3], &[Range])> {
+        self.levels.iter().map(|level| (level.size, &level.ranges[..]))
+    }
+
     /// The range of the samples whose lower corners lie between two voxels, both included, or a wider one.
     #[inline(always)]
     pub fn range(&self, first: [i32; 3], last: [i32; 3]) -> Range {

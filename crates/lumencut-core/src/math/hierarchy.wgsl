@@ -6,7 +6,7 @@
 // import math/pieces
 
 // The box around a node's segments in the view plane, its nearest depth and its largest radius (mm).
-struct Box {
+struct NodeBox {
     low: vec2f,
     high: vec2f,
     z: f32,
@@ -15,7 +15,7 @@ struct Box {
 }
 
 @group(0) @binding(2) var<storage, read> slots: array<Slot>;
-@group(0) @binding(3) var<storage, read> boxes: array<Box>;
+@group(0) @binding(3) var<storage, read> boxes: array<NodeBox>;
 
 // A node: at height 0 a bundle, above them boxes.
 struct Node {

@@ -4,7 +4,7 @@
 const MAX_LEVELS = 16u;
 
 // Where a level lies in the buffers.
-struct Level {
+struct LevelPlace {
     first_slot: u32,
     first_bundle: u32,
     bundle_count: u32,
@@ -30,7 +30,7 @@ struct CutSurface {
     // View coordinates (mm) of the point that the tree's points are counted from, and the rest of them.
     origin_coarse: vec4f,
     origin_fine: vec4f,
-    levels: array<Level, MAX_LEVELS>,
+    levels: array<LevelPlace, MAX_LEVELS>,
 }
 
 @group(0) @binding(1) var<uniform> cut_surface: CutSurface;

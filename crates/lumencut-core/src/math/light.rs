@@ -20,7 +20,7 @@ const HALF_SHADED: f64 = 0.1;
 #[derive(Clone, Copy, Debug)]
 pub struct Shading {
     /// The square of a change that is half shaded.
-    noise: f32,
+    pub noise: f32,
 }
 
 impl Shading {

@@ -162,11 +162,11 @@ fn projection(
 
 const LEVEL_THREADS = 256u;
 
-@group(0) @binding(3) var<storage, read_write> drawn: array<Box>;
+@group(0) @binding(3) var<storage, read_write> drawn: array<NodeBox>;
 
 // A box with nothing inside.
-fn nothing() -> Box {
-    return Box(vec2f(FAR), vec2f(-FAR), ABSENT, 0.0, vec2f(0.0));
+fn nothing() -> NodeBox {
+    return NodeBox(vec2f(FAR), vec2f(-FAR), ABSENT, 0.0, vec2f(0.0));
 }
 
 // Draws the box of a node around all slots of its bundle.

@@ -22,10 +22,10 @@ pub const NONE: f32 = 1e9;
 pub const MOST_SAMPLES: f64 = 65_536.0;
 
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
-const PARALLEL: f64 = 1e-9;
+pub const PARALLEL: f64 = 1e-9;
 /// How much of a step a chord may be longer than whole steps without a part more: n voxels have n parts, however n · side
-/// is rounded.
-const SPARE: f64 = 1e-6;
+/// is rounded, on a GPU with the digits of `f32`.
+const SPARE: f64 = 1e-3;
 /// Wider than what rounding moves a place (voxels).
 const ROUNDING: f64 = 1e-3;
 

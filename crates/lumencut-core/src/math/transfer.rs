@@ -100,11 +100,15 @@ impl Preset {
 
 /// A rise from one control point to the next: what is added to all before it.
 #[derive(Clone, Copy, Debug)]
-struct Rise {
-    start: f32,
-    per_intensity: f32,
-    color: [f32; 3],
-    opacity: f32,
+pub struct Rise {
+    /// The intensity at which it begins.
+    pub start: f32,
+    /// The share of it that one unit of intensity makes.
+    pub per_intensity: f32,
+    /// What it adds to the colour.
+    pub color: [f32; 3],
+    /// What it adds to the opacity.
+    pub opacity: f32,
 }
 
 impl Rise {
@@ -152,6 +156,21 @@ impl Colors {
             last: points[points.len() - 1].intensity as f32,
             transparent: transparent(points),
         }
+    }
+
+    /// Colour and opacity before the first rise.
+    pub fn first(&self) -> ([f32; 3], f32) {
+        (self.color, self.opacity)
+    }
+
+    /// The rises.
+    pub fn rises(&self) -> &[Rise] {
+        &self.rises
+    }
+
+    /// The ranges of intensity without opacity, by rising intensity.
+    pub fn gaps(&self) -> &[Range] {
+        &self.transparent
     }
 
     /// The intensity from which on the colour stays the same.

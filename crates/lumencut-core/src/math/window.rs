@@ -23,8 +23,10 @@ pub struct Opacity {
 /// Linear map of intensity to [0, 1], ready for one multiplication and one addition per pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Ramp {
-    scale: f32,
-    offset: f32,
+    /// What an intensity is multiplied by.
+    pub scale: f32,
+    /// What is added then.
+    pub offset: f32,
 }
 
 impl Ramp {

@@ -15,8 +15,9 @@ struct Paint {
     background: vec4f,
     // Of the silhouettes; the last number is not used.
     line: vec4f,
-    grey: Ramp,
-    opacity: Ramp,
+    // What an intensity is multiplied by, and what is added then.
+    grey: vec2f,
+    opacity: vec2f,
 }
 
 // Colours times opacity and opacity.

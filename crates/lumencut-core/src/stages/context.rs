@@ -117,6 +117,21 @@ fn default_step(volume: &Volume, settings: &Context) -> f64 {
     volume.smallest_side() * if blended && !settings.preview { 0.5 } else { 1.0 }
 }
 
+/// The longest distance between samples (mm).
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for one so small that rays would have more than 65,536 samples.
+pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
+    let longest = volume.longest_way();
+    let step = settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));
+    if longest > MOST_SAMPLES * step {
+        let found = format!("{step} mm for a volume {longest:.4} mm across");
+        let expected = format!("at least {} mm", rounded_up(longest / MOST_SAMPLES));
+        return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
+    }
+    Ok(step)
+}
+
 /// All that the rays of a view need, prepared once.
 struct Plan<'a> {
     view: &'a View<'a>,
@@ -135,14 +150,7 @@ impl<'a> Plan<'a> {
         blocks: Option<&'a Blocks>,
         settings: &Context,
     ) -> Result<Self> {
-        let longest = volume.longest_way();
-        let step =
-            settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));
-        if longest > MOST_SAMPLES * step {
-            let found = format!("{step} mm for a volume {longest:.4} mm across");
-            let expected = format!("at least {} mm", rounded_up(longest / MOST_SAMPLES));
-            return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
-        }
+        let step = step(volume, settings)?;
         let gamma = match settings.mode {
             ContextMode::Blend { gamma } => gamma as f32,
             _ => 0.0,

@@ -42,9 +42,12 @@ pub fn surface(
     )
 }
 
-/// Where a slab is sampled (mm behind the cut surface): it is cut into equal parts no longer than a voxel's smallest
-/// side, an odd number of them, and each is sampled in its middle. The cut surface itself comes first.
-fn offsets(slab: Option<Slab>, volume: &Volume) -> Result<Vec<f64>> {
+/// How a slab is cut into equal parts no longer than a voxel's smallest side, an odd number of them: the length of a part
+/// (mm), and the parts on each side of the one in the middle that can lie in the volume.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for more than 65,536 voxels.
+pub fn parts(slab: Option<Slab>, volume: &Volume) -> Result<(f64, i64)> {
     let (thickness, side) = (slab.map_or(0.0, |slab| slab.thickness), volume.smallest_side());
     if thickness > side * MOST_SAMPLES {
         let found = format!("{thickness} mm for voxels of {side:.3e} mm");
@@ -55,7 +58,14 @@ fn offsets(slab: Option<Slab>, volume: &Volume) -> Result<Vec<f64>> {
     let part = thickness / (2 * to_each_side + 1) as f64;
     // Farther from the cut surface than the volume is long there is nothing.
     let within = if to_each_side > 0 { (volume.longest_way() / part).ceil() as i64 } else { 0 };
-    let beside = (1..=to_each_side.min(within)).flat_map(|n| [-n as f64 * part, n as f64 * part]);
+    Ok((part, to_each_side.min(within)))
+}
+
+/// Where a slab is sampled (mm behind the cut surface): each of its parts in its middle. The cut surface itself comes
+/// first.
+fn offsets(slab: Option<Slab>, volume: &Volume) -> Result<Vec<f64>> {
+    let (part, to_each_side) = parts(slab, volume)?;
+    let beside = (1..=to_each_side).flat_map(|n| [-n as f64 * part, n as f64 * part]);
     Ok(std::iter::once(0.0).chain(beside).collect())
 }
 

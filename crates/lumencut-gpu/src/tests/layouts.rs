@@ -36,11 +36,105 @@ macro_rules! host {
 /// Every structure that Rust writes for shaders.
 fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     vec![
-        host!("math/view", view, View { size, spacing }),
-        host!("math/window", window, Ramp { scale, offset }),
+        host!("math/hierarchy", levels, NodeBox { low, high, z, radius, room }),
+        host!(
+            "math/levels",
+            levels,
+            CutSurface {
+                weight,
+                margin,
+                lift,
+                distance_slack,
+                depth_slack,
+                selection,
+                coarsest,
+                radius_scale,
+                origin_coarse,
+                origin_fine,
+                levels
+            }
+        ),
+        host!(
+            "math/levels",
+            levels,
+            LevelPlace { first_slot, first_bundle, bundle_count, height_count, heights }
+        ),
+        host!(
+            "math/pieces",
+            levels,
+            Slot {
+                start,
+                next,
+                edge,
+                before,
+                inverse_length,
+                stripe_z,
+                stripe_dz,
+                wedge_z,
+                radius,
+                radius_change,
+                slot,
+                room
+            }
+        ),
+        host!("math/projection", levels, Point { coarse, radius, fine, place }),
+        host!("math/projection", levels, Span { first, end, level }),
+        host!(
+            "math/sampling",
+            volume,
+            Grid {
+                last,
+                shift,
+                low,
+                depth,
+                unit,
+                per_unit,
+                unused,
+                origin,
+                origin_rest,
+                x,
+                x_rest,
+                y,
+                y_rest,
+                z,
+                z_rest,
+                per_voxel,
+                right,
+                up
+            }
+        ),
+        host!("math/view", view, View { size, spacing, axes }),
+        host!("math/view", view, Axis { coarse, fine }),
+        host!(
+            "settings",
+            context,
+            Context {
+                window,
+                opacity,
+                per_step,
+                behind,
+                push,
+                mix,
+                most,
+                black,
+                noise,
+                last,
+                first_color,
+                first_opacity,
+                rise_count,
+                gap_count,
+                level_count,
+                finest,
+                rises,
+                gaps,
+                levels
+            }
+        ),
+        host!("settings", context, Rise { color, opacity, start, per_intensity, unused }),
         host!("stages/composite", composite, Paint { background, line, grey, opacity }),
         host!("stages/depth_filter", depth_filter, Gaussian { weights }),
         host!("stages/silhouette", silhouette, Slope { per_slope, half }),
+        host!("stages/surface", surface, Slab { part, beside, mode, unused }),
     ]
 }
 
@@ -97,17 +191,17 @@ fn every_structure_in_a_buffer_is_compared() {
 
 #[test]
 fn the_comparison_sees_every_difference() {
-    let (_, _, host) = host!("math/view", view, View { size, spacing });
-    let same =
-        |fields: &str| shader_layout(&format!("struct View {{ {fields} }}"), "View").as_ref() == Some(&host);
-    assert!(same("size: vec2u, spacing: vec2f"));
-    assert!(!same("extent: vec2u, spacing: vec2f"), "renamed");
-    assert!(!same("spacing: vec2f, size: vec2u"), "swapped");
-    assert!(!same("size: vec4u, spacing: vec2f"), "widened");
-    assert!(!same("size: vec2u, spacing: vec3f"), "widened at the end");
-    assert!(!same("size: vec2u, spacing: f32"), "narrowed");
-    assert!(!same("size: vec2u, @align(16) spacing: vec2f"), "moved");
-    assert!(!same("size: vec2u"), "missing");
-    assert!(!same("size: vec2u, spacing: vec2f, more: u32"), "more");
-    assert_eq!(shader_layout("struct Other { size: vec2u }", "View"), None);
+    let (_, _, host) = host!("stages/silhouette", silhouette, Slope { per_slope, half });
+    let same = |fields: &str| {
+        shader_layout(&format!("struct Slope {{ {fields} }}"), "Slope").as_ref() == Some(&host)
+    };
+    assert!(same("per_slope: f32, half: f32"));
+    assert!(!same("steep: f32, half: f32"), "renamed");
+    assert!(!same("half: f32, per_slope: f32"), "swapped");
+    assert!(!same("per_slope: vec2f, half: f32"), "widened");
+    assert!(!same("per_slope: f32, half: vec2f"), "widened at the end");
+    assert!(!same("per_slope: f32, @align(16) half: f32"), "moved");
+    assert!(!same("per_slope: f32"), "missing");
+    assert!(!same("per_slope: f32, half: f32, more: u32"), "more");
+    assert_eq!(shader_layout("struct Other { size: vec2u }", "Slope"), None);
 }

@@ -4,11 +4,15 @@
 pub(crate) mod compare;
 mod composite;
 mod constants;
+mod context;
 mod depth_filter;
 mod device;
 mod imports;
 mod layouts;
+mod scenes;
 mod silhouette;
+mod surface;
+mod volume;
 
 use std::sync::OnceLock;
 

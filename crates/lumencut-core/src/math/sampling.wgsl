@@ -1,0 +1,101 @@
+// Trilinear sampling of the volume: eight loads and the arithmetic of the CPU.
+// import math/lanes
+
+// Whether the voxels are the bits of floats; else they are whole numbers.
+override FLOAT_VOXELS: bool = false;
+
+// The volume's grid in the view. Vectors of four end with a 0 that means nothing.
+struct Grid {
+    // The last index along (i, j, k).
+    last: vec3f,
+    // What the voxels of an unsigned type were shifted down by.
+    shift: f32,
+    // The last voxel that has a neighbour above it; 0 along an axis with one voxel.
+    low: vec3i,
+    // The depth that depths are counted from, in the middle of the volume (mm).
+    depth: f32,
+    // Depths are split into multiples of `unit` and the rest (mm).
+    unit: f32,
+    per_unit: f32,
+    unused: vec2f,
+    // The index in the middle of the image at that depth, what a column to the right and a row upwards add to it, and
+    // what 1 mm of depth adds: parts of few digits, whose products and sums are exact, and the rests.
+    origin: vec4f,
+    origin_rest: vec4f,
+    x: vec4f,
+    x_rest: vec4f,
+    y: vec4f,
+    y_rest: vec4f,
+    z: vec4f,
+    z_rest: vec4f,
+    // Depth per voxel (mm); 0 along axes that the view runs across.
+    per_voxel: vec4f,
+    // Index per mm to the right and upwards.
+    right: vec4f,
+    up: vec4f,
+}
+
+@group(0) @binding(1) var<uniform> grid: Grid;
+@group(0) @binding(2) var voxels: texture_3d<i32>;
+
+// A continuous index: whole numbers and what is to be added, so that fractions keep their digits.
+struct Place {
+    whole: vec3f,
+    part: vec3f,
+}
+
+// The voxel before a place, and the weights of its neighbours.
+struct Cell {
+    voxel: vec3i,
+    share: vec3f,
+}
+
+// Whether a place lies more than half a voxel beyond the outermost centres.
+fn is_outside(place: Place) -> bool {
+    let above_first = place.whole + 0.5 + place.part;
+    let above_last = place.whole - grid.last - 0.5 + place.part;
+    return any(above_first < vec3f()) || any(above_last > vec3f());
+}
+
+// The cell that holds a place; beyond the outermost centres their voxels go on.
+fn cell_of(place: Place) -> Cell {
+    let carry = floor(place.part);
+    let whole = place.whole + carry;
+    let low = vec3f(grid.low);
+    var share = place.part - carry;
+    share = select(share, grid.last - low, whole > low);
+    share = select(share, vec3f(), whole < vec3f());
+    return Cell(vec3i(clamp(whole, vec3f(), low)), share);
+}
+
+fn voxel_at(i: i32, j: i32, k: i32) -> f32 {
+    let stored = textureLoad(voxels, vec3i(i, j, k), 0).x;
+    if FLOAT_VOXELS {
+        return bitcast<f32>(stored);
+    }
+    return f32(stored) + grid.shift;
+}
+
+// The value in a cell; HUGE where one of its voxels has none.
+fn value_in(cell: Cell) -> f32 {
+    let near = cell.voxel;
+    let far = near + vec3i(grid.last) - grid.low;
+    let low = vec4f(
+        voxel_at(near.x, near.y, near.z),
+        voxel_at(near.x, far.y, near.z),
+        voxel_at(near.x, near.y, far.z),
+        voxel_at(near.x, far.y, far.z),
+    );
+    let high = vec4f(
+        voxel_at(far.x, near.y, near.z),
+        voxel_at(far.x, far.y, near.z),
+        voxel_at(far.x, near.y, far.z),
+        voxel_at(far.x, far.y, far.z),
+    );
+    if FLOAT_VOXELS && any(max(low, high) >= vec4f(HUGE)) {
+        return HUGE;
+    }
+    let rows = low + (high - low) * cell.share.x;
+    let planes = rows.xz + (rows.yw - rows.xz) * cell.share.y;
+    return planes.x + (planes.y - planes.x) * cell.share.z;
+}

@@ -1,0 +1,59 @@
+// The one ray loop of the context: run by run, skipping blocks that change nothing.
+// import math/accumulate
+// import math/blocks
+// import math/ray
+
+// The samples of a ray that are taken in a row.
+const RUN = 8;
+
+// What a ray finds.
+fn trace(ray: Ray) -> vec4f {
+    let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
+    var gathered = nothing();
+    var level = settings.level_count - 1u;
+    var n = 0;
+    loop {
+        // Neighbours that wait for each other skip together, and then sample together.
+        if MODE != AVERAGE {
+            n = skip(ray, way, gathered, n, &level);
+        }
+        if n >= ray.count {
+            break;
+        }
+        let place = sample_place(ray, n);
+        let count = min(RUN, ray.count - n);
+        for (var m = 0; m < count; m++) {
+            take(&gathered, Place(place.whole, place.part + f32(m) * way), ray.part);
+        }
+        n += RUN;
+        if ignores(gathered, ALL) {
+            break;
+        }
+    }
+    return finished(gathered);
+}
+
+// The first sample from `first` on that can change something, looking first at blocks of a `level`.
+fn skip(ray: Ray, way: vec3f, gathered: Gathered, first: i32, level: ptr<function, u32>) -> i32 {
+    let coarsest = settings.level_count - 1u;
+    var n = first;
+    while n < ray.count {
+        let cell = cell_of(sample_place(ray, n));
+        if ignores(gathered, range_at(*level, cell.voxel)) {
+            n += 1 + samples_left(*level, cell, way);
+            *level = min(*level + 1u, coarsest);
+        } else if *level == 0u {
+            break;
+        } else {
+            *level -= 1u;
+        }
+    }
+    return n;
+}
+
+fn take(gathered: ptr<function, Gathered>, place: Place, thickness: f32) {
+    let value = value_in(cell_of(place));
+    if value < HUGE {
+        gather(gathered, value, place, thickness);
+    }
+}

@@ -1,0 +1,53 @@
+//! The ranges of a volume's blocks on the GPU.
+
+use lumencut_core::error::Result;
+use lumencut_core::math::blocks::{Blocks, Range};
+use wgpu::Buffer;
+
+use crate::device::Device;
+
+/// The most levels of blocks: the coarsest holds a volume of any size.
+pub(crate) const MOST_LEVELS: usize = 16;
+
+/// The blocks of a volume, of all sizes in one buffer.
+#[derive(Debug)]
+pub(crate) struct DeviceBlocks {
+    /// The smallest and the largest value of each.
+    pub ranges: Buffer,
+    /// Blocks along each axis and where the first one's range is, level by level.
+    pub levels: Vec<[u32; 4]>,
+    /// How many times the side of the first level's blocks is that of the smallest there are: 2 to this power.
+    pub finest: u32,
+}
+
+impl DeviceBlocks {
+    /// Sends blocks to the GPU, but for the smallest ones where there are more than it can read at once.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Device`] where it has no room.
+    pub fn new(device: &Device, blocks: &Blocks) -> Result<Self> {
+        let room = device.limits.max_storage_buffer_binding_size.min(device.limits.max_buffer_size);
+        let all: Vec<_> = blocks.levels().collect();
+        let finest = first_that_fits(&all, room as usize / size_of::<[f32; 2]>());
+        let mut ranges: Vec<[f32; 2]> = Vec::with_capacity(length(&all[finest..]));
+        let mut levels = Vec::new();
+        for (size, level) in &all[finest..] {
+            let [i, j, k] = size.map(|n| n as u32);
+            levels.push([i, j, k, ranges.len() as u32]);
+            ranges.extend(level.iter().map(|Range { low, high }| [*low, *high]));
+        }
+        let ranges = device.upload("blocks", &ranges);
+        device.check()?;
+        Ok(Self { ranges, levels, finest: finest as u32 })
+    }
+}
+
+/// The first level that fits in a buffer with room for `most` blocks, together with those above it.
+pub(crate) fn first_that_fits(levels: &[([usize; 3], &[Range])], most: usize) -> usize {
+    (0..levels.len()).find(|first| length(&levels[*first..]) <= most).unwrap_or(levels.len() - 1)
+}
+
+/// The number of blocks of some levels.
+fn length(levels: &[([usize; 3], &[Range])]) -> usize {
+    levels.iter().map(|(_, ranges)| ranges.len()).sum()
+}

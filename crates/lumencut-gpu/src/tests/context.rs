@@ -1,0 +1,269 @@
+//! The context is that of the CPU.
+#![allow(clippy::unwrap_used)]
+
+use glam::{DAffine3, DVec3};
+use lumencut_core::camera::Camera;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::math::ray::WHOLE;
+use lumencut_core::math::transfer::{ControlPoint, Preset, TransferFunction};
+use lumencut_core::math::window::{Opacity, Window};
+use lumencut_core::phantom;
+use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode};
+use lumencut_core::stages::View;
+use lumencut_core::stages::context::{context, starts};
+use lumencut_core::volume::{Volume, Voxels};
+
+use super::device;
+use super::scenes::{Placed, ball_and_rod, camera, finish, sheared, volume};
+use crate::context::{ContextStage, CutSurfaceImages};
+use crate::recording::Recording;
+use crate::volume::HUGE;
+
+const WINDOW: Window = Window { level: 300.0, width: 900.0 };
+const SIZE: [usize; 3] = [41, 37, 29];
+
+/// A cut surface: values, NaN where it is outside, and depths.
+struct CutSurface {
+    value: Vec<f32>,
+    depth: Vec<f32>,
+}
+
+/// Outside, opaque and transparent in turn, in squares of different sizes.
+fn cut_surface(camera: &Camera) -> CutSurface {
+    let [width, height] = camera.size();
+    let value = |p: usize| match p % width / 5 % 4 + p / width / 3 % 3 {
+        0 | 3 => f32::NAN,
+        1 => 900.0,
+        _ => (p % 600) as f32,
+    };
+    let depth = |p: usize| (p % 37) as f32 - 18.0;
+    CutSurface {
+        value: (0..width * height).map(value).collect(),
+        depth: (0..width * height).map(depth).collect(),
+    }
+}
+
+/// Visible between 20 and 40 and from 320 on, clear between.
+fn gaps() -> TransferFunction {
+    let point = |(intensity, opacity)| ControlPoint { intensity, color: [250, 120, 30], opacity };
+    let points = [(20.0, 0.0), (30.0, 0.05), (40.0, 0.0), (320.0, 0.0), (320.0, 0.2), (950.0, 1.0)];
+    TransferFunction { points: points.map(point).to_vec() }
+}
+
+fn contexts() -> Vec<Context> {
+    let base = Context { window: WINDOW, ..Context::default() };
+    let mut all = Vec::new();
+    for gamma in [-1.0, -0.5, 0.0, 0.5, 1.0] {
+        for transfer in [Preset::Angio.transfer_function(WINDOW), gaps()] {
+            for shading in [false, true] {
+                let mode = ContextMode::Blend { gamma };
+                all.push(Context { mode, transfer: transfer.clone(), shading, ..base.clone() });
+            }
+        }
+    }
+    for mode in [ContextMode::Minimum, ContextMode::Average] {
+        all.push(Context { mode, ..base.clone() });
+    }
+    all.push(Context { preview: true, ..base.clone() });
+    all.push(Context { preview: true, mode: ContextMode::Average, ..base.clone() });
+    all.push(Context { step: Some(2.3), shading: true, ..base });
+    all
+}
+
+fn on_cpu(volume: &Volume, camera: &Camera, settings: &Settings, start: &[f32]) -> Vec<[f32; 4]> {
+    let mut pixels = vec![[-1.0; 4]; start.len()];
+    let view = View { camera, isa: Isa::widest(), stop: &|| false };
+    let blocks = volume.blocks(&|| false).unwrap();
+    context(&view, volume, Some(blocks), settings.context.as_ref().unwrap(), start, &mut pixels).unwrap();
+    pixels
+}
+
+fn on_gpu(
+    stage: &mut ContextStage,
+    placed: &Placed,
+    settings: &Settings,
+    surface: Option<&CutSurface>,
+) -> Vec<[f32; 4]> {
+    let images = surface.map(|CutSurface { value, depth }| {
+        let value: Vec<f32> = value.iter().map(|v| if v.is_nan() { HUGE } else { *v }).collect();
+        [placed.image(&value), placed.image(depth)]
+    });
+    let images = images.as_ref().map(|[value, depth]| CutSurfaceImages { value, depth });
+    let pixels = placed.device.image("context", placed.pixels(), 16);
+    let mut recording = Recording::new(placed.device);
+    let view = (&placed.view, placed.camera.size());
+    let volume = (&placed.on_device, placed.on_device.blocks().unwrap(), placed.volume);
+    let settings = (settings, settings.context.as_ref().unwrap());
+    stage.record(&mut recording, view, volume, settings, images, &pixels).unwrap();
+    finish(recording, &pixels)
+}
+
+/// How two pictures differ.
+#[derive(Debug, Default)]
+struct Difference {
+    pixels: usize,
+    /// Pixels with a channel that differs by more than a grey value, and more than four.
+    visible: usize,
+    large: usize,
+    most: f32,
+}
+
+impl Difference {
+    fn add(&mut self, one: &[[f32; 4]], other: &[[f32; 4]]) {
+        for (one, other) in one.iter().zip(other) {
+            assert!(one.iter().all(|c| (0.0..=1.001).contains(c)), "{one:?} beside {other:?}");
+            let most = (0..4).map(|c| (one[c] - other[c]).abs()).fold(0.0, f32::max);
+            self.pixels += 1;
+            self.visible += usize::from(most > 1.0 / 255.0);
+            self.large += usize::from(most > 4.0 / 255.0);
+            self.most = self.most.max(most);
+        }
+    }
+
+    fn check(&self, what: &str) {
+        let allowed = (self.pixels / 2000).max(1);
+        assert!(self.visible <= allowed && self.large * 100 <= self.pixels, "{what}: {self:?}");
+    }
+}
+
+fn views() -> Vec<Camera> {
+    vec![
+        camera([0.0, 1.0, 0.0], [257, 257], 0.2),
+        camera([0.5, -0.6, 0.4], [33, 20], 1.3),
+        camera([0.0, 0.0, -1.0], [1, 17], 2.1),
+        camera([-1.0, 0.2, 0.1], [65, 49], 0.9),
+        camera([-0.4, 0.7, -0.3], [11, 9], 9.0),
+    ]
+}
+
+fn compare(volume: &Volume, contexts: &[Context], scale: f64, what: &str) {
+    let Some(device) = device() else { return };
+    let mut stage = ContextStage::new(&device);
+    for camera in views() {
+        let mut placed = Placed::new(&device, volume, &camera);
+        placed.on_device.prepare_blocks(&device, volume, &|| false).unwrap();
+        let surface = cut_surface(&camera);
+        for (n, context) in contexts.iter().enumerate() {
+            let settings = Settings {
+                context: Some(scaled(context, scale)),
+                opacity: Some(Opacity { transparent: 100.0, opaque: 400.0 }),
+                slab: (n % 2 == 0).then_some(Slab { thickness: 3.0, mode: SlabMode::Mean }),
+                ..Settings::default()
+            };
+            let mut difference = Difference::default();
+            let start = starts(&surface.value, &surface.depth, &settings);
+            let expected = on_cpu(volume, &camera, &settings, &start);
+            difference.add(&on_gpu(&mut stage, &placed, &settings, Some(&surface)), &expected);
+            let alone = vec![WHOLE; placed.pixels()];
+            let expected = on_cpu(volume, &camera, &settings, &alone);
+            difference.add(&on_gpu(&mut stage, &placed, &settings, None), &expected);
+            let Context { mode, shading, preview, .. } = context;
+            difference.check(&format!(
+                "{what} {:?} along {}, {n}: {mode:?} {shading} {preview}",
+                camera.size(),
+                camera.direction()
+            ));
+        }
+    }
+}
+
+/// The same context of a volume whose values are `scale` times as large.
+fn scaled(context: &Context, scale: f64) -> Context {
+    let mut context = context.clone();
+    context.window = Window { level: context.window.level * scale, width: context.window.width * scale };
+    for point in &mut context.transfer.points {
+        point.intensity *= scale;
+    }
+    context
+}
+
+#[test]
+fn every_mode_is_that_of_the_cpu() {
+    let voxels = ball_and_rod(SIZE);
+    compare(&volume(Voxels::I16(&voxels), SIZE, sheared(SIZE)), &contexts(), 1.0, "int16");
+}
+
+#[test]
+fn other_types_of_voxels_give_the_same() {
+    let shorts = ball_and_rod(SIZE);
+    let bytes: Vec<u8> = shorts.iter().map(|v| (v / 4) as u8).collect();
+    let unsigned: Vec<u16> = shorts.iter().map(|v| *v as u16 * 60).collect();
+    let doubles: Vec<f64> = shorts.iter().map(|v| f64::from(*v) / 3.0).collect();
+    let some: Vec<_> = contexts().into_iter().step_by(3).collect();
+    for (voxels, scale, what) in [
+        (Voxels::U8(&bytes), 0.25, "uint8"),
+        (Voxels::U16(&unsigned), 60.0, "uint16"),
+        (Voxels::F64(&doubles), 1.0 / 3.0, "float64"),
+    ] {
+        compare(&volume(voxels, SIZE, sheared(SIZE)), &some, scale, what);
+    }
+}
+
+#[test]
+fn voxels_without_a_number() {
+    // No sample of a ray lies on a voxel, where rounding decides whether a neighbour counts that has no value.
+    const EVEN: [usize; 3] = [40, 36, 28];
+    let mut floats: Vec<f32> = ball_and_rod(EVEN).into_iter().map(f32::from).collect();
+    for n in (0..floats.len()).step_by(977) {
+        floats[n] = [f32::NAN, f32::INFINITY, -1e31][n % 3];
+    }
+    floats[..2000].fill(f32::NAN);
+    let within: Vec<_> = floats.iter().map(|v| if v.abs() <= 1e30 { *v } else { f32::NAN }).collect();
+    let some: Vec<_> = contexts().into_iter().filter(|c| c.step.is_none()).collect();
+    let some: Vec<_> = some.into_iter().step_by(3).map(|c| Context { step: Some(0.57), ..c }).collect();
+    compare(&volume(Voxels::F32(&within), EVEN, sheared(EVEN)), &some, 1.0, "NaN");
+    let (all, camera) =
+        (volume(Voxels::F32(&floats), EVEN, sheared(EVEN)), camera([0.3, 1.0, 0.2], [64, 48], 0.7));
+    let Some(device) = device() else { return };
+    let mut stage = ContextStage::new(&device);
+    let gather = |volume: &Volume, stage: &mut ContextStage, context: &Context| {
+        let settings = Settings { context: Some(context.clone()), ..Settings::default() };
+        let mut placed = Placed::new(&device, volume, &camera);
+        placed.on_device.prepare_blocks(&device, volume, &|| false).unwrap();
+        on_gpu(stage, &placed, &settings, None)
+    };
+    for context in &some {
+        let within = volume(Voxels::F32(&within), EVEN, sheared(EVEN));
+        let mut difference = Difference::default();
+        difference.add(&gather(&all, &mut stage, context), &gather(&within, &mut stage, context));
+        difference.check(&format!("inf as NaN, {:?}", context.mode));
+    }
+}
+
+#[test]
+fn the_mean_of_many_samples_keeps_its_digits() {
+    let Some(device) = device() else { return };
+    let voxels = vec![1000.1f32; 2048];
+    let volume =
+        volume(Voxels::F32(&voxels), [1, 1, 2048], DAffine3::from_translation(DVec3::NEG_Z * 1023.5));
+    let camera = camera([0.0, 0.0, 1.0], [3, 3], 0.1);
+    let mut placed = Placed::new(&device, &volume, &camera);
+    placed.on_device.prepare_blocks(&device, &volume, &|| false).unwrap();
+    let context = Context {
+        mode: ContextMode::Average,
+        window: Window { level: 1000.0, width: 1000.0 },
+        step: Some(1.0 / 31.99),
+        ..Context::default()
+    };
+    let settings = Settings { context: Some(context), ..Settings::default() };
+    for pixel in on_gpu(&mut ContextStage::new(&device), &placed, &settings, None) {
+        assert!((pixel[0] - 0.500_1).abs() < 1e-6, "{pixel:?}");
+    }
+}
+
+#[test]
+fn axes_of_one_voxel() {
+    let voxels = ball_and_rod([40, 30, 20]);
+    let some: Vec<_> = contexts().into_iter().step_by(3).collect();
+    for size in [[40, 30, 1], [1, 30, 20], [1, 1, 1], [2, 1, 40]] {
+        compare(&volume(Voxels::I16(&voxels), size, sheared(size)), &some, 1.0, &format!("{size:?}"));
+    }
+}
+
+#[test]
+fn phantoms() {
+    let some: Vec<_> = contexts().into_iter().step_by(2).collect();
+    for phantom in [phantom::trefoil().unwrap(), phantom::calcified_wall().unwrap()] {
+        compare(&phantom.volume().unwrap(), &some, 1.0, phantom.name);
+    }
+}

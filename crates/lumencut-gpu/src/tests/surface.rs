@@ -1,0 +1,166 @@
+//! The surface is that of the CPU.
+#![allow(clippy::unwrap_used)]
+
+use glam::DAffine3;
+use lumencut_core::camera::Camera;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::phantom;
+use lumencut_core::pipeline::Renderer;
+use lumencut_core::settings::{Settings, Slab, SlabMode};
+use lumencut_core::stages::View;
+use lumencut_core::stages::surface::surface;
+use lumencut_core::volume::{Volume, Voxels};
+
+use super::device;
+use super::scenes::{Placed, ball_and_rod, camera, finish, sheared, volume};
+use crate::recording::Recording;
+use crate::surface::Surface;
+use crate::volume::HUGE;
+
+/// How far values may lie apart, as a share of the difference between a volume's extremes.
+const TOLERANCE: f32 = 1e-5;
+
+const SLABS: [Option<Slab>; 5] = [
+    None,
+    Some(Slab { thickness: 0.0, mode: SlabMode::Max }),
+    Some(Slab { thickness: 3.3, mode: SlabMode::Max }),
+    Some(Slab { thickness: 7.0, mode: SlabMode::Mean }),
+    Some(Slab { thickness: 200.0, mode: SlabMode::Min }),
+];
+
+/// Depths all around the middle of the volume, and some far off.
+fn depths(camera: &Camera, volume: &Volume) -> Vec<f32> {
+    let reach = volume.longest_way();
+    let depth = |p: usize| match p % 97 {
+        0 => -1e5,
+        1 => 4e5,
+        _ => (((p * 7919 % 1009) as f64 / 1009.0 - 0.5) * 0.9 * reach) as f32,
+    };
+    (0..camera.size()[0] * camera.size()[1]).map(depth).collect()
+}
+
+fn on_gpu(placed: &Placed, slab: Option<Slab>, depth: &[f32]) -> Vec<f32> {
+    let mut recording = Recording::new(placed.device);
+    let value = placed.device.image("value", placed.pixels(), 4);
+    let view = (&placed.view, placed.camera.size());
+    let volume = (&placed.on_device, placed.volume);
+    Surface::new(placed.device)
+        .record(&mut recording, view, volume, slab, &placed.image(depth), &value)
+        .unwrap();
+    finish(recording, &value)
+}
+
+/// Compares the values; `contrast` is that between a volume's extremes.
+fn compare(
+    volume: &Volume,
+    camera: &Camera,
+    slabs: &[Option<Slab>],
+    depth: &[f32],
+    contrast: f32,
+    what: &str,
+) {
+    let Some(device) = device() else { return };
+    let placed = Placed::new(&device, volume, camera);
+    let mut most = 0.0f32;
+    for &slab in slabs {
+        let mut expected = vec![0.0; depth.len()];
+        let view = View { camera, isa: Isa::widest(), stop: &|| false };
+        surface(&view, volume, depth, slab, &mut expected).unwrap();
+        let found = on_gpu(&placed, slab, depth);
+        let mut elsewhere = 0;
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!(found.is_finite(), "{what}, {slab:?}: {found}");
+            if (*found >= HUGE) != expected.is_nan() {
+                elsewhere += 1;
+            } else if *found < HUGE {
+                most = most.max((found - expected).abs() / contrast);
+            }
+        }
+        assert!(
+            elsewhere * 2000 <= depth.len(),
+            "{what}, {slab:?}: {elsewhere} pixels are outside on one only"
+        );
+        assert!(most <= TOLERANCE, "{what}, {slab:?}: {most} of the contrast");
+    }
+}
+
+fn views() -> Vec<Camera> {
+    vec![
+        camera([0.0, 1.0, 0.0], [257, 257], 0.2),
+        camera([0.5, -0.6, 0.4], [33, 20], 1.3),
+        camera([0.0, 0.0, -1.0], [1, 17], 2.1),
+        camera([-1.0, 0.2, 0.1], [64, 49], 0.9),
+    ]
+}
+
+#[test]
+fn values_are_those_of_the_cpu() {
+    const SIZE: [usize; 3] = [41, 37, 29];
+    let shorts = ball_and_rod(SIZE);
+    let bytes: Vec<u8> = shorts.iter().map(|v| (v / 4) as u8).collect();
+    let signed: Vec<i8> = bytes.iter().map(|v| (i16::from(*v) - 128) as i8).collect();
+    let unsigned: Vec<u16> = shorts.iter().map(|v| *v as u16 * 60).collect();
+    let longs: Vec<i64> = shorts.iter().map(|v| i64::from(*v) - 300).collect();
+    let mut floats: Vec<f32> = shorts.iter().map(|v| f32::from(*v) / 3.0).collect();
+    for n in (0..floats.len()).step_by(977) {
+        floats[n] = f32::NAN;
+    }
+    let doubles: Vec<f64> = shorts.iter().map(|v| f64::from(*v) * 1e-9).collect();
+    let all = [
+        (Voxels::I16(&shorts), 960.0),
+        (Voxels::U8(&bytes), 240.0),
+        (Voxels::I8(&signed), 240.0),
+        (Voxels::U16(&unsigned), 57_600.0),
+        (Voxels::I64(&longs), 960.0),
+        (Voxels::F32(&floats), 320.0),
+        (Voxels::F64(&doubles), 960e-9),
+    ];
+    for (n, (voxels, contrast)) in all.into_iter().enumerate() {
+        let volume = volume(voxels, SIZE, sheared(SIZE));
+        for camera in views() {
+            let what = format!("type {n} in {:?} along {}", camera.size(), camera.direction());
+            compare(&volume, &camera, &SLABS, &depths(&camera, &volume), contrast, &what);
+        }
+    }
+}
+
+#[test]
+fn axes_of_one_voxel_and_any_strides() {
+    let voxels = ball_and_rod([40, 30, 20]);
+    for (size, strides) in [
+        ([40, 30, 1], [1, 40, 0]),
+        ([1, 30, 20], [0, 40, 1200]),
+        ([1, 1, 1], [0; 3]),
+        ([20, 30, 40], [1200, 40, 1]),
+    ] {
+        let volume = Volume::new(Voxels::I16(&voxels), size, strides, sheared(size)).unwrap();
+        for camera in views() {
+            let depth: Vec<f32> = (0..camera.size()[0] * camera.size()[1])
+                .map(|p| (p * 37 % 113) as f32 * 0.02 - 1.1)
+                .collect();
+            compare(&volume, &camera, &SLABS, &depth, 960.0, &format!("{size:?}"));
+        }
+    }
+}
+
+#[test]
+fn a_long_volume_keeps_its_places() {
+    // The value is the index, counted from the middle: so values differ as places do, by a 10,000th of a voxel at most.
+    const SIZE: [usize; 3] = [64, 48, 1300];
+    let voxels: Vec<i16> = (0..SIZE.iter().product()).map(|n: usize| (n / (64 * 48)) as i16 - 650).collect();
+    let middle = DAffine3::from_translation(-glam::DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);
+    let volume = volume(Voxels::I16(&voxels), SIZE, DAffine3::from_scale(glam::DVec3::splat(0.7)) * middle);
+    for direction in [[0.02, 0.03, 1.0], [0.3, 1.0, -0.4], [0.0, 1.0, 0.0]] {
+        let camera = camera(direction, [1031, 1200], 0.8);
+        compare(&volume, &camera, &[None], &depths(&camera, &volume), 10.0, "places");
+    }
+}
+
+#[test]
+fn a_cut_surface_is_that_of_the_cpu() {
+    let phantom = phantom::trefoil().unwrap();
+    let camera = camera([0.3, 1.0, -0.2], [257, 257], 0.4);
+    let mut renderer = Renderer::new(phantom.tree.clone());
+    let frame = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
+    compare(&phantom.volume().unwrap(), &camera, &SLABS, &frame.depth, 500.0, "trefoil");
+}

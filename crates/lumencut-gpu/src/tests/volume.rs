@@ -1,0 +1,48 @@
+//! Volumes that do not fit, and those that are not wanted any more.
+#![allow(clippy::unwrap_used)]
+
+use glam::DAffine3;
+use lumencut_core::error::ErrorKind;
+use lumencut_core::volume::Voxels;
+
+use super::device;
+use super::scenes::{Placed, camera, sheared, volume};
+use crate::blocks::first_that_fits;
+use crate::volume::DeviceVolume;
+
+#[test]
+fn a_volume_longer_than_the_gpu_allows_is_refused() {
+    let Some(device) = device() else { return };
+    let side = device.limits.max_texture_dimension_3d as usize;
+    let voxels = vec![0i8; side + 1];
+    for (length, fits) in [(side, true), (side + 1, false)] {
+        let volume = volume(Voxels::I8(&voxels), [1, length, 1], DAffine3::IDENTITY);
+        let sent = DeviceVolume::new(&device, &volume, &|| false);
+        assert_eq!(sent.map_err(|error| error.kind).err(), (!fits).then_some(ErrorKind::Device));
+    }
+}
+
+#[test]
+fn sending_stops_when_asked() {
+    let Some(device) = device() else { return };
+    let volume = volume(Voxels::I8(&[0; 8]), [2; 3], sheared([2; 3]));
+    let sent = DeviceVolume::new(&device, &volume, &|| true);
+    assert_eq!(sent.unwrap_err().kind, ErrorKind::Interrupted);
+}
+
+#[test]
+fn blocks_that_do_not_fit_begin_with_larger_ones() {
+    let Some(device) = device() else { return };
+    let camera = camera([0.0, 1.0, 0.0], [1, 1], 1.0);
+    let voxels = vec![7i8; 40 * 30 * 20];
+    let volume = volume(Voxels::I8(&voxels), [40, 30, 20], sheared([40, 30, 20]));
+    let mut placed = Placed::new(&device, &volume, &camera);
+    placed.on_device.prepare_blocks(&device, &volume, &|| false).unwrap();
+    let levels = &placed.on_device.blocks().unwrap().levels;
+    assert_eq!(levels[..3], [[10, 8, 5, 0], [5, 4, 3, 400], [3, 2, 2, 460]]);
+    assert_eq!(levels.last().unwrap()[..3], [1; 3]);
+    let all: Vec<_> = volume.blocks(&|| false).unwrap().levels().collect();
+    for (room, first) in [(475, 0), (474, 1), (75, 1), (74, 2), (0, all.len() - 1)] {
+        assert_eq!(first_that_fits(&all, room), first, "room for {room}");
+    }
+}
