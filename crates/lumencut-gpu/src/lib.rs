@@ -3,7 +3,6 @@
 //! Every stage is the shader beside the core's own, under the same name; the pictures are those of the CPU but for
 //! rounding.
 
-#![allow(dead_code)]
 pub mod adapter;
 mod blocks;
 mod composite;
@@ -13,11 +12,14 @@ mod depth_filter;
 pub mod device;
 mod images;
 mod levels;
+mod on_cpu;
+mod pass;
 mod recording;
 pub mod renderer;
 pub mod shader;
 mod silhouette;
 mod stage;
+pub mod stages;
 mod surface;
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests;

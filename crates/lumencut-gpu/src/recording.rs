@@ -45,11 +45,6 @@ impl<'a> Recording<'a> {
         Self { device, encoder, clock, names: Vec::new(), reads: Vec::new() }
     }
 
-    /// The GPU it is for.
-    pub fn device(&self) -> &'a Device {
-        self.device
-    }
-
     /// Runs `stage` over `groups` of threads.
     pub fn run(&mut self, stage: &Stage, resources: &[BindingResource], groups: [u32; 2]) {
         self.run_as(stage.name, stage, resources, groups);
