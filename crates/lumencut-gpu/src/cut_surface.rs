@@ -13,9 +13,9 @@ use crate::view::groups;
 /// The quads side by side and the rows of a thread's tile. Software has fewer threads and pays more for what each reads.
 const HARDWARE_TILE: [usize; 2] = [1, 4];
 const SOFTWARE_TILE: [usize; 2] = [1, 4];
-/// The pixels of a quad, and the threads of a group.
+/// The pixels of a quad, and the tiles of a group across and down, as `math/tile.wgsl` has them.
 const QUAD: usize = 4;
-const THREADS: [usize; 2] = [4, 16];
+const TILES: [usize; 2] = [4, 16];
 /// The most groups along one side of a dispatch.
 const MOST_GROUPS: u32 = 65_535;
 
@@ -45,7 +45,7 @@ impl CutSurfaceStages {
             enclose: Stage::entry(device, "math/projection", "enclose", &[]).from_binding(1),
             distance: Stage::new(device, "stages/distance", &tile),
             depth: [depth(0.0), depth(1.0)],
-            group: [across * QUAD * THREADS[0], rows * THREADS[1]],
+            group: [across * QUAD * TILES[0], rows * TILES[1]],
             cut_surface: device.uniform::<CutSurface>("cut surface"),
         }
     }

@@ -9,6 +9,10 @@ const MAX_ACROSS = 2u;
 const MAX_ROWS = 8u;
 const MAX_QUADS = 16u;
 const QUAD = 4u;
+// The tiles of a group of threads, in rows of few, so that threads that run in step have tiles close together. One
+// dimension: software runs in step along the first one only, and wants it wider than its vectors.
+const TILES = 64u;
+const TILES_ACROSS = 4u;
 
 // The pixel centres of a tile in view space (mm); pixels beyond the image repeat its last column and row.
 struct Tile {
@@ -24,9 +28,10 @@ struct Tile {
 var<private> quad_x: array<vec4f, MAX_ACROSS>;
 var<private> row_y: array<f32, MAX_ROWS>;
 
-// The tile of a thread; its pixels go to `quad_x` and `row_y`.
-fn tile_at(thread: vec2u) -> Tile {
-    let pixel = thread * vec2u(ACROSS * QUAD, ROWS);
+// The tile of a thread of a group; its pixels go to `quad_x` and `row_y`.
+fn tile_at(group: vec2u, thread: u32) -> Tile {
+    let place = vec2u(thread % TILES_ACROSS, thread / TILES_ACROSS);
+    let pixel = (group * vec2u(TILES_ACROSS, TILES / TILES_ACROSS) + place) * vec2u(ACROSS * QUAD, ROWS);
     let last = view.size - 1u;
     for (var a = 0u; a < ACROSS; a++) {
         let i = vec4u(pixel.x + a * QUAD) + vec4u(0u, 1u, 2u, 3u);

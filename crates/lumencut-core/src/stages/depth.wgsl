@@ -67,9 +67,9 @@ fn blend(level: u32) {
     }
 }
 
-@compute @workgroup_size(4, 16)
-fn depth(@builtin(global_invocation_id) thread: vec3u) {
-    let tile = tile_at(thread.xy);
+@compute @workgroup_size(TILES)
+fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
+    let tile = tile_at(group.xy, thread);
     if !in_view(tile.pixel) {
         return;
     }

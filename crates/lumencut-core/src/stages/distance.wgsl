@@ -32,11 +32,11 @@ fn near_bundle(tile: Tile) -> u32 {
     return node.index;
 }
 
-// The next bundle, from a node on, within reach of the middle of the tile; beyond the last node if there is none.
-fn next_bundle(tile: Tile, first: Node, reach: f32) -> Node {
+// The next bundle, from a node on, that can lower a distance; beyond the last node if there is none.
+fn next_bundle(tile: Tile, first: Node, limit: f32) -> Node {
     var node = first;
     while !is_beyond(0u, node) {
-        let is_near = square_to_node(tile, node) <= reach * reach;
+        let is_near = square_to_node(tile, node) <= limit;
         if is_near && node.height == 0u {
             break;
         }
@@ -49,42 +49,37 @@ fn next_bundle(tile: Tile, first: Node, reach: f32) -> Node {
     return node;
 }
 
-// Meets the segments of a bundle that may be nearest to some pixel, given the distance from the middle of the tile that
-// some segment is known to have; gives that distance anew.
-fn meet(tile: Tile, bundle: u32, known: f32) -> f32 {
-    var nearest = known;
+// Meets the segments of a bundle that can lower a distance; gives the largest squared distance that is left.
+fn meet(tile: Tile, bundle: u32, limit: f32) -> f32 {
+    // No pixel is farther than the radius from the middle.
+    let reach = sqrt(limit) + tile.radius + slack(tile);
     var candidates = 0u;
     for (var s = 0u; s < FAN; s++) {
-        let away = sqrt(square_to_segment(tile, slots[bundle * FAN + s]));
-        nearest = min(nearest, away);
-        // No pixel is farther than the radius from the middle: what is farther than twice that is nearest to none.
-        candidates |= select(0u, 1u, away <= nearest + 2.0 * tile.radius + slack(tile)) << s;
+        let square = square_to_segment(tile, slots[bundle * FAN + s]);
+        candidates |= select(0u, 1u, square <= reach * reach) << s;
     }
     while candidates != 0u {
         lower_distance(slots[bundle * FAN + countTrailingZeros(candidates)]);
         candidates &= candidates - 1u;
     }
-    return nearest;
+    return largest(least_square);
 }
 
-@compute @workgroup_size(4, 16)
-fn distance(@builtin(global_invocation_id) thread: vec3u) {
-    let tile = tile_at(thread.xy);
+@compute @workgroup_size(TILES)
+fn distance(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
+    let tile = tile_at(group.xy, thread);
     if !in_view(tile.pixel) {
         return;
     }
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         least_square[q] = vec4f(UNSET);
     }
-    let margin = tile.radius + slack(tile);
-    // A bundle that is near, and then all within reach.
-    var nearest = FAR;
-    var node = Node(0u, near_bundle(tile));
-    var next = first_node(0u);
+    // A bundle that is near, and then all others that matter.
+    var limit = meet(tile, near_bundle(tile), FAR * FAR);
+    var node = next_bundle(tile, first_node(0u), limit);
     while !is_beyond(0u, node) {
-        nearest = meet(tile, node.index, nearest);
-        node = next_bundle(tile, next, nearest + margin);
-        next = after(node);
+        limit = meet(tile, node.index, limit);
+        node = next_bundle(tile, after(node), limit);
     }
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
