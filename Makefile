@@ -18,8 +18,8 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 18
 
-demo: develop ## Build what is needed and render the demo into ./demo.
-	$(BIN)/lumencut demo demo
+demo: develop ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
+	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo
 
 test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py

@@ -72,7 +72,7 @@ def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     cargo = ("cargo", "--quiet")
     return [
-        Check("toolchain", (sys.executable, "scripts/toolchain.py", "python", "rust", "targets")),
+        Check("toolchain", (sys.executable, "scripts/toolchain.py", "python", "rust", "targets", "vulkan")),
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
         Check("tools", ("make", "--no-print-directory", "tools")),
         Check("format of Python", (f"{BIN}/ruff", "format", "--check")),
@@ -109,15 +109,19 @@ def lint_checks() -> list[Check]:
 
 def test_checks(report: str) -> list[Check]:
     """The tests; pytest writes what it counted to the file `report`."""
+    # Elsewhere the tests of the GPU are left out where there is none; here that would be a hole.
+    environment = {"LUMENCUT_REQUIRE_GPU": "1"} if os.environ.get("CI") else {}
     return [
         Check(
             "tests of Rust",
             ("cargo", "test", "--quiet", "--locked", "--workspace", "--release", "--no-fail-fast"),
+            environment,
             count=count_rust,
         ),
         Check(
             "tests of Python",
             (f"{BIN}/python", "-m", "pytest", "--quiet", "--numprocesses=2", f"--junitxml={report}"),
+            environment,
             count=count_python,
             report=report,
         ),

@@ -1,4 +1,4 @@
-"""Says clearly what of the toolchain is missing: Python, Rust, or a target that Rust compiles for.
+"""Says clearly what of the toolchain is missing: Python, Rust, a target that Rust compiles for, or Vulkan.
 
 Needs nothing but Python itself: it runs before there is an environment.
 """
@@ -6,6 +6,8 @@ Needs nothing but Python itself: it runs before there is an environment.
 from __future__ import annotations
 
 import argparse
+import ctypes.util
+import os
 import re
 import shutil
 import subprocess
@@ -15,6 +17,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 #: The targets besides this machine's own that the core and the readers must compile for.
 TARGETS = ("wasm32-unknown-unknown", "aarch64-unknown-linux-gnu")
+
+#: What lets the tests of the GPU run without one: the loader of Vulkan, and a driver that is software.
+VULKAN_PACKAGES = ("libvulkan1", "mesa-vulkan-drivers")
+#: Where drivers of Vulkan are registered.
+DRIVERS = (Path("/usr/share/vulkan/icd.d"), Path("/etc/vulkan/icd.d"))
 
 
 def refuse(found: str, expected: str, mend: str) -> None:
@@ -85,9 +92,40 @@ def add_targets() -> None:
         refuse(f"rustup unable to add {names}", "Rust's libraries for it", "check the network connection")
 
 
+def missing_of_vulkan() -> str:
+    """What Vulkan lacks here, in words; nothing where a program can use it."""
+    if ctypes.util.find_library("vulkan") is None:
+        return "no loader of Vulkan (libvulkan.so.1)"
+    registered = os.environ.get("VK_DRIVER_FILES") or os.environ.get("VK_ICD_FILENAMES")
+    if not registered and not any(path for folder in DRIVERS for path in folder.glob("*.json")):
+        return f"no driver of Vulkan in {' or '.join(map(str, DRIVERS))}"
+    return ""
+
+
+def add_vulkan() -> None:
+    """Vulkan is there for the tests of the GPU; on Debian, root adds it."""
+    missing = missing_of_vulkan() if sys.platform == "linux" else ""
+    if not missing:
+        return
+    install = ["apt-get", "install", "--yes", "--no-install-recommends", *VULKAN_PACKAGES]
+    by_hand = f"as root: {' '.join(install)} (or the same of another distribution)"
+    if shutil.which("apt-get") is None or os.geteuid() != 0:
+        refuse(missing, "Vulkan, which the tests of the GPU need", by_hand)
+    quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
+    # The list of packages may be missing or too old to install from.
+    for command in (install, ["apt-get", "update"], install):
+        print(" ".join(command), flush=True)
+        done = subprocess.run(command, check=False, env=quiet, stdin=subprocess.DEVNULL).returncode == 0
+        if done and command is install:
+            break
+    missing = missing_of_vulkan()
+    if missing:
+        refuse(f"{missing} after {' '.join(install)}", "Vulkan", "check the network connection")
+
+
 def main() -> None:
     """Check what the command line asks for."""
-    checks = {"python": check_python, "rust": check_rust, "targets": add_targets}
+    checks = {"python": check_python, "rust": check_rust, "targets": add_targets, "vulkan": add_vulkan}
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("what", choices=checks, nargs="+")
     for what in parser.parse_args().what:

@@ -1,10 +1,17 @@
 """What all tests share."""
 
+import os
 import signal
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from lumencut import DeviceError, Renderer
+from scenes import wandering
+
+# The other tests are those of the CPU, to the bit; `test_device.py` compares the GPU with it.
+os.environ.setdefault("LUMENCUT_AUTO_DEVICE", "cpu")
 
 SHARED_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 
@@ -25,3 +32,21 @@ def interruptible() -> Iterator[None]:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture(scope="module")
+def gpu():
+    """The name of the GPU; tests with it are left out where there is none, unless that is forbidden."""
+    try:
+        return Renderer(None, wandering(1), "gpu").device
+    except DeviceError as error:
+        if os.environ.get("LUMENCUT_REQUIRE_GPU"):
+            raise
+        return pytest.skip(f"no GPU that can be used: {error}")
+
+
+@pytest.fixture
+def any_gpu(gpu, monkeypatch):
+    """Where `auto` takes a GPU of software too."""
+    monkeypatch.setenv("LUMENCUT_AUTO_DEVICE", "any")
+    return gpu

@@ -13,14 +13,23 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 
 
-@pytest.fixture(scope="module")
-def check():
-    spec = importlib.util.spec_from_file_location("check", ROOT / "scripts" / "check.py")
+def script(name: str):
+    spec = importlib.util.spec_from_file_location(name, ROOT / "scripts" / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
-    sys.modules["check"] = module
+    sys.modules[name] = module
     spec.loader.exec_module(module)
     yield module
-    del sys.modules["check"]
+    del sys.modules[name]
+
+
+@pytest.fixture(scope="module")
+def check():
+    yield from script("check")
+
+
+@pytest.fixture(scope="module")
+def toolchain():
+    yield from script("toolchain")
 
 
 def says(text: str, status: int = 0) -> tuple[str, ...]:
@@ -90,6 +99,45 @@ def test_a_missing_command_or_report_is_red(check):
     assert perform(check, (("no-such-command-anywhere",), None)) == (0, 1)
     missing = check.Check("report", says("5 passed"), count=check.count_python, report="no/such/report.xml")
     assert check.perform([missing]) == check.Count(0, 1)
+
+
+@pytest.mark.parametrize("ci", ["true", ""])
+def test_ci_leaves_no_test_of_the_gpu_out(check, monkeypatch, ci):
+    monkeypatch.setenv("CI", ci)
+    wanted = {"LUMENCUT_REQUIRE_GPU": "1"} if ci else {}
+    assert [one.environment for one in check.test_checks("report.xml")] == [wanted] * 2
+    assert check.lint_checks()[0].command[-1] == "vulkan"
+
+
+def test_a_missing_vulkan_is_installed_by_root_and_else_refused(toolchain, monkeypatch, tmp_path):
+    (tmp_path / "driver.json").touch()
+    monkeypatch.setattr(toolchain.sys, "platform", "linux")
+    for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
+        monkeypatch.delenv(name, raising=False)
+    loader, ran = ["libvulkan.so.1"], []
+    monkeypatch.setattr(toolchain.ctypes.util, "find_library", lambda name: (loader and loader[0]) or None)
+    monkeypatch.setattr(toolchain.shutil, "which", lambda name: f"/usr/bin/{name}")
+
+    def installs(command, **_):
+        ran.append(command[1])
+        if ran.count("install") == 2:
+            loader.append("libvulkan.so.1")
+        return subprocess.CompletedProcess(command, 0 if loader else 100)
+
+    monkeypatch.setattr(toolchain.subprocess, "run", installs)
+    monkeypatch.setattr(toolchain, "DRIVERS", (tmp_path / "nowhere", tmp_path))
+    toolchain.add_vulkan()
+    assert ran == []
+    loader.clear()
+    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 1000)
+    with pytest.raises(SystemExit, match=r"no loader of Vulkan.*; as root: apt-get install .*libvulkan1"):
+        toolchain.add_vulkan()
+    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
+    toolchain.add_vulkan()
+    assert ran == ["install", "update", "install"]
+    monkeypatch.setattr(toolchain, "DRIVERS", (tmp_path / "nowhere",))
+    with pytest.raises(SystemExit, match=r"no driver of Vulkan in .*nowhere after apt-get install"):
+        toolchain.add_vulkan()
 
 
 @pytest.fixture

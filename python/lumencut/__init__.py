@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from lumencut._lumencut import __version__
     from lumencut.camera import VIEWS, Camera
     from lumencut.centerlines import read_centerlines
+    from lumencut.device import Device, devices
     from lumencut.errors import (
         CameraError,
+        DeviceError,
+        DeviceWarning,
         FileError,
         FormatError,
         LumencutError,
@@ -42,8 +45,11 @@ _HOME = {
     "_lumencut": ("__version__",),
     "camera": ("VIEWS", "Camera"),
     "centerlines": ("read_centerlines",),
+    "device": ("Device", "devices"),
     "errors": (
         "CameraError",
+        "DeviceError",
+        "DeviceWarning",
         "FileError",
         "FormatError",
         "LumencutError",
@@ -68,6 +74,9 @@ __all__ = [
     "VIEWS",
     "Camera",
     "CameraError",
+    "Device",
+    "DeviceError",
+    "DeviceWarning",
     "FileError",
     "FormatError",
     "Frame",
@@ -87,6 +96,7 @@ __all__ = [
     "VolumeError",
     "Window",
     "__version__",
+    "devices",
     "read_centerlines",
     "read_volume",
     "render",

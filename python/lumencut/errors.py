@@ -43,6 +43,10 @@ class SettingsError(LumencutError, ValueError):
     """A setting outside its range."""
 
 
+class DeviceError(LumencutError, RuntimeError):
+    """A GPU that is not there, too small for the work, or failed."""
+
+
 class FormatError(LumencutError, ValueError):
     """A file whose content is not what its format promises, or a format that is not read."""
 
@@ -53,6 +57,10 @@ class FileError(LumencutError, OSError):
 
 class MissingPackageError(LumencutError, RuntimeError):
     """An optional package that the call needs is not installed."""
+
+
+class DeviceWarning(UserWarning):
+    """A GPU that was given up; the CPU goes on in its place."""
 
 
 class SpaceWarning(UserWarning):

@@ -11,6 +11,7 @@ import numpy as np
 from lumencut import _lumencut
 from lumencut._checks import choice
 from lumencut.camera import Camera
+from lumencut.device import look_for_no_display
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.frame import Frame
 from lumencut.settings import Settings
@@ -34,24 +35,29 @@ class Renderer:
         The angiography; without it only :meth:`cut_surface` works.
     tree : VesselTree or None
         Its centerlines; without them :meth:`render` shows the context alone, all of the volume.
-    device : {"auto", "cpu"}, default "auto"
-        Where to compute.
+    device : {"auto", "cpu", "gpu"}, default "auto"
+        What computes. ``"auto"`` takes the first GPU of :func:`lumencut.devices` that is hardware, and the
+        CPU where there is none; where the GPU fails, or has no room for the scene, the CPU renders that view
+        and all further ones, and says so once with a :class:`DeviceWarning`. ``"gpu"`` takes the first GPU,
+        software too, and raises what goes wrong on it. The pictures are the same but for rounding.
 
     Raises
     ------
     VolumeError, VesselTreeError, SettingsError
         For a volume, tree or device of another kind, neither a volume nor a tree, or a tree that lies wholly
         outside the volume.
+    DeviceError
+        For the device ``"gpu"`` where there is no GPU, or none that can be used.
     """
 
     def __init__(
-        self, volume: Any, tree: VesselTree | None = None, device: Literal["auto", "cpu"] = "auto"
+        self, volume: Any, tree: VesselTree | None = None, device: Literal["auto", "cpu", "gpu"] = "auto"
     ) -> None:
         if not isinstance(tree, (VesselTree, type(None))):
             raise VesselTreeError(
                 "tree", type(tree).__name__, "a VesselTree, such as read_centerlines returns, or None"
             )
-        choice(SettingsError, "device", device, ("auto", "cpu"))
+        choice(SettingsError, "device", device, ("auto", "cpu", "gpu"))
         self._volume = None if volume is None else as_volume(volume)
         self._tree = tree
         scene = self._volume if tree is None else tree
@@ -60,7 +66,9 @@ class Renderer:
         self._scene = scene
         if self._volume is not None and tree is not None:
             _check_meeting(self._volume, tree)
-        self._core = _lumencut.Renderer(None if tree is None else tree._arrays())
+        if device != "cpu":
+            look_for_no_display()
+        self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
 
     @property
     def volume(self) -> Volume | None:
@@ -71,6 +79,11 @@ class Renderer:
     def tree(self) -> VesselTree | None:
         """Its centerlines."""
         return self._tree
+
+    @property
+    def device(self) -> str:
+        """What computes: ``"cpu"``, or the name of the GPU as in :func:`lumencut.devices`."""
+        return self._core.device
 
     @property
     def scene(self) -> VesselTree | Volume:
@@ -93,6 +106,8 @@ class Renderer:
             Without a volume.
         SettingsError
             Without a tree for settings without a context, or a ``context_step`` too small for the volume.
+        DeviceError
+            With the device ``"gpu"`` where the GPU fails or has no room; a further view starts it anew.
         KeyboardInterrupt
             At Ctrl-C; the renderer can be used again.
         """
@@ -113,6 +128,8 @@ class Renderer:
         ------
         VesselTreeError
             Without a tree.
+        DeviceError, KeyboardInterrupt
+            As for :meth:`render`.
         """
         if self._tree is None:
             raise VesselTreeError(

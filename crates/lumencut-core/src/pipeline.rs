@@ -75,9 +75,11 @@ impl Renderer {
             silhouette(&view, &frame.depth, &frame.vessel, settings.silhouette_slope, &mut strength)?;
             clock.lap("silhouette", &mut frame.timings);
         }
-        let start = starts(&frame.value, &frame.depth, settings);
+        let start = settings.context.as_ref().map(|_| starts(&frame.value, &frame.depth, settings));
+        let behind = surroundings(&view, volume, settings, start.as_deref(), &mut frame, &mut clock)?;
         let strength = settings.silhouettes.then_some(&strength[..]);
-        show(&view, volume, settings, &start, strength, &mut frame, &mut clock)?;
+        show(&view, settings, strength, behind.as_deref(), &mut frame)?;
+        clock.lap("composite", &mut frame.timings);
         Ok(frame)
     }
 
@@ -151,41 +153,50 @@ pub fn context_alone(
     let view = View { camera, isa, stop };
     let pixels = camera.size()[0] * camera.size()[1];
     let mut frame = Frame { value: vec![f32::NAN; pixels], ..Frame::empty(*camera, 0) };
-    let start = vec![WHOLE; pixels];
-    show(&view, volume, settings, &start, None, &mut frame, &mut Clock::start())?;
+    let (start, mut clock) = (vec![WHOLE; pixels], Clock::start());
+    let behind = surroundings(&view, volume, settings, Some(&start), &mut frame, &mut clock)?;
+    show(&view, settings, None, behind.as_deref(), &mut frame)?;
+    clock.lap("composite", &mut frame.timings);
     frame.value = Vec::new();
     Ok(frame)
 }
 
-/// The last stages: the context where `start` says that its rays start, and the picture of all layers.
-fn show(
+/// The context where `start` says that its rays start, and its own picture; nothing where no ray starts.
+fn surroundings(
     view: &View,
     volume: &Volume,
     settings: &Settings,
-    start: &[f32],
-    strength: Option<&[f32]>,
+    start: Option<&[f32]>,
     frame: &mut Frame,
     clock: &mut Clock,
-) -> Result<()> {
-    let mut behind = Vec::new();
-    if let Some(settings) = &settings.context {
-        if start.iter().any(|start| *start < NONE) {
-            let blocks = volume.blocks(view.stop)?;
-            clock.lap("blocks", &mut frame.timings);
-            behind.resize(start.len(), [0.0; 4]);
-            context(view, volume, Some(blocks), settings, start, &mut behind)?;
-        }
-        clock.lap("context", &mut frame.timings);
-        frame.context = vec![[0; 4]; start.len()];
-        layer(view, &behind, &mut frame.context)?;
-    }
-    frame.image = vec![[0; 4]; start.len()];
+) -> Result<Option<Vec<[f32; 4]>>> {
+    let (Some(settings), Some(start)) = (&settings.context, start) else { return Ok(None) };
+    frame.context = vec![[0; 4]; start.len()];
     // Behind a cut surface that hides everything there is nothing.
-    let context = Some(&behind[..]).filter(|behind| !behind.is_empty());
-    let layers = Layers { value: &frame.value, strength, context };
-    composite(view, &layers, settings, &mut frame.image)?;
-    clock.lap("composite", &mut frame.timings);
-    Ok(())
+    let behind = if start.iter().any(|start| *start < NONE) {
+        let blocks = volume.blocks(view.stop)?;
+        clock.lap("blocks", &mut frame.timings);
+        let mut behind = vec![[0.0; 4]; start.len()];
+        context(view, volume, Some(blocks), settings, start, &mut behind)?;
+        layer(view, &behind, &mut frame.context)?;
+        Some(behind)
+    } else {
+        None
+    };
+    clock.lap("context", &mut frame.timings);
+    Ok(behind)
+}
+
+/// The picture of all layers.
+fn show(
+    view: &View,
+    settings: &Settings,
+    strength: Option<&[f32]>,
+    context: Option<&[[f32; 4]]>,
+    frame: &mut Frame,
+) -> Result<()> {
+    frame.image = vec![[0; 4]; frame.value.len()];
+    composite(view, &Layers { value: &frame.value, strength, context }, settings, &mut frame.image)
 }
 
 /// Measures the stages one after the other.

@@ -42,7 +42,7 @@ impl CutSurfaceStages {
         };
         Self {
             projection: Stage::new(device, "math/projection", &[]),
-            enclose: Stage::entry(device, "math/projection", "enclose", &[]).from_binding(1),
+            enclose: Stage::entry(device, "math/projection", "enclose", &[]).with_first_binding(1),
             distance: Stage::new(device, "stages/distance", &tile),
             depth: [depth(0.0), depth(1.0)],
             group: [across * QUAD * TILES[0], rows * TILES[1]],

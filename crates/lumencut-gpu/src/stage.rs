@@ -39,7 +39,7 @@ impl Stage {
     }
 
     /// The same stage for an entry point whose bindings begin later.
-    pub fn from_binding(mut self, first_binding: u32) -> Self {
+    pub fn with_first_binding(mut self, first_binding: u32) -> Self {
         self.first_binding = first_binding;
         self
     }

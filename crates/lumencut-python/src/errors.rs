@@ -1,7 +1,9 @@
 //! Rust errors as the exception classes of `lumencut.errors`: one exhaustive match over the causes.
 
+use std::ffi::CString;
+
 use lumencut_core::error::{Error, ErrorKind};
-use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
 /// The exception that stands for `error`.
@@ -30,4 +32,11 @@ pub fn exception(class: &str, subject: &str, found: &str, expected: &str, mend: 
             Err(error) => error,
         }
     })
+}
+
+/// Warns whoever called the function of the package that called this module.
+pub fn warn(py: Python<'_>, category: &str, text: &str) -> PyResult<()> {
+    let category = py.import("lumencut.errors")?.getattr(category)?;
+    let text = CString::new(text).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    PyErr::warn(py, &category, &text, 2)
 }

@@ -1,10 +1,13 @@
-//! The extension module `lumencut._lumencut`: thin wrappers over `lumencut-core` and `lumencut-io`.
+//! The extension module `lumencut._lumencut`: thin wrappers over `lumencut-core`, `lumencut-gpu` and
+//! `lumencut-io`.
 
 use pyo3::prelude::*;
 
 mod arguments;
+mod backend;
 mod centerlines;
 mod context;
+mod device;
 mod errors;
 mod phantom;
 mod pool;
@@ -17,6 +20,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     context::add_names(module)?;
     module.add_class::<renderer::Renderer>()?;
+    module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(arguments::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(arguments::check_settings, module)?)?;
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;

@@ -5,17 +5,18 @@ use std::sync::mpsc;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::error::Error;
 use lumencut_core::frame::Frame;
-use lumencut_core::math::lanes::Isa;
-use lumencut_core::pipeline::{self, context_alone};
+use lumencut_core::stages::Stop;
 use lumencut_core::volume::SharedBlocks;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arguments::{CameraArgument, SettingsArgument};
-use crate::errors::to_python;
+use crate::backend::{Backend, View};
+use crate::device::Wanted;
+use crate::errors::{to_python, warn};
 use crate::pool;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
@@ -27,7 +28,7 @@ const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 /// kept from view to view: every view is of the same volume.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Renderer {
-    core: Mutex<Option<pipeline::Renderer>>,
+    backend: Mutex<Backend>,
     blocks: SharedBlocks,
 }
 
@@ -35,9 +36,18 @@ pub struct Renderer {
 impl Renderer {
     #[new]
     #[allow(clippy::needless_pass_by_value)]
-    fn new(vessels: Option<Vec<VesselArrays<'_>>>) -> PyResult<Self> {
+    fn new(py: Python<'_>, vessels: Option<Vec<VesselArrays<'_>>>, device: &str) -> PyResult<Self> {
         let tree = vessels.map(|vessels| tree(&vessels)).transpose()?;
-        Ok(Self { core: Mutex::new(tree.map(pipeline::Renderer::new)), blocks: SharedBlocks::default() })
+        let wanted = Wanted::named(device).map_err(to_python)?;
+        let (backend, given_up) = py.detach(|| Backend::new(tree, wanted)).map_err(to_python)?;
+        say_that_the_cpu_goes_on(py, given_up)?;
+        Ok(Self { backend: Mutex::new(backend), blocks: SharedBlocks::default() })
+    }
+
+    /// What computes: "cpu", or the name of the GPU.
+    #[getter]
+    fn device(&self, py: Python<'_>) -> String {
+        py.detach(|| self.backend.lock().unwrap_or_else(PoisonError::into_inner).name().to_owned())
     }
 
     /// The buffers of one view by name: those of the cut surface where there are vessels, those of the picture where
@@ -57,38 +67,27 @@ impl Renderer {
             (Some(volume), Some(borrowed)) => Some(volume.volume(borrowed)?.sharing(self.blocks.clone())),
             _ => None,
         };
-        let frame = interruptible(py, |stop| {
+        let (frame, given_up) = interruptible(py, |stop| {
+            let view = View { volume: volume.as_ref(), camera: &camera, settings: &settings, stop };
             // Locked outside the pool: one of its threads, waiting for a part of this view, could take up another
             // view and wait for the lock that it holds itself.
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
-            let mut locked = self.core.lock().unwrap_or_else(PoisonError::into_inner);
-            let core = &mut *locked;
-            let frame = pool::install(|| match (core, &volume) {
-                (Some(core), Some(volume)) => core.render(volume, &camera, &settings, stop),
-                (Some(core), None) => core.cut_surface(&camera, &settings, stop),
-                (None, Some(volume)) => context_alone(volume, &camera, &settings, Isa::widest(), stop),
-                (None, None) => Err(nothing_to_show()),
-            })?;
-            frame.map_err(to_python)
+            let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
+            let backend = &mut *locked;
+            pool::install(|| backend.render(&view))?.map_err(to_python)
         })?;
+        say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)
     }
 }
 
-fn nothing_to_show() -> Error {
-    Error::new(
-        ErrorKind::Volume,
-        "scene of the renderer",
-        "neither a volume nor vessels",
-        "one of them or both",
-    )
+/// Warns where a GPU was given up.
+fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult<()> {
+    given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
 }
 
 /// Runs `work` on a thread of its own without the GIL while this one listens for signals.
-fn interruptible(
-    py: Python<'_>,
-    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> PyResult<Frame> + Send,
-) -> PyResult<Frame> {
+fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send) -> PyResult<T> {
     let stopped = AtomicBool::new(false);
     let stop = || stopped.load(Ordering::Relaxed);
     py.detach(|| {

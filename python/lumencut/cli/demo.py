@@ -6,11 +6,12 @@ import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
-from lumencut.cli.report import bar, say, timings, verbose_option, warn
+from lumencut.cli.options import device_option
+from lumencut.cli.report import bar, detail, say, timings, verbose_option, warn
 
 if TYPE_CHECKING:
     from lumencut.camera import Camera
@@ -27,8 +28,9 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
     type=click.Path(path_type=Path, file_okay=False),
     help="Where the CT is kept; default: lumencut in the user's cache folder.",
 )
+@device_option
 @verbose_option
-def demo(directory: Path, cache: Path | None) -> None:
+def demo(directory: Path, cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
     Four pictures, one more that shows what lies behind a transparent cut surface, and a turntable. The CT
@@ -36,7 +38,7 @@ def demo(directory: Path, cache: Path | None) -> None:
     is shown instead.
     """
     start = time.perf_counter()
-    renderer = _scene(cache)
+    renderer = _scene(cache, device)
     directory.mkdir(parents=True, exist_ok=True)
     for name, camera, settings in _views(renderer):
         frame = renderer.render(camera, settings)
@@ -44,10 +46,11 @@ def demo(directory: Path, cache: Path | None) -> None:
         frame.save(directory / f"{name}.png")
         say(str(directory / f"{name}.png"))
     _spin(renderer, directory / "turntable.webp")
+    detail(f"device: {renderer.device}")
     say(f"made in {time.perf_counter() - start:.1f} s")
 
 
-def _scene(cache: Path | None) -> Renderer:
+def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> Renderer:
     from lumencut.demo import UnreachableError, default_cache, stent_scene
     from lumencut.renderer import Renderer
 
@@ -59,7 +62,7 @@ def _scene(cache: Path | None) -> Renderer:
         warn(f"the CT of the demo cannot be had, a phantom is shown instead ({error})")
         phantom = aorta(scale=0.5)
         volume, tree = phantom.volume, phantom.tree
-    return Renderer(volume, tree)
+    return Renderer(volume, tree, device)
 
 
 def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:

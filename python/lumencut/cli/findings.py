@@ -69,6 +69,18 @@ def of_centerlines(path: Path, coordinates: Literal["lps", "ras"] | None) -> dic
     }
 
 
+def of_devices() -> dict[str, Any]:
+    """List the GPUs, and name what a renderer takes where nothing is said."""
+    from dataclasses import asdict
+
+    from lumencut import _lumencut
+    from lumencut.device import devices
+
+    software = "software: it computes only with --device gpu"
+    found = [asdict(device) | {"notes": [software] if device.is_software else []} for device in devices()]
+    return {"devices": found, "auto": _lumencut.Renderer(None, "auto").device}
+
+
 def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """Compare a tree with volumes; those that have nothing to do with it only count if it fits none."""
     pairs = [_pair(lines, volume) for volume in volumes]

@@ -18,34 +18,47 @@ _CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".pth", ".swc", ".tre", ".csv", 
 
 
 @click.command(short_help="Tell what files hold, and what is odd.")
-@click.argument("files", type=FILE, nargs=-1, required=True, metavar="FILE…")
+@click.argument("files", type=FILE, nargs=-1, metavar="FILE…")
 @click.option(
     "--coordinates",
     type=click.Choice(["lps", "ras"]),
     help="Space of the centerline files; default: the one they state, else lps.",
 )
 @series_option
+@click.option(
+    "--devices", "with_devices", is_flag=True, help="List the GPUs of this machine; FILE may be left out."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON; lengths in mm, world coordinates LPS.")
 @verbose_option
 def info(
     files: tuple[Path, ...],
     coordinates: Literal["lps", "ras"] | None,
     series: str | None,
+    with_devices: bool,
     as_json: bool,
 ) -> None:
     """Tell what each FILE holds and what is odd about it: volumes, DICOM folders and centerlines.
 
     Volumes and centerlines given together are compared. A file that cannot be read does not stop the rest;
     the exit code is 1 then.
+    With --devices the GPUs are listed first, and what --device auto takes: the CPU where no GPU is hardware.
     """
+    if not (files or with_devices):
+        raise click.UsageError("Missing argument 'FILE…'.")
+    gpus = findings.of_devices() if with_devices else None
     found = [_looked_into(path, coordinates, series) for path in files]
     volumes = [one for one in found if one["kind"] == "volume"]
     trees = [one for one in found if one["kind"] == "centerlines"]
     compared = [pair for tree in trees for pair in findings.compared(tree, volumes)]
     if as_json:
         public = [{key: value for key, value in one.items() if not key.startswith("_")} for one in found]
-        say(json.dumps({"files": public, "compared": compared}, indent=2, allow_nan=False))
+        every = (gpus or {}) | {"files": public, "compared": compared}
+        say(json.dumps(every, indent=2, allow_nan=False))
     else:
+        if gpus is not None:
+            for gpu in gpus["devices"]:
+                say(_as_text({"file": gpu["name"]} | {key: gpu[key] for key in gpu if key != "name"}))
+            say(f"auto takes: {gpus['auto']}")
         for one in (*(one for one in found if one["kind"] != "unreadable"), *compared):
             say(_as_text(one))
     if any(one["kind"] == "unreadable" for one in found):

@@ -38,6 +38,17 @@ series_option = click.option(
 )
 
 
+#: What computes.
+device_option = click.option(
+    "--device",
+    type=click.Choice(["auto", "cpu", "gpu"]),
+    default="auto",
+    show_default=True,
+    help="What computes: auto takes a GPU where there is a hardware one, else the CPU; "
+    "lumencut info --devices lists the GPUs.",
+)
+
+
 def scene_arguments(command: Command) -> Command:
     """Add the files that every picture is made from."""
     parts = (
@@ -49,6 +60,7 @@ def scene_arguments(command: Command) -> Command:
             help="Space of the centerline file; default: the one it states, else lps.",
         ),
         series_option,
+        device_option,
     )
     return added(parts, command)
 

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import click
 
 from lumencut.cli import options
-from lumencut.cli.report import say, timings, verbose_option
+from lumencut.cli.report import detail, say, timings, verbose_option
 from lumencut.cli.scene import check_scene, is_empty, read_scene, shown, warn_of_emptiness
 from lumencut.cli.settings import setting_options, settings_from
 
@@ -32,6 +32,7 @@ def render(
     centerlines: Path | None,
     coordinates: Literal["lps", "ras"] | None,
     series: str | None,
+    device: Literal["auto", "cpu", "gpu"],
     output: tuple[Path, ...],
     **chosen: Any,
 ) -> None:
@@ -50,9 +51,10 @@ def render(
     check_scene(centerlines, coordinates, settings)
     for path in output:
         options.check_picture(path)
-    renderer = read_scene(volume, centerlines, coordinates, series)
+    renderer = read_scene(volume, centerlines, coordinates, series, device)
     frame = renderer.render(options.placed(view, renderer.scene, chosen), settings)
     timings("rendered", frame.timings)
+    detail(f"device: {renderer.device}")
     if is_empty(frame):
         warn_of_emptiness("no pixel of the view", frame.camera, renderer)
     for path in output:

@@ -13,7 +13,7 @@ from typing import NoReturn, TextIO
 
 import click
 
-from lumencut.errors import LumencutError, SpaceWarning
+from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
 FAILED, INTERRUPTED = 1, 130
@@ -122,7 +122,7 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    if issubclass(category, SpaceWarning):
+    if issubclass(category, (DeviceWarning, SpaceWarning)):
         warn(message)
     else:
         detail(f"{category.__name__}: {message}")

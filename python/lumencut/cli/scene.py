@@ -32,7 +32,11 @@ def check_scene(
 
 
 def read_scene(
-    volume: Path, centerlines: Path | None, coordinates: Literal["lps", "ras"] | None, series: str | None
+    volume: Path,
+    centerlines: Path | None,
+    coordinates: Literal["lps", "ras"] | None,
+    series: str | None,
+    device: Literal["auto", "cpu", "gpu"],
 ) -> Renderer:
     """Return a renderer of the files."""
     from lumencut.centerlines import read_centerlines
@@ -48,7 +52,7 @@ def read_scene(
         voxels = read_volume(volume, series=series, progress=told)
     detail(f"{volume}: {voxels!r}")
     # The renderer compares the tree with the volume and warns where the space looks wrong.
-    renderer = Renderer(voxels, tree)
+    renderer = Renderer(voxels, tree, device)
     detail(f"read in {time.perf_counter() - start:.2f} s")
     return renderer
 

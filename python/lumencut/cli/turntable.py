@@ -10,7 +10,7 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.parameters import Named
-from lumencut.cli.report import bar, say, timings, verbose_option
+from lumencut.cli.report import bar, detail, say, timings, verbose_option
 from lumencut.cli.scene import check_scene, is_empty, read_scene, shown, warn_of_emptiness
 from lumencut.cli.settings import setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
@@ -61,6 +61,7 @@ def turntable(
     centerlines: Path | None,
     coordinates: Literal["lps", "ras"] | None,
     series: str | None,
+    device: Literal["auto", "cpu", "gpu"],
     output: str,
     frames: int,
     fps: float | None,
@@ -84,7 +85,7 @@ def turntable(
     check_scene(centerlines, coordinates, settings)
     write = _checked_writer(output, fps)
     _check_turn(view, frames, degrees, axis)
-    renderer = read_scene(volume, centerlines, coordinates, series)
+    renderer = read_scene(volume, centerlines, coordinates, series, device)
 
     from lumencut import turntable as library
 
@@ -92,6 +93,7 @@ def turntable(
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
     empty: list[Camera] = []
     write(watched(turn, frames, empty), fps)
+    detail(f"device: {renderer.device}")
     if empty:
         who = "no pixel of any frame" if len(empty) == frames else f"no pixel of {len(empty)} frames"
         warn_of_emptiness(who, empty[0], renderer)

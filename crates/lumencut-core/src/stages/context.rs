@@ -27,7 +27,7 @@ pub fn starts(value: &[f32], depth: &[f32], settings: &Settings) -> Vec<f32> {
         value if opacity.at(value) < 1.0 => depth + behind,
         _ => NONE,
     };
-    value.iter().zip(depth).map(start).collect()
+    value.par_iter().zip(depth).map(start).collect()
 }
 
 /// Writes what the rays gather, colours times opacity and opacity, 0 to 1; nothing where no ray starts.

@@ -138,10 +138,10 @@ fn views() -> Vec<Camera> {
 
 fn compare(volume: &Volume, contexts: &[Context], scale: f64, what: &str) {
     let Some(device) = device() else { return };
-    let mut stage = ContextStage::new(&device);
+    let mut stage = ContextStage::new(device);
     for camera in views() {
-        let mut placed = Placed::new(&device, volume, &camera);
-        placed.on_device.prepare_blocks(&device, volume, &|| false).unwrap();
+        let mut placed = Placed::new(device, volume, &camera);
+        placed.on_device.prepare_blocks(device, volume, &|| false).unwrap();
         let surface = cut_surface(&camera);
         for (n, context) in contexts.iter().enumerate() {
             let settings = Settings {
@@ -215,11 +215,11 @@ fn voxels_without_a_number() {
     let (all, camera) =
         (volume(Voxels::F32(&floats), EVEN, sheared(EVEN)), camera([0.3, 1.0, 0.2], [64, 48], 0.7));
     let Some(device) = device() else { return };
-    let mut stage = ContextStage::new(&device);
+    let mut stage = ContextStage::new(device);
     let gather = |volume: &Volume, stage: &mut ContextStage, context: &Context| {
         let settings = Settings { context: Some(context.clone()), ..Settings::default() };
-        let mut placed = Placed::new(&device, volume, &camera);
-        placed.on_device.prepare_blocks(&device, volume, &|| false).unwrap();
+        let mut placed = Placed::new(device, volume, &camera);
+        placed.on_device.prepare_blocks(device, volume, &|| false).unwrap();
         on_gpu(stage, &placed, &settings, None)
     };
     for context in &some {
@@ -237,8 +237,8 @@ fn the_mean_of_many_samples_keeps_its_digits() {
     let volume =
         volume(Voxels::F32(&voxels), [1, 1, 2048], DAffine3::from_translation(DVec3::NEG_Z * 1023.5));
     let camera = camera([0.0, 0.0, 1.0], [3, 3], 0.1);
-    let mut placed = Placed::new(&device, &volume, &camera);
-    placed.on_device.prepare_blocks(&device, &volume, &|| false).unwrap();
+    let mut placed = Placed::new(device, &volume, &camera);
+    placed.on_device.prepare_blocks(device, &volume, &|| false).unwrap();
     let context = Context {
         mode: ContextMode::Average,
         window: Window { level: 1000.0, width: 1000.0 },
@@ -246,7 +246,7 @@ fn the_mean_of_many_samples_keeps_its_digits() {
         ..Context::default()
     };
     let settings = Settings { context: Some(context), ..Settings::default() };
-    for pixel in on_gpu(&mut ContextStage::new(&device), &placed, &settings, None) {
+    for pixel in on_gpu(&mut ContextStage::new(device), &placed, &settings, None) {
         assert!((pixel[0] - 0.500_1).abs() < 1e-6, "{pixel:?}");
     }
 }

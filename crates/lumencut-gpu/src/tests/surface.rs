@@ -60,7 +60,7 @@ fn compare(
     what: &str,
 ) {
     let Some(device) = device() else { return };
-    let placed = Placed::new(&device, volume, camera);
+    let placed = Placed::new(device, volume, camera);
     let mut most = 0.0f32;
     for &slab in slabs {
         let mut expected = vec![0.0; depth.len()];

@@ -17,7 +17,7 @@ fn a_volume_longer_than_the_gpu_allows_is_refused() {
     let voxels = vec![0i8; side + 1];
     for (length, fits) in [(side, true), (side + 1, false)] {
         let volume = volume(Voxels::I8(&voxels), [1, length, 1], DAffine3::IDENTITY);
-        let sent = DeviceVolume::new(&device, &volume, &|| false);
+        let sent = DeviceVolume::new(device, &volume, &|| false);
         assert_eq!(sent.map_err(|error| error.kind).err(), (!fits).then_some(ErrorKind::Device));
     }
 }
@@ -26,7 +26,7 @@ fn a_volume_longer_than_the_gpu_allows_is_refused() {
 fn sending_stops_when_asked() {
     let Some(device) = device() else { return };
     let volume = volume(Voxels::I8(&[0; 8]), [2; 3], sheared([2; 3]));
-    let sent = DeviceVolume::new(&device, &volume, &|| true);
+    let sent = DeviceVolume::new(device, &volume, &|| true);
     assert_eq!(sent.unwrap_err().kind, ErrorKind::Interrupted);
 }
 
@@ -36,8 +36,8 @@ fn blocks_that_do_not_fit_begin_with_larger_ones() {
     let camera = camera([0.0, 1.0, 0.0], [1, 1], 1.0);
     let voxels = vec![7i8; 40 * 30 * 20];
     let volume = volume(Voxels::I8(&voxels), [40, 30, 20], sheared([40, 30, 20]));
-    let mut placed = Placed::new(&device, &volume, &camera);
-    placed.on_device.prepare_blocks(&device, &volume, &|| false).unwrap();
+    let mut placed = Placed::new(device, &volume, &camera);
+    placed.on_device.prepare_blocks(device, &volume, &|| false).unwrap();
     let levels = &placed.on_device.blocks().unwrap().levels;
     assert_eq!(levels[..3], [[10, 8, 5, 0], [5, 4, 3, 400], [3, 2, 2, 460]]);
     assert_eq!(levels.last().unwrap()[..3], [1; 3]);

@@ -1,0 +1,54 @@
+"""The GPUs of this machine."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+
+from lumencut import _lumencut
+
+
+@dataclass(frozen=True)
+class Device:
+    """A GPU as its driver describes it.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    backend : str
+        The interface that it is reached by, such as ``"vulkan"``.
+    driver : str
+        Its driver and the driver's version.
+    is_software : bool
+        Whether it is a program that stands for a GPU; such a one computes where ``device="gpu"`` asks for it
+        and there is no other, never by ``"auto"``: the CPU's own kernels are faster.
+    volume_side : int
+        The most voxels along each side of a volume.
+    buffer_bytes : int
+        The largest buffer (bytes), which bounds the size of a picture and a tree.
+    """
+
+    name: str
+    backend: str
+    driver: str
+    is_software: bool
+    volume_side: int
+    buffer_bytes: int
+
+
+def devices() -> list[Device]:
+    """Return the GPUs of this machine, the one that ``device="gpu"`` takes first.
+
+    The list is empty where there is none with a driver for Vulkan, Metal or DirectX 12.
+    """
+    look_for_no_display()
+    return [Device(**fields) for fields in _lumencut.devices()]
+
+
+def look_for_no_display() -> None:
+    """Keep a layer of Mesa from complaining on stderr that it finds no display to choose a GPU by."""
+    told = ("DISPLAY", "WAYLAND_DISPLAY", "MESA_VK_DEVICE_SELECT")
+    if sys.platform == "linux" and not any(os.environ.get(name) for name in told):
+        os.environ.setdefault("NODEVICE_SELECT", "1")

@@ -1,0 +1,45 @@
+"""Compares the frames of the GPU with those of the CPU: how many pixels may be how far apart."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from image_comparison import compare
+
+#: For each buffer: how far apart (mm, ids, HU, of 255), and how large a share of the pixels may be farther.
+LIMITS = {
+    "depth": ((1e-3, 1e-3),),
+    "distance": ((1e-3, 1e-3),),
+    "vessel": ((0, 1e-3),),
+    "value": ((0.1, 1e-3),),
+    "context": ((1, 5e-4), (4, 1e-4)),
+    "image": ((1, 5e-4), (4, 1e-4)),
+}
+
+
+def excess(found: Any, expected: Any) -> dict[str, str]:
+    """What differs by more than `LIMITS` allow, in words, by the name of the buffer."""
+    worse = {}
+    for name, limits in LIMITS.items():
+        if not expected.has(name):
+            if found.has(name):
+                worse[name] = "should not be there"
+            continue
+        one, other = getattr(found, name), getattr(expected, name)
+        assert not np.shares_memory(one, other), f"{name} is compared with itself"
+        pixels = one.shape[0] * one.shape[1]
+        for tolerance, share in limits:
+            result = compare(one, other, tolerance)
+            if result.count > share * pixels:
+                worse[name] = (
+                    f"{result.count} of {pixels} pixels differ by more than {tolerance}, by {result.largest}"
+                )
+    return worse
+
+
+def assert_alike(found: Any, expected: Any) -> None:
+    """Refuse frames that differ by more than `LIMITS` allow."""
+    worse = excess(found, expected)
+    assert not worse, worse
