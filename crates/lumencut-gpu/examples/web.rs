@@ -34,6 +34,8 @@ pub async fn render(
     picture.map_err(|error| JsError::new(&error.to_string()))
 }
 
+// In a browser nothing of the GPU leaves its thread.
+#[allow(clippy::arc_with_non_send_sync)]
 async fn picture(
     voxels: &[i16],
     size: &[usize],
