@@ -13,10 +13,10 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint format bench wheel lock clean develop tools toolchain
+.PHONY: help demo test lint format bench bench-gpu wheel lock clean develop tools toolchain
 
 help: ## List the commands.
-	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 18
 
 demo: develop ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo
@@ -35,6 +35,9 @@ format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
 bench: develop tools ## Measure this machine, VTK beside it; prints tables, keeps nothing.
 	cargo bench --locked --package lumencut-core --bench '*'
 	$(BIN)/python benches/context_vs_vtk.py
+
+bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--quick for slow ones.
+	cargo bench --locked --package lumencut-gpu --bench stages -- $(QUICK)
 
 wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
 	$(BIN)/maturin build --release --locked --out dist

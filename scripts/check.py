@@ -21,7 +21,9 @@ from xml.etree import ElementTree as ET
 
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
-PORTABLE = ("--package", "lumencut-core", "--package", "lumencut-io")
+PORTABLE = ("--package", "lumencut-core", "--package", "lumencut-io", "--package", "lumencut-gpu")
+SCRIPTS = ("scripts/check.py", "scripts/toolchain.py", "scripts/wasm_size.py")
+WEB = "target/wasm32-unknown-unknown/wasm/examples/web.wasm"
 
 
 @dataclass(frozen=True)
@@ -86,13 +88,21 @@ def lint_checks() -> list[Check]:
         ),
         Check("ARM", (*cargo, "check", "--locked", *PORTABLE, "--target", "aarch64-unknown-linux-gnu")),
         Check(
+            "WebAssembly of the GPU",
+            (
+                *(*cargo, "build", "--locked", "--package", "lumencut-gpu", "--example", "web"),
+                *("--profile", "wasm", "--target", "wasm32-unknown-unknown", "--target-dir", "target"),
+            ),
+        ),
+        Check("size of the WebAssembly", (sys.executable, "scripts/wasm_size.py", WEB)),
+        Check(
             "documentation",
             (*cargo, "doc", "--locked", "--workspace", "--no-deps"),
             {"RUSTDOCFLAGS": "-D warnings"},
         ),
         Check("package", ("make", "--no-print-directory", "develop")),
         Check("types", (f"{BIN}/mypy",)),
-        Check("types of the scripts", (f"{BIN}/mypy", "scripts/check.py", "scripts/toolchain.py")),
+        Check("types of the scripts", (f"{BIN}/mypy", *SCRIPTS)),
         Check("stubs", (f"{BIN}/python", "-m", "mypy.stubtest", "lumencut._lumencut")),
     ]
 

@@ -12,6 +12,7 @@ mod depth_filter;
 pub mod device;
 mod images;
 mod levels;
+#[cfg(not(target_arch = "wasm32"))]
 mod on_cpu;
 mod pass;
 mod recording;

@@ -24,6 +24,7 @@ use crate::volume::DeviceVolume;
 
 /// A tree on the CPU and on the GPU.
 pub(crate) struct Tree<'a> {
+    #[cfg_attr(target_arch = "wasm32", allow(dead_code))]
     pub core: &'a mut pipeline::Renderer,
     pub levels: &'a DeviceLevels,
 }
@@ -32,6 +33,7 @@ pub(crate) struct Tree<'a> {
 pub(crate) struct Pass<'a> {
     pub device: &'a Device,
     pub stages: &'a mut Stages,
+    #[cfg_attr(target_arch = "wasm32", allow(dead_code))]
     pub on_cpu: &'a OnCpu,
     pub tree: Option<Tree<'a>>,
     pub volume: Option<&'a DeviceVolume>,
@@ -95,6 +97,7 @@ impl<'a> Pass<'a> {
     }
 
     async fn distance(&mut self) -> Result<()> {
+        #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has("distance") {
             return self.distance_on_cpu().await;
         }
@@ -106,6 +109,7 @@ impl<'a> Pass<'a> {
     }
 
     async fn depth(&mut self) -> Result<()> {
+        #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has("depth") {
             return self.depth_on_cpu().await;
         }
@@ -124,6 +128,7 @@ impl<'a> Pass<'a> {
     }
 
     async fn depth_filter(&mut self) -> Result<()> {
+        #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has("depth_filter") {
             return self.depth_filter_on_cpu().await;
         }
@@ -135,6 +140,7 @@ impl<'a> Pass<'a> {
     /// The volume at the cut surface.
     pub async fn surface(&mut self, volume: &Volume<'_>) -> Result<()> {
         self.has_value = true;
+        #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has("surface") {
             return self.surface_on_cpu(volume).await;
         }
@@ -157,6 +163,7 @@ impl<'a> Pass<'a> {
         if !self.settings.silhouettes {
             return Ok(());
         }
+        #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has("silhouette") {
             return self.silhouette_on_cpu().await;
         }
@@ -172,6 +179,7 @@ impl<'a> Pass<'a> {
     pub async fn context(&mut self, volume: &Volume<'_>) -> Result<()> {
         let Some(settings) = &self.settings.context else { return Ok(()) };
         self.has_context = true;
+        #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has("context") {
             return self.context_on_cpu(volume, settings).await;
         }
@@ -190,6 +198,7 @@ impl<'a> Pass<'a> {
     /// The picture of all layers, and the context's own.
     pub async fn composite(&mut self) -> Result<()> {
         self.has_image = true;
+        #[cfg(not(target_arch = "wasm32"))]
         if self.on_cpu.has("composite") {
             return self.composite_on_cpu().await;
         }
@@ -213,11 +222,13 @@ impl<'a> Pass<'a> {
     }
 
     /// Whether there is a cut surface with values.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn has_value(&self) -> bool {
         self.has_value
     }
 
     /// Whether there is a context.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn has_context(&self) -> bool {
         self.has_context
     }
@@ -255,6 +266,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Runs what is recorded so far, and reads an image of `T` per pixel.
+    #[cfg(not(target_arch = "wasm32"))]
     pub async fn read<T: Pod>(&mut self, image: &Buffer) -> Result<Vec<T>> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         recording.read(image, (self.images.pixels() * size_of::<T>()) as u64);
@@ -264,6 +276,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Counts the time of a stage that the CPU did.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn count(&mut self, stage: &'static str, start: web_time::Instant) {
         let milliseconds = start.elapsed().as_secs_f64() * 1e3;
         self.timings.push(Timing { stage, milliseconds });
@@ -288,6 +301,7 @@ pub(crate) fn with_holes(mut values: Vec<f32>) -> Vec<f32> {
 }
 
 /// Values with HUGE for NaN, as shaders have them.
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn without_holes(mut values: Vec<f32>) -> Vec<f32> {
     for value in &mut values {
         *value = if value.is_nan() { HUGE } else { *value };

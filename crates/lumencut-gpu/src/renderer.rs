@@ -15,7 +15,10 @@ use crate::device::Device;
 use crate::images::Images;
 use crate::levels::DeviceLevels;
 use crate::pass::{Pass, Tree};
-use crate::stages::{OnCpu, STAGES, Stages};
+use crate::stages::OnCpu;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::stages::STAGES;
+use crate::stages::Stages;
 use crate::volume::DeviceVolume;
 
 /// Renders views of one volume and one vessel tree, or of a volume alone, as [`pipeline::Renderer`] does on the CPU.
@@ -54,6 +57,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for a name that is none of them.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn force_to_cpu(&mut self, stages: Vec<String>) -> Result<()> {
         if let Some(unknown) = stages.iter().find(|name| !STAGES.contains(&name.as_str())) {
             let expected = format!("names of {}", STAGES.join(", "));

@@ -38,14 +38,17 @@ impl Stages {
     }
 }
 
-/// The stages that the CPU can do in place of the GPU, to find where a difference begins.
+/// The stages that the CPU can do in place of the GPU, to find where a difference begins. In a browser it does none:
+/// its kernels would be most of what is loaded.
 pub const STAGES: [&str; 7] =
     ["distance", "depth", "depth_filter", "surface", "silhouette", "context", "composite"];
 
 /// Which stages the CPU does.
+#[cfg_attr(target_arch = "wasm32", allow(dead_code))]
 #[derive(Clone, Debug, Default)]
 pub(crate) struct OnCpu(pub Vec<String>);
 
+#[cfg(not(target_arch = "wasm32"))]
 impl OnCpu {
     pub fn has(&self, stage: &str) -> bool {
         self.0.iter().any(|name| name == stage)

@@ -7,6 +7,8 @@ mod constants;
 mod context;
 mod depth_filter;
 mod device;
+mod failures;
+mod frames;
 mod imports;
 mod layouts;
 mod scenes;
@@ -14,7 +16,7 @@ mod silhouette;
 mod surface;
 mod volume;
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -33,9 +35,14 @@ pub(crate) const SIZES: [[usize; 2]; 5] = [[1, 1], [1, 17], [17, 1], [257, 257],
 
 /// The GPU that all tests share; where there is none, why, and nothing, unless `LUMENCUT_REQUIRE_GPU` is set.
 pub(crate) fn device() -> Option<&'static Device> {
-    static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
+    shared().map(Arc::as_ref)
+}
+
+/// The same, for renderers.
+pub(crate) fn shared() -> Option<&'static Arc<Device>> {
+    static DEVICE: OnceLock<Option<Arc<Device>>> = OnceLock::new();
     let open = || match pollster::block_on(Device::open(Choice::Any)) {
-        Ok(device) => Some(device),
+        Ok(device) => Some(Arc::new(device)),
         Err(error) if std::env::var_os("LUMENCUT_REQUIRE_GPU").is_some() => panic!("{error}"),
         Err(error) => {
             eprintln!("not tested on a GPU: {error}");

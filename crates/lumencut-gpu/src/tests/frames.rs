@@ -1,0 +1,275 @@
+//! Whole frames of small phantoms against those of the CPU, and each stage alone among the CPU's.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lumencut_core::camera::Camera;
+use lumencut_core::error::ErrorKind;
+use lumencut_core::frame::Frame;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::math::window::Opacity;
+use lumencut_core::phantom::Phantom;
+use lumencut_core::phantom::{collinear_run, trefoil, y_junction};
+use lumencut_core::pipeline::{self, context_alone};
+use lumencut_core::settings::{Context, Settings, Slab, SlabMode};
+
+use super::compare::assert_equal;
+use super::shared;
+use crate::renderer::Renderer;
+use crate::stages::STAGES;
+
+/// How far apart distances may lie (mm).
+const DISTANCE: f32 = 1e-4;
+const SIZE: [usize; 2] = [96, 80];
+
+/// The view of the origin along `direction`.
+pub(super) fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
+    Camera::new(DVec3::ZERO, DVec3::from_array(direction), DVec3::Z, size, pixel_spacing).unwrap()
+}
+
+/// From the front, where the runs of [`collinear_run`] lie along the view.
+pub(super) fn front(size: [usize; 2], pixel_spacing: f64) -> Camera {
+    view([0.0, 1.0, 0.0], size, pixel_spacing)
+}
+
+fn with(change: impl Fn(&mut Settings)) -> Settings {
+    let mut settings = Settings::default();
+    change(&mut settings);
+    settings
+}
+
+/// The default and what else shaders are compiled or told differently for.
+fn all_settings() -> Vec<(&'static str, Settings)> {
+    vec![
+        ("default", Settings::default()),
+        ("lumen first", with(|s| (s.lumen_first, s.lumen_margin) = (true, 1.0))),
+        ("one level", with(|s| s.levels = 0)),
+        ("no filter", with(|s| s.depth_filter = false)),
+        ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
+        ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
+        ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
+    ]
+}
+
+/// One phantom on both sides.
+struct Scene {
+    phantom: Phantom,
+    gpu: Renderer,
+    cpu: pipeline::Renderer,
+}
+
+impl Scene {
+    fn new(device: &Arc<crate::device::Device>, phantom: Phantom) -> Self {
+        let gpu = Renderer::new(Arc::clone(device), Some(phantom.tree.clone()));
+        let cpu = pipeline::Renderer::new(phantom.tree.clone());
+        Self { phantom, gpu, cpu }
+    }
+
+    fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
+        let volume = self.phantom.volume().unwrap();
+        pollster::block_on(self.gpu.render(&volume, camera, settings, &|| false)).unwrap()
+    }
+
+    fn on_cpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
+        self.cpu.render(&self.phantom.volume().unwrap(), camera, settings, &|| false).unwrap()
+    }
+
+    /// The same picture on both sides.
+    fn check(&mut self, camera: &Camera, settings: &Settings) {
+        let (gpu, cpu) = (self.on_gpu(camera, settings), self.on_cpu(camera, settings));
+        self.assert_same(gpu, &cpu);
+    }
+
+    /// [`assert_same`], but that within the lumen around a joint it may be any of the vessels that end there: all of
+    /// them cost the same, and the last digit decides.
+    fn assert_same(&self, mut gpu: Frame, cpu: &Frame) {
+        let (camera, [width, _]) = (&cpu.camera, cpu.camera.size());
+        let mut ends: Vec<(DVec3, f64, i32)> = Vec::new();
+        for (id, vessel) in self.phantom.tree.vessels().iter().enumerate() {
+            let last = vessel.points().len() - 1;
+            ends.extend([0, last].map(|i| (vessel.points()[i], vessel.radius_or_zero(i), id as i32)));
+        }
+        for p in 0..gpu.vessel.len() {
+            let (x, y) = (camera.view_x(p % width), camera.view_y(p / width));
+            let near = |id: i32| {
+                ends.iter().filter(move |end| end.2 == id).filter(|(point, radius, _)| {
+                    let place = camera.view_from_world(*point);
+                    (place.x - x).hypot(place.y - y) < *radius
+                })
+            };
+            let is_joint = near(gpu.vessel[p]).any(|a| near(cpu.vessel[p]).any(|b| a.0 == b.0));
+            if is_joint {
+                gpu.vessel[p] = cpu.vessel[p];
+            }
+        }
+        assert_same(&gpu, cpu);
+    }
+}
+
+/// Refuses frames that differ by more than rounding in the picture, the cut surface, its distance or the context.
+fn assert_same(gpu: &Frame, cpu: &Frame) {
+    assert_equal(gpu, cpu);
+    assert_eq!((gpu.value.len(), gpu.distance.len()), (cpu.value.len(), cpu.distance.len()));
+    let distances = gpu.distance.iter().zip(&cpu.distance).map(|(a, b)| (a - b).abs());
+    let farthest = distances.fold(0.0, f32::max);
+    assert!(farthest <= DISTANCE, "distances are {farthest} mm apart");
+    assert_eq!(gpu.context.len(), cpu.context.len());
+    let apart = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|c| a[c].abs_diff(b[c]) > 4);
+    let leaps = gpu.context.iter().zip(&cpu.context).filter(|pair| apart(*pair)).count();
+    assert!(leaps * 1000 <= gpu.context.len(), "{leaps} of {} pixels of context", gpu.context.len());
+}
+
+fn with_all_settings(phantom: Phantom, camera: &Camera) {
+    let Some(device) = shared() else { return };
+    let mut scene = Scene::new(device, phantom);
+    for (name, settings) in all_settings() {
+        println!("{}, {name}", scene.phantom.name);
+        scene.check(camera, &settings);
+    }
+}
+
+#[test]
+fn junctions_with_all_settings() {
+    with_all_settings(y_junction().unwrap(), &view([0.3, 1.0, 0.2], SIZE, 0.8));
+}
+
+#[test]
+fn runs_along_the_view_with_all_settings() {
+    with_all_settings(collinear_run().unwrap(), &front(SIZE, 0.9));
+}
+
+#[test]
+fn a_knot_with_all_settings() {
+    with_all_settings(trefoil().unwrap(), &front(SIZE, 0.7));
+}
+
+#[test]
+fn pictures_of_all_sizes() {
+    let Some(device) = shared() else { return };
+    let mut scene = Scene::new(device, y_junction().unwrap());
+    for ((size, spacing), direction) in [([1, 17], 1.0), ([17, 1], 1.0), ([257, 257], 0.4)]
+        .into_iter()
+        .flat_map(|size| [[0.0, 1.0, 0.0], [0.4, -1.0, 0.3]].map(|direction| (size, direction)))
+    {
+        println!("{size:?} along {direction:?}");
+        scene.check(&view(direction, size, spacing), &Settings::default());
+    }
+}
+
+#[test]
+fn pixels_of_all_sizes() {
+    let Some(device) = shared() else { return };
+    let mut scene = Scene::new(device, collinear_run().unwrap());
+    for (spacing, direction) in [0.05, 0.2, 2.0, 5.0]
+        .into_iter()
+        .flat_map(|spacing| [[0.0, 1.0, 0.0], [0.4, -1.0, 0.3]].map(|direction| (spacing, direction)))
+    {
+        println!("{spacing} mm along {direction:?}");
+        scene.check(&view(direction, SIZE, spacing), &Settings::default());
+    }
+}
+
+/// Every stage, and all others.
+fn each_stage() -> impl Iterator<Item = (&'static str, Vec<String>)> {
+    let others = |stage| STAGES.iter().filter(|name| **name != stage).map(ToString::to_string).collect();
+    STAGES.iter().map(move |stage| (*stage, others(*stage)))
+}
+
+/// Something of everything: a filter, a slab, silhouettes, and context behind what is transparent.
+fn everything() -> Settings {
+    with(|s| {
+        s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
+        s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
+    })
+}
+
+#[test]
+fn each_stage_alone() {
+    let Some(device) = shared() else { return };
+    let mut scene = Scene::new(device, y_junction().unwrap());
+    let (camera, settings) = (view([0.3, 1.0, 0.2], SIZE, 0.8), everything());
+    let cpu = scene.on_cpu(&camera, &settings);
+    for (stage, others) in each_stage() {
+        println!("{stage} alone");
+        scene.gpu.force_to_cpu(others).unwrap();
+        let gpu = scene.on_gpu(&camera, &settings);
+        scene.assert_same(gpu, &cpu);
+        println!("all but {stage}");
+        scene.gpu.force_to_cpu(vec![stage.to_owned()]).unwrap();
+        let gpu = scene.on_gpu(&camera, &settings);
+        assert!(gpu.timings.iter().any(|timing| timing.stage == stage), "{:?}", gpu.timings);
+        scene.assert_same(gpu, &cpu);
+    }
+    scene.gpu.force_to_cpu(STAGES.map(str::to_owned).to_vec()).unwrap();
+    let all_on_cpu = scene.on_gpu(&camera, &settings);
+    assert_eq!(
+        (&all_on_cpu.image, &all_on_cpu.depth),
+        (&cpu.image, &cpu.depth),
+        "nothing to compute on the GPU"
+    );
+}
+
+#[test]
+fn an_unknown_stage_is_refused_and_changes_nothing() {
+    let Some(device) = shared() else { return };
+    let mut renderer = Renderer::new(Arc::clone(device), None);
+    let error = renderer.force_to_cpu(vec!["depth".to_owned(), "dept".to_owned()]).unwrap_err();
+    assert_eq!((error.kind, error.found.as_str()), (ErrorKind::Settings, "'dept'"));
+    assert!(STAGES.iter().all(|stage| error.expected.contains(stage)), "{error}");
+    renderer.force_to_cpu(Vec::new()).unwrap();
+}
+
+#[test]
+fn a_volume_alone() {
+    let Some(device) = shared() else { return };
+    let phantom = trefoil().unwrap();
+    let volume = phantom.volume().unwrap();
+    let mut gpu = Renderer::new(Arc::clone(device), None);
+    let settings = Settings::default();
+    let cases = [
+        (front(SIZE, 0.7), settings.clone()),
+        (view([0.4, -1.0, 0.3], [1, 17], 2.0), settings.clone()),
+        (front(SIZE, 0.7), Settings { context: None, ..settings.clone() }),
+        (
+            front(SIZE, 1.1),
+            Settings { context: Some(Context { shading: true, ..Context::default() }), ..settings },
+        ),
+    ];
+    for (camera, settings) in &cases {
+        let cpu = context_alone(&volume, camera, settings, Isa::widest(), &|| false).unwrap();
+        let frame = pollster::block_on(gpu.render(&volume, camera, settings, &|| false)).unwrap();
+        assert_same(&frame, &cpu);
+    }
+    let cut = pollster::block_on(gpu.cut_surface(&cases[0].0, &cases[0].1, &|| false)).unwrap_err();
+    assert_eq!(cut.kind, ErrorKind::VesselTree);
+}
+
+#[test]
+fn the_cut_surface_alone() {
+    let Some(device) = shared() else { return };
+    let mut scene = Scene::new(device, trefoil().unwrap());
+    let (camera, settings) = (front(SIZE, 0.7), Settings::default());
+    let cpu = scene.cpu.cut_surface(&camera, &settings, &|| false).unwrap();
+    let gpu = pollster::block_on(scene.gpu.cut_surface(&camera, &settings, &|| false)).unwrap();
+    assert!(gpu.image.is_empty() && gpu.value.is_empty());
+    assert_same(&gpu, &cpu);
+}
+
+#[test]
+fn a_view_leaves_nothing_behind_for_the_next() {
+    let Some(device) = shared() else { return };
+    let mut used = Scene::new(device, y_junction().unwrap());
+    let few_levels = with(|s| (s.levels, s.depth_filter) = (2, false));
+    let views = [
+        (view([0.3, 1.0, 0.2], SIZE, 0.8), few_levels),
+        (view([-0.5, 1.0, 0.4], [70, 90], 0.6), everything()),
+        (front([96, 33], 1.3), with(|s| (s.lumen_first, s.silhouettes, s.context) = (true, false, None))),
+        (front(SIZE, 0.8), Settings::default()),
+    ];
+    for (camera, settings) in &views {
+        let mut fresh = Scene::new(device, y_junction().unwrap());
+        let (a, b) = (used.on_gpu(camera, settings), fresh.on_gpu(camera, settings));
+        assert_eq!((&a.image, &a.context, &a.vessel), (&b.image, &b.context, &b.vessel));
+        assert_eq!((&a.depth, &a.distance), (&b.depth, &b.distance));
+    }
+}
