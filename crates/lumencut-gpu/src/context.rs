@@ -148,6 +148,8 @@ impl Permutation {
 pub(crate) struct ContextStage {
     stages: Vec<(Permutation, Stage)>,
     settings: Buffer,
+    /// The settings as the shader was last told.
+    told: Vec<u8>,
     nothing: Buffer,
 }
 
@@ -165,7 +167,7 @@ impl ContextStage {
     pub fn new(device: &Device) -> Self {
         let usage = BufferUsages::STORAGE;
         let settings = device.uniform::<Context>("context settings");
-        Self { stages: Vec::new(), settings, nothing: device.buffer("nothing", 16, usage) }
+        Self { stages: Vec::new(), settings, told: Vec::new(), nothing: device.buffer("nothing", 16, usage) }
     }
 
     /// Writes what the rays of a view of `size` pixels gather, colours times opacity, and opacity. Without a cut surface
@@ -184,7 +186,11 @@ impl ContextStage {
         pixels: &Buffer,
     ) -> Result<()> {
         let device = recording.device;
-        device.write(&self.settings, &[Context::new(volume, settings, context, blocks)?]);
+        let uniform = Context::new(volume, settings, context, blocks)?;
+        if self.told != bytemuck::bytes_of(&uniform) {
+            device.write(&self.settings, &[uniform]);
+            self.told = bytemuck::bytes_of(&uniform).to_vec();
+        }
         let permutation = Permutation::of(context, on_device.is_float(), cut_surface.is_none());
         if !self.stages.iter().any(|(known, _)| *known == permutation) {
             self.stages.push((permutation, permutation.compile(device)));

@@ -1,11 +1,13 @@
 //! The stages that make the cut surface: projection, distance and depth.
 
+use std::mem::offset_of;
+
 use lumencut_core::camera::Camera;
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{MAX_LEVELS, Settings};
 use wgpu::Buffer;
 
 use crate::device::Device;
-use crate::levels::{CutSurface, DeviceLevels};
+use crate::levels::{CutSurface, DeviceLevels, LevelPlace};
 use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
@@ -28,6 +30,8 @@ pub(crate) struct CutSurfaceStages {
     /// Without and with *lumen first*.
     depth: [Stage; 2],
     cut_surface: Buffer,
+    /// Where the levels lie, as the shaders were last told.
+    told: Option<[LevelPlace; MAX_LEVELS + 1]>,
     /// The pixels of a group of threads.
     group: [usize; 2],
 }
@@ -46,13 +50,19 @@ impl CutSurfaceStages {
             distance: Stage::new(device, "stages/distance", &tile),
             depth: [depth(0.0), depth(1.0)],
             group: [across * QUAD * TILES[0], rows * TILES[1]],
+            told: None,
             cut_surface: device.uniform::<CutSurface>("cut surface"),
         }
     }
 
-    /// Tells the shaders of a view of `levels`.
-    pub fn look(&self, device: &Device, levels: &DeviceLevels, camera: &Camera, settings: &Settings) {
-        device.write(&self.cut_surface, &[levels.cut_surface(camera, settings)]);
+    /// Tells the shaders of a view of `levels`; where the levels lie only once.
+    pub fn look(&mut self, device: &Device, levels: &DeviceLevels, camera: &Camera, settings: &Settings) {
+        let cut_surface = levels.cut_surface(camera, settings);
+        let bytes = bytemuck::bytes_of(&cut_surface);
+        let is_told = self.told.as_ref() == Some(&cut_surface.levels);
+        let count = if is_told { offset_of!(CutSurface, levels) } else { bytes.len() };
+        device.write(&self.cut_surface, &bytes[..count]);
+        self.told = Some(cut_surface.levels);
     }
 
     /// Projects the levels that are needed.

@@ -18,7 +18,7 @@ use crate::view::{AXIS_UNIT, power_above, split_at};
 const MAX_HEIGHTS: usize = 8;
 
 /// `Level` of `math/levels.wgsl`.
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct LevelPlace {
     /// The first slot among those of all levels.

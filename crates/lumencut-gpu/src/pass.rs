@@ -90,7 +90,7 @@ impl<'a> Pass<'a> {
 
     fn projection(&mut self) {
         if let Some(Tree { levels, .. }) = &self.tree {
-            let stages = &self.stages.cut_surface;
+            let stages = &mut self.stages.cut_surface;
             stages.look(self.device, levels, self.camera, self.settings);
             stages.project(&mut self.recording, &self.stages.view, levels, self.settings.levels);
         }
@@ -249,7 +249,7 @@ impl<'a> Pass<'a> {
             self.recording.read(image, bytes);
         }
         let results = self.recording.finish(self.stop).await?;
-        add(&mut self.timings, results.timings);
+        self.timings.extend(results.timings);
         let mut read = results.bytes.into_iter();
         let [distance, depth, vessel, value, layer, image] =
             wanted.map(|(_, wanted)| if wanted { read.next().unwrap_or_default() } else { Vec::new() });
@@ -271,7 +271,7 @@ impl<'a> Pass<'a> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         recording.read(image, (self.images.pixels() * size_of::<T>()) as u64);
         let results = recording.finish(self.stop).await?;
-        add(&mut self.timings, results.timings);
+        self.timings.extend(results.timings);
         Ok(results.bytes.first().map_or_else(Vec::new, |bytes| numbers(bytes)))
     }
 
@@ -281,10 +281,6 @@ impl<'a> Pass<'a> {
         let milliseconds = start.elapsed().as_secs_f64() * 1e3;
         self.timings.push(Timing { stage, milliseconds });
     }
-}
-
-fn add(timings: &mut Vec<Timing>, more: Vec<Timing>) {
-    timings.extend(more);
 }
 
 /// The numbers in some bytes.

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, Result};
+use lumencut_core::math::blocks::HUGE;
 use lumencut_core::math::ray::{IndexFromView, PARALLEL};
 use lumencut_core::stages::Stop;
 use lumencut_core::volume::{Real, Volume, Voxel, Voxels};
@@ -13,10 +14,8 @@ use wgpu::{Buffer, Extent3d, Origin3d, Texture, TextureFormat, TextureView};
 
 use crate::blocks::DeviceBlocks;
 use crate::device::Device;
-use crate::view::split;
+use crate::view::{power_above, split};
 
-/// Beyond every value: what has no value, or one that sums could not hold.
-pub(crate) const HUGE: f32 = 3e38;
 /// The largest value of a float that counts.
 const LARGEST: f32 = 1e30;
 /// The most bytes that are gathered before they are sent.
@@ -88,11 +87,6 @@ impl Grid {
             up: four(to.y.as_vec3().to_array()),
         }
     }
-}
-
-/// The power of two above a number.
-fn power_above(number: f64) -> f64 {
-    2f64.powi(number.max(1e-30).log2().floor() as i32 + 1)
 }
 
 /// A vector as multiples of a unit, and the rest.

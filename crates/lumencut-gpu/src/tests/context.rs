@@ -17,7 +17,7 @@ use super::device;
 use super::scenes::{Placed, ball_and_rod, camera, finish, sheared, volume};
 use crate::context::{ContextStage, CutSurfaceImages};
 use crate::recording::Recording;
-use crate::volume::HUGE;
+use lumencut_core::math::blocks::HUGE;
 
 const WINDOW: Window = Window { level: 300.0, width: 900.0 };
 const SIZE: [usize; 3] = [41, 37, 29];

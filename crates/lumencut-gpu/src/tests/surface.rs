@@ -15,7 +15,7 @@ use super::device;
 use super::scenes::{Placed, ball_and_rod, camera, finish, sheared, volume};
 use crate::recording::Recording;
 use crate::surface::Surface;
-use crate::volume::HUGE;
+use lumencut_core::math::blocks::HUGE;
 
 /// How far values may lie apart, as a share of the difference between a volume's extremes.
 const TOLERANCE: f32 = 1e-5;
