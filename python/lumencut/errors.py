@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lumencut.volume_files.dicom import SeriesReport
+
 
 class LumencutError(Exception):
     """Base of all errors of this package.
@@ -49,6 +54,12 @@ class DeviceError(LumencutError, RuntimeError):
 
 class FormatError(LumencutError, ValueError):
     """A file whose content is not what its format promises, or a format that is not read."""
+
+
+class SeriesError(FormatError):
+    """A folder of several DICOM series of which none was chosen; `series` describes them."""
+
+    series: tuple[SeriesReport, ...] = ()
 
 
 class FileError(LumencutError, OSError):

@@ -38,6 +38,8 @@ class Volume:
         For arrays that are not 3-dimensional numbers, or a grid that is not finite and invertible.
     """
 
+    _filled_slices: tuple[int, ...] = ()
+
     def __init__(
         self,
         array: npt.ArrayLike,
@@ -86,6 +88,11 @@ class Volume:
     def direction(self) -> npt.NDArray[np.float64]:
         """Columns are the unit vectors of i, j, k in world space, shape (3, 3)."""
         return np.asarray(self._world_from_index[:3, :3] / self.spacing, dtype=np.float64)
+
+    @property
+    def filled_slices(self) -> tuple[int, ...]:
+        """The indices k of slices that the file lacked and its reader interpolated, as it was asked to."""
+        return self._filled_slices
 
     @property
     def corners(self) -> npt.NDArray[np.float64]:

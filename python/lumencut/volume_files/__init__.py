@@ -14,19 +14,18 @@ import numpy.typing as npt
 from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError
 from lumencut.volume import Volume
-from lumencut.volume_files.dicom import open_dicom
-from lumencut.volume_files.dicom_headers import is_dicom
+from lumencut.volume_files.dicom import SeriesReport, is_dicom, is_zip, list_dicom_series, open_dicom
 from lumencut.volume_files.memory import as_volume
 from lumencut.volume_files.metaimage import open_metaimage
 from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
 from lumencut.volume_files.nrrd import open_nrrd
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
 
-__all__ = ["VolumeReport", "as_volume", "inspect_volume", "read_volume"]
+__all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
 
 _log = logging.getLogger("lumencut")
 _KNOWN = (
-    "a DICOM folder or file, NIfTI (.nii, .nii.gz, .hdr + .img), "
+    "a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), "
     "NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)"
 )
 
@@ -53,6 +52,8 @@ class VolumeReport:
         Affine from index (i, j, k) to world (mm, LPS).
     value_range : tuple of 2 float, or None
         Smallest and largest finite value; None if there is none or the values were not asked for.
+    filled_slices : tuple of int
+        The indices k of slices that are missing and were interpolated.
     notes : tuple of str
         Whatever is odd or was assumed.
     """
@@ -65,20 +66,29 @@ class VolumeReport:
     space: str
     world_from_index: npt.NDArray[np.float64]
     value_range: tuple[float, float] | None
+    filled_slices: tuple[int, ...]
     notes: tuple[str, ...]
 
 
 def read_volume(
-    path: str | os.PathLike[str], *, series: str | int | None = None, progress: Progress | None = None
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    fill_gaps: bool = False,
+    progress: Progress | None = None,
 ) -> Volume:
     """Read a volume; nothing is resampled, shear and flips are kept.
 
     Parameters
     ----------
     path : str or path
-        A DICOM folder or file, NIfTI, NRRD or MetaImage file.
+        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
     series : str or int, optional
-        Number or UID of the DICOM series to read where a folder holds several.
+        Number or UID of the DICOM series to read where a folder holds several. By default the only one
+        that can be an angiography volume.
+    fill_gaps : bool, default False
+        Interpolate missing DICOM slices linearly between their neighbours instead of refusing the series;
+        `Volume.filled_slices` tells which.
     progress : callable, optional
         Called with (slices read, slices in all).
 
@@ -89,12 +99,14 @@ def read_volume(
 
     Raises
     ------
+    SeriesError
+        A FormatError for several DICOM series of which none is chosen; its `series` describes them.
     FormatError
         For an unknown format, damaged files and whatever cannot be one regular volume.
     FileError
         For a file that is missing or cannot be read.
     """
-    file = _open(path, None if series is None else str(series))
+    file = _open(path, series, fill_gaps=fill_gaps)
     told = progress if progress is not None else _untold
     volume = file.volume(told)
     if file.format != "DICOM":
@@ -108,6 +120,7 @@ def inspect_volume(
     path: str | os.PathLike[str],
     *,
     series: str | int | None = None,
+    fill_gaps: bool = False,
     values: bool = True,
     progress: Progress | None = None,
 ) -> VolumeReport:
@@ -116,9 +129,11 @@ def inspect_volume(
     Parameters
     ----------
     path : str or path
-        A DICOM folder or file, NIfTI, NRRD or MetaImage file.
+        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
     series : str or int, optional
         Number or UID of the DICOM series where a folder holds several.
+    fill_gaps : bool, default False
+        As for `read_volume`.
     values : bool, default True
         Read the voxels too, for their range and soundness; False reads headers only.
     progress : callable, optional
@@ -129,7 +144,7 @@ def inspect_volume(
     VolumeReport
         Format, grid, values and oddities.
     """
-    file = _open(path, None if series is None else str(series))
+    file = _open(path, series, fill_gaps=fill_gaps)
     dtype, value_range = file.dtype.newbyteorder("="), None
     if values:
         array = file.volume(progress if progress is not None else _untold).array
@@ -144,8 +159,22 @@ def inspect_volume(
         space=file.space,
         world_from_index=file.world_from_index,
         value_range=value_range,
+        filled_slices=file.filled,
         notes=tuple(file.notes),
     )
+
+
+def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
+    """Describe all DICOM series below a folder, in a zip archive, or of a single file.
+
+    Raises
+    ------
+    FormatError
+        Where no image is found, or a file is damaged.
+    FileError
+        For a path that is missing or cannot be read.
+    """
+    return list_dicom_series(_existing(path))
 
 
 def _untold(done: int, total: int) -> None:
@@ -164,20 +193,26 @@ def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, flo
     return (low, high) if low <= high else None
 
 
-def _open(given: str | os.PathLike[str], series: str | None) -> VolumeFile:
-    """Find the room by what the file holds, by its name only where the content does not tell."""
+def _existing(given: str | os.PathLike[str]) -> Path:
     path = checked_path(given, _KNOWN)
     if not path.exists():
         raise FileError(str(path), "no such file or folder", _KNOWN)
+    return path
+
+
+def _open(given: str | os.PathLike[str], series: str | int | None, *, fill_gaps: bool) -> VolumeFile:
+    """Find the room by what the file holds, by its name only where the content does not tell."""
+    path = _existing(given)
+    wanted = None if series is None else str(series)
     notes: list[str] = []
     with refusing(path, "volume", notes):
         if path.is_dir():
-            return open_dicom(path, series).checked()
+            return open_dicom(path, wanted, fill_gaps=fill_gaps).checked()
         head = head_bytes(path, 352)
         if head.startswith(b"NRRD"):
             file = open_nrrd(path)
-        elif is_dicom(head):
-            file = open_dicom(path, series)
+        elif is_dicom(head) or is_zip(head):
+            file = open_dicom(path, wanted, fill_gaps=fill_gaps)
         elif _is_metaimage(path, head):
             file = open_metaimage(path)
         elif nifti_kind(head) is not None or _has_nifti_name(path):

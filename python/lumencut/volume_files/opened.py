@@ -32,12 +32,15 @@ class VolumeFile:
     world_from_index: npt.NDArray[np.float64]
     load: Callable[[Progress], npt.NDArray[Any]]
     notes: list[str] = field(default_factory=list)
+    filled: tuple[int, ...] = ()
 
     def volume(self, progress: Progress) -> Volume:
         """Read the voxels."""
         with refusing(self.path, self.format, self.notes):
             voxels = self.load(progress)
-        return _placed(self, voxels)
+        volume = _placed(self, voxels)
+        volume._filled_slices = self.filled
+        return volume
 
     def checked(self) -> VolumeFile:
         """Refuse a grid that no volume can have before any voxel is read."""
@@ -55,7 +58,7 @@ def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:
 
 
 @contextmanager
-def refusing(path: Path, kind: str, notes: list[str]) -> Iterator[None]:
+def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
     """Turn whatever a foreign reader raises into an error that names the file, and its warnings into notes.
 
     Damaged files make the readers below raise nearly every built-in exception; none of them names the file.
@@ -69,8 +72,8 @@ def refusing(path: Path, kind: str, notes: list[str]) -> Iterator[None]:
     except Exception as error:
         if isinstance(error, OSError) and error.errno is not None:
             found = error.strerror or type(error).__name__
-            raise FileError(str(error.filename or path), found, "a readable file") from error
-        raise FormatError(str(path), _brief(error), f"a sound {kind} file") from error
+            raise FileError(str(error.filename or subject), found, "a readable file") from error
+        raise FormatError(str(subject), _brief(error), f"a sound {kind} file") from error
     for warning in caught:
         if (text := _brief(warning.message)) not in notes:
             notes.append(text)

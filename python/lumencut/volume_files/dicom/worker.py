@@ -1,15 +1,15 @@
-"""The decoder's own process: reads paths line by line, answers with a line of JSON and the pixels."""
+"""The decoder's own process: reads requests, answers each with a line of JSON and the pixels."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
-from pathlib import Path
 
 import numpy as np
 
-from lumencut.volume_files.dicom_pixels import decoded
+from lumencut.errors import FormatError
+from lumencut.volume_files.dicom.decoding import decode_frame
 
 _MEMORY = 4 << 30
 """Far above what one slice needs, far below what a damaged one may ask for."""
@@ -32,12 +32,15 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     for line in sys.stdin.buffer:
+        request = json.loads(line)
+        frame = sys.stdin.buffer.read(request["length"])
         try:
-            pixels = np.ascontiguousarray(decoded(Path(json.loads(line)), "gdcm"))
+            pixels = np.ascontiguousarray(decode_frame("", request["syntax"], frame, request["options"]))
             data = pixels.tobytes()
             head: dict[str, object] = {"shape": pixels.shape, "dtype": pixels.dtype.str, "length": len(data)}
         except Exception as error:
-            data, head = b"", {"error": " ".join(str(error).split())[:200] or type(error).__name__}
+            text = error.found if isinstance(error, FormatError) else str(error)
+            data, head = b"", {"error": " ".join(text.split())[:200] or type(error).__name__}
         answers.write(json.dumps(head).encode() + b"\n" + data)
         answers.flush()
 

@@ -1,0 +1,71 @@
+"""DICOM: one series of grey images, in a folder, a zip archive or a single file, becomes one volume.
+
+Pixels are decoded by pydicom and its plugins; geometry and rescaling are ours.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.volume_files.dicom.geometry import Stack, stacked
+from lumencut.volume_files.dicom.headers import Header, is_dicom
+from lumencut.volume_files.dicom.series import SeriesReport, chosen, grouped, read_images
+from lumencut.volume_files.dicom.slices import listed
+from lumencut.volume_files.dicom.sources import is_zip
+from lumencut.volume_files.dicom.values import load
+from lumencut.volume_files.opened import Progress, VolumeFile, refusing
+from lumencut.volume_files.rescale import is_integral
+
+__all__ = ["SeriesReport", "is_dicom", "is_zip", "list_dicom_series", "open_dicom"]
+
+
+def open_dicom(path: Path, series: str | None = None, *, fill_gaps: bool = False) -> VolumeFile:
+    """Read the headers of a DICOM series."""
+    notes: list[str] = []
+    with refusing(path, "DICOM", notes):
+        one = chosen(path, grouped(read_images(path, notes)), series, notes)
+        stack = stacked(str(path), one.slices(str(path), notes), notes, fill_gaps=fill_gaps)
+        _note_oddities(stack, notes)
+        stored = _stored_type(stack.slices[0].image.header)
+
+    def voxels(progress: Progress) -> npt.NDArray[Any]:
+        return load(stack, notes, progress)
+
+    return VolumeFile(
+        path, "DICOM", stack.size, stored, "LPS (as every DICOM)", stack.world_from_index, voxels, notes,
+        filled=stack.missing,
+    )  # fmt: skip
+
+
+def list_dicom_series(path: Path) -> list[SeriesReport]:
+    """Describe all series below a folder, in a zip archive, or of a single file."""
+    with refusing(path, "DICOM", []):
+        return [one.report() for one in grouped(read_images(path, []))]
+
+
+def _stored_type(header: Header) -> np.dtype[Any]:
+    sign = "i" if header.get("PixelRepresentation") else "u"
+    return np.dtype(f"{sign}{int(header.BitsAllocated) // 8}")
+
+
+def _note_oddities(stack: Stack, notes: list[str]) -> None:
+    headers = {id(s.image): s.image.header for s in stack.slices}.values()
+    scalings = {s.scaling for s in stack.slices}
+    if stack.missing:
+        names = listed([str(k) for k in stack.missing])
+        notes.append(f"{len(stack.missing)} missing slices were interpolated: k = {names}")
+    if len(scalings) > 1:
+        notes.append(f"{len(scalings)} different rescale slopes and intercepts: applied slice by slice")
+    if not all(is_integral(*scaling) for scaling in scalings):
+        notes.append("rescaling makes fractions: read as float32")
+    if any(str(header.get("LossyImageCompression", "")) == "01" for header in headers):
+        notes.append("the images were compressed with loss")
+    if any(header.PhotometricInterpretation == "MONOCHROME1" for header in headers):
+        notes.append("MONOCHROME1 (meant to be shown inverted): values are read as they are")
+    padding = sorted({str(header.PixelPaddingValue) for header in headers if "PixelPaddingValue" in header})
+    if padding:
+        notes.append(f"stored value {', '.join(padding)} marks pixels outside the scan: read as they are")

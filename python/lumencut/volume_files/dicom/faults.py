@@ -1,0 +1,106 @@
+"""What keeps slices from being one stack, named with the slices it concerns.
+
+Slices closer than 0.01 mm are at one place.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import FormatError
+from lumencut.volume_files.dicom.slices import Slice, listed
+
+_ONE_PLACE = 0.01
+#: What may tell phases apart, the surest first.
+_PHASE_KEYWORDS = (
+    "TemporalPositionIdentifier",
+    "TemporalPositionIndex",
+    "NominalPercentageOfCardiacPhase",
+    "NominalCardiacTriggerDelayTime",
+    "TriggerTime",
+    "EchoNumbers",
+    "EchoTime",
+    "EffectiveEchoTime",
+    "StackID",
+    "AcquisitionNumber",
+    "FrameAcquisitionNumber",
+    "ImageType",
+    "FrameType",
+    "AcquisitionTime",
+    "FrameAcquisitionDateTime",
+    "ContentTime",
+)
+#: Those of them that belong to a whole phase and never alternate from slice to slice within one. A
+#: two-dimensional MR acquisition may take the odd slices first: its acquisition number does not count.
+_WHOLE_PHASE = ("TemporalPositionIdentifier", "TemporalPositionIndex", "NominalPercentageOfCardiacPhase")
+
+
+def refuse_duplicates(subject: str, ordered: Sequence[Slice], gaps: npt.NDArray[np.float64]) -> None:
+    """Refuse several slices at one place: phases if anything tells them apart, copies otherwise."""
+    doubles = np.flatnonzero(gaps < _ONE_PLACE).tolist()
+    if not doubles:
+        return
+    pairs = [(ordered[n], ordered[n + 1]) for n in doubles]
+    places = len(gaps) + 1 - len(doubles)
+    named = listed([f"{first.name} and {second.name}" for first, second in pairs])
+    found = f"{len(ordered)} slices at {places} places: {named}"
+    if phases := _phases(ordered, pairs):
+        mend = "give a folder or series with one of the phases"
+        raise FormatError(subject, f"{found}; {phases}", "one slice per place", mend)
+    if all(_uid(first) == _uid(second) and first.frame == second.frame for first, second in pairs):
+        found += ", copies of one image each"
+    raise FormatError(subject, found, "one slice per place", "remove all but one slice at each place")
+
+
+def _uid(one: Slice) -> object:
+    return one.image.header.get("SOPInstanceUID")
+
+
+def _phases(ordered: Sequence[Slice], pairs: Sequence[tuple[Slice, Slice]]) -> str:
+    """Which attribute tells slices at one place apart, and how many slices have which value of it."""
+    for keyword in _PHASE_KEYWORDS:
+        if all(str(first.get(keyword)) != str(second.get(keyword)) for first, second in pairs):
+            return f"{keyword} differs ({_counted(ordered, keyword)}): mixed phases"
+    return ""
+
+
+def _counted(ordered: Sequence[Slice], keyword: str) -> str:
+    counts = Counter(str(s.get(keyword)) for s in ordered)
+    return listed([f"{value} in {count} slices" for value, count in sorted(counts.items())])
+
+
+def refuse_interleaved(subject: str, ordered: Sequence[Slice]) -> None:
+    """Refuse phases whose slices lie between each other's at places of their own."""
+    for keyword in _WHOLE_PHASE:
+        values = [str(s.get(keyword)) for s in ordered]
+        changes = sum(a != b for a, b in itertools.pairwise(values))
+        if changes >= len(set(values)) > 1:
+            found = f"slices that alternate between phases: {keyword} is {_counted(ordered, keyword)}"
+            mend = "give a folder or series with one of the phases"
+            raise FormatError(subject, found, "one phase", mend)
+
+
+def refuse_gaps(
+    subject: str, ordered: Sequence[Slice], gaps: npt.NDArray[np.float64], steps: npt.NDArray[np.int64]
+) -> None:
+    """Refuse a stack with holes; `steps` are the gaps in usual distances, 1 where there is no hole."""
+    holes = np.flatnonzero(steps > 1).tolist()
+    if not holes:
+        return
+    places = [
+        f"{steps[hole] - 1} between {ordered[hole].name} and {ordered[hole + 1].name} "
+        f"({gaps[hole]:.4g} mm apart at {_point(ordered[hole])})"
+        for hole in holes
+    ]
+    found = f"{int((steps[holes] - 1).sum())} missing slices: {listed(places)}"
+    mend = "add the missing files, or have them interpolated with fill_gaps=True"
+    raise FormatError(subject, found, f"slices every {np.median(gaps):.4g} mm", mend)
+
+
+def _point(one: Slice) -> str:
+    return "(" + ", ".join(f"{number:g}" for number in one.position) + ")"

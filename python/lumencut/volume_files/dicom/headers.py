@@ -1,0 +1,136 @@
+"""The header of one DICOM file: the attributes that geometry, values and the choice of a series need."""
+
+from __future__ import annotations
+
+import io
+import struct
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from lumencut.volume_files.dicom.sources import Source, refuse_deflate_bomb
+from lumencut.volume_files.opened import refusing
+
+Header = Any
+"""A pydicom Dataset that holds the attributes below, without pixels."""
+
+# fmt: off
+_KEYWORDS = (
+    "SpecificCharacterSet", "SOPClassUID", "SOPInstanceUID", "ImageType", "Modality",
+    "SeriesDescription", "SeriesInstanceUID", "SeriesNumber", "Rows", "Columns", "NumberOfFrames",
+    "SamplesPerPixel", "PlanarConfiguration", "PhotometricInterpretation", "BitsAllocated", "BitsStored",
+    "PixelRepresentation", "PixelPaddingValue", "RescaleSlope", "RescaleIntercept", "ModalityLUTSequence",
+    "LossyImageCompression", "PixelSpacing", "ImagePositionPatient", "ImageOrientationPatient",
+    "SliceThickness", "SpacingBetweenSlices", "GantryDetectorTilt", "SharedFunctionalGroupsSequence",
+    "PerFrameFunctionalGroupsSequence", "AcquisitionNumber", "AcquisitionTime", "ContentTime",
+    "TriggerTime", "NominalPercentageOfCardiacPhase", "TemporalPositionIdentifier", "EchoNumbers",
+    "EchoTime", "ExtendedOffsetTable", "ExtendedOffsetTableLengths",
+)
+# fmt: on
+_HEAD = 1 << 17
+"""Bytes that hold the header of nearly every single-frame image: parsing memory is fast and bounded."""
+_DEFLATED = "1.2.840.10008.1.2.1.99"
+_PIXELS = {
+    (0x7FE0, 0x0010): "PixelData",
+    (0x7FE0, 0x0008): "FloatPixelData",
+    (0x7FE0, 0x0009): "DoubleFloatPixelData",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Image:
+    """One DICOM instance with rows and columns.
+
+    `pixels_at` is the byte at which the value of the element of pixels begins, None where the dataset is
+    deflated; `pixel_keyword` and `pixel_vr` name that element, empty where there is none.
+    """
+
+    source: Source
+    header: Header
+    pixels_at: int | None
+    pixel_keyword: str
+    pixel_vr: str
+
+    @property
+    def frame_count(self) -> int:
+        """How many frames it states."""
+        return int(self.header.get("NumberOfFrames") or 1)
+
+    @property
+    def transfer_syntax(self) -> Any:
+        """How the pixels are written."""
+        return transfer_syntax(self.header)
+
+
+def is_dicom(head: bytes) -> bool:
+    """Tell DICOM by the first bytes (at least 132) of a file: the preamble, or a bare identifying group."""
+    return head[128:132] == b"DICM" or (head[:2] in (b"\x08\x00", b"\x02\x00") and head[3:4] == b"\x00")
+
+
+def transfer_syntax(header: Header) -> Any:
+    """Name how the pixels are written; files without that information are plain little-endian."""
+    from pydicom.uid import ExplicitVRLittleEndian, ImplicitVRLittleEndian
+
+    stated = header.file_meta.get("TransferSyntaxUID")
+    return stated or (ImplicitVRLittleEndian if header.original_encoding[0] else ExplicitVRLittleEndian)
+
+
+def read_header(source: Source, notes: list[str]) -> Image | None:
+    """Read the attributes of one file, None if it is no DICOM."""
+    with refusing(source, "DICOM", notes):
+        head = source.head(_HEAD)
+        if not is_dicom(head):
+            return None
+        found = _within(source, head) or _whole(source)
+        for tag in tuple(found.header.keys()):
+            # Damaged values are to show here, where the file is known.
+            found.header[tag]
+        return found
+
+
+def _within(source: Source, head: bytes) -> Image | None:
+    """The header if it ends within these bytes, where the element of pixels must begin."""
+    stream = io.BytesIO(head)
+    try:
+        header = _parsed(stream)
+    except Exception:  # cut off somewhere, or damaged: the whole file will tell
+        return None
+    if transfer_syntax(header) == _DEFLATED:
+        return None
+    image = _with_pixels(source, header, head[stream.tell() : stream.tell() + 12], stream.tell())
+    return image if image.pixel_keyword else None
+
+
+def _whole(source: Source) -> Image:
+    with source.open() as stream:
+        if _DEFLATED.encode() in stream.read(1024):
+            stream.seek(0)
+            refuse_deflate_bomb(source, stream)
+        stream.seek(0)
+        header = _parsed(stream)
+        if transfer_syntax(header) == _DEFLATED:
+            return Image(source, header, None, "PixelData", "OW")
+        start = stream.tell()
+        return _with_pixels(source, header, stream.read(12), start)
+
+
+def _parsed(stream: Any) -> Header:
+    import pydicom
+
+    return pydicom.dcmread(stream, stop_before_pixels=True, force=True, specific_tags=_tags())
+
+
+@cache
+def _tags() -> list[int]:
+    from pydicom.datadict import tag_for_keyword
+
+    return [tag for keyword in _KEYWORDS if (tag := tag_for_keyword(keyword)) is not None]
+
+
+def _with_pixels(source: Source, header: Header, element: bytes, start: int) -> Image:
+    """Look at the element (at byte `start`) before which the parser stopped."""
+    implicit, little = header.original_encoding
+    tag = struct.unpack("<HH" if little else ">HH", element[:4].ljust(4, b"\0"))
+    keyword = _PIXELS.get(tag, "")
+    vr = "OW" if implicit else element[4:6].decode("latin-1")
+    return Image(source, header, start + (8 if implicit else 12), keyword, vr)

@@ -1,0 +1,173 @@
+"""The stored pixels of the slices of a stack, in their order.
+
+Uncompressed pixels are read here. Compressed ones are decoded by processes of their own, or here where they
+are few and their decoder takes damage as an ordinary error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Any, BinaryIO
+
+import numpy.typing as npt
+
+from lumencut.errors import FormatError
+from lumencut.volume_files.dicom.decoding import PLUGINS, decode_frame, decode_native
+from lumencut.volume_files.dicom.headers import Image
+from lumencut.volume_files.dicom.slices import Slice
+from lumencut.volume_files.dicom.workers import Request, Workers
+from lumencut.volume_files.opened import refusing
+
+_COMPRESSION_LIMIT = 10_000
+"""No codec makes a real slice this much smaller; a header that claims more lies."""
+_FEW = 40
+"""So many frames are decoded here about as fast as the first process starts."""
+
+
+class PixelReader:
+    """Reads the pixels of slices one after the other; a context that ends what was started for it."""
+
+    def __init__(self, slices: Sequence[Slice], notes: list[str]) -> None:
+        self._slices, self._notes = iter(slices), notes
+        self._last: _OpenImage | None = None
+        self._workers: Workers | None = None
+        packed = [one for one in slices if one.image.transfer_syntax.is_encapsulated]
+        if len(packed) > _FEW or any(_plugin(one.image) == "gdcm" for one in packed):
+            self._workers = Workers(map(self._request, packed), len(packed) // 8 + 1)
+
+    def __enter__(self) -> PixelReader:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._workers is not None:
+            self._workers.close()
+        if self._last is not None:
+            self._last.stream.close()
+
+    def next(self) -> npt.NDArray[Any]:
+        """Give the pixels [j, i] of the next slice."""
+        one = next(self._slices)
+        if not one.image.transfer_syntax.is_encapsulated:
+            pixels = self._opened(one.image).native(one.frame)
+        elif self._workers is not None:
+            pixels = self._workers.next()
+        else:
+            request = self._request(one)
+            pixels = decode_frame(request.subject, request.syntax, request.frame, request.options)
+        shape = int(one.image.header.Rows), int(one.image.header.Columns)
+        if pixels.shape != shape or pixels.dtype.kind not in "iuf":
+            shown = f"pixels of shape {pixels.shape} and type {pixels.dtype}"
+            raise FormatError(str(one.image.source), shown, f"{shape[0]} rows of {shape[1]} numbers")
+        return pixels
+
+    def _request(self, one: Slice) -> Request:
+        image, subject = one.image, str(one.image.source)
+        with refusing(image.source, "DICOM", self._notes):
+            _plugin(image)
+            claimed = _frame_bytes(image)
+            frame = self._opened(image).compressed(one.frame)
+            if claimed > len(frame) * _COMPRESSION_LIMIT:
+                raise _too_short(image, len(frame))
+            return Request(subject, str(image.transfer_syntax), frame, _options(image), 4 * claimed)
+
+    def _opened(self, image: Image) -> _OpenImage:
+        """The file of an image, kept open while slices of it are read."""
+        if self._last is None or self._last.image is not image:
+            if self._last is not None:
+                self._last.stream.close()
+            self._last = _OpenImage(image)
+        return self._last
+
+
+class _OpenImage:
+    """The open file of an image, at the first of its pixels."""
+
+    def __init__(self, image: Image) -> None:
+        if not image.pixel_keyword:
+            raise FormatError(str(image.source), "no pixels", "an image with pixels", "copy the file again")
+        self.image = image
+        self.stream: BinaryIO = image.source.open()
+        self._compressed: list[bytes] | None = None
+        self._inflated: bytes | None = None
+        if image.pixels_at is None:
+            self._inflated = _inflated_pixels(self.stream)
+        else:
+            self.stream.seek(image.pixels_at)
+
+    def native(self, frame: int) -> npt.NDArray[Any]:
+        image, needed = self.image, _frame_bytes(self.image) * self.image.frame_count
+        held = len(self._inflated) if self._inflated is not None else image.source.size - self.stream.tell()
+        if held < needed:
+            raise _too_short(image, held)
+        pixels = self._inflated if self._inflated is not None else self.stream
+        return decode_native(str(image.transfer_syntax), pixels, frame, _options(image))
+
+    def compressed(self, frame: int) -> bytes:
+        from pydicom.encaps import generate_frames
+
+        if self._compressed is None:
+            header, count = self.image.header, self.image.frame_count
+            offsets = header.get("ExtendedOffsetTable"), header.get("ExtendedOffsetTableLengths")
+            frames = generate_frames(
+                self.stream,
+                number_of_frames=count,
+                extended_offsets=offsets if all(offsets) else None,
+            )
+            self._compressed = list(frames)
+        if frame >= len(self._compressed):
+            found = f"{len(self._compressed)} frames"
+            expected = f"{self.image.frame_count} frames as the header says"
+            raise FormatError(str(self.image.source), found, expected, "copy the file again")
+        return self._compressed[frame]
+
+
+def _inflated_pixels(stream: BinaryIO) -> bytes:
+    """The pixels of a deflated dataset, whose size was checked with its header."""
+    import pydicom
+
+    data: bytes = pydicom.dcmread(stream, force=True, specific_tags=["PixelData"]).PixelData
+    return data
+
+
+def _plugin(image: Image) -> str:
+    """What decodes an image, or a refusal by the name of its transfer syntax."""
+    syntax = image.transfer_syntax
+    if syntax not in PLUGINS:
+        expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels"
+        mend = "convert it to one of these, lossless where it can be"
+        raise FormatError(str(image.source), f"pixels in {syntax.name}", expected, mend)
+    return PLUGINS[syntax]
+
+
+def _options(image: Image) -> dict[str, Any]:
+    """What the decoder has to know, in types that JSON has."""
+    header = image.header
+    options = {
+        "rows": int(header.Rows),
+        "columns": int(header.Columns),
+        "samples_per_pixel": 1,
+        "photometric_interpretation": str(header.PhotometricInterpretation),
+        "bits_allocated": int(header.BitsAllocated),
+        "number_of_frames": image.frame_count,
+        "pixel_keyword": image.pixel_keyword,
+        "pixel_vr": image.pixel_vr,
+    }
+    if image.pixel_keyword == "PixelData":
+        options["bits_stored"] = int(header.BitsStored)
+        options["pixel_representation"] = int(header.get("PixelRepresentation") or 0)
+    return options
+
+
+def _frame_bytes(image: Image) -> int:
+    header = image.header
+    return int(header.Rows) * int(header.Columns) * int(header.BitsAllocated) // 8
+
+
+def _too_short(image: Image, held: int) -> FormatError:
+    header = image.header
+    frames = f"{image.frame_count} × " if image.frame_count > 1 else ""
+    expected = f"{frames}{header.Columns} × {header.Rows} pixels as the header says"
+    return FormatError(str(image.source), f"{held} bytes of pixels", expected, "copy the file again")

@@ -1,0 +1,205 @@
+"""The series of a folder, archive or file: listed with what they are, and the one that is read."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from lumencut.errors import FormatError, SeriesError
+from lumencut.volume_files.dicom.geometry import stacked
+from lumencut.volume_files.dicom.headers import Header, Image, read_header
+from lumencut.volume_files.dicom.slices import Slice, is_localizer, listed, missing_positions, slices_of
+from lumencut.volume_files.dicom.sources import sources
+
+_MODALITIES = ("CT", "MR", "XA")
+"""Of which a stack can be an angiography volume."""
+_FEWEST_SLICES = 3
+
+
+@dataclass(frozen=True)
+class SeriesReport:
+    """One DICOM series of a folder.
+
+    Attributes
+    ----------
+    number, uid, description, modality : str
+        As the series states them; empty where it does not.
+    images : int
+        How many images (frames) it has.
+    size : tuple of 3 int, or None
+        Number of voxels along i, j, k; None where its images form no stack.
+    spacing : tuple of 3 float, or None
+        Distance between neighbouring voxels along i, j, k (mm).
+    can_be_volume : bool
+        Whether it may be an angiography volume: a stack of grey CT, MR or 3D XA slices.
+    trouble : str
+        Why its images form no volume, or no such volume; empty otherwise.
+    """
+
+    number: str
+    uid: str
+    description: str
+    modality: str
+    images: int
+    size: tuple[int, int, int] | None
+    spacing: tuple[float, float, float] | None
+    can_be_volume: bool
+    trouble: str
+
+    def __str__(self) -> str:
+        parts = [self.description or "no description", self.modality or "no modality"]
+        if self.size and self.spacing:
+            parts.append(" × ".join(map(str, self.size)))
+            parts.append(" × ".join(f"{step:.4g}" for step in self.spacing) + " mm")
+        else:
+            parts.append(f"{self.images} image{'s' if self.images > 1 else ''}")
+        parts.append(f"UID {self.uid or 'not stated'}")
+        tail = f": {self.trouble}" if self.trouble else ""
+        return f"number {self.number or 'not stated'} ({', '.join(parts)}{tail})"
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """The images of one series."""
+
+    uid: str
+    images: Sequence[Image]
+
+    @property
+    def number(self) -> str:
+        """Its number, empty where it is not stated."""
+        return _text(self.images[0].header, "SeriesNumber")
+
+    def slices(self, subject: str, notes: list[str]) -> list[Slice]:
+        """All slices of the series; localisers among them are left out where others are there."""
+        images = self.images
+        scouts = [image for image in images if image.frame_count == 1 and is_localizer(image, 0)]
+        if scouts and len(scouts) < len(images):
+            images = [image for image in images if image not in scouts]
+            notes.append(f"left out, localisers: {listed([image.source.name for image in scouts])}")
+        if missing := missing_positions(images):
+            total = sum(image.frame_count for image in images)
+            found = f"no ImagePositionPatient in {len(missing)} of {total} images: {listed(missing)}"
+            raise FormatError(subject, found, "a position for each slice", "leave those images out")
+        return [one for image in images for one in slices_of(image)]
+
+    def report(self) -> SeriesReport:
+        """Describe the series, and tell whether it may be an angiography volume."""
+        header = self.images[0].header
+        count = sum(image.frame_count for image in self.images)
+        size = spacing = None
+        trouble = odd = _why_no_angiography(self, count)
+        try:
+            # A stack with holes is a volume that one slice is missing from: it is to be named, not passed by.
+            stack = stacked("", self.slices("", []), [], fill_gaps=True)
+            size = stack.size
+            steps = np.linalg.norm(stack.world_from_index[:3, :3], axis=0)
+            spacing = (float(steps[0]), float(steps[1]), float(steps[2]))
+            if not odd and stack.missing:
+                trouble = f"{len(stack.missing)} missing slices"
+        except (FormatError, ValueError, TypeError) as error:
+            trouble = odd or (error.found if isinstance(error, FormatError) else "damaged attributes")
+        return SeriesReport(
+            number=self.number,
+            uid=self.uid,
+            description=_text(header, "SeriesDescription"),
+            modality=_text(header, "Modality"),
+            images=count,
+            size=size,
+            spacing=spacing,
+            can_be_volume=not odd,
+            trouble=trouble,
+        )
+
+
+def _text(header: Header, keyword: str) -> str:
+    """An attribute as one printable line."""
+    value = header.get(keyword)
+    shown = "" if value is None else " ".join(str(value).split())
+    return "".join(letter for letter in shown if letter.isprintable())[:64]
+
+
+def _why_no_angiography(series: Series, count: int) -> str:
+    """Why a series is surely none; empty if it may be one, even one that cannot be read as it is."""
+    header = series.images[0].header
+    if _text(header, "Modality") not in _MODALITIES:
+        return f"modality {_text(header, 'Modality') or 'not stated'}"
+    if "Secondary Capture" in kind(header) or int(header.get("SamplesPerPixel") or 1) != 1:
+        return "screenshots"
+    if all(is_localizer(image, 0) for image in series.images):
+        return "a localiser"
+    if count < _FEWEST_SLICES:
+        return f"fewer than {_FEWEST_SLICES} images"
+    if len(missing_positions(series.images)) == count:
+        return "no positions"
+    return ""
+
+
+def read_images(path: Path, notes: list[str]) -> list[Image]:
+    """Read the headers of all images below a folder, in a zip archive, or of a single file."""
+    found = sources(path)
+    images: list[Image] = []
+    foreign: list[str] = []
+    for source in found:
+        image = read_header(source, notes)
+        if image is not None and image.header.get("Rows") and image.header.get("Columns"):
+            images.append(image)
+        elif image is not None and kind(image.header).endswith("Image Storage"):
+            raise FormatError(
+                str(source), "an image without rows and columns", "a whole file", "copy the file again"
+            )
+        else:
+            what = kind(image.header) if image is not None else "no DICOM"
+            foreign.append(f"{source.name} ({what})")
+    if not images:
+        held = f"no image: {listed(foreign)}" if found else "nothing in it"
+        raise FormatError(str(path), held, "DICOM images")
+    if foreign:
+        notes.append(f"left out, no images: {listed(foreign)}")
+    return images
+
+
+def kind(header: Header) -> str:
+    """The name of what the instance is, such as ``CT Image Storage``."""
+    uid = header.get("SOPClassUID") or header.file_meta.get("MediaStorageSOPClassUID")
+    return str(getattr(uid, "name", None) or "DICOM of no stated kind")
+
+
+def grouped(images: Iterable[Image]) -> list[Series]:
+    """Put images of one series together, in the order in which the series appear."""
+    groups: dict[str, list[Image]] = defaultdict(list)
+    for image in images:
+        groups[_text(image.header, "SeriesInstanceUID")].append(image)
+    return [Series(uid, group) for uid, group in groups.items()]
+
+
+def chosen(path: Path, every: Sequence[Series], wanted: str | None, notes: list[str]) -> Series:
+    """The series that is asked for, the only one, or the only one that can be an angiography volume."""
+    if wanted is not None:
+        meant = [one for one in every if wanted in (one.uid, one.number)]
+        if len(meant) != 1:
+            raise _not_one(path, meant or every, f"one series with the number or UID {wanted!r}")
+        return meant[0]
+    if len(every) == 1:
+        return every[0]
+    reports = [one.report() for one in every]
+    candidates = [n for n, report in enumerate(reports) if report.can_be_volume]
+    if len(candidates) != 1:
+        raise _not_one(path, every, "one series")
+    others = [str(report) for n, report in enumerate(reports) if n not in candidates]
+    notes.append(f"of {len(every)} series the only angiography volume is read: {reports[candidates[0]]}")
+    notes.append(f"other series: {listed(others)}")
+    return every[candidates[0]]
+
+
+def _not_one(path: Path, every: Sequence[Series], expected: str) -> SeriesError:
+    reports = tuple(one.report() for one in every)
+    found = f"{len(reports)} series: {'; '.join(map(str, reports))}"
+    mend = "give the folder of one series, or its number or UID as `series`"
+    error = SeriesError(str(path), found, expected, mend)
+    error.series = reports
+    return error

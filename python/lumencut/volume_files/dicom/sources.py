@@ -1,0 +1,108 @@
+"""Where DICOM data lie: files of a folder, a single file, or the members of a zip archive."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import BinaryIO
+
+from lumencut.errors import FormatError
+from lumencut.volume_files.opened import refusing
+
+_ZIP_SIGNATURES = (b"PK\x03\x04", b"PK\x05\x06")
+_ALWAYS_ALLOWED = 1 << 30
+"""Unpacked bytes that any archive may claim; real slices beyond that pack far less than the ratio below."""
+_ARCHIVE_RATIO = 200
+_DEFLATE_FLOOR, _DEFLATE_RATIO = 64 << 20, 20
+_CHUNK = 1 << 16
+
+
+class BoundedFile(io.BufferedReader):
+    """A file that never sets aside more memory than it has bytes left, whatever length an element claims."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(io.FileIO(path))
+        self._size = path.stat().st_size
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Read up to size bytes, or all that is left."""
+        left = max(self._size - self.tell(), 0)
+        return super().read(left if size is None or size < 0 else min(size, left))
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """One file that may be DICOM: on disk, or a member of an archive."""
+
+    path: Path
+    size: int
+    member: str = ""
+    archive: zipfile.ZipFile | None = field(default=None, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Its name without folders."""
+        return self.member.rpartition("/")[2] if self.member else self.path.name
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.member}" if self.member else str(self.path)
+
+    def open(self) -> BinaryIO:
+        """Open it for reading; a member of an archive is unpacked into memory, no further than it claims."""
+        if self.archive is None:
+            return BoundedFile(self.path)
+        with self.archive.open(self.member) as packed:
+            return io.BytesIO(packed.read(self.size))
+
+    def head(self, count: int) -> bytes:
+        """Read its first bytes."""
+        with open(self.path, "rb") if self.archive is None else self.archive.open(self.member) as file:
+            return file.read(count)
+
+
+def sources(path: Path) -> list[Source]:
+    """List the files below a folder, the members of a zip archive, or a single file."""
+    if path.is_dir():
+        files = sorted(file for file in path.rglob("*") if file.is_file())
+        return [Source(file, file.stat().st_size) for file in files]
+    with path.open("rb") as file:
+        zipped = is_zip(file.read(4))
+    return _members(path) if zipped else [Source(path, path.stat().st_size)]
+
+
+def is_zip(head: bytes) -> bool:
+    """Tell a zip archive by its first bytes."""
+    return head[:4] in _ZIP_SIGNATURES
+
+
+def _members(path: Path) -> list[Source]:
+    """The files of an archive in the order of their names; nothing is unpacked to disk."""
+    with refusing(path, "zip archive", []):
+        archive = zipfile.ZipFile(path)
+    infos = sorted((info for info in archive.infolist() if not info.is_dir()), key=lambda one: one.filename)
+    if any(info.flag_bits & 1 for info in infos):
+        raise FormatError(str(path), "an encrypted archive", "one without a password", "unpack it first")
+    claimed = sum(info.file_size for info in infos)
+    if claimed > max(_ALWAYS_ALLOWED, _ARCHIVE_RATIO * path.stat().st_size):
+        found = f"{path.stat().st_size} bytes that claim to unpack to {claimed}"
+        raise FormatError(str(path), found, f"at most {_ARCHIVE_RATIO} times the archive", "unpack it first")
+    return [Source(path, info.file_size, info.filename, archive) for info in infos]
+
+
+def refuse_deflate_bomb(source: Source, stream: BinaryIO) -> None:
+    """Refuse a deflated dataset that unpacks to far more than scans do, before anybody unpacks it whole.
+
+    The stream, at its beginning, is left somewhere behind it.
+    """
+    head = stream.read(144)
+    stream.seek(144 + int.from_bytes(head[140:144], "little"))
+    limit = max(_DEFLATE_FLOOR, _DEFLATE_RATIO * source.size)
+    decoder, unpacked = zlib.decompressobj(-zlib.MAX_WBITS), 0
+    while (chunk := decoder.unconsumed_tail or stream.read(_CHUNK)) and not decoder.eof:
+        unpacked += len(decoder.decompress(chunk, _CHUNK))
+        if unpacked > limit:
+            found = f"{source.size} bytes that unpack to more than {limit}"
+            raise FormatError(str(source), found, f"at most {_DEFLATE_RATIO} times the file")
