@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, Result};
+use crate::unit::Unit;
 
 /// The patient space of a file's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,9 +17,9 @@ pub enum Space {
 /// One polyline of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
-    /// The points (mm) in the file's own space; at least two, finite, no two neighbours equal.
+    /// The points in the file's own space and unit; at least two, finite, no two neighbours equal.
     pub points: Vec<DVec3>,
-    /// The radius at each point (mm), finite and ≥ 0, where the file has one.
+    /// The radius at each point in the unit of the points, finite and ≥ 0, where the file has one.
     pub radius: Option<Vec<f64>>,
     /// The group that a branch splitter gave this line; lines of one group run along the same vessel.
     pub group: Option<i64>,
@@ -33,6 +34,13 @@ pub struct Centerlines {
     pub lines: Vec<Line>,
     /// The space that the file states; `None` where it states none.
     pub space: Option<Space>,
+    /// The unit in which the file gives its lengths, where it or the definition of its format states one. It
+    /// stays what the file states when the lines are [`scaled`](Self::scaled).
+    pub unit: Option<Unit>,
+    /// The unit that files of this format usually have.
+    pub conventional_unit: Option<Unit>,
+    /// The name of the format, such as "VTK XML PolyData".
+    pub format: &'static str,
     /// What a user should know about how the file was read, one sentence each.
     pub notes: Vec<String>,
 }
@@ -41,16 +49,74 @@ pub struct Centerlines {
 /// wrong way. The core draws the same line.
 const LARGEST_COORDINATE: f64 = 1e6;
 
+/// The largest coordinate that is believed, in the unit of the lines.
+struct Limit {
+    largest: f64,
+    unit: &'static str,
+}
+
+impl Limit {
+    /// The limit where the lines are in `unit`; where none is known, that of the smallest unit.
+    fn of(unit: Option<Unit>) -> Self {
+        let assumed = unit.unwrap_or(Unit::Micrometre);
+        Self { largest: LARGEST_COORDINATE / assumed.in_mm(), unit: unit.map_or("", Unit::name) }
+    }
+
+    fn text(&self) -> String {
+        format!("{:e} {}", self.largest, self.unit).trim_end().to_owned()
+    }
+}
+
 impl Centerlines {
+    /// No lines yet, of a format whose files usually are in mm.
+    pub(crate) fn of(format: &'static str) -> Self {
+        Self { format, conventional_unit: Some(Unit::Millimetre), ..Self::default() }
+    }
+
+    /// Adds a note that several lines may give, once.
+    pub(crate) fn note_once(&mut self, note: String) {
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
     /// Checks every line, drops repeated points and lines that are no lines, and notes both.
     ///
     /// # Errors
     /// For points or radii that are no places and sizes, and where no line is left.
-    pub(crate) fn tidy(mut self) -> Result<Self> {
+    pub(crate) fn tidy(self) -> Result<Self> {
+        let limit = Limit::of(self.unit);
+        let mut out = self.checked(&limit)?;
+        match out.lines.iter().filter(|line| line.radius.is_none()).count() {
+            0 => {}
+            n if n == out.lines.len() => out.notes.push("no radius in the file".into()),
+            n => out.notes.push(format!("{n} of {} lines have no radius", out.lines.len())),
+        }
+        Ok(out)
+    }
+
+    /// The same lines with points and radii multiplied by `factor`, which brings them to mm.
+    ///
+    /// [`junctions::vessels`](crate::junctions::vessels) wants them so, because its limits are in mm.
+    ///
+    /// # Errors
+    /// Where the factor is not above 0 and finite, or a coordinate or radius is then beyond 1e6 mm.
+    pub fn scaled(mut self, factor: f64) -> Result<Self> {
+        if !(factor > 0.0 && factor.is_finite()) {
+            return Err(Error::new("scale", format!("{factor}"), "a finite factor above 0"));
+        }
+        for line in &mut self.lines {
+            line.points.iter_mut().for_each(|p| *p *= factor);
+            line.radius.iter_mut().flatten().for_each(|r| *r *= factor);
+        }
+        self.checked(&Limit::of(Some(Unit::Millimetre)))
+    }
+
+    fn checked(mut self, limit: &Limit) -> Result<Self> {
         let found = self.lines.len();
         let mut repeated = 0;
         for (index, line) in self.lines.iter_mut().enumerate() {
-            check(line, index)?;
+            check(line, index, limit)?;
             repeated += drop_repeated_points(line);
         }
         self.lines.retain(|line| line.points.len() >= 2);
@@ -72,18 +138,20 @@ impl Centerlines {
     }
 }
 
-fn check(line: &Line, index: usize) -> Result<()> {
-    if let Some(i) = line.points.iter().position(|p| p.is_nan() || p.abs().max_element() > LARGEST_COORDINATE)
-    {
+fn check(line: &Line, index: usize, limit: &Limit) -> Result<()> {
+    let is_far = |p: &DVec3| p.is_nan() || p.abs().max_element() > limit.largest;
+    if let Some(i) = line.points.iter().position(is_far) {
         let found = format!("{} at point {i}", line.points[i]);
-        return Err(Error::new(format!("points of line {index}"), found, "coordinates of at most 1e6 mm"));
+        let expected = format!("coordinates of at most {}", limit.text());
+        return Err(Error::new(format!("points of line {index}"), found, expected));
     }
     let Some(radius) = &line.radius else { return Ok(()) };
-    match radius.iter().position(|r| !(0.0..=LARGEST_COORDINATE).contains(r)) {
+    match radius.iter().position(|r| !(0.0..=limit.largest).contains(r)) {
         None => Ok(()),
         Some(i) => {
             let found = format!("{} at point {i}", radius[i]);
-            Err(Error::new(format!("radius of line {index}"), found, "radii from 0 to 1e6 mm"))
+            let expected = format!("radii from 0 to {}", limit.text());
+            Err(Error::new(format!("radius of line {index}"), found, expected))
         }
     }
 }

@@ -1,7 +1,21 @@
 //! Readers of centerline files: one room per format.
 //!
-//! [`read`] turns the bytes of a file into the [`Centerlines`] that stand in it, in the file's own space;
-//! [`junctions::vessels`] turns lines that repeat a trunk into vessels that meet at shared end points.
+//! [`read`] turns the bytes of a file into the [`Centerlines`] that stand in it, in the file's own space and
+//! unit; [`Centerlines::scaled`] brings them to mm; [`junctions::vessels`] turns lines that repeat a trunk, or
+//! that are single segments, into vessels that meet at shared end points.
+//!
+//! | format | told by | unit and space | radius |
+//! |---|---|---|---|
+//! | VTK XML poly data, `.vtp` | `<VTKFile` | none; `SPACE` | a point array |
+//! | legacy VTK, `.vtk` | `# vtk` | none; `SPACE=` in the title | a point array |
+//! | 3D Slicer markups, `.mrk.json` | `{` | stated, else mm; stated | the measurement `Radius` |
+//! | SimVascular path, `.pth` | `<path` or `<format` | none, usually cm; none | none |
+//! | SWC, `.swc` | seven columns, or its name | none; none | the sixth column |
+//! | ITK tube, `.tre` | `ObjectType =` | mm; LPS | `r` of `PointDim` |
+//! | 3D Slicer fiducials, `.fcsv` | `# Markups fiducial`, or its name | mm; stated | none |
+//! | Rotterdam reference, `.txt` | five columns of numbers, or its name | none; none | the fourth column |
+//! | text table, `.csv`, `.tsv`, `.txt` | numbers or a header | the header's | the header's, or a fourth column |
+//! | NumPy array, `.npy` | `\x93NUMPY` | none; none | a fourth column |
 //!
 //! Every reader is bounded by its input: no count or offset that a file states is believed before the bytes
 //! that it speaks of are there, and what is unpacked stays within a budget that grows with the size of the
@@ -12,26 +26,43 @@ mod compression;
 mod data_array;
 mod encoding;
 mod error;
+mod fcsv;
+mod itk_tube;
 pub mod junctions;
+mod kind;
+mod meta_object;
 mod mrk_json;
+mod npy;
 mod poly_data;
+mod rotterdam;
+mod simvascular;
+mod swc;
+mod table;
+mod table_columns;
+mod text;
+mod unit;
 mod vtk_cursor;
 mod vtk_legacy;
 mod vtp;
 mod vtp_xml;
+mod xml;
 
 #[cfg(test)]
 mod tests;
 
 pub use centerlines::{Centerlines, Line, Space};
 pub use error::{Error, Result};
+pub use unit::Unit;
 
-/// The centerlines of a `.vtp`, legacy `.vtk` or `.mrk.json` file, in mm, in the file's own space.
+use kind::Kind;
+
+/// The centerlines of a file, in its own unit and space.
 ///
-/// The format is told by how the content begins; `file_name` is for the error messages.
+/// The format is told by the content; the ending of `file_name` decides only where the content does not tell.
 ///
-/// # Errors An [`Error`] that names the file and place: an unknown format, content that is not what the
-/// format promises, or a file without lines.
+/// # Errors
+/// An [`Error`] that names the file and place: an unknown format, content that is not what the format
+/// promises, or a file without lines.
 pub fn read(bytes: &[u8], file_name: &str) -> Result<Centerlines> {
     read_unnamed(bytes, file_name).map_err(|error| error.in_file(file_name))
 }
@@ -40,29 +71,17 @@ fn read_unnamed(bytes: &[u8], file_name: &str) -> Result<Centerlines> {
     if bytes.is_empty() {
         return Err(Error::truncated("", "an empty file", "a centerline file"));
     }
-    let name = file_name.to_ascii_lowercase();
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let begins = text.trim_ascii_start();
-    if begins.starts_with(b"# vtk") {
-        vtk_legacy::read(text)
-    } else if begins.starts_with(b"<") {
-        vtp::read(text)
-    } else if begins.starts_with(b"{") {
-        mrk_json::read(text)
-    } else {
-        Err(unknown(&name))
+    let content = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match kind::of(content, file_name)? {
+        Kind::VtkXml => vtp::read(content),
+        Kind::VtkLegacy => vtk_legacy::read(content),
+        Kind::Markups => mrk_json::read(content),
+        Kind::SimVascular => simvascular::read(content),
+        Kind::Swc => swc::read(content),
+        Kind::ItkTube => itk_tube::read(content),
+        Kind::Fiducials => fcsv::read(content),
+        Kind::Rotterdam => rotterdam::read(content),
+        Kind::Table => table::read(content),
+        Kind::Npy => npy::read(content),
     }
-}
-
-fn unknown(name: &str) -> Error {
-    let (found, expected) = if name.ends_with(".vtp") {
-        ("content that is no XML", "a VTK XML file that begins with '<VTKFile'")
-    } else if name.ends_with(".vtk") {
-        ("another first line", "a legacy VTK file that begins with '# vtk DataFile Version'")
-    } else if name.ends_with(".json") {
-        ("content that is no JSON object", "a 3D Slicer markups file that begins with '{'")
-    } else {
-        ("an unknown format", "a .vtp, legacy .vtk or .mrk.json file")
-    };
-    Error::new("", found, expected)
 }

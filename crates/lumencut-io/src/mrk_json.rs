@@ -5,8 +5,10 @@ use serde_json::Value;
 
 use crate::centerlines::{Centerlines, Line, Space};
 use crate::error::{Error, Result, excerpt};
+use crate::unit::Unit;
 
-/// The curves and lines of a `.mrk.json` file, one line each through the control points.
+/// The curves and lines of a `.mrk.json` file, one line each through the control points, in the unit of the
+/// first.
 ///
 /// # Errors
 /// Where the JSON is damaged, a point or unit is none, or no markup is a curve or line.
@@ -17,7 +19,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let markups = root.get("markups").and_then(Value::as_array);
     let markups =
         markups.ok_or_else(|| Error::new("markups", "no list", "a 3D Slicer markups file with a list"))?;
-    let mut out = Centerlines::default();
+    let mut out = Centerlines::of("3D Slicer markups");
     let mut other_types = Vec::new();
     for (i, markup) in markups.iter().enumerate() {
         let kind = markup.get("type").and_then(Value::as_str).unwrap_or("unnamed type");
@@ -39,29 +41,31 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
 
 fn markup_line(markup: &Value, kind: &str, out: &mut Centerlines) -> Result<()> {
     let space = space(markup)?;
-    let unit = unit_in_mm("coordinateUnits", markup.get("coordinateUnits"))?;
-    if unit != 1.0 {
-        note(out, format!("coordinates converted to mm (1 unit = {unit} mm)"));
+    let own = unit_of("coordinateUnits", markup.get("coordinateUnits"))?;
+    let unit = *out.unit.get_or_insert(own);
+    if unit != own {
+        out.note_once(format!(
+            "markups in different units were brought into {}, that of the first",
+            unit.name()
+        ));
     }
     let empty = Vec::new();
     let controls = markup.get("controlPoints").and_then(Value::as_array).unwrap_or(&empty);
     let placed: Vec<usize> = (0..controls.len()).filter(|i| is_placed(&controls[*i])).collect();
     if placed.len() < controls.len() {
-        note(
-            out,
-            format!("{} control point(s) without a place were left out", controls.len() - placed.len()),
-        );
+        let count = controls.len() - placed.len();
+        out.note_once(format!("{count} control point(s) without a place were left out"));
     }
-    let point = |i: &usize| position(&controls[*i], *i).map(|p| p * unit);
+    let point = |i: &usize| position(&controls[*i], *i).map(|p| p * own.in_units_of(unit));
     let mut points = placed.iter().map(point).collect::<Result<Vec<DVec3>>>()?;
     if out.lines.is_empty() {
         out.space = space;
     } else if space.unwrap_or(Space::Lps) != out.space.unwrap_or(Space::Lps) {
         // LPS and RAS differ in the signs of x and y, whichever of the two the first markup has.
         points.iter_mut().for_each(|p| *p *= DVec3::new(-1.0, -1.0, 1.0));
-        note(out, "markups in different spaces were brought into the space of the first".into());
+        out.note_once("markups in different spaces were brought into the space of the first".into());
     }
-    let mut radius = radius(markup, controls, &placed, unit, out)?;
+    let mut radius = radius(markup, controls, &placed, [own, unit], out)?;
     if kind == "ClosedCurve" && points.len() > 2 {
         points.push(points[0]);
         radius.iter_mut().for_each(|r| r.push(r[0]));
@@ -69,12 +73,6 @@ fn markup_line(markup: &Value, kind: &str, out: &mut Centerlines) -> Result<()> 
     let name = markup.get("name").and_then(Value::as_str).map(str::to_owned);
     out.lines.push(Line { points, radius, group: None, name });
     Ok(())
-}
-
-fn note(out: &mut Centerlines, note: String) {
-    if !out.notes.contains(&note) {
-        out.notes.push(note);
-    }
 }
 
 /// The stated space, by name or by the number that 3D Slicer gives it.
@@ -91,21 +89,18 @@ fn space(markup: &Value) -> Result<Option<Space>> {
     }
 }
 
-/// Millimetres per unit; one name, or one equal name per axis. Millimetres where none is stated.
-fn unit_in_mm(subject: &str, unit: Option<&Value>) -> Result<f64> {
+/// The stated unit; one name, or one equal name per axis. Millimetres where none is stated.
+fn unit_of(subject: &str, unit: Option<&Value>) -> Result<Unit> {
     let name = match unit {
-        None | Some(Value::Null) => return Ok(1.0),
+        None | Some(Value::Null) => return Ok(Unit::Millimetre),
         Some(Value::Array(axes)) if !axes.is_empty() && axes.iter().all(|axis| *axis == axes[0]) => &axes[0],
         Some(other) => other,
     };
     match name.as_str() {
-        Some("mm" | "") => Ok(1.0),
-        Some("um" | "µm") => Ok(1e-3),
-        Some("cm") => Ok(10.0),
-        Some("dm") => Ok(100.0),
-        Some("m") => Ok(1000.0),
-        _ => Err(Error::new(subject, excerpt(&name.to_string()), "one of um, mm, cm, dm, m")),
+        Some("") => Some(Unit::Millimetre),
+        known => known.and_then(Unit::of_name),
     }
+    .ok_or_else(|| Error::new(subject, excerpt(&name.to_string()), "one of um, mm, cm, dm, m"))
 }
 
 /// Control points that are being placed, or whose place was taken away, have no position of their own.
@@ -126,12 +121,13 @@ fn position(control: &Value, index: usize) -> Result<DVec3> {
     }
 }
 
-/// The `Radius` measurement (mm) of the placed control points.
+/// The `Radius` measurement of the placed control points. Of the two units the first is the markup's own, the
+/// second the one that is wanted.
 fn radius(
     markup: &Value,
     controls: &[Value],
     placed: &[usize],
-    coordinate_unit: f64,
+    [own, wanted]: [Unit; 2],
     out: &mut Centerlines,
 ) -> Result<Option<Vec<f64>>> {
     let measurements = markup.get("measurements").and_then(Value::as_array);
@@ -150,11 +146,11 @@ fn radius(
         return Err(Error::new("measurement Radius", found, "one value per control point"));
     }
     let unit = match measurement.get("units") {
-        None | Some(Value::Null) => coordinate_unit,
-        unit => unit_in_mm("units of the measurement Radius", unit)?,
+        None | Some(Value::Null) => own,
+        unit => unit_of("units of the measurement Radius", unit)?,
     };
     let value = |i: &usize| {
-        let number = values[*i].as_f64().map(|value| value * unit);
+        let number = values[*i].as_f64().map(|value| value * unit.in_units_of(wanted));
         number.ok_or_else(|| {
             Error::new(
                 "measurement Radius",
@@ -163,6 +159,6 @@ fn radius(
             )
         })
     };
-    note(out, "radius from the measurement 'Radius'".into());
+    out.note_once("radius from the measurement 'Radius'".into());
     placed.iter().map(value).collect::<Result<Vec<f64>>>().map(Some)
 }

@@ -1,4 +1,4 @@
-//! Words, lines and blocks of numbers of a legacy VTK file, from front to back.
+//! Words, lines and blocks of numbers of a legacy VTK or MetaIO file, from front to back.
 
 use crate::data_array::{ByteOrder, NumberType, number_of_word};
 use crate::error::{Error, Result, excerpt};
@@ -123,13 +123,23 @@ impl<'a> Cursor<'a> {
         Ok(out)
     }
 
-    fn bytes(&mut self, subject: &str, count: usize) -> Result<&'a [u8]> {
+    /// The next `count` bytes as they are.
+    ///
+    /// # Errors
+    /// Naming `subject` where fewer are left.
+    pub fn bytes(&mut self, subject: &str, count: usize) -> Result<&'a [u8]> {
         let (taken, rest) = self.rest.split_at_checked(count).ok_or_else(|| {
             let found = format!("{} bytes to the end of the file", self.rest.len());
             Error::truncated(subject, found, format!("{count} bytes"))
         })?;
         self.rest = rest;
         Ok(taken)
+    }
+
+    /// Goes on to where `word` stands next, or to the end.
+    pub fn skip_to(&mut self, word: &[u8]) {
+        let at = self.rest.windows(word.len()).position(|window| window == word);
+        self.rest = at.map_or(&[], |at| &self.rest[at..]);
     }
 
     /// Texts: one per line, or each behind its length, whose first two bits tell how wide the length is.

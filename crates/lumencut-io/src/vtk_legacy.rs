@@ -20,7 +20,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         "BINARY" => true,
         _ => return Err(Error::new("line 3", excerpt(&encoding), "'ASCII' or 'BINARY'")),
     };
-    let mut out = Centerlines { space: space_of_title(&title), ..Centerlines::default() };
+    let mut out = Centerlines { space: space_of_title(&title), ..Centerlines::of("legacy VTK") };
     let mut sections = Sections { cursor, data: PolyData::default(), at: At::File, space: None };
     while let Some(keyword) = sections.cursor.next_word() {
         sections.section(&keyword.to_ascii_uppercase())?;

@@ -7,6 +7,7 @@ use crate::encoding::{self, Bytes, Layout};
 use crate::error::{Error, Result, excerpt};
 use crate::poly_data::{self, Array, PolyData};
 use crate::vtp_xml::{self, Declared, Piece};
+use crate::xml::Attributes;
 
 /// The centerlines of a `.vtp` file.
 ///
@@ -25,7 +26,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     let layout = layout(&document.file)?;
     let mut arrays = Arrays { layout, appended, budget: Budget::of_file(bytes.len()) };
-    let mut out = Centerlines::default();
+    let mut out = Centerlines::of("VTK XML PolyData");
     if let Some(space) =
         document.field_arrays.iter().find(|array| array.attributes.get("Name") == Some("SPACE"))
     {
@@ -53,7 +54,7 @@ fn split(bytes: &[u8]) -> Result<(&[u8], Option<Appended<'_>>)> {
     Ok((head, Some(Appended { base64, data: &data[begin + 1..] })))
 }
 
-fn layout(file: &vtp_xml::Attributes) -> Result<Layout> {
+fn layout(file: &Attributes) -> Result<Layout> {
     let order = match file.get("byte_order") {
         Some("LittleEndian") | None => ByteOrder::Little,
         Some("BigEndian") => ByteOrder::Big,

@@ -4,27 +4,8 @@
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::error::{Error, Result, excerpt};
-
-/// The attributes of an element that the readers use.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Attributes(Vec<(String, String)>);
-
-impl Attributes {
-    /// The value of the attribute `name`.
-    pub fn get(&self, name: &str) -> Option<&str> {
-        self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value.trim())
-    }
-
-    /// The value of the attribute `name` as a count; 0 where it is missing.
-    ///
-    /// # Errors
-    /// Where the value is no count.
-    pub fn count(&self, name: &str) -> Result<usize> {
-        let text = self.get(name).unwrap_or("0");
-        text.parse().map_err(|_| Error::new(name, excerpt(text), "a whole number from 0"))
-    }
-}
+use crate::error::{Error, Result};
+use crate::xml::{self, Attributes};
 
 /// One `DataArray` or `Array`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,8 +35,7 @@ pub struct Document {
     pub complete: bool,
 }
 
-/// Elements inside each other, beyond which a file is no VTK file; they nest 6 deep.
-const DEEPEST: usize = 32;
+const EXPECTED: &str = "a VTK XML file";
 
 /// The elements of `text`, which may end at its appended data.
 ///
@@ -65,7 +45,7 @@ pub fn document(text: &str) -> Result<Document> {
     let mut reader = Reader::from_str(text);
     let mut walk = Walk::default();
     loop {
-        match reader.read_event().map_err(|error| damaged(&reader, &error.to_string()))? {
+        match reader.read_event().map_err(|error| xml::damaged(&reader, &error, EXPECTED))? {
             Event::Start(element) => walk.open(&element)?,
             Event::Empty(element) => {
                 walk.open(&element)?;
@@ -76,6 +56,7 @@ pub fn document(text: &str) -> Result<Document> {
             Event::CData(_) | Event::GeneralRef(_) if walk.inside_array() => {
                 return Err(Error::new("DataArray", "an entity or CDATA", "plain text"));
             }
+            Event::DocType(_) => return Err(xml::document_type(EXPECTED)),
             Event::Eof => break,
             _ => {}
         }
@@ -86,11 +67,6 @@ pub fn document(text: &str) -> Result<Document> {
     Ok(walk.document)
 }
 
-fn damaged(reader: &Reader<&[u8]>, cause: &str) -> Error {
-    let found = format!("damaged XML near byte {} ({cause})", reader.error_position());
-    Error::truncated("", found, "a VTK XML file")
-}
-
 #[derive(Default)]
 struct Walk {
     document: Document,
@@ -99,12 +75,8 @@ struct Walk {
 
 impl Walk {
     fn open(&mut self, element: &BytesStart) -> Result<()> {
-        if self.open.len() == DEEPEST {
-            let found = format!("elements nested deeper than {DEEPEST}");
-            return Err(Error::new("", found, "a VTK XML file"));
-        }
-        let name = element.name().as_ref().to_owned();
-        let attributes = attributes(element)?;
+        let name = xml::name_at_depth(element, self.open.len(), EXPECTED)?;
+        let attributes = xml::attributes(element, EXPECTED)?;
         let parent = self.open.last().map_or("", String::as_str);
         match name.as_str() {
             "VTKFile" if self.open.is_empty() => self.document.file = attributes,
@@ -143,19 +115,4 @@ impl Walk {
             array.text.push_str(content);
         }
     }
-}
-
-fn attributes(element: &BytesStart) -> Result<Attributes> {
-    let wrong = |cause: String| Error::new("", format!("damaged XML attributes ({cause})"), "a VTK XML file");
-    element
-        .attributes()
-        .map(|attribute| {
-            let attribute = attribute.map_err(|error| wrong(error.to_string()))?;
-            let value = attribute
-                .normalized_value(quick_xml::XmlVersion::Implicit1_0)
-                .map_err(|error| wrong(error.to_string()))?;
-            Ok((attribute.key.as_ref().to_owned(), value.into_owned()))
-        })
-        .collect::<Result<_>>()
-        .map(Attributes)
 }

@@ -1,31 +1,34 @@
 //! Lines that repeat a trunk become vessels that meet at shared end points.
 //!
 //! Centerline tools write one line from the source to each outlet, so that the lines repeat their common
-//! trunk. Here every stretch becomes one vessel, in four steps:
+//! trunk; others write every segment as a line of its own. Here every stretch becomes one vessel, in five
+//! steps:
 //!
 //! 1. *Weld* (`weld.rs`): points closer than 1/1000 of the median spacing are one point.
-//! 2. *Follow* (`follow.rs`): a line that begins or ends beside another line's end, without sharing points
+//! 2. *Segments* (`segments.rs`): where most lines are single segments, they are joined to chains.
+//! 3. *Follow* (`follow.rs`): a line that begins or ends beside another line's end, without sharing points
 //!    with it, and runs along it, takes that line's points as far as it stays within a tenth of the radius.
 //!    For lines of one group, which their file says are one vessel, it is half the radius; where no radius is
 //!    known, half the spacing and at most 0.5 mm. The stretch must be long: vessels that part at more than 6°
 //!    are never merged.
-//! 3. *Graph* (`graph.rs`): shared stretches are the same edges. A point is a junction where its edges do not
+//! 4. *Graph* (`graph.rs`): shared stretches are the same edges. A point is a junction where its edges do not
 //!    pair off: three lines meet, one ends on another, or two end at each other. Lines that carry groups are
 //!    cut at places that are no branchings; there they are joined. Two lines that cross at a point pair off
 //!    and stay whole.
-//! 4. Chains of edges between junctions are the vessels, in the order and direction of the lines they come
+//! 5. Chains of edges between junctions are the vessels, in the order and direction of the lines they come
 //!    from.
 //!
-//! Only step 2 moves points by more than the weld distance; a tree whose vessels meet at shared points stays
+//! Only step 3 moves points by more than the weld distance; a tree whose vessels meet at shared points stays
 //! as it is.
 
 mod follow;
 mod graph;
+mod segments;
 mod weld;
 
 use crate::centerlines::{Centerlines, Line};
 
-/// Beyond this many lines step 2 is left out: it compares each line with all before it.
+/// Beyond this many lines step 3 is left out: it compares each line with all before it.
 const MOST_LINES_TO_FOLLOW: usize = 1024;
 
 /// A line as ids of welded points, with the radius at each.
@@ -36,17 +39,18 @@ struct Path {
     name: Option<String>,
 }
 
-/// The vessels that the lines of `centerlines` form, in place of the lines; end points that vessels share are
+/// The vessels that the lines (mm) of `centerlines` form, in place of the lines; end points that vessels share are
 /// equal to the last bit. A note tells how many lines became how many vessels where that changed anything.
 ///
 /// Vessels keep the name of the first line they come from; several vessels may have one name.
 #[must_use]
 pub fn vessels(centerlines: Centerlines) -> Centerlines {
-    let Centerlines { lines, space, mut notes } = centerlines;
+    let Centerlines { lines, mut notes, .. } = centerlines;
     let count = lines.len();
     let spacing = median_spacing(&lines);
-    let (points, mut paths) = weld::weld(lines, spacing);
-    let followed = if count <= MOST_LINES_TO_FOLLOW {
+    let (points, paths) = weld::weld(lines, spacing);
+    let mut paths = segments::join(&points, paths, &mut notes);
+    let followed = if paths.len() <= MOST_LINES_TO_FOLLOW {
         follow::follow(&points, &mut paths, spacing)
     } else {
         notes
@@ -61,7 +65,7 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
     if followed > 0 {
         notes.push(format!("{followed} line end(s) that ran closely along another line were joined to it"));
     }
-    Centerlines { lines: vessels, space, notes }
+    Centerlines { lines: vessels, notes, ..centerlines }
 }
 
 /// The median distance between neighbouring points (mm).

@@ -1,0 +1,91 @@
+//! Fiducial lists of 3D Slicer (`.fcsv`).
+
+use crate::centerlines::{Centerlines, Line, Space};
+use crate::error::{Error, Result, excerpt};
+use crate::text::{self, Separator};
+use crate::unit::Unit;
+
+/// The columns where the file names none.
+const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
+/// What 3D Slicer writes behind the named columns for a point that has a place.
+const PLACED: &str = "2";
+
+/// The points of a fiducial list as one line, in mm by definition of the format.
+///
+/// # Errors
+/// Naming the line of the file where a row is none, and for coordinates in voxels.
+pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+    let mut out = Centerlines::of("3D Slicer fiducials");
+    out.unit = Some(Unit::Millimetre);
+    let mut columns = Columns::of(COLUMNS)?;
+    for (number, line) in text::lines(bytes) {
+        let Some((key, value)) = line.trim_start().strip_prefix('#').and_then(|text| text.split_once('='))
+        else {
+            continue;
+        };
+        match key.trim() {
+            "CoordinateSystem" => {
+                out.space = Some(space(value.trim()).map_err(|e| e.in_file(&format!("line {number}")))?);
+            }
+            "columns" => columns = Columns::of(value).map_err(|e| e.in_file(&format!("line {number}")))?,
+            _ => {}
+        }
+    }
+    let mut line = Line::default();
+    let (mut hidden, mut without_place) = (0, 0);
+    for (number, row) in text::data_lines(bytes) {
+        let fields = text::fields(&row, Separator::Character(','));
+        let [Some(x), Some(y), Some(z)] = columns.xyz.map(|column| fields.get(column).copied()) else {
+            return Err(Error::truncated(
+                format!("line {number}"),
+                excerpt(&row),
+                "the columns of the header",
+            ));
+        };
+        let status = fields.get(columns.count);
+        if status.is_some_and(|status| !status.is_empty() && *status != PLACED) {
+            without_place += 1;
+            continue;
+        }
+        let visible = columns.visible.and_then(|column| fields.get(column));
+        hidden += usize::from(visible.is_some_and(|visible| *visible == "0"));
+        line.points.push(text::point(number, [x, y, z])?);
+    }
+    out.notes.push(format!("a list of {} fiducials is taken as one line, in its order", line.points.len()));
+    if without_place > 0 {
+        out.notes.push(format!("{without_place} fiducial(s) without a place were left out"));
+    }
+    if hidden > 0 {
+        out.notes.push(format!("{hidden} fiducial(s) that are hidden in 3D Slicer are part of the line"));
+    }
+    out.lines.push(line);
+    out.tidy()
+}
+
+/// The space by its name, or by the number of the versions before 4.11.
+fn space(text: &str) -> Result<Space> {
+    match text.split(',').next().unwrap_or_default().trim() {
+        "RAS" | "0" => Ok(Space::Ras),
+        "LPS" | "1" => Ok(Space::Lps),
+        "IJK" | "2" => Err(Error::new("CoordinateSystem", "IJK, indices of voxels", "RAS or LPS")
+            .mend("save the fiducials in RAS or LPS")),
+        other => Err(Error::new("CoordinateSystem", excerpt(other), "RAS (0) or LPS (1)")),
+    }
+}
+
+struct Columns {
+    xyz: [usize; 3],
+    visible: Option<usize>,
+    count: usize,
+}
+
+impl Columns {
+    fn of(names: &str) -> Result<Self> {
+        let names: Vec<&str> = names.split(',').map(str::trim).collect();
+        let of = |wanted: &str| names.iter().position(|name| *name == wanted);
+        let (Some(x), Some(y), Some(z)) = (of("x"), of("y"), of("z")) else {
+            return Err(Error::new("columns", excerpt(&names.join(",")), "the columns x, y and z"));
+        };
+        Ok(Self { xyz: [x, y, z], visible: of("vis"), count: names.len() })
+    }
+}

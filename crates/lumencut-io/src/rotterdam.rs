@@ -1,0 +1,41 @@
+//! Reference centerlines of the Rotterdam Coronary Artery Algorithm Evaluation (`reference.txt`).
+
+use crate::centerlines::{Centerlines, Line};
+use crate::error::{Error, Result, excerpt};
+use crate::text::{self, Separator};
+
+/// Columns of a row: x, y, z, radius and, in most files, the variance between observers.
+const COLUMNS: [usize; 2] = [4, 5];
+
+/// The vessel of a reference file, one line. It states neither space nor unit.
+///
+/// # Errors
+/// Naming the line of the file where a row is not 4 or 5 numbers.
+pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+    let (mut points, mut radius) = (Vec::new(), Vec::new());
+    for (number, row) in text::data_lines(bytes) {
+        let fields = text::fields(&row, Separator::Blanks);
+        let ([x, y, z, r] | [x, y, z, r, _]) = fields[..] else {
+            let expected = "4 or 5 numbers: x y z radius [variance]";
+            return Err(Error::new(format!("line {number}"), excerpt(&row), expected));
+        };
+        if let Some(variance) = fields.get(4) {
+            text::number(number, variance)?;
+        }
+        points.push(text::point(number, [x, y, z])?);
+        radius.push(text::number(number, r)?);
+    }
+    let mut out = Centerlines::of("Rotterdam reference");
+    out.lines.push(Line { points, radius: Some(radius), ..Line::default() });
+    out.tidy()
+}
+
+/// Whether a file that begins with this row is a reference: `reference.txt` in the evaluation's own layout,
+/// or five columns without a header under any name.
+pub fn is_row(row: &str, file_name: &str) -> bool {
+    let fields = text::fields(row, Separator::Blanks);
+    let named = file_name.ends_with("reference.txt");
+    COLUMNS.contains(&fields.len())
+        && (named || fields.len() == COLUMNS[1])
+        && fields.iter().all(|field| text::number(0, field).is_ok())
+}

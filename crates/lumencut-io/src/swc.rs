@@ -1,0 +1,167 @@
+//! SWC trees: one node per line, `id type x y z radius parent`.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use glam::DVec3;
+
+use crate::centerlines::{Centerlines, Line};
+use crate::error::{Error, Result, excerpt};
+use crate::text::{self, Separator};
+
+const COLUMNS: &str = "7 numbers: id type x y z radius parent";
+
+/// The branches of an SWC file: a line from each root or branching to the next branching or leaf, which share
+/// their end points to the last bit. The types of nodes are not used.
+///
+/// # Errors
+/// Naming the line of the file where a node is none, repeats an id, has a parent that is not there or leads
+/// back to itself.
+pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+    let nodes =
+        text::data_lines(bytes).map(|(number, line)| node(number, &line)).collect::<Result<Vec<_>>>()?;
+    if nodes.is_empty() {
+        return Err(Error::new("", "no node", "an SWC file with a node per line"));
+    }
+    let tree = Tree::new(&nodes)?;
+    let mut out = Centerlines::of("SWC");
+    out.lines = tree.branches(&nodes)?;
+    out.tidy()
+}
+
+/// Whether a line of text is a node.
+pub fn is_node(line: &str) -> bool {
+    text::fields(line, Separator::Blanks).len() == 7 && node(0, line).is_ok()
+}
+
+struct Node {
+    /// The line of the file.
+    line: usize,
+    id: i64,
+    point: DVec3,
+    radius: f64,
+    /// `None` for a root.
+    parent: Option<i64>,
+}
+
+fn node(line: usize, content: &str) -> Result<Node> {
+    let fields = text::fields(content, Separator::Blanks);
+    let [id, _, x, y, z, radius, parent, ..] = fields[..] else {
+        return Err(Error::new(format!("line {line}"), excerpt(content), COLUMNS));
+    };
+    let parent = Some(whole(line, parent)?).filter(|parent| *parent != -1);
+    let id = whole(line, id)?;
+    Ok(Node { line, id, point: text::point(line, [x, y, z])?, radius: text::number(line, radius)?, parent })
+}
+
+/// An id, which some programs write as `1.0`.
+fn whole(line: usize, field: &str) -> Result<i64> {
+    let of_float = || {
+        let number = field.parse::<f64>().ok()?;
+        (number.fract() == 0.0 && number.abs() < 1e15).then_some(number as i64)
+    };
+    field
+        .parse()
+        .ok()
+        .or_else(of_float)
+        .ok_or_else(|| Error::new(format!("line {line}"), excerpt(field), "a whole number as id or parent"))
+}
+
+/// The children of every node, one node's after the other's.
+struct Tree {
+    roots: Vec<usize>,
+    children: Vec<usize>,
+    /// Where the children of each node begin, and where the last one's end.
+    begins: Vec<usize>,
+}
+
+impl Tree {
+    fn new(nodes: &[Node]) -> Result<Self> {
+        let mut index = HashMap::with_capacity(nodes.len());
+        for (i, node) in nodes.iter().enumerate() {
+            match index.entry(node.id) {
+                Entry::Vacant(entry) => drop(entry.insert(i)),
+                Entry::Occupied(entry) => {
+                    let first = nodes[*entry.get()].line;
+                    let found = format!("the id {} once more, first in line {first}", node.id);
+                    return Err(Error::new(format!("line {}", node.line), found, "every id once"));
+                }
+            }
+        }
+        let parent = |node: &Node| match node.parent {
+            None => Ok(None),
+            Some(id) => index.get(&id).copied().map(Some).ok_or_else(|| {
+                let found = format!("the parent {id}, which is no node of the file");
+                Error::truncated(format!("line {}", node.line), found, "the id of a node, or -1 for a root")
+            }),
+        };
+        let parents = nodes.iter().map(parent).collect::<Result<Vec<Option<usize>>>>()?;
+        Ok(Self::of_parents(&parents))
+    }
+
+    fn of_parents(parents: &[Option<usize>]) -> Self {
+        let mut begins = vec![0; parents.len() + 1];
+        parents.iter().flatten().for_each(|parent| begins[parent + 1] += 1);
+        for i in 0..parents.len() {
+            begins[i + 1] += begins[i];
+        }
+        let mut next = begins.clone();
+        let mut children = vec![0; begins[parents.len()]];
+        let mut roots = Vec::new();
+        for (i, parent) in parents.iter().enumerate() {
+            match parent {
+                None => roots.push(i),
+                Some(parent) => {
+                    children[next[*parent]] = i;
+                    next[*parent] += 1;
+                }
+            }
+        }
+        Self { roots, children, begins }
+    }
+
+    fn children(&self, node: usize) -> &[usize] {
+        &self.children[self.begins[node]..self.begins[node + 1]]
+    }
+
+    /// The branches, each behind the one that it comes from.
+    fn branches(&self, nodes: &[Node]) -> Result<Vec<Line>> {
+        let mut lines = Vec::new();
+        let mut reached = vec![false; nodes.len()];
+        for root in &self.roots {
+            reached[*root] = true;
+            if self.children(*root).is_empty() {
+                lines.push(line(nodes, &[*root]));
+            }
+            let mut starts: Vec<[usize; 2]> =
+                self.children(*root).iter().rev().map(|child| [*root, *child]).collect();
+            while let Some([start, child]) = starts.pop() {
+                let mut ids = vec![start, child];
+                let mut end = child;
+                while let [only] = self.children(end) {
+                    end = *only;
+                    ids.push(end);
+                }
+                ids[1..].iter().for_each(|i| reached[*i] = true);
+                starts.extend(self.children(end).iter().rev().map(|child| [end, *child]));
+                lines.push(line(nodes, &ids));
+            }
+        }
+        match reached.iter().position(|reached| !reached) {
+            None => Ok(lines),
+            Some(i) => {
+                let found = format!("the node {}, whose parents lead around in a circle", nodes[i].id);
+                let expected = "parents that lead to a root, whose parent is -1";
+                Err(Error::new(format!("line {}", nodes[i].line), found, expected))
+            }
+        }
+    }
+}
+
+fn line(nodes: &[Node], ids: &[usize]) -> Line {
+    Line {
+        points: ids.iter().map(|i| nodes[*i].point).collect(),
+        radius: Some(ids.iter().map(|i| nodes[*i].radius).collect()),
+        ..Line::default()
+    }
+}

@@ -1,0 +1,175 @@
+//! Tables of numbers as text (`.csv`, `.tsv`, `.txt`), with a header or without.
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+use crate::centerlines::{Centerlines, Line};
+use crate::error::{Error, Result, excerpt};
+use crate::table_columns::Columns;
+use crate::text::{self, Separator};
+
+/// The lines of a table with a point per row. Blank rows part lines, and so do changes of a column such as
+/// `line`, `vessel`, `CenterlineId` or `GroupId`.
+///
+/// Numbers may have a decimal comma where semicolons part the columns.
+///
+/// # Errors
+/// Naming the line of the file where a row is damaged, or it is not clear what the columns hold.
+pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+    let Some((first, row)) = text::data_lines(bytes).next() else {
+        return Err(Error::new("", "no row", "a table with a point per row"));
+    };
+    let separator = separator_of(&row);
+    let fields = fields_of(&row, separator);
+    let has_header = !all_numbers(&fields, separator);
+    let named = match has_header {
+        true => Some(Columns::of_header(first, &row, &fields)?),
+        false => header_in_comment(bytes, first, fields.len()),
+    };
+    let guessed = named.is_none();
+    let columns = named.map_or_else(|| Columns::of_count(first, fields.len()), Ok)?;
+    let mut rows = Rows::new(columns, separator);
+    for (number, line) in text::lines(bytes).skip(first - usize::from(!has_header)) {
+        match line.trim_start().chars().next() {
+            None => rows.finish_line(),
+            Some('#') => {}
+            Some(_) => rows.add(number, &line)?,
+        }
+    }
+    rows.finish_line();
+    if guessed && counts_rows(&rows.out.lines) {
+        return Err(Error::new("column 1", "a number that counts the rows", "4 columns x, y, z, radius")
+            .mend("name the columns in the first line, or leave the counter out"));
+    }
+    rows.out.tidy()
+}
+
+/// Whether a line of text can begin a table: a row of three or more numbers, or a header with coordinates.
+pub fn is_first_row(line: &str) -> bool {
+    let separator = separator_of(line);
+    let fields = fields_of(line, separator);
+    let numbers = fields.len() >= 3 && all_numbers(&fields, separator);
+    numbers || Columns::of_header(0, line, &fields).is_ok()
+}
+
+/// What parts the columns of a row. Blanks beside tabs part too, where no name holds blanks.
+fn separator_of(row: &str) -> Separator {
+    if let Some(separator) = [';', ','].into_iter().find(|separator| row.contains(*separator)) {
+        return Separator::Character(separator);
+    }
+    let words = text::fields(row, Separator::Blanks);
+    if row.contains('\t') && !all_numbers(&words, Separator::Blanks) {
+        Separator::Character('\t')
+    } else {
+        Separator::Blanks
+    }
+}
+
+/// The fields of a row; a separator at its end begins no further one.
+fn fields_of(row: &str, separator: Separator) -> Vec<&str> {
+    let mut fields = text::fields(row, separator);
+    if fields.len() > 1 && fields.last() == Some(&"") {
+        fields.pop();
+    }
+    fields
+}
+
+fn all_numbers(fields: &[&str], separator: Separator) -> bool {
+    fields.iter().all(|field| with_point(field, separator).parse::<f64>().is_ok())
+}
+
+/// A number with a decimal point: only semicolons leave the comma free to be one.
+fn with_point(field: &str, separator: Separator) -> Cow<'_, str> {
+    if separator == Separator::Character(';') && field.contains(',') {
+        Cow::Owned(field.replace(',', "."))
+    } else {
+        Cow::Borrowed(field)
+    }
+}
+
+/// The columns that the last comment in front of the rows names, where it names as many as there are.
+fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Option<Columns> {
+    let comment = text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')).last();
+    let (number, line) = comment?;
+    let names = line.trim_start_matches('#');
+    let fields = fields_of(names, separator_of(names));
+    Columns::of_header(number, names, &fields).ok().filter(|columns| columns.count == count)
+}
+
+/// Whether the first coordinate is only the number of the row.
+fn counts_rows(lines: &[Line]) -> bool {
+    let mut x = lines.iter().flat_map(|line| &line.points).map(|p| p.x).enumerate();
+    let Some((_, first)) = x.next() else { return false };
+    lines.iter().any(|line| line.radius.is_some())
+        && (first == 0.0 || first == 1.0)
+        && x.all(|(i, x)| x == first + i as f64)
+}
+
+/// The lines so far.
+struct Rows {
+    columns: Columns,
+    separator: Separator,
+    out: Centerlines,
+    line: Line,
+    /// What the column that tells lines apart says of the current line.
+    key: Option<String>,
+    known_keys: HashSet<String>,
+}
+
+impl Rows {
+    fn new(mut columns: Columns, separator: Separator) -> Self {
+        let mut out = Centerlines::of("text table");
+        (out.unit, out.space) = (columns.unit, columns.space);
+        out.notes = std::mem::take(&mut columns.notes);
+        let (line, key, known_keys) = (Line::default(), None, HashSet::new());
+        Self { columns, separator, out, line, key, known_keys }
+    }
+
+    fn add(&mut self, number: usize, row: &str) -> Result<()> {
+        let fields = fields_of(row, self.separator);
+        if fields.len() != self.columns.count {
+            let found = format!("{} column(s), {}", fields.len(), excerpt(row));
+            return Err(Error::new(
+                format!("line {number}"),
+                found,
+                format!("{} columns", self.columns.count),
+            ));
+        }
+        if let Some((column, _)) = self.columns.key {
+            self.begin_line(fields[column]);
+        }
+        let field = |column: usize| with_point(fields[column], self.separator);
+        let [x, y, z] = self.columns.xyz.map(field);
+        self.line.points.push(text::point(number, [&x, &y, &z])?);
+        if let Some((column, factor)) = self.columns.radius {
+            let radius = text::number(number, &field(column))? * factor;
+            self.line.radius.get_or_insert_default().push(radius);
+        }
+        Ok(())
+    }
+
+    /// Begins a line where the column that tells them apart has changed.
+    fn begin_line(&mut self, key: &str) {
+        if self.key.as_deref() == Some(key) {
+            return;
+        }
+        self.finish_line();
+        if !self.known_keys.insert(key.to_owned()) {
+            self.out.note_once("rows of one line stand apart: each stretch is a line of its own".into());
+        }
+        self.key = Some(key.to_owned());
+    }
+
+    fn finish_line(&mut self) {
+        let mut line = std::mem::take(&mut self.line);
+        if line.points.is_empty() {
+            return;
+        }
+        if let (Some(key), Some((_, is_group))) = (&self.key, self.columns.key) {
+            let number = key.parse::<f64>().ok();
+            line.group = number.filter(|n| is_group && n.fract() == 0.0).map(|n| n as i64);
+            line.name = Some(key.clone()).filter(|key| number.is_none() && !key.is_empty());
+        }
+        self.out.lines.push(line);
+    }
+}

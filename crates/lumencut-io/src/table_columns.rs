@@ -1,0 +1,181 @@
+//! Which column of a table holds what: from its header, or from the number of its columns.
+
+use crate::centerlines::Space;
+use crate::error::{Error, Result, excerpt};
+use crate::unit::Unit;
+
+/// The columns that a line is made of.
+#[derive(Debug, PartialEq)]
+pub struct Columns {
+    /// How many fields every row has.
+    pub count: usize,
+    pub xyz: [usize; 3],
+    /// The column of the radius, and what to multiply its numbers by.
+    pub radius: Option<(usize, f64)>,
+    /// The column that tells the lines apart, and whether it holds the groups of a branch splitter.
+    pub key: Option<(usize, bool)>,
+    pub unit: Option<Unit>,
+    pub space: Option<Space>,
+    pub notes: Vec<String>,
+}
+
+const RADIUS_NAMES: [&str; 4] = ["maximuminscribedsphereradius", "radius", "radii", "r"];
+const DIAMETER_NAMES: [&str; 2] = ["diameter", "diam"];
+/// Names of the column that tells lines apart, the plainest first; blanks and signs between words count for
+/// nothing.
+const KEY_NAMES: [&str; 11] = [
+    "line",
+    "lineid",
+    "centerlineid",
+    "centerlineids",
+    "vessel",
+    "vesselid",
+    "vesselname",
+    "branch",
+    "branchid",
+    "groupid",
+    "groupids",
+];
+/// What may stand in front of the name or number of an axis.
+const POINT_PREFIXES: [&str; 6] = ["points:", "points_", "point_", "position_", "pos_", "coordinate_"];
+/// What a header without coordinates is told.
+const EXPECTED: &str =
+    "numbers, or a header that names x, y, z (or L, P, S; R, A, S; Points:0, Points:1, Points:2)";
+
+/// A column's name in small letters, and the unit that stands behind it.
+struct Name {
+    base: String,
+    unit: Option<String>,
+}
+
+impl Name {
+    /// `x (cm)`, `x [cm]`, `x_cm` and `x cm` are x in cm.
+    fn of(field: &str) -> Self {
+        let field = field.trim().to_lowercase();
+        if let Some((base, unit)) = field.split_once(['(', '[']) {
+            let unit = unit.trim_end_matches([')', ']', ' ']).trim();
+            return Self { base: base.trim().into(), unit: (!unit.is_empty()).then(|| unit.into()) };
+        }
+        match field.rsplit_once(['_', ' ']) {
+            Some((base, unit)) if Unit::of_name(unit).is_some() => {
+                Self { base: base.trim().into(), unit: Some(unit.into()) }
+            }
+            _ => Self { base: field, unit: None },
+        }
+    }
+
+    /// The name without a word that says that a point is meant, such as `0` for `points:0`.
+    fn axis(&self) -> &str {
+        let stripped = POINT_PREFIXES.iter().find_map(|prefix| self.base.strip_prefix(prefix));
+        match stripped.unwrap_or(&self.base) {
+            "0" if stripped.is_some() => "x",
+            "1" if stripped.is_some() => "y",
+            "2" if stripped.is_some() => "z",
+            axis => axis,
+        }
+    }
+
+    /// The name without anything between its words.
+    fn joined(&self) -> String {
+        self.base.replace(['_', ' ', '-', '.'], "")
+    }
+}
+
+impl Columns {
+    /// The columns that the fields of a header name.
+    ///
+    /// # Errors
+    /// Naming the line where it names no coordinates, or units that are none or differ.
+    pub fn of_header(line: usize, header: &str, fields: &[&str]) -> Result<Self> {
+        let at = |error: Error| error.in_file(&format!("line {line}"));
+        let names: Vec<Name> = fields.iter().map(|field| Name::of(field)).collect();
+        let Some((xyz, space)) = coordinates(&names) else {
+            return Err(Error::new(format!("line {line}"), excerpt(header), EXPECTED));
+        };
+        let units = xyz.map(|column| unit(fields[column], &names[column]));
+        let [x, y, z] = units;
+        let (x, y, z) = (x.map_err(at)?, y.map_err(at)?, z.map_err(at)?);
+        if x != y || y != z {
+            return Err(at(Error::new(
+                "units of the coordinates",
+                excerpt(header),
+                "one unit for all three",
+            )));
+        }
+        let key_of = |wanted: &&str| names.iter().position(|name| name.joined() == **wanted);
+        let key = KEY_NAMES.iter().find_map(|name| Some((key_of(name)?, name.starts_with("group"))));
+        let mut out = Self { count: fields.len(), xyz, radius: None, key, unit: x, space, notes: Vec::new() };
+        out.find_radius(fields, &names).map_err(at)?;
+        Ok(out)
+    }
+
+    /// x, y, z, or with a fourth column the radius.
+    ///
+    /// # Errors
+    /// Naming the line where there are fewer or more columns.
+    pub fn of_count(line: usize, count: usize) -> Result<Self> {
+        if !matches!(count, 3 | 4) {
+            let found = format!("{count} column(s) of numbers without a header");
+            return Err(Error::new(format!("line {line}"), found, "3 columns x, y, z, or 4 with the radius")
+                .mend("name the columns in the first line"));
+        }
+        let radius = (count == 4).then_some((3, 1.0));
+        Ok(Self { count, xyz: [0, 1, 2], radius, key: None, unit: None, space: None, notes: Vec::new() })
+    }
+
+    /// The column of the radius, else of the diameter, in the unit of the coordinates.
+    fn find_radius(&mut self, fields: &[&str], names: &[Name]) -> Result<()> {
+        let free = |column: &usize| !self.xyz.contains(column);
+        let find = |fits: &dyn Fn(&str) -> bool| {
+            (0..names.len()).filter(free).find(|column| fits(&names[*column].joined()))
+        };
+        let radius = RADIUS_NAMES
+            .iter()
+            .find_map(|name| find(&|column| column == *name))
+            .or_else(|| find(&|column| column.contains("radi")));
+        let diameter = DIAMETER_NAMES
+            .iter()
+            .find_map(|name| find(&|column| column == *name))
+            .or_else(|| find(&|column| column.contains("diameter")));
+        let Some((column, part)) = radius.map(|c| (c, 1.0)).or_else(|| diameter.map(|c| (c, 0.5))) else {
+            return Ok(());
+        };
+        let own = unit(fields[column], &names[column])?;
+        let name = excerpt(fields[column]);
+        self.notes.push(match part == 1.0 {
+            true => format!("radius from the column {name}"),
+            false => format!("radius from half the column {name}"),
+        });
+        if self.unit.is_none()
+            && let Some(own) = own
+        {
+            self.notes.push(format!("only the column {name} states a unit ({}); taken for all", own.name()));
+            self.unit = Some(own);
+        }
+        let factor = own.zip(self.unit).map_or(1.0, |(own, unit)| own.in_units_of(unit));
+        self.radius = Some((column, part * factor));
+        Ok(())
+    }
+}
+
+/// The columns of the three coordinates, and the space that their names state.
+fn coordinates(names: &[Name]) -> Option<([usize; 3], Option<Space>)> {
+    let of = |axes: [&str; 3]| {
+        let [x, y, z] = axes.map(|axis| names.iter().position(|name| name.axis() == axis));
+        Some([x?, y?, z?])
+    };
+    of(["x", "y", "z"])
+        .map(|xyz| (xyz, None))
+        .or_else(|| of(["l", "p", "s"]).map(|xyz| (xyz, Some(Space::Lps))))
+        .or_else(|| of(["r", "a", "s"]).map(|xyz| (xyz, Some(Space::Ras))))
+}
+
+/// The unit that a column states.
+fn unit(field: &str, name: &Name) -> Result<Option<Unit>> {
+    let Some(text) = &name.unit else { return Ok(None) };
+    let unit = Unit::of_name(text);
+    unit.map(Some).ok_or_else(|| {
+        let subject = format!("unit of the column {}", excerpt(field));
+        Error::new(subject, excerpt(text), "one of um, mm, cm, dm, m")
+    })
+}
