@@ -88,7 +88,7 @@ def write_legacy(path: Path, data, *, binary: bool, version: int) -> Path:
 
 
 def assert_is_helices(path: Path, dtype: type, tolerance: float = 0.0) -> None:
-    vessels, _, _ = _lumencut.read_centerlines(path.read_bytes(), path.name)
+    vessels, _ = _lumencut.CenterlineFile(path.read_bytes(), path.name).vessels(1.0)
     assert len(vessels) == len(LINES)
     for (points, radius, name), line, expected in zip(vessels, LINES, RADII, strict=True):
         np.testing.assert_allclose(points, line.astype(dtype).astype(np.float64), rtol=0, atol=tolerance)
@@ -112,14 +112,14 @@ def test_every_mode_of_the_legacy_writer_is_read(binary, version, others, tmp_pa
     data = poly_data(np.float64, space="LPS", others=others)
     path = write_legacy(tmp_path / "a.vtk", data, binary=binary, version=version)
     assert_is_helices(path, np.float64, 0.0 if binary else 1e-3)
-    assert inspect_centerlines(path).stated == "ras", "the title comes before the field"
+    assert (inspect_centerlines(path).space, inspect_centerlines(path).space_from) == ("ras", "stated"), "the title comes before the field"
 
 
 @pytest.mark.parametrize("mode", XML_MODES)
 def test_other_cells_arrays_and_the_space_do_not_disturb(mode, tmp_path):
     data = poly_data(np.float64, space="RAS", others=True)
     path = write_xml(tmp_path / "a.vtp", data, mode, "zlib")
-    assert inspect_centerlines(path).stated == "ras"
+    assert (inspect_centerlines(path).space, inspect_centerlines(path).space_from) == ("ras", "stated")
     tree = read_centerlines(path)
     assert len(tree) == 2
     tolerance = 1e-9 if mode == "ascii" else 0.0

@@ -8,8 +8,9 @@ import pytest
 
 from conftest import needs_shared_data
 from lumencut import Renderer, render
-from lumencut.centerlines import check_space, inspect_centerlines, read_centerlines
+from lumencut.centerlines import inspect_centerlines, read_centerlines
 from lumencut.errors import SpaceWarning
+from lumencut.placement import check_space
 from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
 

@@ -11,6 +11,7 @@ __all__ = [
     "CONTEXTS",
     "PRESETS",
     "SLAB_MODES",
+    "CenterlineFile",
     "Renderer",
     "__version__",
     "check_camera",
@@ -19,7 +20,6 @@ __all__ = [
     "devices",
     "levels",
     "make_phantom",
-    "read_centerlines",
     "sample",
 ]
 
@@ -29,6 +29,25 @@ __version__: str
 CONTEXTS: list[str]
 PRESETS: list[str]
 SLAB_MODES: list[str]
+
+@final
+class CenterlineFile:
+    def __new__(cls, content: bytes, name: str) -> CenterlineFile: ...
+    @property
+    def format(self) -> str: ...
+    @property
+    def space(self) -> str | None: ...
+    @property
+    def unit(self) -> str | None: ...
+    @property
+    def conventional_unit(self) -> str: ...
+    @property
+    def points(self) -> npt.NDArray[np.float64]: ...
+    def vessels(
+        self, mm_per_unit: float
+    ) -> tuple[
+        list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], list[str]
+    ]: ...
 
 @final
 class Renderer:
@@ -42,11 +61,6 @@ def check_settings(settings: Any) -> None: ...
 def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
 def devices() -> list[dict[str, Any]]: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
-def read_centerlines(
-    content: bytes, name: str
-) -> tuple[
-    list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], str | None, list[str]
-]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
 
 class _Phantom(TypedDict):

@@ -1,26 +1,30 @@
-"""Centerline files: VTK `.vtp` and legacy `.vtk`, 3D Slicer `.mrk.json`."""
+"""Centerline files of every format that `lumencut-io` reads, as vessel trees in world space."""
 
 from __future__ import annotations
 
+import logging
 import os
 import warnings
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Literal, TypeAlias
-
-import numpy as np
-import numpy.typing as npt
+from typing import cast
 
 from lumencut import _lumencut
 from lumencut._files import checked_path
-from lumencut.errors import FileError, SettingsError, SpaceWarning
+from lumencut.errors import FileError, SpaceWarning
+from lumencut.placement import (
+    MILLIMETRES,
+    Coordinates,
+    Placement,
+    Stated,
+    Unit,
+    check_choice,
+    check_space_once,
+    placement,
+)
 from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
 
-Coordinates: TypeAlias = Literal["lps", "ras"]
-
-_OTHER_SPACE: dict[Coordinates, Coordinates] = {"lps": "ras", "ras": "lps"}
-_FLIP = np.array([-1.0, -1.0, 1.0])
+_log = logging.getLogger("lumencut")
 
 
 @dataclass(frozen=True)
@@ -29,28 +33,113 @@ class CenterlineReport:
 
     Attributes
     ----------
-    space : "lps" or "ras"
-        The space in which its coordinates were read.
-    stated : "lps", "ras" or None
-        The space that the file itself states.
+    format : str
+        Such as ``VTK XML PolyData``.
+    space, unit : str
+        The space and unit in which its coordinates were read.
+    space_from, unit_from : "asked", "stated", "volume" or "assumed"
+        Who said so: the caller, the file, the extent of the volume, or nobody.
     vessels, points : int
         How many vessels it forms, and how many points they have.
     radius : bool
         Whether every vessel has radii.
+    decision : str
+        What was assumed or decided of space and unit, and by what; empty where file or caller said it.
+    is_unusual : bool
+        Whether the volume decided against LPS or the usual unit of the format.
     notes : tuple of str
         What was odd about the file, one sentence each.
     """
 
+    format: str
     space: Coordinates
-    stated: Coordinates | None
+    unit: Unit
+    space_from: str
+    unit_from: str
     vessels: int
     points: int
     radius: bool
+    decision: str
+    is_unusual: bool
     notes: tuple[str, ...]
 
 
+class CenterlineFile:
+    """A centerline file whose content is read and checked, and whose place is still to be decided.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be read.
+    FormatError
+        Where its content is not what its format promises, or holds no centerline.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        expected = "a readable centerline file"
+        self.path = checked_path(path, expected)
+        try:
+            content = self.path.read_bytes()
+        except OSError as error:
+            raise FileError(str(self.path), error.strerror or str(error), expected) from error
+        self._content = _lumencut.CenterlineFile(content, self.path.name)
+
+    def placed(
+        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Volume | None = None
+    ) -> tuple[VesselTree, CenterlineReport]:
+        """Give the vessels in world space and tell how they were read; parameters as `read_centerlines`."""
+        check_choice(coordinates, unit)
+        content = self._content
+        stated = Stated(
+            cast(Coordinates | None, content.space),
+            cast(Unit | None, content.unit),
+            cast(Unit, content.conventional_unit),
+        )
+        place = placement(self.path.name, content.points, stated, coordinates, unit, volume)
+        vessels, notes = content.vessels(MILLIMETRES[place.unit])
+        tree = VesselTree([Vessel(points * place.signs, radius, name) for points, radius, name in vessels])
+        tree._space_settled = place.space_from == "asked" or place.is_unusual
+        return tree, self._report(tree, place, notes)
+
+    def tree(
+        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Volume | None = None
+    ) -> VesselTree:
+        """Give the vessels in world space, and say what was assumed or decided as `read_centerlines` does."""
+        tree, report = self.placed(coordinates, unit, volume)
+        if report.is_unusual:
+            warnings.warn(f"{self.path.name}: {report.decision}", SpaceWarning, stacklevel=3)
+        elif report.decision:
+            level = logging.WARNING if report.space_from == "assumed" else logging.INFO
+            _log.log(level, "%s: %s", self.path, report.decision)
+        return tree
+
+    def _report(self, tree: VesselTree, place: Placement, notes: list[str]) -> CenterlineReport:
+        return CenterlineReport(
+            format=self._content.format,
+            space=place.space,
+            unit=place.unit,
+            space_from=place.space_from,
+            unit_from=place.unit_from,
+            vessels=len(tree),
+            points=sum(len(vessel) for vessel in tree),
+            radius=all(vessel.radius is not None for vessel in tree),
+            decision=place.decision,
+            is_unusual=place.is_unusual,
+            notes=tuple(notes),
+        )
+
+
 def read_centerlines(
-    path: str | os.PathLike[str], coordinates: Coordinates | None = None, *, volume: Volume | None = None
+    path: str | os.PathLike[str],
+    coordinates: Coordinates | None = None,
+    *,
+    unit: Unit | None = None,
+    volume: Volume | None = None,
 ) -> VesselTree:
     """Read a centerline file as vessels that meet at shared end points (mm, LPS).
 
@@ -59,107 +148,46 @@ def read_centerlines(
     Parameters
     ----------
     path : path
-        A `.vtp`, legacy `.vtk` or `.mrk.json` file.
+        VTK `.vtp` or legacy `.vtk`, 3D Slicer `.mrk.json` or `.fcsv`, SimVascular `.pth`, SWC, ITK `.tre`,
+        a Rotterdam reference, a text table (`.csv`, `.txt`) or NumPy `.npy`.
     coordinates : "lps" or "ras", optional
-        The space of the file's coordinates. By default the one that the file states, else LPS.
+        The space of the file's coordinates. By default the one that the file states, else the one that fits
+        the volume, else LPS.
+    unit : "um", "mm", "cm", "dm" or "m", optional
+        The unit of the file's coordinates and radii. By default the one that the file states, else the one
+        that fits the volume, else that of its format: cm for `.pth`, mm for all others.
     volume : Volume, optional
-        Where given, the coordinates are compared with its extent.
+        Where given, its extent decides what the file leaves open, and what the file states is compared with
+        it.
 
     Raises
     ------
     FileError
         Where the file cannot be read.
     FormatError
-        Where its content is not what its format promises, or holds no centerline.
+        Where its content is not what its format promises, or holds no centerline; where several spaces or
+        units fit the volume, or none does.
 
     Warns
     -----
     SpaceWarning
-        Without `coordinates`, where the other space clearly fits the volume better. Nothing is repaired.
+        Where the volume decides against LPS or the usual unit; where what the file states fits the volume
+        clearly worse than another space or unit, which is not repaired. The text names both counts.
+        What else was assumed (without a volume) or decided is logged.
     """
-    tree, report = _read(path, coordinates)
-    if volume is not None and coordinates is None:
-        mend = f'read the file with coordinates="{_OTHER_SPACE[report.space]}" if that is its space'
-        tree._space_settled = _warn_if_flipped_fits(tree, volume, Path(path).name, mend)
+    file = CenterlineFile(path)
+    tree = file.tree(coordinates, unit, volume)
+    if volume is not None:
+        check_space_once(tree, volume, file.path.name)
     return tree
 
 
 def inspect_centerlines(
-    path: str | os.PathLike[str], coordinates: Coordinates | None = None
+    path: str | os.PathLike[str],
+    coordinates: Coordinates | None = None,
+    *,
+    unit: Unit | None = None,
+    volume: Volume | None = None,
 ) -> CenterlineReport:
     """Tell how `read_centerlines` reads a file, with the same parameters and errors."""
-    return _read(path, coordinates)[1]
-
-
-def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
-    """Compare a tree with the extent of a volume.
-
-    Warns
-    -----
-    SpaceWarning
-        Where clearly more points lie inside the volume with x and y negated, as when RAS was read as LPS or
-        the other way round. The text names both counts and the option that mends it.
-    """
-    mend = 'read the centerlines with coordinates="ras", or "lps" where they were read as RAS'
-    # Whoever was warned once knows.
-    tree._space_settled |= _warn_if_flipped_fits(tree, volume, subject, mend)
-
-
-def check_space_once(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
-    """Do as `check_space`, unless the tree's space was asked for or already warned about."""
-    if not tree._space_settled:
-        check_space(tree, volume, subject)
-
-
-def _read(
-    path: str | os.PathLike[str], coordinates: Coordinates | None
-) -> tuple[VesselTree, CenterlineReport]:
-    if coordinates not in (None, "lps", "ras"):
-        raise SettingsError("coordinates", repr(coordinates), '"lps", "ras" or None')
-    expected = "a readable centerline file"
-    checked = checked_path(path, expected)
-    try:
-        content = checked.read_bytes()
-    except OSError as error:
-        raise FileError(str(checked), error.strerror or str(error), expected) from error
-    vessels, stated, notes = _lumencut.read_centerlines(content, checked.name)
-    space = coordinates or _known(stated) or "lps"
-    if stated is None and coordinates is None:
-        notes.append("the file names no space; LPS is assumed")
-    if coordinates is not None and stated not in (None, coordinates):
-        notes.append(f"the file states {stated}; read as {coordinates} as asked")
-    tree = VesselTree([Vessel(_lps(points, space), radius, name) for points, radius, name in vessels])
-    tree._space_settled = coordinates is not None
-    report = CenterlineReport(
-        space=space,
-        stated=_known(stated),
-        vessels=len(vessels),
-        points=sum(len(points) for points, _, _ in vessels),
-        radius=all(radius is not None for _, radius, _ in vessels),
-        notes=tuple(notes),
-    )
-    return tree, report
-
-
-def _known(space: str | None) -> Coordinates | None:
-    return "ras" if space == "ras" else "lps" if space == "lps" else None
-
-
-def _lps(points: npt.NDArray[np.float64], space: Coordinates) -> npt.NDArray[np.float64]:
-    return points * _FLIP if space == "ras" else points
-
-
-def _warn_if_flipped_fits(tree: VesselTree, volume: Volume, subject: str, mend: str) -> bool:
-    """Warn where negating x and y brings twice as many points into the volume, and a tenth of all more.
-
-    Returns whether it warned.
-    """
-    points = np.concatenate([tree[i].points for i in range(len(tree))])
-    as_read = int(volume.contains(points).sum())
-    flipped = int(volume.contains(points * _FLIP).sum())
-    doubtful = flipped >= 2 * as_read and flipped - as_read >= max(1, len(points) // 10)
-    if doubtful:
-        counts = f"{as_read} of {len(points)} points lie inside the volume as read, but {flipped}"
-        text = f"{subject}: {counts} with x and y negated (LPS and RAS mixed up?); {mend}"
-        warnings.warn(text, SpaceWarning, stacklevel=3)
-    return doubtful
+    return CenterlineFile(path).placed(coordinates, unit, volume)[1]

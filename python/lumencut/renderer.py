@@ -218,7 +218,7 @@ def as_volume(image: Any) -> Volume:
 
 
 def _check_meeting(volume: Volume, tree: VesselTree) -> None:
-    from lumencut.centerlines import check_space_once
+    from lumencut.placement import check_space_once
 
     points = tree.points
     if not volume.contains(points).any():

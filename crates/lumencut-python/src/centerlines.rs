@@ -1,6 +1,6 @@
 //! Centerline files for `lumencut.centerlines`.
 
-use lumencut_io::{Centerlines, Line, Space, junctions};
+use lumencut_io::{Centerlines, Error, Line, Space, Unit, junctions};
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
@@ -8,24 +8,69 @@ use crate::errors::exception;
 
 type Vessel<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>, Option<String>);
 
-/// The vessels of a centerline file: `(vessels, space, notes)`, each vessel `(points (n, 3), radius (n,) or
-/// None, name or None)` in mm in the file's own space, which is `"lps"`, `"ras"` or None where the file
-/// states none.
-#[pyfunction]
-pub fn read_centerlines<'py>(
-    py: Python<'py>,
-    content: &[u8],
-    name: &str,
-) -> PyResult<(Vec<Vessel<'py>>, Option<&'static str>, Vec<String>)> {
-    let read = py.detach(|| lumencut_io::read(content, name).map(junctions::vessels));
-    let Centerlines { lines, space, notes } =
-        read.map_err(|e| exception("FormatError", &e.subject, &e.found, &e.expected, &e.mend))?;
-    let space = space.map(|space| match space {
-        Space::Lps => "lps",
-        Space::Ras => "ras",
-    });
-    let vessels = lines.into_iter().map(|line| vessel(py, line)).collect();
-    Ok((vessels, space, notes))
+/// The lines of a centerline file in its own space and unit.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct CenterlineFile {
+    name: String,
+    lines: Centerlines,
+}
+
+#[pymethods]
+impl CenterlineFile {
+    /// Reads the content of the file `name`.
+    #[new]
+    fn new(py: Python<'_>, content: &[u8], name: String) -> PyResult<Self> {
+        let lines = py.detach(|| lumencut_io::read(content, &name)).map_err(raised)?;
+        Ok(Self { name, lines })
+    }
+
+    /// The name of the format.
+    #[getter]
+    fn format(&self) -> &'static str {
+        self.lines.format
+    }
+
+    /// `"lps"`, `"ras"`, or None where the file states no space.
+    #[getter]
+    fn space(&self) -> Option<&'static str> {
+        self.lines.space.map(|space| match space {
+            Space::Lps => "lps",
+            Space::Ras => "ras",
+        })
+    }
+
+    /// `"um"`, `"mm"`, `"cm"`, `"dm"`, `"m"`, or None where the file states no unit.
+    #[getter]
+    fn unit(&self) -> Option<&'static str> {
+        self.lines.unit.map(Unit::name)
+    }
+
+    /// The unit that files of the format usually have.
+    #[getter]
+    fn conventional_unit(&self) -> &'static str {
+        self.lines.conventional_unit.unwrap_or(Unit::Millimetre).name()
+    }
+
+    /// All points, shape (n, 3), in the file's space and unit.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        let points: Vec<_> = self.lines.lines.iter().flat_map(|line| &line.points).collect();
+        let array = Array2::from_shape_fn((points.len(), 3), |(i, axis)| points[i][axis]);
+        PyArray2::from_owned_array(py, array)
+    }
+
+    /// `(vessels, notes)`: the vessels that the lines form, each `(points (n, 3), radius (n,) or None, name or
+    /// None)`, in mm in the file's space, where one unit of the file is `mm_per_unit`.
+    fn vessels<'py>(&self, py: Python<'py>, mm_per_unit: f64) -> PyResult<(Vec<Vessel<'py>>, Vec<String>)> {
+        let lines = self.lines.clone();
+        let placed = py.detach(|| lines.scaled(mm_per_unit).map(junctions::vessels));
+        let placed = placed.map_err(|error| raised(error.in_file(&self.name)))?;
+        Ok((placed.lines.into_iter().map(|line| vessel(py, line)).collect(), placed.notes))
+    }
+}
+
+fn raised(error: Error) -> PyErr {
+    exception("FormatError", &error.subject, &error.found, &error.expected, &error.mend)
 }
 
 fn vessel(py: Python<'_>, line: Line) -> Vessel<'_> {

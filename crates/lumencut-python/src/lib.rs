@@ -19,6 +19,7 @@ mod volume;
 fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     context::add_names(module)?;
+    module.add_class::<centerlines::CenterlineFile>()?;
     module.add_class::<renderer::Renderer>()?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(arguments::check_camera, module)?)?;
@@ -27,6 +28,5 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
-    module.add_function(wrap_pyfunction!(centerlines::read_centerlines, module)?)?;
     Ok(())
 }

@@ -7,31 +7,39 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from lumencut.cli.report import bar
+from lumencut.errors import FormatError, SeriesError
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
     from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
 
-#: Extents between these (mm) pass for vessels of a body; others suggest another unit.
-_SMALL, _LARGE = 8.0, 2500.0
+#: Who decided on a space or unit.
+_ORIGINS = {
+    "asked": "as asked",
+    "stated": "stated in the file",
+    "volume": "the volume fits it",
+    "assumed": "assumed",
+}
 #: Letters of the directions that grow along x, y, z in LPS, and of their opposites.
 _LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
 
 
-def of_volume(path: Path, series: str | None = None) -> dict[str, Any]:
+def of_volume(path: Path, series: str | None = None, *, fill_gaps: bool = False) -> dict[str, Any]:
     """Look into a volume file."""
     from lumencut.volume_files import inspect_volume
 
     with bar(f"reading {path.name}", "slice") as told:
-        report = inspect_volume(path, series=series, progress=told)
+        report = inspect_volume(path, series=series, fill_gaps=fill_gaps, progress=told)
     affine = report.world_from_index
     low_high = None if report.value_range is None else [float(value) for value in report.value_range]
     return {
         "file": str(path),
         "kind": "volume",
         "format": report.format,
+        **report.details,
         "size": [int(count) for count in report.size],
         "spacing_mm": [round(float(step), 6) for step in report.spacing],
         "voxels": str(report.dtype),
@@ -39,32 +47,61 @@ def of_volume(path: Path, series: str | None = None) -> dict[str, Any]:
         "space": report.space,
         "orientation": orientation(affine),
         "origin_mm": [float(value) for value in affine[:3, 3]],
+        "world_from_index": affine.tolist(),
+        "filled_slices": list(report.filled_slices),
         "notes": _with(report.notes, _odd_grid(affine, low_high)),
         "_report": report,
     }
 
 
-def of_centerlines(path: Path, coordinates: Literal["lps", "ras"] | None) -> dict[str, Any]:
-    """Look into a centerline file."""
-    from lumencut.centerlines import inspect_centerlines, read_centerlines
+def of_series(path: Path, error: SeriesError) -> dict[str, Any]:
+    """List the series of a folder of which none was chosen."""
+    from dataclasses import asdict
 
-    report, tree = inspect_centerlines(path, coordinates), read_centerlines(path, coordinates)
+    return {
+        "file": str(path),
+        "kind": "series",
+        "format": "DICOM",
+        "series": [asdict(one) | {"shown": str(one)} for one in error.series],
+        "notes": [f"{len(error.series)} series; --series NUMBER|UID chooses one"],
+    }
+
+
+def of_centerlines(
+    path: Path,
+    coordinates: Literal["lps", "ras"] | None,
+    unit: Literal["um", "mm", "cm", "dm", "m"] | None,
+    volumes: list[dict[str, Any]],
+) -> dict[str, Any]:
+    """Look into a centerline file; the first volume decides what it leaves open."""
+    from lumencut.centerlines import CenterlineFile
+
+    file, undecided = CenterlineFile(path), []
+    try:
+        tree, report = file.placed(coordinates, unit, _grid(volumes[0]) if volumes else None)
+    except FormatError as error:
+        tree, report = file.placed(coordinates, unit)
+        undecided = [f"{error.found}; {error.mend}"]
     lengths, radii = [vessel.length for vessel in tree], [vessel.radius for vessel in tree]
     known = [float(value) for radius in radii if radius is not None for value in (radius.min(), radius.max())]
     degrees = _ends(tree)
     return {
         "file": str(path),
         "kind": "centerlines",
+        "format": report.format,
         "vessels": len(tree),
         "points": len(tree.points),
         "length_mm": round(sum(lengths), 3),
         "vessel_lengths_mm": [round(length, 3) for length in lengths],
+        "vessel_names": [vessel.name for vessel in tree] if any(vessel.name for vessel in tree) else None,
         "radius_mm": [min(known), max(known)] if known else None,
         "junctions": sum(degree > 2 for degree in degrees),
         "loose_ends": sum(degree == 1 for degree in degrees),
-        "space": f"{report.space} ({_origin_of_space(report.stated, coordinates)})",
+        "space": f"{report.space} ({_ORIGINS[report.space_from]})",
+        "unit": f"{report.unit} ({_ORIGINS[report.unit_from]})",
         "bounds_mm": tree.bounds.round(3).tolist(),
-        "notes": [*report.notes, *_odd_tree(tree)],
+        "decisions": [report.decision] if report.decision else [],
+        "notes": [*undecided, *report.notes, *_odd_tree(tree)],
         "_tree": tree,
     }
 
@@ -89,14 +126,9 @@ def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[
 
 def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
-    import numpy as np
+    from lumencut.placement import check_space_once
 
-    from lumencut.centerlines import check_space_once
-    from lumencut.volume import Volume
-
-    report, tree = volume["_report"], lines["_tree"]
-    # Only the grid matters here: memory that nobody touches costs nothing.
-    grid = Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
+    tree, grid = lines["_tree"], _grid(volume)
     points = tree.points
     inside, flipped = (int(grid.contains(points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
     check_space_once(tree, grid, Path(lines["file"]).name)
@@ -108,6 +140,16 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
         "inside_with_x_and_y_negated": flipped,
         "notes": ["no point lies inside the volume"] if inside == 0 else [],
     }
+
+
+def _grid(volume: dict[str, Any]) -> Volume:
+    """The grid of a volume; memory that nobody touches costs nothing."""
+    import numpy as np
+
+    from lumencut.volume import Volume
+
+    report = volume["_report"]
+    return Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
 
 
 def orientation(affine: npt.NDArray[np.float64]) -> str:
@@ -143,9 +185,11 @@ def _odd_grid(affine: npt.NDArray[np.float64], low_high: list[float] | None) -> 
 def _odd_tree(tree: VesselTree) -> list[str]:
     import numpy as np
 
+    from lumencut.placement import LARGEST, SMALLEST
+
     notes = []
     extent = float(np.linalg.norm(np.diff(tree.bounds, axis=0)))
-    if not _SMALL <= extent <= _LARGE:
+    if not SMALLEST <= extent <= LARGEST:
         notes.append(f"the tree is {extent:.3g} mm long from corner to corner; perhaps its unit is not mm")
     bare = sum(vessel.radius is None for vessel in tree)
     if bare:
@@ -173,9 +217,3 @@ def _ends(tree: VesselTree) -> list[int]:
     ends = np.concatenate([vessel.points[[0, -1]] for vessel in tree])
     counts = np.unique(ends.round(6), axis=0, return_counts=True)[1]
     return [int(count) for count in counts]
-
-
-def _origin_of_space(stated: str | None, coordinates: str | None) -> str:
-    if coordinates is not None:
-        return "as asked"
-    return "stated in the file" if stated is not None else "assumed"

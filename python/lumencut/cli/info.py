@@ -9,22 +9,22 @@ from typing import Any, Literal
 import click
 
 from lumencut.cli import findings
-from lumencut.cli.options import series_option
+from lumencut.cli.options import coordinates_option, fill_gaps_option, series_option, unit_option
 from lumencut.cli.report import FAILED, complain, say, verbose_option
-from lumencut.errors import LumencutError
+from lumencut.errors import LumencutError, SeriesError
 
 FILE = click.Path(path_type=Path)
-_CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".pth", ".swc", ".tre", ".csv", ".txt")
+_CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".txt", ".npy")
+#: Found, but of use to programs only.
+_ONLY_IN_JSON = {"file", "name", "volume", "centerlines", "notes", "decisions", "world_from_index", "kind"}
 
 
 @click.command(short_help="Tell what files hold, and what is odd.")
 @click.argument("files", type=FILE, nargs=-1, metavar="FILE…")
-@click.option(
-    "--coordinates",
-    type=click.Choice(["lps", "ras"]),
-    help="Space of the centerline files; default: the one they state, else lps.",
-)
+@coordinates_option
+@unit_option
 @series_option
+@fill_gaps_option
 @click.option(
     "--devices", "with_devices", is_flag=True, help="List the GPUs of this machine; FILE may be left out."
 )
@@ -33,61 +33,84 @@ _CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".pth", ".swc", ".tre", ".csv", 
 def info(
     files: tuple[Path, ...],
     coordinates: Literal["lps", "ras"] | None,
+    unit: Literal["um", "mm", "cm", "dm", "m"] | None,
     series: str | None,
+    fill_gaps: bool,
     with_devices: bool,
     as_json: bool,
 ) -> None:
-    """Tell what each FILE holds and what is odd about it: volumes, DICOM folders and centerlines.
+    """Tell what each FILE holds, what was decided and what is odd: volumes, DICOM folders and centerlines.
 
-    Volumes and centerlines given together are compared. A file that cannot be read does not stop the rest;
-    the exit code is 1 then.
+    A DICOM folder of several series lists them. Volumes and centerlines given together are compared, and a
+    volume decides the space and unit that a centerline file leaves open. A file that cannot be read does not
+    stop the rest; the exit code is 1 then.
     With --devices the GPUs are listed first, and what --device auto takes: the CPU where no GPU is hardware.
     """
     if not (files or with_devices):
         raise click.UsageError("Missing argument 'FILE…'.")
     gpus = findings.of_devices() if with_devices else None
-    found = [_looked_into(path, coordinates, series) for path in files]
-    volumes = [one for one in found if one["kind"] == "volume"]
-    trees = [one for one in found if one["kind"] == "centerlines"]
+    found: dict[Path, dict[str, Any]] = {}
+    # The volumes first: they help to understand the centerlines.
+    for path in sorted(dict.fromkeys(files), key=_holds_centerlines):
+        volumes = [one for one in found.values() if one["kind"] == "volume"]
+        try:
+            if _holds_centerlines(path):
+                found[path] = findings.of_centerlines(path, coordinates, unit, volumes)
+            else:
+                found[path] = findings.of_volume(path, series, fill_gaps=fill_gaps)
+        except SeriesError as error:
+            found[path] = findings.of_series(path, error)
+        except LumencutError as error:
+            complain(error)
+            found[path] = {"file": str(path), "kind": "unreadable", "error": str(error)}
+    every = [found[path] for path in files]
+    volumes = [one for one in every if one["kind"] == "volume"]
+    trees = [one for one in every if one["kind"] == "centerlines"]
     compared = [pair for tree in trees for pair in findings.compared(tree, volumes)]
-    if as_json:
-        public = [{key: value for key, value in one.items() if not key.startswith("_")} for one in found]
-        every = (gpus or {}) | {"files": public, "compared": compared}
-        say(json.dumps(every, indent=2, allow_nan=False))
-    else:
-        if gpus is not None:
-            for gpu in gpus["devices"]:
-                say(_as_text({"file": gpu["name"]} | {key: gpu[key] for key in gpu if key != "name"}))
-            say(f"auto takes: {gpus['auto']}")
-        for one in (*(one for one in found if one["kind"] != "unreadable"), *compared):
-            say(_as_text(one))
-    if any(one["kind"] == "unreadable" for one in found):
+    say(_as_json(gpus, every, compared) if as_json else _as_text(gpus, every, compared))
+    if any(one["kind"] == "unreadable" for one in every):
         click.get_current_context().exit(FAILED)
 
 
-def _looked_into(path: Path, coordinates: Literal["lps", "ras"] | None, series: str | None) -> dict[str, Any]:
-    try:
-        if path.name.lower().endswith(_CENTERLINE_ENDINGS):
-            return findings.of_centerlines(path, coordinates)
-        return findings.of_volume(path, series)
-    except LumencutError as error:
-        complain(error)
-        return {"file": str(path), "kind": "unreadable", "error": str(error)}
+def _holds_centerlines(path: Path) -> bool:
+    return path.name.lower().endswith(_CENTERLINE_ENDINGS)
 
 
-def _as_text(one: dict[str, Any]) -> str:
-    """A block: the file's name, one line per fact, one line per oddity."""
+def _as_json(gpus: dict[str, Any] | None, found: list[dict[str, Any]], compared: list[dict[str, Any]]) -> str:
+    public = [{key: value for key, value in one.items() if not key.startswith("_")} for one in found]
+    return json.dumps((gpus or {}) | {"files": public, "compared": compared}, indent=2, allow_nan=False)
+
+
+def _as_text(gpus: dict[str, Any] | None, found: list[dict[str, Any]], compared: list[dict[str, Any]]) -> str:
+    blocks = []
+    if gpus is not None:
+        named = [
+            {"file": gpu["name"]} | {key: gpu[key] for key in gpu if key != "name"} for gpu in gpus["devices"]
+        ]
+        blocks = [*map(_block, named), f"auto takes: {gpus['auto']}"]
+    shown = [one for one in found if one["kind"] != "unreadable"]
+    return "\n".join([*blocks, *map(_block, shown), *map(_block, compared)])
+
+
+def _block(one: dict[str, Any]) -> str:
+    """The file's name, one line per fact, one per decision, one per oddity."""
     title = one.get("file") or f"{one['centerlines']} in {one['volume']}"
-    hidden = {"file", "volume", "centerlines", "notes"} | {key for key in one if key.startswith("_")}
-    shown = {key: value for key, value in one.items() if key not in hidden and value is not None}
-    width = max(len(key) for key in shown)
+    shown = {
+        key: value
+        for key, value in one.items()
+        if not (key in _ONLY_IN_JSON or key.startswith("_") or value in (None, [], {}))
+    }
+    width = max((len(key) for key in shown), default=0)
     lines = [f"  {key.replace('_', ' '):<{width}}  {_value(value)}" for key, value in shown.items()]
-    return "\n".join([title, *lines, *(f"  ! {note}" for note in one["notes"])])
+    decisions = [f"  > {decision}" for decision in one.get("decisions", [])]
+    return "\n".join([title, *lines, *decisions, *(f"  ! {note}" for note in one["notes"])])
 
 
 def _value(value: Any) -> str:
     if isinstance(value, list):
-        if value and isinstance(value[0], list):
+        if value and isinstance(value[0], (list, dict)):
             return "; ".join(_value(row) for row in value)
         return ", ".join(_value(item) for item in value)
+    if isinstance(value, dict):
+        return str(value.get("shown", value))
     return f"{value:.6g}" if isinstance(value, float) else str(value)

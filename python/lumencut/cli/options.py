@@ -38,6 +38,28 @@ series_option = click.option(
 )
 
 
+#: What becomes of a DICOM series from which slices are missing.
+fill_gaps_option = click.option(
+    "--fill-gaps",
+    is_flag=True,
+    help="Interpolate missing DICOM slices between their neighbours instead of refusing the series.",
+)
+
+
+#: How the coordinates of centerline files are to be understood.
+coordinates_option = click.option(
+    "--coordinates",
+    type=click.Choice(["lps", "ras"]),
+    help="Space of the centerline file; default: the one it states, else the one that fits the volume.",
+)
+unit_option = click.option(
+    "--unit",
+    type=click.Choice(["um", "mm", "cm", "dm", "m"]),
+    help="Unit of the centerline file; default: the one it states, else the one that fits the volume, "
+    "first of all that of its format (.pth cm, others mm).",
+)
+
+
 #: What computes.
 device_option = click.option(
     "--device",
@@ -54,12 +76,10 @@ def scene_arguments(command: Command) -> Command:
     parts = (
         click.argument("volume", type=FILE),
         click.argument("centerlines", type=FILE, required=False),
-        click.option(
-            "--coordinates",
-            type=click.Choice(["lps", "ras"]),
-            help="Space of the centerline file; default: the one it states, else lps.",
-        ),
+        coordinates_option,
+        unit_option,
         series_option,
+        fill_gaps_option,
         device_option,
     )
     return added(parts, command)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import click
 
 from lumencut.cli import options
 from lumencut.cli.report import detail, say, timings, verbose_option
-from lumencut.cli.scene import check_scene, is_empty, read_scene, shown, warn_of_emptiness
+from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
 from lumencut.cli.settings import setting_options, settings_from
 
 
@@ -28,17 +28,13 @@ from lumencut.cli.settings import setting_options, settings_from
 @setting_options
 @verbose_option
 def render(
-    volume: Path,
-    centerlines: Path | None,
-    coordinates: Literal["lps", "ras"] | None,
-    series: str | None,
-    device: Literal["auto", "cpu", "gpu"],
     output: tuple[Path, ...],
     **chosen: Any,
 ) -> None:
     """Render VOLUME along CENTERLINES as one picture.
 
-    VOLUME is a DICOM folder, NIfTI, NRRD or MetaImage file; CENTERLINES a .vtp, .vtk or .mrk.json file.
+    VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES a .vtp, .vtk,
+    .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy file.
     Without CENTERLINES the context alone is shown, all of the volume. The view fits all vessels, or the
     volume, unless --center, --pixel-spacing or --zoom say otherwise.
 
@@ -48,10 +44,11 @@ def render(
     lumencut render ct.nii.gz -o body.png --context dvr --context-transfer soft-tissue
     """  # noqa: D301 - click needs the control character itself
     settings, view = settings_from(chosen), options.view_from(chosen)
-    check_scene(centerlines, coordinates, settings)
+    files = scene_from(chosen)
+    check_scene(files, settings)
     for path in output:
         options.check_picture(path)
-    renderer = read_scene(volume, centerlines, coordinates, series, device)
+    renderer = read_scene(files)
     frame = renderer.render(options.placed(view, renderer.scene, chosen), settings)
     timings("rendered", frame.timings)
     detail(f"device: {renderer.device}")

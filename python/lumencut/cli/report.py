@@ -105,13 +105,9 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
 def _one_line(text: object) -> str:
     line = " ".join(str(text).split())
     # The library names its arguments; here they are options.
-    line = line.replace("as `series`", "as --series NUMBER|UID")
-    return re.sub(r'coordinates="(\w+)"(, or )?(?:"(\w+)")?', _as_options, line)
-
-
-def _as_options(match: re.Match[str]) -> str:
-    first, link, second = match.groups(default="")
-    return f"--coordinates {first}{link}" + (f"--coordinates {second}" if second else "")
+    line = line.replace("as `series`", "as --series NUMBER|UID").replace("fill_gaps=True", "--fill-gaps")
+    line = re.sub(r'(coordinates|unit)="(\w+)"', r"--\1 \2", line)
+    return re.sub(r'(--coordinates (?:lps|ras)),? or "(\w+)"', r"\1 or --coordinates \2", line)
 
 
 def _show_warning(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -21,38 +22,50 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
 
 
-def check_scene(
-    centerlines: Path | None, coordinates: Literal["lps", "ras"] | None, settings: Settings
-) -> None:
+@dataclass(frozen=True)
+class SceneFiles:
+    """The files of a picture, and how they are to be read."""
+
+    volume: Path
+    centerlines: Path | None
+    coordinates: Literal["lps", "ras"] | None
+    unit: Literal["um", "mm", "cm", "dm", "m"] | None
+    series: str | None
+    fill_gaps: bool
+    device: Literal["auto", "cpu", "gpu"]
+
+
+def scene_from(chosen: dict[str, Any]) -> SceneFiles:
+    """Take the files and their options out of what the command line holds."""
+    return SceneFiles(**{field.name: chosen[field.name] for field in fields(SceneFiles)})
+
+
+def check_scene(files: SceneFiles, settings: Settings) -> None:
     """Refuse what cannot be shown without centerlines before any file is read."""
-    if centerlines is None and coordinates is not None:
-        raise click.UsageError("--coordinates without CENTERLINES; give the file that they are the space of")
-    if centerlines is None and settings.context is None:
+    for name in ("coordinates", "unit"):
+        if files.centerlines is None and getattr(files, name) is not None:
+            raise click.UsageError(f"--{name} without CENTERLINES; give the file that they are the {name} of")
+    if files.centerlines is None and settings.context is None:
         raise click.UsageError("--context none without CENTERLINES shows nothing; give one of them")
 
 
-def read_scene(
-    volume: Path,
-    centerlines: Path | None,
-    coordinates: Literal["lps", "ras"] | None,
-    series: str | None,
-    device: Literal["auto", "cpu", "gpu"],
-) -> Renderer:
+def read_scene(files: SceneFiles) -> Renderer:
     """Return a renderer of the files."""
-    from lumencut.centerlines import read_centerlines
+    from lumencut.centerlines import CenterlineFile
     from lumencut.renderer import Renderer
     from lumencut.volume_files import read_volume
 
     start = time.perf_counter()
     # The small file first: what is wrong with it shows before gigabytes are read.
-    tree = None if centerlines is None else read_centerlines(centerlines, coordinates)
+    lines = None if files.centerlines is None else CenterlineFile(files.centerlines)
+    with bar(f"reading {files.volume.name}", "slice") as told:
+        voxels = read_volume(files.volume, series=files.series, fill_gaps=files.fill_gaps, progress=told)
+    detail(f"{files.volume}: {voxels!r}")
+    tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
     if tree is not None:
-        detail(f"{centerlines}: {tree!r}")
-    with bar(f"reading {volume.name}", "slice") as told:
-        voxels = read_volume(volume, series=series, progress=told)
-    detail(f"{volume}: {voxels!r}")
+        detail(f"{files.centerlines}: {tree!r}")
     # The renderer compares the tree with the volume and warns where the space looks wrong.
-    renderer = Renderer(voxels, tree, device)
+    renderer = Renderer(voxels, tree, files.device)
     detail(f"read in {time.perf_counter() - start:.2f} s")
     return renderer
 

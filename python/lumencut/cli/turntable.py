@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from lumencut.cli import options
 from lumencut.cli.parameters import Named
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
-from lumencut.cli.scene import check_scene, is_empty, read_scene, shown, warn_of_emptiness
+from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
 from lumencut.cli.settings import setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
 
@@ -57,11 +57,6 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @setting_options
 @verbose_option
 def turntable(
-    volume: Path,
-    centerlines: Path | None,
-    coordinates: Literal["lps", "ras"] | None,
-    series: str | None,
-    device: Literal["auto", "cpu", "gpu"],
     output: str,
     frames: int,
     fps: float | None,
@@ -82,10 +77,11 @@ def turntable(
     fps = fps or (frames / seconds if seconds else 12.0)
     degrees, axis = chosen["degrees"], chosen["axis"]
     settings, view = settings_from(chosen), options.view_from(chosen)
-    check_scene(centerlines, coordinates, settings)
+    files = scene_from(chosen)
+    check_scene(files, settings)
     write = _checked_writer(output, fps)
     _check_turn(view, frames, degrees, axis)
-    renderer = read_scene(volume, centerlines, coordinates, series, device)
+    renderer = read_scene(files)
 
     from lumencut import turntable as library
 

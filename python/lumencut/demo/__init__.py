@@ -67,7 +67,7 @@ def stent_scene(cache: Path) -> tuple[Volume, VesselTree]:
     content = _checked(*_kept(cache), MEMBER_SHA256)
     voxels = np.load(BytesIO(content), allow_pickle=False)["arr_0"]
     with as_file(files("lumencut.demo") / "stent-centerlines.vtp") as path:
-        tree = read_centerlines(path, "lps")
+        tree = read_centerlines(path, "lps", unit="mm")
     # [k, j, i] runs to the head, to the back and to the left: the identity in LPS.
     return Volume(voxels, spacing=(1.0, 1.0, 1.0)), tree
 

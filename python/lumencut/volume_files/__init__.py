@@ -52,6 +52,8 @@ class VolumeReport:
         Affine from index (i, j, k) to world (mm, LPS).
     value_range : tuple of 2 float, or None
         Smallest and largest finite value; None if there is none or the values were not asked for.
+    details : dict of str
+        What else the format tells of the scan: for DICOM the series, its modality, files and codec.
     filled_slices : tuple of int
         The indices k of slices that are missing and were interpolated.
     notes : tuple of str
@@ -66,6 +68,7 @@ class VolumeReport:
     space: str
     world_from_index: npt.NDArray[np.float64]
     value_range: tuple[float, float] | None
+    details: dict[str, str]
     filled_slices: tuple[int, ...]
     notes: tuple[str, ...]
 
@@ -159,6 +162,7 @@ def inspect_volume(
         space=file.space,
         world_from_index=file.world_from_index,
         value_range=value_range,
+        details=file.details,
         filled_slices=file.filled,
         notes=tuple(file.notes),
     )

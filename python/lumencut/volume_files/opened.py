@@ -33,6 +33,7 @@ class VolumeFile:
     load: Callable[[Progress], npt.NDArray[Any]]
     notes: list[str] = field(default_factory=list)
     filled: tuple[int, ...] = ()
+    details: dict[str, str] = field(default_factory=dict)
 
     def volume(self, progress: Progress) -> Volume:
         """Read the voxels."""

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from lumencut.volume_files.dicom.geometry import Stack, stacked
 from lumencut.volume_files.dicom.headers import Header, is_dicom
-from lumencut.volume_files.dicom.series import SeriesReport, chosen, grouped, read_images
+from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, grouped, read_images
 from lumencut.volume_files.dicom.slices import listed
 from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.values import load
@@ -31,13 +31,14 @@ def open_dicom(path: Path, series: str | None = None, *, fill_gaps: bool = False
         stack = stacked(str(path), one.slices(str(path), notes), notes, fill_gaps=fill_gaps)
         _note_oddities(stack, notes)
         stored = _stored_type(stack.slices[0].image.header)
+        details = _details(one, stack)
 
     def voxels(progress: Progress) -> npt.NDArray[Any]:
         return load(stack, notes, progress)
 
     return VolumeFile(
         path, "DICOM", stack.size, stored, "LPS (as every DICOM)", stack.world_from_index, voxels, notes,
-        filled=stack.missing,
+        filled=stack.missing, details=details,
     )  # fmt: skip
 
 
@@ -45,6 +46,18 @@ def list_dicom_series(path: Path) -> list[SeriesReport]:
     """Describe all series below a folder, in a zip archive, or of a single file."""
     with refusing(path, "DICOM", []):
         return [one.report() for one in grouped(read_images(path, []))]
+
+
+def _details(series: Series, stack: Stack) -> dict[str, str]:
+    images = list({id(s.image): s.image for s in stack.slices}.values())
+    report = series.report()
+    return {
+        "series": f"number {report.number or 'not stated'}, {report.description or 'no description'}",
+        "series_uid": report.uid,
+        "modality": report.modality,
+        "files": str(len(images)),
+        "pixels": listed(sorted({image.transfer_syntax.name for image in images})),
+    }
 
 
 def _stored_type(header: Header) -> np.dtype[Any]:
