@@ -9,11 +9,8 @@ import numpy as np
 from pydicom.dataset import Dataset
 from pydicom.uid import MediaStorageDirectoryStorage
 
-import dicom_enhanced as multi
-from dicom_codecs import BASELINE, LOSSLESS, LOSSY, pydicom_does
+from dicom_multiframe import MULTIFRAME
 from dicom_phantom import (
-    CENTER,
-    HOUNSFIELD,
     SIZE,
     SPACING,
     Image,
@@ -22,19 +19,20 @@ from dicom_phantom import (
     grid,
     images,
     instance,
+    oblique,
     pixels,
     save,
-    textured,
     tilted,
 )
 from dicom_series import (
+    COUNT,
+    LATE_STACK,
+    PLAIN_STACK,
     Case,
-    Made,
     Stack,
     acquisition,
     doubled,
     localiser,
-    quantised,
     sets,
     shuffled,
     together,
@@ -43,19 +41,10 @@ from dicom_series import (
     two_phases,
     zipped,
 )
+from dicom_values import VALUES
 
-COUNT = SIZE[2]
-PLAIN_STACK = images(axial())
-LATE_STACK = images(axial(), contrast=120.0)
 CORONAL = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]).astype(float)
 SAGITTAL = np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0]]).astype(float)
-
-
-def oblique() -> np.ndarray:
-    """Directions turned about two axes."""
-    (a, b), rotation = (0.4, -0.7), np.eye(3)
-    rotation[:2, :2] = [[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]
-    return rotation @ [[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]]
 
 
 def helical(k: int, data: Dataset) -> None:
@@ -90,7 +79,7 @@ def half_a_slice_up() -> list[Image]:
 PLAIN = "plain stacks: axial, coronal, sagittal, oblique, any order"
 _STACKS = {
     "axial": Stack(PLAIN_STACK, change=helical),
-    "oblique": Stack(images(grid(SIZE, oblique(), SPACING))),
+    "oblique": Stack(images(oblique())),
     "coronal": Stack(images(grid(SIZE, CORONAL, SPACING))),
     "sagittal": Stack(images(grid(SIZE, SAGITTAL, SPACING))),
     "from above downwards": Stack(PLAIN_STACK, number=lambda k: COUNT - k),
@@ -247,161 +236,10 @@ _FOLDERS = [
 ]
 
 
-def whole_slopes(k: int) -> Stored:
-    """Another slope for every slice."""
-    return Stored("i2", 16, 1.0 + k % 3, -100.0 - k)
-
-
-def fractions(k: int) -> Stored:
-    """Slopes that make fractions, as in PET."""
-    return Stored("i2", 16, 0.01 + 0.001 * k, 0.0)
-
-
-def spoilt(bits: int) -> Stack:
-    """Numbers of 12 bits whose other bits hold something else: an overlay, or no sign."""
-    signed = not bits
-    low, high = (-2048, 2047) if signed else (0, 4095)
-    stack = textured(PLAIN_STACK, low, high)
-
-    def change(k: int, data: Dataset) -> None:
-        numbers = stack[k].values.astype("i2").view("u2") & 0x0FFF
-        data.PixelData = (numbers | np.uint16(bits) * (numbers % 3 == 0).astype("u2")).tobytes()
-
-    return Stack(stack, Stored("i2" if signed else "u2", 12), change)
-
-
-def padded() -> Stack:
-    """A round field of view with a number for outside."""
-    j, i = np.indices((SIZE[1], SIZE[0]))
-    outside = np.hypot(i - 31.5, j - 23.5) > 30
-    stack = [replace(one, values=np.where(outside, -2000, one.values)) for one in PLAIN_STACK]
-    return Stack(stack, change=sets(PixelPaddingValue=-2000))
-
-
-_VALUES = {
-    "a slope for every slice": Stack(quantised(PLAIN_STACK, whole_slopes), whole_slopes),
-    "slopes that make fractions": Stack(quantised(PLAIN_STACK, fractions), fractions),
-    "16 bits signed": Stack(textured(PLAIN_STACK, -32768, 32767)),
-    "16 bits unsigned": Stack(textured(PLAIN_STACK, -1024, 64511), Stored("u2", 16, 1.0, -1024.0)),
-    "12 bits unsigned": Stack(textured(PLAIN_STACK, -1024, 3071), HOUNSFIELD),
-    "12 bits signed": Stack(textured(PLAIN_STACK, -2048, 2047), Stored("i2", 12)),
-    "12 bits signed, upper bits without sign": spoilt(0),
-    "12 bits unsigned, an overlay in the upper bits": spoilt(0x1000),
-    "8 bits": Stack(textured(PLAIN_STACK, 0, 255), Stored("u1", 8)),
-    "MONOCHROME1": Stack(PLAIN_STACK, change=sets(PhotometricInterpretation="MONOCHROME1")),
-    "pixel padding": padded(),
-}
-_SMALL = textured(PLAIN_STACK[:5], -2000, 2000)
-BYTES = Stored("u1", 8, 2.0, -100.0)
-
-
-def _needs(name: str) -> str:
-    return "imagecodecs" if name.startswith("HTJ2K") else ""
-
-
-_CODECS = [
-    *(
-        Case(name, "transfer syntaxes without loss", Stack(_SMALL, encoder=encoder), needs=_needs(name))
-        for name, encoder in LOSSLESS.items()
-    ),
-    *(
-        Case(
-            name,
-            "transfer syntaxes with loss",
-            Stack(PLAIN_STACK[:5], HOUNSFIELD, encoder=encoder),
-            notes=("loss",),
-            loss=3.0,
-            needs=_needs(name),
-        )
-        for name, encoder in LOSSY.items()
-    ),
-    Case(
-        "JPEG baseline, 8 bits",
-        "transfer syntaxes with loss",
-        Stack(quantised(PLAIN_STACK[:5], lambda k: BYTES), BYTES, encoder=BASELINE),
-        notes=("loss",),
-        loss=6.0,
-    ),
-]
-
-
-def frames(stack: list[Image], wanted: str | None = "only", encoder=None, **options) -> object:
-    """A writer of one enhanced CT."""
-
-    def write(folder: Path) -> Made:
-        multi.write_enhanced(folder, multi.enhanced(stack, **options), encoder)
-        return Made(folder, stack, wanted)
-
-    return write
-
-
-def by(writer, stack: list[Image] = PLAIN_STACK, wanted: str | None = "only") -> object:
-    """A writer that is told the stack."""
-
-    def write(folder: Path) -> Made:
-        writer(folder, stack)
-        return Made(folder, stack, wanted)
-
-    return write
-
-
-ENHANCED = "enhanced multi-frame: plain, any order, slopes, compressed"
-BOTH = [
-    *(replace(one, part="early") for one in PLAIN_STACK),
-    *(replace(one, part="late") for one in LATE_STACK),
-]
-_MULTI = [
-    Case("enhanced", ENHANCED, frames(PLAIN_STACK)),
-    Case("enhanced, frames shuffled", ENHANCED, frames(PLAIN_STACK, order=shuffled(COUNT))),
-    Case(
-        "enhanced, a slope for every frame",
-        ENHANCED,
-        frames(quantised(PLAIN_STACK, whole_slopes), scale=whole_slopes, order=shuffled(COUNT)),
-    ),
-    Case("enhanced, RLE", ENHANCED, frames(PLAIN_STACK, encoder=LOSSLESS["RLE"])),
-    Case("enhanced, JPEG 2000", ENHANCED, frames(PLAIN_STACK, encoder=LOSSLESS["JPEG 2000 .90"])),
-    Case("enhanced, JPEG lossless", ENHANCED, frames(PLAIN_STACK, encoder=LOSSLESS["JPEG lossless .70"])),
-    Case(
-        "enhanced, RLE with an extended offset table",
-        ENHANCED,
-        frames(PLAIN_STACK, encoder=pydicom_does("1.2.840.10008.1.2.5", encapsulate_ext=True)),
-    ),
-    Case("enhanced, oblique", ENHANCED, frames(images(grid(SIZE, oblique(), SPACING)))),
-    Case("enhanced, split into two files", "enhanced multi-frame in two files", by(multi.write_split)),
-    Case("enhanced, tilted", "enhanced multi-frame, tilted", frames(images(tilted(18))), notes=("tilt",)),
-    Case(
-        "enhanced, two phases",
-        "enhanced multi-frame, two phases",
-        frames(BOTH, None, phases=[1] * COUNT + [2] * COUNT),
-        ("phases",),
-    ),
-    Case(
-        "enhanced, 3 of 24 frames missing",
-        "enhanced multi-frame, missing frames",
-        frames([PLAIN_STACK[k] for k in range(COUNT) if k not in (6, 13, 14)], None),
-        ("3 missing",),
-    ),
-    Case("legacy converted", "legacy-converted enhanced CT", by(multi.write_legacy)),
-    Case(
-        "legacy converted by highdicom",
-        "legacy-converted enhanced CT",
-        by(multi.write_legacy_by_highdicom),
-        needs="highdicom",
-    ),
-    Case(
-        "frames without a place",
-        "old multi-frame without positions",
-        by(multi.write_old_multiframe, wanted=None),
-        ("10 frames",),
-    ),
-]
-
 CASES = [
     *_GEOMETRY,
     *_FOLDERS,
-    *(Case(name, "rescaling, bits, MONOCHROME1, padding", stack) for name, stack in _VALUES.items()),
-    *_CODECS,
-    *_MULTI,
+    *VALUES,
+    *MULTIFRAME,
 ]
 assert len({case.name for case in CASES}) == len(CASES)
-assert CENTER.shape == (3,)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import hashlib
 import io
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +15,7 @@ from PIL import Image as Picture
 from pydicom.dataset import Dataset
 from pydicom.encaps import encapsulate
 
+CODESTREAMS = Path(__file__).parent / "htj2k.npz"
 Encoder = Callable[[Path], None]
 """Replaces a plain file by a compressed one."""
 
@@ -112,23 +113,36 @@ def baseline(frame: Any) -> bytes:
 
 def jpeg_2000(frame: Any) -> bytes:
     """JPEG 2000 without loss, in the syntax that allows loss too."""
-    from openjpeg import encode_array
+    from openjpeg.utils import encode_array
 
     return bytes(encode_array(frame))
 
 
 def high_throughput(reversible: bool) -> Callable[[Any], bytes]:
-    """High-throughput JPEG 2000, which no package that Lumencut needs can write."""
+    """High-throughput JPEG 2000 (progression RPCL), kept from `codestream`."""
 
     def encode(frame: Any) -> bytes:
-        import imagecodecs
-
-        return bytes(imagecodecs.htj2k_encode(frame, reversible=reversible))
+        with np.load(CODESTREAMS) as kept:
+            return bytes(kept[_key(frame, reversible)].tobytes())
 
     return encode
 
 
-HAS_HTJ2K = importlib.util.find_spec("imagecodecs") is not None
+def _key(frame: Any, reversible: bool) -> str:
+    return f"{'without' if reversible else 'with'} loss {hashlib.sha256(frame.tobytes()).hexdigest()[:16]}"
+
+
+def codestream(frame: Any, reversible: bool) -> tuple[str, bytes]:
+    """What the file of codestreams keeps for a frame.
+
+    Needs imagecodecs, for nothing that Lumencut needs can write HTJ2K; it has crashed on the second frame of
+    a process.
+    """
+    import imagecodecs
+
+    return _key(frame, reversible), bytes(imagecodecs.htj2k_encode(frame, reversible=reversible))
+
+
 _JPEG, _RLE = "1.2.840.10008.1.2.4", "1.2.840.10008.1.2.5"
 
 LOSSLESS: dict[str, Encoder | None] = {

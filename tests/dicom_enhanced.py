@@ -14,6 +14,7 @@ from pydicom.uid import EnhancedCTImageStorage, LegacyConvertedEnhancedCTImageSt
 from dicom_codecs import Encoder
 from dicom_phantom import (
     HOUNSFIELD,
+    PLAIN,
     ROOT,
     Image,
     Stored,
@@ -157,5 +158,5 @@ def write_old_multiframe(folder: Path, stack: Sequence[Image]) -> None:
     data.ImageType = ["ORIGINAL", "PRIMARY", "SINGLE PLANE"]
     data.NumberOfFrames, data.FrameIncrementPointer, data.FrameTime = 10, 0x00181063, "66"
     data.ImagerPixelSpacing = pixel_spacing(stack[0].plane)
-    pixels(data, np.stack([HOUNSFIELD.numbers(one.values) for one in stack[:10]]), HOUNSFIELD)
+    pixels(data, np.stack([PLAIN.numbers(one.values) for one in stack[:10]]), PLAIN)
     save(data, folder / "IM0001.dcm")

@@ -1,7 +1,7 @@
 """Images of a known phantom as DICOM: where each of them lies, and what each of its pixels is worth.
 
-The phantom is a formula of the place in the body. A reader that puts an image elsewhere shows a value that the
-formula does not have there: a straight vessel comes out crooked.
+The phantom is a formula of the place in the body. A reader that puts an image elsewhere shows a value that
+the formula does not have there: a straight vessel comes out crooked.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ROOT = "1.2.826.0.1.3680043.10.1000"
 
 
 def field(world: Array, contrast: float = 300.0) -> Array:
-    """The phantom at places [..., 3] (mm, LPS): a vessel along z and a sphere, in tissue that differs everywhere."""
+    """The phantom at places [..., 3] (mm, LPS): a vessel along z and a sphere, in tissue that varies."""
     off = world - CENTER
     vessel = contrast * np.exp(-((off[..., 0] + 4) ** 2 + (off[..., 1] - 3) ** 2) / (2 * 3.0**2))
     sphere = 250 * np.exp(-((off - (8, -6, 5)) ** 2).sum(-1) / (2 * 5.0**2))
@@ -45,6 +45,14 @@ def grid(size: tuple[int, int, int], directions: Array, spacing: Iterable[float]
 def axial(size: tuple[int, int, int] = SIZE, spacing: Iterable[float] = SPACING) -> Affine:
     """The plain grid."""
     return grid(size, np.eye(3), spacing)
+
+
+def oblique() -> Affine:
+    """A grid turned about two axes."""
+    (a, b), rotation = (0.4, -0.7), np.eye(3)
+    rotation[:2, :2] = [[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]
+    rotation = rotation @ [[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]]
+    return grid(SIZE, rotation, SPACING)
 
 
 def tilted(degrees: float) -> Affine:

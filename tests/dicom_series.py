@@ -11,9 +11,12 @@ import numpy as np
 from pydicom.dataset import Dataset
 
 from dicom_codecs import Encoder
-from dicom_phantom import PLAIN, Affine, Array, Image, Stored, corner, images, save, single
+from dicom_phantom import PLAIN, SIZE, Affine, Array, Image, Stored, axial, corner, images, save, single
 
 Change = Callable[[int, Dataset], None]
+COUNT = SIZE[2]
+PLAIN_STACK = images(axial())
+LATE_STACK = images(axial(), contrast=120.0)
 
 
 @dataclass(frozen=True)
@@ -172,7 +175,7 @@ def truncated(stack: Sequence[Image]) -> Callable[[Path], Made]:
         made = Stack(stack)(folder)
         last = folder / f"IM{len(stack):04}.dcm"
         last.write_bytes(last.read_bytes()[:-2000])
-        return replace(made, images=made.images[:-1], wanted=None)
+        return replace(made, wanted=None)
 
     return write
 
