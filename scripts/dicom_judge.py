@@ -23,7 +23,10 @@ NEAR = 0.05
 """The farthest (mm) that a voxel may be from its place."""
 SMOOTH, RESAMPLED = 3.0, 25.0
 """How far interpolated values may be from the formula: half of them, and 99 of 100."""
+LOST = 100.0
+"""Beyond this distance (mm) a place is no place that the files state."""
 FEWEST = 3
+"""The fewest slices of what counts as a volume."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +94,8 @@ def volume_found(volume: Grid, images: Sequence[Image], loss: float) -> Found:
 
 def off(far: float) -> str:
     """Say how far slices are from their place."""
+    if far > LOST:
+        return "at a made-up place"
     return f"up to {far:.2g} mm off" if far < 10 else f"up to {far:.0f} mm off"
 
 
@@ -145,7 +150,7 @@ def made_up(volume: Grid, images: Sequence[Image]) -> Found:
     moved = np.linalg.norm(shift_of(values, world))
     if agrees(values, world + shift_of(values, world), 300.0):
         return Found("only", f"resampled, but moved by {moved:.0f} mm")
-    return Found(None, "values of no image")
+    return Found(None, "wrong values")
 
 
 def agrees(values: npt.NDArray[Any], world: npt.NDArray[np.float64], contrast: float) -> bool:

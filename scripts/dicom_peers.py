@@ -91,14 +91,20 @@ def simpleitk(path: Path, series: str | None) -> Answer:
             attempt(answer, lambda: read(path))
         else:
             finder = SimpleITK.ImageSeriesReader
-            uids = finder.GetGDCMSeriesIDs(str(path))
-            # It finds no multi-frame files; they are read one by one.
-            for file in [] if uids else sorted(path.iterdir()):
-                attempt(answer, lambda file=file: read(file))  # type: ignore[misc]
-            for uid in uids:
+            for uid in finder.GetGDCMSeriesIDs(str(path)):
                 names = finder.GetGDCMSeriesFileNames(str(path), uid)
-                attempt(answer, lambda names=names: read(names))  # type: ignore[misc]
+                # A series of one file, such as a multi-frame one, is no matter of the series reader.
+                for one in [names] if len(names) > 1 and not multiframe(names) else map(Path, names):
+                    attempt(answer, lambda one=one: read(one))  # type: ignore[misc]
     return answer
+
+
+def multiframe(names: tuple[str, ...]) -> bool:
+    """Whether files hold many images each."""
+    import pydicom
+
+    first = pydicom.dcmread(names[0], stop_before_pixels=True, specific_tags=["NumberOfFrames"])
+    return "NumberOfFrames" in first
 
 
 def highdicom(path: Path, series: str | None) -> Answer:
