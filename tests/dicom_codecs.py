@@ -98,7 +98,7 @@ def frames_by(uid: str, encode_one: Callable[[Any], bytes], lossy: bool = False)
         stack = array if array.ndim == 3 else array[None]
         data.PixelData = encapsulate([encode_one(frame) for frame in stack])
         data["PixelData"].VR = "OB"
-        data.file_meta.TransferSyntaxUID = uid
+        data.file_meta.TransferSyntaxUID = pydicom.uid.UID(uid)
         _saved(data, path, lossy)
 
     return encode

@@ -120,7 +120,8 @@ def write_split(folder: Path, stack: Sequence[Image]) -> None:
     half = len(stack) // 2
     for number, part in enumerate((stack[:half], stack[half:]), start=1):
         data = enhanced(part, first_place=1 + (number - 1) * half)
-        data.SOPInstanceUID = data.file_meta.MediaStorageSOPInstanceUID = f"{ROOT}.3.{number}"
+        data.SOPInstanceUID = f"{ROOT}.3.{number}"
+        data.file_meta.MediaStorageSOPInstanceUID = data.SOPInstanceUID
         data.InstanceNumber = number
         data.ConcatenationUID, data.InConcatenationNumber = f"{ROOT}.8", number
         data.InConcatenationTotalNumber, data.ConcatenationFrameOffsetNumber = 2, (number - 1) * half

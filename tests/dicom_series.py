@@ -133,7 +133,7 @@ def sets(**values: object) -> Change:
 
 def shuffled(count: int) -> list[int]:
     """An order that is neither up nor down."""
-    return np.random.default_rng(3).permutation(count).tolist()
+    return [int(k) for k in np.random.default_rng(3).permutation(count)]
 
 
 def two_phases(
