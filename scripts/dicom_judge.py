@@ -83,8 +83,8 @@ def volume_found(volume: Grid, images: Sequence[Image], loss: float) -> Found:
     parts = sorted({one.part for one in matched})
     if len(parts) > 1:
         return Found(None, f"{' and '.join(parts)} mixed")
-    if len({id(one) for one in matched}) < len(matched):
-        return Found(parts[0], f"{len(matched) - len({id(one) for one in matched})} slices twice")
+    if twice := len(matched) - len({id(one) for one in matched}):
+        return Found(parts[0], f"{twice} slice{'s' * (twice > 1)} twice")
     if far > NEAR:
         return Found(parts[0], off(far))
     lost = sum(one.part == parts[0] for one in images) - len(matched)

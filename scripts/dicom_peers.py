@@ -100,11 +100,11 @@ def simpleitk(path: Path, series: str | None) -> Answer:
 
 
 def multiframe(names: tuple[str, ...]) -> bool:
-    """Whether files hold many images each."""
+    """Whether files hold several images each."""
     import pydicom
 
-    first = pydicom.dcmread(names[0], stop_before_pixels=True, specific_tags=["NumberOfFrames"])
-    return "NumberOfFrames" in first
+    first = pydicom.dcmread(names[0], force=True, stop_before_pixels=True, specific_tags=["NumberOfFrames"])
+    return int(first.get("NumberOfFrames") or 1) > 1
 
 
 def highdicom(path: Path, series: str | None) -> Answer:

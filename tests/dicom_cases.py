@@ -7,10 +7,13 @@ from pathlib import Path
 
 import numpy as np
 from pydicom.dataset import Dataset
-from pydicom.uid import MediaStorageDirectoryStorage
+from pydicom.pixels import pack_bits
+from pydicom.uid import MediaStorageDirectoryStorage, SegmentationStorage
 
+import dicom_enhanced as multi
 from dicom_multiframe import MULTIFRAME
 from dicom_phantom import (
+    ROOT,
     SIZE,
     SPACING,
     Image,
@@ -22,6 +25,8 @@ from dicom_phantom import (
     oblique,
     pixels,
     save,
+    save_bare,
+    single,
     tilted,
 )
 from dicom_series import (
@@ -29,9 +34,11 @@ from dicom_series import (
     LATE_STACK,
     PLAIN_STACK,
     Case,
+    Made,
     Stack,
     acquisition,
     doubled,
+    kernel,
     localiser,
     sets,
     shuffled,
@@ -50,6 +57,12 @@ SAGITTAL = np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0]]).astype(float)
 def helical(k: int, data: Dataset) -> None:
     """Every slice of its own moment, as spiral scans are."""
     data.AcquisitionTime = data.ContentTime = f"1200{k:02}.5"
+
+
+def rounded(k: int, data: Dataset) -> None:
+    """Cosines that were computed anew for every slice."""
+    if k % 3:
+        data.ImageOrientationPatient = ["1", "0", "0", "0", "0.9999999999", f"{k * 1e-7:.10f}"]
 
 
 def two_stops(k: int, data: Dataset) -> None:
@@ -85,6 +98,7 @@ _STACKS = {
     "from above downwards": Stack(PLAIN_STACK, number=lambda k: COUNT - k),
     "shuffled names": Stack(PLAIN_STACK, name=lambda k: f"{shuffled(COUNT)[k]:08x}"),
     "rows and columns of unequal spacing": Stack(images(axial(spacing=(0.6, 0.9, 2.0)))),
+    "cosines that differ in the 6th digit": Stack(PLAIN_STACK, change=rounded),
     "two stops of the table": Stack(PLAIN_STACK, change=two_stops),
 }
 
@@ -118,21 +132,27 @@ _GEOMETRY = [
     ),
     Case(
         "phases of the heart",
-        "two phases in one series",
+        "two phases or kernels in one series",
         two_phases(PLAIN_STACK, LATE_STACK, trigger),
         ("phases",),
     ),
     Case(
         "phases of contrast, by acquisition alone",
-        "two phases in one series",
+        "two phases or kernels in one series",
         two_phases(PLAIN_STACK, LATE_STACK, acquisition),
         ("phases", "Acquisition"),
     ),
     Case(
         "two phases half a slice apart",
-        "two phases in one series",
+        "two phases or kernels in one series",
         two_phases(PLAIN_STACK, half_a_slice_up(), trigger),
         ("phases",),
+    ),
+    Case(
+        "two kernels",
+        "two phases or kernels in one series",
+        two_phases(PLAIN_STACK, LATE_STACK, kernel),
+        ("places|kernel",),
     ),
     Case(
         "no ImagePositionPatient",
@@ -167,6 +187,30 @@ def dose_report(folder: Path) -> list[Image]:
     data.ValueType = "CONTAINER"
     save(data, folder / "DOSE.dcm")
     return []
+
+
+def segmentation(folder: Path) -> list[Image]:
+    """A mask of the vessel, which lies like a stack and is none of values."""
+    masks = [replace(one, values=(one.values > 150).astype(int)) for one in PLAIN_STACK]
+    data = multi.enhanced(masks, lambda k: Stored("u1", 8))
+    for keyword, value in (("SOPInstanceUID", ".24.1"), ("SeriesInstanceUID", ".1.24")):
+        setattr(data, keyword, ROOT + value)
+    data.SOPClassUID, data.Modality, data.SeriesNumber = SegmentationStorage, "SEG", 24
+    data.ImageType, data.SegmentationType, data.SeriesDescription = ["DERIVED", "PRIMARY"], "BINARY", "vessel"
+    data.file_meta.MediaStorageSOPClassUID = data.SOPClassUID
+    data.file_meta.MediaStorageSOPInstanceUID = data.SOPInstanceUID
+    data.BitsAllocated = data.BitsStored = 1
+    data.HighBit = 0
+    data.PixelData = pack_bits(np.stack([one.values for one in masks]).astype("u1"))
+    save(data, folder / "SEG.dcm")
+    return [replace(one, part="mask") for one in masks]
+
+
+def bare(folder: Path) -> Made:
+    """Files that start with their first element."""
+    for k, image in enumerate(PLAIN_STACK):
+        save_bare(single(image, k + 1), folder / f"IM{k + 1:04}")
+    return Made(folder, PLAIN_STACK)
 
 
 def junk(folder: Path) -> list[Image]:
@@ -230,6 +274,12 @@ _FOLDERS = [
         together(*_STUDY, wanted="venous"),
         series="12",
     ),
+    Case(
+        "a segmentation beside the stack",
+        "a segmentation beside the stack",
+        together(Stack(PLAIN_STACK), segmentation, wanted="only"),
+    ),
+    Case("no preamble", "files without preamble and meta information", bare),
     Case(
         "junk among the files", "files that are no images", together(Stack(PLAIN_STACK), junk, wanted="only")
     ),

@@ -9,7 +9,7 @@ import numpy as np
 import pydicom
 from pydicom.dataset import Dataset
 from pydicom.sequence import Sequence as Items
-from pydicom.uid import EnhancedCTImageStorage, LegacyConvertedEnhancedCTImageStorage
+from pydicom.uid import EnhancedCTImageStorage, EnhancedMRImageStorage, LegacyConvertedEnhancedCTImageStorage
 
 from dicom_codecs import Encoder
 from dicom_phantom import (
@@ -126,6 +126,37 @@ def write_split(folder: Path, stack: Sequence[Image]) -> None:
         data.ConcatenationUID, data.InConcatenationNumber = f"{ROOT}.8", number
         data.InConcatenationTotalNumber, data.ConcatenationFrameOffsetNumber = 2, (number - 1) * half
         data.SOPInstanceUIDOfConcatenationSource = f"{ROOT}.3.9"
+        save(data, folder / f"IM{number:04}.dcm")
+
+
+def magnetic(stack: Sequence[Image]) -> Dataset:
+    """The same as an enhanced MR object."""
+    data = enhanced(stack)
+    data.SOPClassUID = data.file_meta.MediaStorageSOPClassUID = EnhancedMRImageStorage
+    data.Modality = "MR"
+    for item in data.PerFrameFunctionalGroupsSequence:
+        item.MRImageFrameTypeSequence = item.CTImageFrameTypeSequence
+        del item.CTImageFrameTypeSequence
+    return data
+
+
+def nothing_shared(stack: Sequence[Image]) -> Dataset:
+    """An enhanced CT in which every frame says everything."""
+    data = enhanced(stack)
+    (shared,) = data.SharedFunctionalGroupsSequence
+    for item in data.PerFrameFunctionalGroupsSequence:
+        item.PixelMeasuresSequence = shared.PixelMeasuresSequence
+        item.PlaneOrientationSequence = shared.PlaneOrientationSequence
+    data.SharedFunctionalGroupsSequence = Items([Dataset()])
+    return data
+
+
+def write_singles(folder: Path, stack: Sequence[Image]) -> None:
+    """Write a series of enhanced CT objects of one frame each."""
+    for number, image in enumerate(stack, start=1):
+        data = enhanced([image], first_place=number)
+        data.SOPInstanceUID = f"{ROOT}.3.{number}"
+        data.file_meta.MediaStorageSOPInstanceUID, data.InstanceNumber = data.SOPInstanceUID, number
         save(data, folder / f"IM{number:04}.dcm")
 
 

@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from pydicom.dataset import Dataset
+
 import dicom_enhanced as multi
 from dicom_codecs import LOSSLESS, Encoder, pydicom_does
 from dicom_phantom import Image, images, oblique, tilted
@@ -40,6 +42,12 @@ def by(
     return write
 
 
+def one_object(make: Callable[[list[Image]], Dataset]) -> Callable[[Path, list[Image]], None]:
+    """Write what a function makes of a stack."""
+    return lambda folder, stack: multi.write_enhanced(folder, make(stack))
+
+
+SEVERAL = "enhanced multi-frame in several files"
 ENHANCED = "enhanced multi-frame: plain, any order, slopes, compressed"
 BOTH = [
     *(replace(one, part="early") for one in PLAIN_STACK),
@@ -62,7 +70,10 @@ MULTIFRAME = [
         frames(PLAIN_STACK, encoder=pydicom_does("1.2.840.10008.1.2.5", encapsulate_ext=True)),
     ),
     Case("enhanced, oblique", ENHANCED, frames(images(oblique()))),
-    Case("enhanced, split into two files", "enhanced multi-frame in two files", by(multi.write_split)),
+    Case("enhanced MR", ENHANCED, by(one_object(multi.magnetic))),
+    Case("enhanced, nothing shared", ENHANCED, by(one_object(multi.nothing_shared))),
+    Case("enhanced, split into two files", SEVERAL, by(multi.write_split)),
+    Case("enhanced, one frame in each file", SEVERAL, by(multi.write_singles)),
     Case("enhanced, tilted", "enhanced multi-frame, tilted", frames(images(tilted(18))), notes=("tilt",)),
     Case(
         "enhanced, two phases",

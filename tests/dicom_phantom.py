@@ -197,6 +197,12 @@ def single(
     return data
 
 
+def save_bare(data: Dataset, path: Path) -> None:
+    """Write one object without preamble and file meta information, as old programs do."""
+    del data.file_meta
+    pydicom.dcmwrite(path, data, implicit_vr=True, little_endian=True)
+
+
 def save(data: Dataset, path: Path) -> Path:
     """Write one object as a file."""
     pydicom.dcmwrite(path, data, enforce_file_format=True)

@@ -156,6 +156,11 @@ def acquisition(phase: int, data: Dataset) -> None:
     data.AcquisitionTime = data.ContentTime = f"1200{30 * (phase - 1):02}"
 
 
+def kernel(phase: int, data: Dataset) -> None:
+    """Two reconstructions of one scan."""
+    data.ConvolutionKernel = ("Br36", "Bv49")[phase - 1]
+
+
 def doubled(stack: Sequence[Image]) -> Callable[[Path], Made]:
     """A stack with exact copies of three of its files."""
 

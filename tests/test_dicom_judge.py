@@ -59,7 +59,7 @@ def test_places():
 def test_slices():
     assert verdict(VOXELS[:-1], AFFINE) == Verdict(WRONG, "1 slice lost")
     order = [*range(23), 22]
-    assert verdict(VOXELS[order], AFFINE).words == "1 slices twice"
+    assert verdict(VOXELS[order], AFFINE).words == "1 slice twice"
     assert verdict(np.where(VOXELS > 200, 0, VOXELS), AFFINE) == Verdict(WRONG, "wrong values")
     assert verdict(1000 - VOXELS, AFFINE) == Verdict(WRONG, "values inverted")
     assert verdict(np.where(VOXELS > 200, np.nan, VOXELS), AFFINE).kind == WRONG
@@ -88,7 +88,7 @@ def test_resampled(shift, expected):
     affine = axial((60, 40, 40), (0.7, 0.7, 1.1))
     k, j, i = np.indices((40, 40, 60))
     world = np.stack([i, j, k], -1) @ affine[:3, :3].T + affine[:3, 3]
-    found = verdict(field(world + (0, 0, shift)), affine)
+    found = verdict(field(world + np.array([0, 0, shift])), affine)
     assert found.kind == expected
     assert found.words == ("" if expected == RIGHT else "resampled, but moved by 9 mm")
 
