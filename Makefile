@@ -16,7 +16,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 .PHONY: help demo test lint format bench bench-gpu compare-dicom wheel lock clean develop tools toolchain
 
 help: ## List the commands.
-	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 18
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
 
 demo: develop ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo
