@@ -13,10 +13,10 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint format bench bench-gpu wheel lock clean develop tools toolchain
+.PHONY: help demo test lint format bench bench-gpu compare-dicom wheel lock clean develop tools toolchain
 
 help: ## List the commands.
-	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 18
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
 
 demo: develop ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo
@@ -39,6 +39,9 @@ bench: develop tools ## Measure this machine, VTK beside it; prints tables, keep
 bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--quick for slow ones.
 	cargo bench --locked --package lumencut-gpu --bench stages -- $(QUICK)
 
+compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases too; rewrites the table of README.md.
+	$(BIN)/python scripts/compare_dicom.py --update README.md
+
 wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
 	$(BIN)/maturin build --release --locked --out dist
 
@@ -46,6 +49,7 @@ lock: $(VENV)/.python ## Resolve the Python requirements anew into requirements/
 	$(PIP) uv
 	$(RESOLVE) --group build --output-file requirements/runtime.lock
 	$(RESOLVE) --group dev --constraints requirements/runtime.lock --output-file requirements/dev.lock
+	$(RESOLVE) --group peers --constraints requirements/dev.lock --output-file requirements/peers.lock
 
 clean: ## Remove everything that the other commands made.
 	rm -rf $(VENV) target dist demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
@@ -59,7 +63,8 @@ tools: $(VENV)/.dev
 toolchain:
 	@$(PYTHON) scripts/toolchain.py rust
 
-# The stamps: an empty environment, what the package needs, what its developers need, the package itself.
+# The stamps: an empty environment, what the package needs, what its developers need, what it is compared with,
+# the package itself.
 $(VENV)/.python:
 	@$(PYTHON) scripts/toolchain.py python
 	$(PYTHON) -m venv $(VENV)
@@ -70,6 +75,10 @@ $(VENV)/.runtime: requirements/runtime.lock $(VENV)/.python
 	@touch $@
 
 $(VENV)/.dev: requirements/dev.lock $(VENV)/.runtime
+	$(PIP) --require-hashes --requirement $<
+	@touch $@
+
+$(VENV)/.peers: requirements/peers.lock $(VENV)/.runtime
 	$(PIP) --require-hashes --requirement $<
 	@touch $@
 

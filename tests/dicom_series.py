@@ -1,0 +1,233 @@
+"""DICOM series of known truth: what readers of volumes meet, and what each of them must make of it."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+from pydicom.dataset import Dataset
+
+from dicom_codecs import Encoder
+from dicom_phantom import PLAIN, SIZE, Affine, Array, Image, Stored, axial, corner, images, save, single
+
+Change = Callable[[int, Dataset], None]
+COUNT = SIZE[2]
+PLAIN_STACK = images(axial())
+LATE_STACK = images(axial(), contrast=120.0)
+
+
+@dataclass(frozen=True)
+class Made:
+    """What a case wrote, and the truth about it.
+
+    Attributes
+    ----------
+    path : Path
+        What to read: a folder or a file.
+    images : list of Image
+        All images with a place, of every stack.
+    wanted : str, optional
+        The part that is the volume; None where nothing is one volume.
+    """
+
+    path: Path
+    images: list[Image]
+    wanted: str | None = "only"
+
+    @property
+    def truth(self) -> tuple[Affine, Array]:
+        """The affine (LPS) and the voxels [k, j, i] of the volume, slices along their normal."""
+        stack = [one for one in self.images if one.part == self.wanted]
+        normal = np.cross(stack[0].plane[:3, 0], stack[0].plane[:3, 1])
+        stack.sort(key=lambda one: float(one.plane[:3, 3] @ normal))
+        affine = stack[0].plane.copy()
+        affine[:3, 2] = (stack[-1].plane[:3, 3] - affine[:3, 3]) / (len(stack) - 1)
+        return affine, np.stack([one.values for one in stack])
+
+
+@dataclass(frozen=True)
+class Case:
+    """One thing that a reader of DICOM meets.
+
+    Attributes
+    ----------
+    name : str
+        What it is.
+    group : str
+        The row of the table that it counts for.
+    write : callable
+        Makes the files in an empty folder.
+    words : tuple of str
+        What the refusal must say; empty where the volume must be read.
+    notes : tuple of str
+        What a note must say.
+    loss : float
+        How much a value may be off, where compression loses some.
+    series : str, optional
+        The series that is asked for.
+    needs : str
+        A package that only this case needs.
+    """
+
+    name: str
+    group: str
+    write: Callable[[Path], Made]
+    words: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    loss: float = 0.0
+    series: str | None = None
+    needs: str = ""
+
+
+@dataclass(frozen=True)
+class Stack:
+    """One series of single-frame files; calling it writes them."""
+
+    images: Sequence[Image]
+    stored: Stored | Callable[[int], Stored] = PLAIN
+    change: Change = field(default=lambda k, data: None)
+    name: Callable[[int], str] = field(default=lambda k: f"IM{k + 1:04}.dcm")
+    number: Callable[[int], int] = field(default=lambda k: k + 1)
+    encoder: Encoder | None = None
+    series: int = 3
+    description: str = "made for a test"
+    thickness: float = 2.0
+    wanted: str | None = "only"
+
+    def __call__(self, folder: Path) -> Made:
+        for k, image in enumerate(self.images):
+            stored = self.stored(k) if callable(self.stored) else self.stored
+            data = single(image, self.number(k), self.series, stored, self.thickness)
+            data.SeriesDescription = self.description
+            self.change(k, data)
+            path = save(data, folder / self.name(k))
+            if self.encoder:
+                self.encoder(path)
+        return Made(folder, list(self.images), self.wanted)
+
+
+def quantised(stack: Sequence[Image], scale: Callable[[int], Stored]) -> list[Image]:
+    """The same images with the values that are left after being stored."""
+    scales = [scale(k) for k in range(len(stack))]
+    return [
+        replace(one, values=s.numbers(one.values) * s.slope + s.intercept)
+        for one, s in zip(stack, scales, strict=True)
+    ]
+
+
+def sets(**values: object) -> Change:
+    """A change that gives every image the same attributes; None takes one away."""
+
+    def change(k: int, data: Dataset) -> None:
+        for keyword, value in values.items():
+            if value is None:
+                delattr(data, keyword)
+            else:
+                setattr(data, keyword, value)
+
+    return change
+
+
+def shuffled(count: int) -> list[int]:
+    """An order that is neither up nor down."""
+    return [int(k) for k in np.random.default_rng(3).permutation(count)]
+
+
+def two_phases(
+    stack: Sequence[Image], late: Sequence[Image], change: Callable[[int, Dataset], None]
+) -> Stack:
+    """Two phases in one series, one after the other; `change` is told the phase (1 or 2)."""
+    both = [replace(one, part="early") for one in stack] + [replace(one, part="late") for one in late]
+    return Stack(both, change=lambda k, data: change(1 + (k >= len(stack)), data), wanted=None)
+
+
+def trigger(phase: int, data: Dataset) -> None:
+    """Phases of the heart."""
+    data.TriggerTime, data.TemporalPositionIdentifier = str(400 * (phase - 1)), phase
+    data.NumberOfTemporalPositions = 2
+
+
+def acquisition(phase: int, data: Dataset) -> None:
+    """Phases of contrast that only the acquisition tells apart."""
+    data.AcquisitionNumber = phase
+    data.AcquisitionTime = data.ContentTime = f"1200{30 * (phase - 1):02}"
+
+
+def kernel(phase: int, data: Dataset) -> None:
+    """Two reconstructions of one scan."""
+    data.ConvolutionKernel = ("Br36", "Bv49")[phase - 1]
+
+
+def doubled(stack: Sequence[Image]) -> Callable[[Path], Made]:
+    """A stack with exact copies of three of its files."""
+
+    def write(folder: Path) -> Made:
+        made = Stack(stack)(folder)
+        for k in (5, 6, 17):
+            shutil.copy(folder / f"IM{k:04}.dcm", folder / f"COPY{k:04}.dcm")
+        return replace(made, wanted=None)
+
+    return write
+
+
+def truncated(stack: Sequence[Image]) -> Callable[[Path], Made]:
+    """A stack whose last file lacks its end."""
+
+    def write(folder: Path) -> Made:
+        made = Stack(stack)(folder)
+        last = folder / f"IM{len(stack):04}.dcm"
+        last.write_bytes(last.read_bytes()[:-2000])
+        return replace(made, wanted=None)
+
+    return write
+
+
+def zipped(stack: Sequence[Image]) -> Callable[[Path], Made]:
+    """A stack in a folder in a ZIP file."""
+
+    def write(folder: Path) -> Made:
+        inside = folder / "unpacked" / "CT" / "SE3"
+        inside.mkdir(parents=True)
+        made = Stack(stack)(inside)
+        archive = shutil.make_archive(str(folder / "series"), "zip", folder / "unpacked")
+        shutil.rmtree(folder / "unpacked")
+        return replace(made, path=Path(archive))
+
+    return write
+
+
+def localiser(series: int, first: int = 1, same_series: bool = False) -> Callable[[Path], list[Image]]:
+    """Two projections from the side and the front, of their own size and spacing."""
+
+    def write(folder: Path) -> list[Image]:
+        scouts = []
+        for number, axis in enumerate((1, 0), start=first):
+            plane = np.eye(4)
+            plane[:3, 0], plane[:3, 1] = np.roll([1.5, 0, 0], 1 - axis), (0, 0, -1.5)
+            plane[:3, 3] = (-20, -60, 200)
+            image = images(plane, (50, 70, 1), part="localiser")[0]
+            data = single(image, number, series, thickness=60)
+            data.ImageType = ["ORIGINAL", "PRIMARY", "LOCALIZER"]
+            data.SeriesDescription = "made for a test" if same_series else "Topogram"
+            data.ImagePositionPatient = corner(plane)
+            save(data, folder / f"SC{number:04}.dcm")
+            scouts.append(image)
+        return scouts
+
+    return write
+
+
+def together(*writers: Callable[[Path], Made | list[Image]], wanted: str | None) -> Callable[[Path], Made]:
+    """Several writers into one folder."""
+
+    def write(folder: Path) -> Made:
+        found: list[Image] = []
+        for writer in writers:
+            made = writer(folder)
+            found += made.images if isinstance(made, Made) else made
+        return Made(folder, found, wanted)
+
+    return write

@@ -1,0 +1,34 @@
+"""Every kind of DICOM series that was thought of: read exactly, or refused with the words that say why."""
+
+from __future__ import annotations
+
+import logging
+import re
+
+import numpy as np
+import pytest
+
+from dicom_cases import CASES
+from lumencut import FormatError, read_volume
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_series(tmp_path, caplog, case):
+    if case.needs:
+        pytest.importorskip(case.needs)
+    made = case.write(tmp_path)
+    caplog.set_level(logging.WARNING, "lumencut")
+    if case.words:
+        with pytest.raises(FormatError) as caught:
+            read_volume(made.path, series=case.series)
+        for word in case.words:
+            assert re.search(word, str(caught.value)), str(caught.value)
+        return
+    volume = read_volume(made.path, series=case.series)
+    affine, voxels = made.truth
+    np.testing.assert_allclose(volume.world_from_index, affine, atol=1e-5)
+    assert volume.array.shape == voxels.shape
+    exact = voxels.dtype.kind == "i" and not case.loss
+    np.testing.assert_allclose(volume.array, voxels, rtol=0 if exact else 1e-6, atol=case.loss)
+    for word in case.notes:
+        assert word in caplog.text
