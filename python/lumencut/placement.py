@@ -105,11 +105,8 @@ def placement(
         counts = _counts(points, list(itertools.product(spaces, units)), volume)
         best = _best(subject, counts, usual, len(points))
         if counts[best]:
-            by: Origin = "volume"
-            froms = (
-                by if space_from == "assumed" else space_from,
-                by if unit_from == "assumed" else unit_from,
-            )
+            space_from = "volume" if space_from == "assumed" else space_from
+            unit_from = "volume" if unit_from == "assumed" else unit_from
             told = f"{nothing}; {_chosen(best, usual, counts, len(points))}"
             return Placement(*best, space_from, unit_from, told, is_unusual=best != usual)
     return Placement(*usual, space_from, unit_from, f"{nothing}; {usual[0]} in {usual[1]} is assumed")

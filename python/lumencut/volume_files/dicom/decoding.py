@@ -14,6 +14,7 @@ _SIZ_MARKER = b"\xff\x4f\xff\x51"
 _JPEG_2000 = tuple(f"1.2.840.10008.1.2.4.{number}" for number in (90, 91, 201, 202, 203))
 _RLE = "1.2.840.10008.1.2.5"
 _JPEG = tuple(f"1.2.840.10008.1.2.4.{number}" for number in (50, 51, 57, 70, 80, 81))
+_JPEG_EXTENDED = "1.2.840.10008.1.2.4.51"
 PLUGINS = {
     _RLE: "pydicom",
     **dict.fromkeys(_JPEG_2000, "pylibjpeg"),
@@ -38,10 +39,38 @@ def decode_frame(subject: str, syntax: str, frame: bytes, options: dict[str, Any
 
     if syntax in _JPEG_2000:
         _require_codestream(subject, frame, options)
+    if syntax == _JPEG_EXTENDED and options["bits_stored"] > 8:
+        return _jpeg_of_12_bits(frame, options)
     single = options | {"number_of_frames": 1}
     decoder = get_decoder(syntax)
     packed = encapsulate([frame], has_bot=False)
     return np.asarray(decoder.as_array(packed, index=0, decoding_plugin=PLUGINS[syntax], **single)[0])
+
+
+def _jpeg_of_12_bits(frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
+    """Decode JPEG Extended beyond 8 bits, which GDCM can and pydicom's way to it cannot."""
+    import gdcm
+
+    fragment = gdcm.Fragment()
+    fragment.SetByteStringValue(frame)
+    fragments = gdcm.SequenceOfFragments.New()
+    fragments.AddFragment(fragment)
+    element = gdcm.DataElement(gdcm.Tag(0x7FE0, 0x0010))
+    element.SetValue(fragments.__ref__())
+    image = gdcm.Image()
+    image.SetNumberOfDimensions(2)
+    image.SetDimensions((options["columns"], options["rows"], 1))
+    image.SetDataElement(element)
+    image.SetPhotometricInterpretation(
+        gdcm.PhotometricInterpretation(gdcm.PhotometricInterpretation.MONOCHROME2)
+    )
+    image.SetTransferSyntax(gdcm.TransferSyntax(gdcm.TransferSyntax.GetTSType(_JPEG_EXTENDED)))
+    stored, signed = options["bits_stored"], options["pixel_representation"]
+    image.SetPixelFormat(gdcm.PixelFormat(1, options["bits_allocated"], stored, stored - 1, signed))
+    # GDCM gives its bytes as a text.
+    data = image.GetBuffer().encode("utf-8", "surrogateescape")
+    kind = np.dtype(("i" if signed else "u") + str(options["bits_allocated"] // 8)).newbyteorder("<")
+    return np.frombuffer(data, kind).reshape(options["rows"], options["columns"])
 
 
 def _require_codestream(subject: str, frame: bytes, options: dict[str, Any]) -> None:

@@ -27,6 +27,7 @@ _PHASE_KEYWORDS = (
     "EchoTime",
     "EffectiveEchoTime",
     "StackID",
+    "ConvolutionKernel",
     "AcquisitionNumber",
     "FrameAcquisitionNumber",
     "ImageType",
@@ -50,7 +51,7 @@ def refuse_duplicates(subject: str, ordered: Sequence[Slice], gaps: npt.NDArray[
     named = listed([f"{first.name} and {second.name}" for first, second in pairs])
     found = f"{len(ordered)} slices at {places} places: {named}"
     if phases := _phases(ordered, pairs):
-        mend = "give a folder or series with one of the phases"
+        mend = "give a folder or series with one of them"
         raise FormatError(subject, f"{found}; {phases}", "one slice per place", mend)
     if all(_uid(first) == _uid(second) and first.frame == second.frame for first, second in pairs):
         found += ", copies of one image each"
@@ -65,7 +66,8 @@ def _phases(ordered: Sequence[Slice], pairs: Sequence[tuple[Slice, Slice]]) -> s
     """Which attribute tells slices at one place apart, and how many slices have which value of it."""
     for keyword in _PHASE_KEYWORDS:
         if all(str(first.get(keyword)) != str(second.get(keyword)) for first, second in pairs):
-            return f"{keyword} differs ({_counted(ordered, keyword)}): mixed phases"
+            mixed = "kernels" if keyword == "ConvolutionKernel" else "phases"
+            return f"{keyword} differs ({_counted(ordered, keyword)}): mixed {mixed}"
     return ""
 
 

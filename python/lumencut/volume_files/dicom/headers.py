@@ -24,7 +24,7 @@ _KEYWORDS = (
     "SliceThickness", "SpacingBetweenSlices", "GantryDetectorTilt", "SharedFunctionalGroupsSequence",
     "PerFrameFunctionalGroupsSequence", "AcquisitionNumber", "AcquisitionTime", "ContentTime",
     "TriggerTime", "NominalPercentageOfCardiacPhase", "TemporalPositionIdentifier", "EchoNumbers",
-    "EchoTime", "ExtendedOffsetTable", "ExtendedOffsetTableLengths",
+    "EchoTime", "ConvolutionKernel", "ExtendedOffsetTable", "ExtendedOffsetTableLengths",
 )
 # fmt: on
 _HEAD = 1 << 17

@@ -12,7 +12,14 @@ import numpy as np
 from lumencut.errors import FormatError, SeriesError
 from lumencut.volume_files.dicom.geometry import stacked
 from lumencut.volume_files.dicom.headers import Header, Image, read_header
-from lumencut.volume_files.dicom.slices import Slice, is_localizer, listed, missing_positions, slices_of
+from lumencut.volume_files.dicom.slices import (
+    Slice,
+    is_localizer,
+    listed,
+    missing_positions,
+    require_grey,
+    slices_of,
+)
 from lumencut.volume_files.dicom.sources import sources
 
 _MODALITIES = ("CT", "MR", "XA")
@@ -81,6 +88,8 @@ class Series:
         if scouts and len(scouts) < len(images):
             images = [image for image in images if image not in scouts]
             notes.append(f"left out, localisers: {listed([image.source.name for image in scouts])}")
+        for image in images:
+            require_grey(image)
         if missing := missing_positions(images):
             total = sum(image.frame_count for image in images)
             found = f"no ImagePositionPatient in {len(missing)} of {total} images: {listed(missing)}"
@@ -128,6 +137,8 @@ def _why_no_angiography(series: Series, count: int) -> str:
     header = series.images[0].header
     if _text(header, "Modality") not in _MODALITIES:
         return f"modality {_text(header, 'Modality') or 'not stated'}"
+    if "Segmentation" in kind(header):
+        return "a segmentation"
     if "Secondary Capture" in kind(header) or int(header.get("SamplesPerPixel") or 1) != 1:
         return "screenshots"
     if all(is_localizer(image, 0) for image in series.images):

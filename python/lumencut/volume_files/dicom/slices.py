@@ -103,7 +103,6 @@ def _texts(value: Any) -> list[str]:
 
 def slices_of(image: Image) -> list[Slice]:
     """Read where the frames of a grey image lie; localisers among them are left out if others are there."""
-    require_grey(image)
     frames = list(range(image.frame_count))
     wanted = [frame for frame in frames if not is_localizer(image, frame)] or frames
     return [_placed(image, frame) for frame in wanted]
