@@ -28,11 +28,11 @@ def write_volume(path: Path) -> Path:
     return path
 
 
-def write_lines(path: Path, points=None, radius=3.0) -> Path:
+def write_lines(path: Path, points=None, radius=3.0, title="line") -> Path:
     """Write one line as a legacy VTK file."""
     points = bent_line() if points is None else np.asarray(points)
     count = len(points)
-    rows = ["# vtk DataFile Version 3.0", "line", "ASCII", "DATASET POLYDATA", f"POINTS {count} double"]
+    rows = ["# vtk DataFile Version 3.0", title, "ASCII", "DATASET POLYDATA", f"POINTS {count} double"]
     rows += [" ".join(map(str, point)) for point in points]
     rows += [f"LINES 1 {count + 1}", " ".join(map(str, [count, *range(count)]))]
     if radius is not None:

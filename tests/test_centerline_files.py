@@ -59,7 +59,7 @@ def test_lines_that_repeat_a_trunk_become_vessels_that_meet(name, vessels, point
     report = inspect_centerlines(shared_data / name)
     assert (report.space, report.stated, report.vessels, report.points) == ("lps", None, vessels, points)
     assert report.radius
-    assert "the file names no space; LPS is assumed" in report.notes
+    assert report.decision == "the file states no space and no unit; lps in mm is assumed"
 
 
 @needs_shared_data
@@ -188,9 +188,11 @@ def test_files_that_cannot_be_read_and_bad_options_are_named(tmp_path):
 
 
 def test_the_extension_gives_plain_arrays():
-    vessels, space, notes = _lumencut.read_centerlines(SMALL_VTK.encode(), "y.vtk")
-    assert space is None
-    assert len(notes) == 2
+    file = _lumencut.CenterlineFile(SMALL_VTK.encode(), "y.vtk")
+    assert (file.format, file.space, file.unit) == ("legacy VTK", None, None)
+    assert file.points.shape == (6, 3)
+    vessels, notes = file.vessels(1.0)
+    assert notes[-1] == "2 line(s) form 3 vessel(s) that meet at shared end points"
     for points, radius, name in vessels:
         assert (points.dtype, points.shape, radius.dtype) == (np.float64, (2, 3), np.float64)
         assert name is None

@@ -112,7 +112,9 @@ def test_every_mode_of_the_legacy_writer_is_read(binary, version, others, tmp_pa
     data = poly_data(np.float64, space="LPS", others=others)
     path = write_legacy(tmp_path / "a.vtk", data, binary=binary, version=version)
     assert_is_helices(path, np.float64, 0.0 if binary else 1e-3)
-    assert (inspect_centerlines(path).space, inspect_centerlines(path).space_from) == ("ras", "stated"), "the title comes before the field"
+    assert (inspect_centerlines(path).space, inspect_centerlines(path).space_from) == ("ras", "stated"), (
+        "the title comes before the field"
+    )
 
 
 @pytest.mark.parametrize("mode", XML_MODES)

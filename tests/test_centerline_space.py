@@ -1,4 +1,4 @@
-"""LPS and RAS: what is stated, what is asked for, and the warning where neither fits the volume."""
+"""LPS and RAS: what is stated, what is asked for, what the volume tells, and what has to be asked for."""
 
 import warnings
 from pathlib import Path
@@ -9,7 +9,7 @@ import pytest
 from conftest import needs_shared_data
 from lumencut import Renderer, render
 from lumencut.centerlines import inspect_centerlines, read_centerlines
-from lumencut.errors import SpaceWarning
+from lumencut.errors import FormatError, SettingsError, SpaceWarning
 from lumencut.placement import check_space
 from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
@@ -54,28 +54,78 @@ def test_the_option_beats_the_file_and_the_file_beats_lps(title, asked, flipped,
     assert report.stated == (title[-3:].lower() if "SPACE" in title else None)
 
 
-@pytest.mark.parametrize(
-    ("title", "option"), [("silent", "ras"), ("SPACE=LPS", "ras"), ("SPACE=RAS", "lps")], ids=str
-)
-def test_a_reading_that_misses_the_volume_warns_with_both_counts(title, option, tmp_path):
+@pytest.mark.parametrize(("title", "option"), [("SPACE=LPS", "ras"), ("SPACE=RAS", "lps")], ids=str)
+def test_a_stated_space_that_misses_the_volume_warns_with_both_counts(title, option, tmp_path):
     path = write_vtk(tmp_path, POINTS, title)
     in_the_other_space = POINTS if option == "lps" else POINTS * FLIP
-    text = rf'line\.vtk: 0 of 3 points .* but 3 with x and y negated .* coordinates="{option}"'
+    text = r'line\.vtk: 0 of 3 points .* but 3 with x and y negated .* coordinates="ras", or "lps"'
     with pytest.warns(SpaceWarning, match=text) as caught:
         tree = read_centerlines(path, volume=volume_around(in_the_other_space))
     assert caught[0].filename == __file__
     assert not volume_around(in_the_other_space).contains(tree[0].points).any(), "not repaired"
 
 
-def test_readings_that_fit_or_were_asked_for_do_not_warn(tmp_path):
+def test_what_was_asked_for_does_not_warn(tmp_path):
     path = write_vtk(tmp_path, POINTS)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         read_centerlines(path, volume=volume_around(POINTS))
-        read_centerlines(path, "lps", volume=volume_around(POINTS * FLIP))
+        read_centerlines(path, "lps", unit="mm", volume=volume_around(POINTS * FLIP))
+        read_centerlines(path, "lps", volume=volume_around(POINTS + 500.0))
+
+
+def test_an_unstated_space_is_told_by_the_volume(tmp_path, caplog):
+    path = write_vtk(tmp_path, POINTS)
+    with caplog.at_level("INFO", "lumencut"):
+        tree = read_centerlines(path, volume=volume_around(POINTS))
+    np.testing.assert_array_equal(tree[0].points, POINTS)
+    assert "lps in mm fits the volume (3 of 3 points inside, 0 in ras)" in caplog.text
+    with pytest.warns(
+        SpaceWarning, match=r'0 of 3 .* in lps in mm, but 3 in ras .* coordinates="ras"'
+    ) as caught:
+        tree = read_centerlines(path, volume=volume_around(POINTS * FLIP))
+    assert caught[0].filename == __file__
+    np.testing.assert_array_equal(tree[0].points, POINTS * FLIP)
+    report = inspect_centerlines(path, volume=volume_around(POINTS * FLIP))
+    assert (report.space, report.space_from, report.stated, report.is_unusual) == (
+        "ras",
+        "volume",
+        None,
+        True,
+    )
+
+
+def test_without_a_volume_what_is_assumed_is_logged(tmp_path, caplog):
+    read_centerlines(write_vtk(tmp_path, POINTS))
+    assert "the file states no space and no unit; lps in mm is assumed" in caplog.text
+    assert caplog.records[0].levelname == "WARNING"
+
+
+@pytest.mark.parametrize(("unit", "size"), [("cm", 10.0), ("m", 1000.0), ("um", 1e-3)])
+def test_an_unstated_unit_is_told_by_the_volume(unit, size, tmp_path):
+    long = np.array([[10.0, 20.0, 0.0], [11.0, 21.0, 50.0], [12.0, 22.0, 90.0]])
+    path = write_vtk(tmp_path, long / size)
+    with pytest.warns(SpaceWarning, match=f'but 3 in lps in {unit}: read so; unit="{unit}" confirms it'):
+        tree = read_centerlines(path, volume=volume_around(long))
+    np.testing.assert_allclose(tree[0].points, long, rtol=1e-12)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        np.testing.assert_allclose(read_centerlines(path, "lps", unit=unit)[0].points, long, rtol=1e-12)
+
+
+def test_what_the_volume_cannot_tell_is_asked_for(tmp_path):
+    path = write_vtk(tmp_path, POINTS)
+    both_fit = volume_around(np.concatenate([POINTS, POINTS * FLIP]))
+    text = r'lps in mm \(3 of 3 points inside\), ras in mm \(3 of 3 .* coordinates="lps" or coordinates="ras"'
+    with pytest.raises(FormatError, match=text):
+        read_centerlines(path, volume=both_fit)
+    np.testing.assert_array_equal(read_centerlines(path, "ras", volume=both_fit)[0].points, POINTS * FLIP)
+    with pytest.raises(
+        FormatError, match=r"line\.vtk: found no point inside the volume, in lps or ras, in um, mm"
+    ):
         read_centerlines(path, volume=volume_around(POINTS + 500.0))
-        both_fit = np.concatenate([POINTS, POINTS * FLIP])
-        read_centerlines(path, volume=volume_around(both_fit))
+    with pytest.raises(SettingsError, match="unit: found 'inch'"):
+        read_centerlines(path, unit="inch")
 
 
 def test_check_space_warns_for_a_tree_read_before(tmp_path):
@@ -89,7 +139,7 @@ def test_check_space_warns_for_a_tree_read_before(tmp_path):
 def test_a_doubt_is_told_once_and_can_be_answered(tmp_path):
     volume = volume_around(POINTS * FLIP)
     points = np.concatenate([POINTS, POINTS, (POINTS * FLIP)[-1:]])
-    path = write_vtk(tmp_path, points)
+    path = write_vtk(tmp_path, points, "SPACE=LPS")
     with pytest.warns(SpaceWarning, match=r"line\.vtk: 1 of 6 points") as caught:
         render(volume, read_centerlines(path, volume=volume))
     assert len(caught) == 1
@@ -105,7 +155,7 @@ def test_a_doubt_is_told_once_and_can_be_answered(tmp_path):
 
 def test_a_tree_that_fits_one_volume_is_compared_with_the_next(tmp_path):
     points = np.concatenate([POINTS * FLIP, [[10.0, 20.0, 0.0]]])
-    tree = read_centerlines(write_vtk(tmp_path, points), volume=volume_around(points))
+    tree = read_centerlines(write_vtk(tmp_path, points, "SPACE=LPS"), volume=volume_around(points))
     with pytest.warns(SpaceWarning, match="1 of 4 points"):
         Renderer(volume_around(POINTS), tree)
 
@@ -122,11 +172,12 @@ def mra_volume(folder: Path) -> Volume:
 
 
 @needs_shared_data
-def test_the_supplied_mra_centerlines_are_told_to_be_ras(shared_data):
+def test_the_supplied_mra_centerlines_are_found_to_be_ras(shared_data):
     volume = mra_volume(shared_data)
     path = shared_data / "aorta-mra" / "aorta-centerline.vtp"
     with pytest.warns(SpaceWarning, match=r'0 of 347 points .* but 347 .* coordinates="ras"'):
-        read_centerlines(path, volume=volume)
+        tree = read_centerlines(path, volume=volume)
+    assert all(volume.contains(vessel.points).all() for vessel in tree)
     tree = read_centerlines(path, "ras", volume=volume)
     assert all(volume.contains(tree[i].points).all() for i in range(len(tree)))
     read_centerlines(shared_data / "aorta-mra" / "aorta_full_centerlines_LPS.vtp", volume=volume)

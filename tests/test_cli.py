@@ -262,13 +262,27 @@ def test_an_unknown_ending_or_missing_folder_is_refused_before_any_file_is_read(
         assert Path(output).name in result.stderr
 
 
-def test_centerlines_in_ras_are_an_error_that_names_the_option(files, tmp_path):
+def test_centerlines_in_ras_are_read_so_where_only_that_fits_and_the_option_is_named(files, tmp_path):
     write_lines(Path(files[1]), bent_line() * (-1, -1, 1))
     command = ["render", *files, "-o", str(tmp_path / "out.png"), "--size", "16x16"]
     result = CliRunner().invoke(main, command)
+    assert result.exit_code == 0
+    assert "0 of 25 points lie inside the volume in lps in mm, but 25 in ras in mm" in one_line(result)
+    assert "--coordinates ras confirms it" in one_line(result)
+    result = CliRunner().invoke(main, [*command, "--coordinates", "ras"])
+    assert (result.exit_code, result.stderr) == (0, "")
+
+
+def test_centerlines_beside_the_volume_are_an_error_that_names_the_option(files, tmp_path):
+    write_lines(Path(files[1]), bent_line() * (-1, -1, 1), title="3D Slicer output. SPACE=LPS")
+    result = CliRunner().invoke(main, ["render", *files, "-o", str(tmp_path / "out.png"), "--size", "16x16"])
     assert result.exit_code == 1
     assert "25 points would be inside as RAS: read them with --coordinates ras" in one_line(result)
-    assert CliRunner().invoke(main, [*command, "--coordinates", "ras"]).exit_code == 0
+    write_lines(Path(files[1]), bent_line() + 1000)
+    result = CliRunner().invoke(main, ["render", *files, "-o", str(tmp_path / "out.png"), "--size", "16x16"])
+    assert result.exit_code == 1
+    assert "found no point inside the volume, in lps or ras, in um, mm, cm, dm, m" in one_line(result)
+    assert not (tmp_path / "out.png").exists()
 
 
 def test_a_doubtful_space_is_a_warning_in_one_line(files, tmp_path):
@@ -314,7 +328,7 @@ def test_the_process_leaves_with_1_and_one_line(tmp_path):
 def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     code = """if True:
         import sys, time, lumencut.centerlines
-        lumencut.centerlines.read_centerlines = lambda *_: print("reading", flush=True) or time.sleep(60)
+        lumencut.centerlines.CenterlineFile = lambda *_: print("reading", flush=True) or time.sleep(60)
         from lumencut.cli import main
         main(["render", "ct.nii", "lines.vtk", "-o", sys.argv[1]])
     """

@@ -31,7 +31,15 @@ def info(*words):
 def test_info_of_a_volume_and_centerlines(files):
     result = info(*files)
     assert result.exit_code == 0, result.output
-    for fact in ("NIfTI", "24, 20, 32", "int16", "40, 300", "LPS", "lps (assumed)"):
+    for fact in (
+        "NIfTI",
+        "24, 20, 32",
+        "int16",
+        "40, 300",
+        "LPS",
+        "lps (the volume fits it)",
+        "mm (the volume fits it)",
+    ):
         assert fact in result.stdout
     assert re.search(r"inside +25\n", result.stdout)
 
@@ -68,9 +76,29 @@ def test_info_tells_what_is_odd(files, tmp_path):
     assert "a spacing of exactly 1 mm" in info(files[0]).stdout
 
 
-def test_info_counts_points_with_both_signs_and_warns(files, tmp_path):
+def test_info_decides_by_the_volume_and_says_so(files):
     write_lines(Path(files[1]), bent_line() * (-1, -1, 1))
+    result = info(*files)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert "ras (the volume fits it)" in result.stdout
+    assert "  > the file states no space and no unit; 0 of 25 points" in result.stdout
+    assert re.search(r"inside +25\n", result.stdout)
+    found = json.loads(info("--json", *files).stdout)["files"][1]
+    assert found["decisions"][0].endswith('read so; coordinates="ras" confirms it')
+    alone = json.loads(info("--json", files[1]).stdout)["files"][0]
+    assert alone["decisions"] == ["the file states no space and no unit; lps in mm is assumed"]
+
+
+def test_info_counts_points_with_both_signs_and_warns(files):
+    write_lines(Path(files[1]), bent_line() * (-1, -1, 1), title="SPACE=LPS")
     result = info(*files)
     assert "no point lies inside the volume" in result.stdout
     assert re.search(r"inside with x and y negated +25\n", result.stdout)
     assert one_line(result).startswith("lumencut: warning: lines.vtk: 0 of 25 points")
+
+
+def test_info_says_what_it_cannot_decide(files, tmp_path):
+    lines = write_lines(tmp_path / "beside.vtk", bent_line() + 1000)
+    result = info(files[0], lines)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert "  ! no point inside the volume, in lps or ras" in result.stdout

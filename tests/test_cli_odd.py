@@ -1,5 +1,6 @@
 """The command line where files are odd: several series, doubtful spaces, pipes, views beside the volume."""
 
+import json
 import os
 
 import numpy as np
@@ -54,21 +55,26 @@ def test_pictures_of_one_series(two_series, tmp_path, command, series):
     assert [path.name for path in folder.iterdir()] == ["view.png"]
 
 
-def test_info_of_one_series(two_series):
+def test_info_lists_the_series(two_series):
     result = invoke("info", two_series)
-    assert result.exit_code == 1
-    assert "number 7 (" in one_line(result)
-    assert "--series NUMBER|UID" in one_line(result)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert "number 7 (made for a test, CT, 8 × 8 × 6, 1 × 1 × 1 mm, UID 1.2.7)" in result.stdout
+    assert "--series NUMBER|UID" in result.stdout
+    (found,) = json.loads(invoke("info", "--json", two_series).stdout)["files"]
+    assert found["kind"] == "series"
+    assert [(one["number"], one["size"]) for one in found["series"]] == [("7", [8, 8, 6]), ("9", [8, 8, 12])]
     result = invoke("info", two_series, "--series", "9")
     assert result.exit_code == 0
     assert "8, 8, 12" in result.stdout
+    assert "number 9, made for a test" in result.stdout
 
 
-def test_a_series_that_is_not_there_is_not_replaced_by_another(two_series):
+def test_a_series_that_is_not_there_is_not_replaced_by_another(two_series, tmp_path):
     for path in two_series.glob("9-*.dcm"):
         path.unlink()
-    assert invoke("info", two_series, "--series", "7").exit_code == 0
-    result = invoke("info", two_series, "--series", "9")
+    command = ["render", two_series, "-o", tmp_path / "out.png", "--size", "8x8"]
+    assert invoke(*command, "--series", "7").exit_code == 0
+    result = invoke(*command, "--series", "9")
     assert result.exit_code == 1
     assert "expected one series with the number or UID '9'" in one_line(result)
 
@@ -91,7 +97,8 @@ def test_a_duration_that_no_file_can_hold_is_a_usage_error(tmp_path):
 @pytest.mark.parametrize("command", ["render", "turntable", "info"])
 def test_a_doubtful_space_is_told_once_and_can_be_answered(tmp_path, command):
     points = np.concatenate([[[0, 0, 1]], bent_line() * (-1, -1, 1)])
-    words = [command, write_volume(tmp_path / "ct.nii"), write_lines(tmp_path / "lines.vtk", points)]
+    lines = write_lines(tmp_path / "lines.vtk", points, title="SPACE=LPS")
+    words = [command, write_volume(tmp_path / "ct.nii"), lines]
     if command == "info":
         words.append(write_volume(tmp_path / "again.nii"))
     else:

@@ -8,6 +8,8 @@ import warnings
 from dataclasses import dataclass
 from typing import cast
 
+import numpy as np
+
 from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.errors import FileError, SpaceWarning
@@ -37,6 +39,8 @@ class CenterlineReport:
         Such as ``VTK XML PolyData``.
     space, unit : str
         The space and unit in which its coordinates were read.
+    stated, stated_unit : str or None
+        The space and unit that the file itself states.
     space_from, unit_from : "asked", "stated", "volume" or "assumed"
         Who said so: the caller, the file, the extent of the volume, or nobody.
     vessels, points : int
@@ -54,6 +58,8 @@ class CenterlineReport:
     format: str
     space: Coordinates
     unit: Unit
+    stated: Coordinates | None
+    stated_unit: Unit | None
     space_from: str
     unit_from: str
     vessels: int
@@ -100,11 +106,16 @@ class CenterlineFile:
             cast(Unit | None, content.unit),
             cast(Unit, content.conventional_unit),
         )
-        place = placement(self.path.name, content.points, stated, coordinates, unit, volume)
-        vessels, notes = content.vessels(MILLIMETRES[place.unit])
+        likely = unit or stated.unit or stated.usual_unit
+        vessels, notes = content.vessels(MILLIMETRES[likely])
+        points = np.concatenate([points for points, _, _ in vessels]) / MILLIMETRES[likely]
+        place = placement(self.path.name, points, stated, coordinates, unit, volume)
+        if place.unit != likely:
+            # Lines are joined by distances in mm.
+            vessels, notes = content.vessels(MILLIMETRES[place.unit])
         tree = VesselTree([Vessel(points * place.signs, radius, name) for points, radius, name in vessels])
         tree._space_settled = place.space_from == "asked" or place.is_unusual
-        return tree, self._report(tree, place, notes)
+        return tree, self._report(tree, stated, place, notes)
 
     def tree(
         self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Volume | None = None
@@ -118,11 +129,15 @@ class CenterlineFile:
             _log.log(level, "%s: %s", self.path, report.decision)
         return tree
 
-    def _report(self, tree: VesselTree, place: Placement, notes: list[str]) -> CenterlineReport:
+    def _report(
+        self, tree: VesselTree, stated: Stated, place: Placement, notes: list[str]
+    ) -> CenterlineReport:
         return CenterlineReport(
             format=self._content.format,
             space=place.space,
             unit=place.unit,
+            stated=stated.space,
+            stated_unit=stated.unit,
             space_from=place.space_from,
             unit_from=place.unit_from,
             vessels=len(tree),

@@ -192,15 +192,17 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
 
 
 def check_space_once(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
-    """Do as `check_space`, unless the tree's space was asked for or already warned about."""
+    """Do as `check_space` for the caller's caller, unless the space was asked for or warned about."""
     if not tree._space_settled:
-        tree._space_settled = _warn_if_another_fits(tree.points, volume, subject)
+        tree._space_settled = _warn_if_another_fits(tree.points, volume, subject, stacklevel=3)
 
 
-def _warn_if_another_fits(points: npt.NDArray[np.float64], volume: Volume, subject: str) -> bool:
+def _warn_if_another_fits(
+    points: npt.NDArray[np.float64], volume: Volume, subject: str, stacklevel: int = 2
+) -> bool:
     """Warn where another place brings twice as many points into the volume, and a tenth of all more.
 
-    Returns whether it warned. The warning points at the caller of the caller.
+    Returns whether it warned. `stacklevel` counts as for `warnings.warn` from whoever calls this.
     """
     # The likeliest mistakes first: of places that fit alike the first one is named.
     places = sorted(itertools.product(SPACES, MILLIMETRES), key=lambda place: place[1] != "mm")
@@ -212,7 +214,9 @@ def _warn_if_another_fits(points: npt.NDArray[np.float64], volume: Volume, subje
     if doubtful:
         how, mend = _mending(*other)
         text = f"{subject}: {as_read} of {len(points)} points lie inside the volume as read, but {better} "
-        warnings.warn(f"{text}{how}; read the centerlines with {mend}", SpaceWarning, stacklevel=3)
+        warnings.warn(
+            f"{text}{how}; read the centerlines with {mend}", SpaceWarning, stacklevel=stacklevel + 1
+        )
     return doubtful
 
 

@@ -98,19 +98,26 @@ def _block(one: dict[str, Any]) -> str:
     shown = {
         key: value
         for key, value in one.items()
-        if not (key in _ONLY_IN_JSON or key.startswith("_") or value in (None, [], {}))
+        if not (key in _ONLY_IN_JSON or key.startswith("_") or value in (None, "", [], {}))
     }
     width = max((len(key) for key in shown), default=0)
-    lines = [f"  {key.replace('_', ' '):<{width}}  {_value(value)}" for key, value in shown.items()]
+    lines = [
+        f"  {key.replace('_', ' '):<{width}}  {line}"
+        for key, value in shown.items()
+        for line in _lines(value)
+    ]
     decisions = [f"  > {decision}" for decision in one.get("decisions", [])]
     return "\n".join([title, *lines, *decisions, *(f"  ! {note}" for note in one["notes"])])
 
 
+def _lines(value: Any) -> list[str]:
+    """A value in one line, or what is a series in a line each."""
+    if isinstance(value, list) and isinstance(value[0], dict):
+        return [str(one["shown"]) for one in value]
+    return [_value(value)]
+
+
 def _value(value: Any) -> str:
     if isinstance(value, list):
-        if value and isinstance(value[0], (list, dict)):
-            return "; ".join(_value(row) for row in value)
-        return ", ".join(_value(item) for item in value)
-    if isinstance(value, dict):
-        return str(value.get("shown", value))
+        return ("; " if isinstance(value[0], list) else ", ").join(_value(item) for item in value)
     return f"{value:.6g}" if isinstance(value, float) else str(value)
