@@ -276,7 +276,7 @@ def test_metaimage_notes(tmp_path):
 META_REFUSALS = {
     "channels": ({"ElementNumberOfChannels": 3}, "3 channels"),
     "time": ({"NDims": 4, "DimSize": "4 3 1 5"}, "DimSize"),
-    "flat": ({"NDims": 2, "DimSize": "4 3"}, "DimSize"),
+    "flat": ({"NDims": 2, "DimSize": "4 3"}, "NDims = 2"),
     "empty": ({"DimSize": "4 0 5"}, "DimSize"),
     "type": ({"ElementType": "MET_OTHER"}, "MET_OTHER"),
     "list": ({"ElementDataFile": "LIST"}, "LIST"),

@@ -39,12 +39,13 @@ def open_nifti(path: Path) -> VolumeFile:
     """Read the header of a NIfTI file or of either file of a pair."""
     header_path = _partner(path, ".img", ".hdr")
     notes: list[str] = []
-    header, kind, paired = _header(header_path, notes)
+    header, kind, paired = _header(header_path)
     data_path = _partner(header_path, ".hdr", ".img") if paired else header_path
     offset = _offset(path, header, kind, data_path == header_path, notes)
     size = _size(path, header)
     dtype = np.dtype(header.get_data_dtype())
-    affine = LPS_FROM_RAS @ np.asarray(header.get_best_affine(), dtype=np.float64)
+    _mend(header, notes)
+    affine = LPS_FROM_RAS @ _best_affine(path, header)
     affine[:3] *= millimetres(header, notes)
     _note_forms(header, size, notes)
     slope, intercept = _scaling(path, header)
@@ -99,7 +100,7 @@ def nifti_kind(head: bytes) -> str | None:
     return _HEADER_BYTES[found.pop()] if found else None
 
 
-def _header(path: Path, notes: list[str]) -> tuple[Any, str, bool]:
+def _header(path: Path) -> tuple[Any, str, bool]:
     """The checked header, the format's name and whether the voxels are in a file of their own."""
     from nibabel.nifti1 import Nifti1PairHeader
     from nibabel.nifti2 import Nifti2PairHeader
@@ -119,11 +120,14 @@ def _header(path: Path, notes: list[str]) -> tuple[Any, str, bool]:
     # The pair class reads no extensions, whose stated lengths could ask for any amount of memory.
     header: Any = (Nifti1PairHeader if first else Nifti2PairHeader)(head[:length], check=False)
     _require_type(path, header)
-    # nibabel logs what it mends; all of it is about numbers of the header, none about its texts.
+    return header, kind, magic[1:2] == b"i"
+
+
+def _mend(header: Any, notes: list[str]) -> None:
+    """Let nibabel mend what it can. What it logs is about numbers of the header, never about its texts."""
     log = logging.Logger("mended")
     log.addHandler(_Notes(notes))
     header.check_fix(logger=log, error_level=40)
-    return header, kind, magic[1:2] == b"i"
 
 
 class _Notes(logging.Handler):
@@ -180,6 +184,15 @@ def _scaling(path: Path, header: Any) -> tuple[float, float]:
     if not np.isfinite(intercept):
         raise FormatError(str(path), f"scl_slope {slope:g} and scl_inter {intercept:g}", "finite numbers")
     return slope, intercept
+
+
+def _best_affine(path: Path, header: Any) -> npt.NDArray[np.float64]:
+    """World (RAS) from index by the sform, shear and all, else by the qform, else as nibabel guesses."""
+    try:
+        return np.asarray(header.get_best_affine(), dtype=np.float64)
+    except ValueError:
+        mend = "state an sform"
+        raise FormatError(str(path), "a qform that is no rotation", "a unit quaternion", mend) from None
 
 
 def millimetres(header: Any, notes: list[str]) -> float:

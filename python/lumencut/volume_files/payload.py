@@ -81,10 +81,10 @@ def read_voxels(
             raise _too_short(path, length, needed)
         file.seek(start if start >= 0 else length - needed)
         held = max(length - file.tell(), 0)
+        _require_room(path, file, codec, skip + needed, held)
         if codec == "raw":
-            data = _plain(path, file, skip, needed, held)
+            data = _plain(path, file, skip, needed)
         else:
-            _require_room(path, file, codec, skip + needed, held)
             data = _decompressed(path, file, codec, skip, needed)
     return data.view(dtype).reshape(shape)
 
@@ -98,9 +98,7 @@ def first_bytes(path: Path, file: BinaryIO, count: int) -> bytes:
     return bytes(found)
 
 
-def _plain(path: Path, file: BinaryIO, skip: int, needed: int, held: int) -> npt.NDArray[np.uint8]:
-    if held - skip < needed:
-        raise _too_short(path, max(held - skip, 0), needed)
+def _plain(path: Path, file: BinaryIO, skip: int, needed: int) -> npt.NDArray[np.uint8]:
     file.seek(skip, 1)
     data = np.fromfile(file, np.uint8, needed)
     if data.size < needed:
@@ -113,6 +111,8 @@ def _require_room(path: Path, file: BinaryIO, codec: Codec, needed: int, held: i
 
     A stream that would have to grow much is decompressed once only to be counted.
     """
+    if codec == "raw" and needed > held:
+        raise _too_short(path, held, needed)
     if codec == "zlib" and needed > held * _DEFLATE_LIMIT:
         raise _too_short(path, held * _DEFLATE_LIMIT, needed, "at most ")
     if needed > (memory := _memory()):
@@ -121,7 +121,7 @@ def _require_room(path: Path, file: BinaryIO, codec: Codec, needed: int, held: i
             f"{needed} bytes of voxels as the header says",
             f"at most this machine's memory of {memory} bytes",
         )
-    if needed > _TRUSTED * held:
+    if codec != "raw" and needed > _TRUSTED * held:
         start, found = file.tell(), 0
         for piece in _pieces(path, file, codec, needed):
             found += len(piece)
