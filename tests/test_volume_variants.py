@@ -73,14 +73,15 @@ def test_gzip_of_several_parts_and_with_a_tail(tmp_path):
         assert_maps(read_volume(path), oblique())
 
 
-@pytest.mark.parametrize(
-    ("name", "pack"),
-    [
-        ("bzip2", bz2.compress),
-        ("xz", lambda data: b"\xfd7zXZ\0" + data),
-        ("zip", lambda data: b"PK\3\4" + data),
-    ],
-)
+PACKERS = {
+    "bzip2": bz2.compress,
+    "xz": lzma.compress,
+    "zip": lambda data: b"PK\3\4" + data,
+    "zstd": lambda data: b"\x28\xb5\x2f\xfd" + data,
+}
+
+
+@pytest.mark.parametrize(("name", "pack"), PACKERS.items())
 def test_other_compressions_are_refused_by_name(tmp_path, name, pack):
     path = tmp_path / "x.nii.bz2"
     path.write_bytes(pack(save_nifti(tmp_path / "x.nii", coded(), oblique()).read_bytes()))
