@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 import re
 import textwrap
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path, PureWindowsPath
 from typing import Any
@@ -50,9 +52,13 @@ def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:
     try:
         return Volume(voxels, world_from_index=file.world_from_index)
     except VolumeError as error:
-        raise FormatError(
-            str(file.path), f"{error.subject} {error.found}", error.expected, error.mend
-        ) from error
+        found = " ".join(f"{error.subject} {error.found}".split())
+        raise FormatError(str(file.path), found, error.expected, error.mend) from error
+
+
+_reading = ContextVar("reading", default=False)
+# pydicom logs its warnings as well, values and all; here they become notes.
+logging.getLogger("pydicom").addFilter(lambda record: not _reading.get())
 
 
 @contextmanager
@@ -62,6 +68,7 @@ def refusing(path: Path, kind: str, notes: list[str]) -> Iterator[None]:
     Damaged files make the readers below raise nearly every built-in exception; none of them names the file,
     and many quote it: neither the error nor a printed traceback shows a value out of the file.
     """
+    before = _reading.set(True)
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -73,6 +80,8 @@ def refusing(path: Path, kind: str, notes: list[str]) -> Iterator[None]:
             found = error.strerror or type(error).__name__
             raise FileError(str(error.filename or path), found, "a readable file") from None
         raise FormatError(str(path), told(error), f"a sound {kind} file") from None
+    finally:
+        _reading.reset(before)
     for warning in caught:
         if (text := told(warning.message)) not in notes:
             notes.append(text)
@@ -119,8 +128,8 @@ def inside(header: Path, name: str, field: str) -> Path:
     """
     windows = PureWindowsPath(name)
     parts = windows.parts
-    if not parts or "\0" in name:
-        raise FormatError(str(header), f"no file in {field}", "the name of a file beside the header")
+    if not parts or not name.isprintable():
+        raise FormatError(str(header), f"no file's name in {field}", "the name of a file beside the header")
     leaves = windows.drive or windows.root or ".." in parts or name.startswith("~")
     home = header.parent.resolve()
     place = header.parent.joinpath(*parts)
