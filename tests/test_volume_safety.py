@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bz2
 import gzip
+import logging
 import traceback
 import tracemalloc
 import warnings
@@ -264,6 +265,15 @@ def test_foreign_errors_and_warnings_are_cut_before_values(error, text):
         warnings.warn(str(error), stacklevel=1)
     assert len(notes) == 1
     assert NAME not in notes[0]
+
+
+def test_the_log_of_pydicom_is_not_told_while_reading(caplog):
+    log = logging.getLogger("pydicom")
+    with refusing(Path("x.dcm"), "DICOM", []):
+        log.warning(NAME)
+    assert NAME not in caplog.text
+    log.warning("of somebody else's reading")
+    assert "somebody else" in caplog.text
 
 
 @pytest.mark.parametrize("value", ["\x1b[31m\0\n", "ü\u202e" * 300])

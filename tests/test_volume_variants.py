@@ -179,6 +179,17 @@ def test_nrrd_encodings_and_skips(tmp_path, name, attached):
         assert_as_simpleitk(path)
 
 
+@pytest.mark.parametrize("code", ["utf-8", "latin-1"])
+def test_names_of_data_files_in_either_code(tmp_path, code):
+    (tmp_path / "Größe.raw").write_bytes(RAW)
+    path = save_by_hand(tmp_path / "x.nhdr", b"", lines="data file: NAME\n")
+    path.write_bytes(path.read_bytes().replace(b"NAME", "Größe.raw".encode(code)))
+    assert_maps(read_volume(path), np.eye(4))
+    path = save_meta(tmp_path / "x.mhd", coded(), np.eye(4), b"", ElementDataFile="NAME")
+    path.write_bytes(path.read_bytes().replace(b"NAME", "Größe.raw".encode(code)))
+    assert_maps(read_volume(path), np.eye(4))
+
+
 def test_nrrd_fields_in_any_case(tmp_path):
     lines = "Space: LPS\nSPACE DIRECTIONS: (2,0,0) (0,3,0) (0,0,4)\nSpaceOrigin: (1,2,3)\n"
     path = save_by_hand(tmp_path / "x.nrrd", lines=lines, encoding="RAW", type="SHORT")

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile, inside, shown
+from lumencut.volume_files.opened import Progress, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
 
 _HEADER_LIMIT = 1 << 16
@@ -70,7 +70,7 @@ def _fields(path: Path) -> tuple[dict[str, str], int]:
     start = 0
     while (stop := head.find(b"\n", start)) >= 0 or start < len(head):
         stop = len(head) if stop < 0 else stop
-        line = _SEPARATOR.split(_text(head[start:stop]), maxsplit=1)
+        line = _SEPARATOR.split(decoded(head[start:stop]), maxsplit=1)
         if len(line) < 2:
             break
         fields[line[0].strip()] = line[1].strip()
@@ -78,14 +78,6 @@ def _fields(path: Path) -> tuple[dict[str, str], int]:
         if line[0].strip() == "ElementDataFile":
             return fields, start
     raise FormatError(str(path), "a header without ElementDataFile", "a MetaImage header")
-
-
-def _text(line: bytes) -> str:
-    """UTF-8 unless it cannot be: file names have letters of either."""
-    try:
-        return line.decode()
-    except UnicodeDecodeError:
-        return line.decode("latin-1")
 
 
 def _whole(path: Path, fields: dict[str, str], name: str, count: int) -> list[int]:

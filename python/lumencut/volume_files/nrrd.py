@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile, inside, shown
+from lumencut.volume_files.opened import Progress, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
 
 _TO_LPS = {
@@ -96,7 +96,7 @@ def _header(path: Path) -> tuple[dict[str, Any], int]:
     stated: dict[str, str] = {}
     lines, end = _lines(path, head)
     for line in lines[1:]:
-        name, colon, value = line.decode("utf-8", "replace").partition(":")
+        name, colon, value = decoded(line).partition(":")
         name = " ".join(name.lower().split())
         name = _WITH_BLANK.get(name, name)
         if line.startswith(b"#") or not colon or value.startswith("=") or name not in _FIELDS:

@@ -87,7 +87,7 @@ def refusing(path: Path, kind: str, notes: list[str]) -> Iterator[None]:
             notes.append(text)
 
 
-_VALUE = re.compile(r"""[^ -~]|[\d"'`:=<>(\[{\\]""")
+_VALUE = re.compile(r"""[^ -~]|[\d"'`:=<>^(\[{\\]""")
 _LONG_ENOUGH = 3
 
 
@@ -106,6 +106,14 @@ def shown(value: object) -> str:
     """A value of a header's field that is no free text, as one short printable line."""
     text = "".join(letter if letter.isprintable() else "�" for letter in str(value))
     return textwrap.shorten(text, 60, placeholder=" …") if len(text) <= 60 else text[:59] + "…"
+
+
+def decoded(line: bytes) -> str:
+    """A line of a header as UTF-8 unless it cannot be: names of files have letters of either kind."""
+    try:
+        return line.decode()
+    except UnicodeDecodeError:
+        return line.decode("latin-1")
 
 
 def inside(header: Path, name: str, field: str) -> Path:
