@@ -51,7 +51,9 @@ def open_nifti(path: Path) -> VolumeFile:
     slope, intercept = _scaling(path, header)
     if (slope, intercept) != (1.0, 0.0):
         exact = (
-            "kept as integers" if dtype.kind in "iu" and is_integral(slope, intercept) else "read as floats"
+            "integers where 64 bits hold them"
+            if dtype.kind in "iu" and is_integral(slope, intercept)
+            else "read as floats"
         )
         notes.append(f"values are scaled by {slope:g} and shifted by {intercept:g}: {exact}")
 
