@@ -9,7 +9,6 @@ import bz2
 import faulthandler
 import gzip
 import os
-import resource
 import sys
 import time
 import tracemalloc
@@ -88,10 +87,9 @@ class Tally:
 def figures():
     """The figures of the run, at its end."""
     yield
-    rss = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     sys.stdout.write(
         f"\n{Tally.inputs} inputs, {Tally.volumes} volumes, slowest {Tally.slowest[0]:.3f} s "
-        f"({Tally.slowest[1]}), highest peak {Tally.peak / 2**20:.1f} MiB, process {rss:.0f} MiB\n"
+        f"({Tally.slowest[1]}), highest peak {Tally.peak / 2**20:.1f} MiB\n"
     )
 
 

@@ -360,6 +360,25 @@ def test_what_simpleitk_writes(tmp_path, name, dtype, compressed):
     assert_as_simpleitk(tmp_path / name)
 
 
+ODD_IMAGES = {
+    "vectors": lambda: SimpleITK.GetImageFromArray(np.zeros((5, 3, 4, 3), "f4"), isVector=True),
+    "colour": lambda: SimpleITK.GetImageFromArray(np.zeros((5, 3, 4, 3), "u1"), isVector=True),
+    "two": lambda: SimpleITK.GetImageFromArray(np.zeros((5, 3, 4, 2), "i2"), isVector=True),
+    "complex": lambda: SimpleITK.GetImageFromArray(np.zeros((5, 3, 4), "c8")),
+    "time": lambda: SimpleITK.GetImageFromArray(np.zeros((2, 5, 3, 4), "i2"), isVector=False),
+    "flat": lambda: SimpleITK.GetImageFromArray(np.zeros((3, 4), "i2")),
+}
+
+
+@pytest.mark.parametrize("name", ["x.nii", "x.nrrd", "x.mha"])
+@pytest.mark.parametrize("kind", ODD_IMAGES)
+def test_what_simpleitk_writes_and_no_volume_holds(tmp_path, name, kind):
+    SimpleITK.WriteImage(ODD_IMAGES[kind](), str(tmp_path / name))
+    mend = "3 axes" if kind == "flat" else "; write (one|their)"
+    with pytest.raises(FormatError, match=mend):
+        inspect_volume(tmp_path / name, values=False)
+
+
 def test_nibabel_stays_silent(tmp_path, caplog):
     caplog.set_level(logging.DEBUG)
     read_volume(save_nifti(tmp_path / "x.nii", coded(), oblique(), qform_code=9))
