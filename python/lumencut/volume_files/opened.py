@@ -99,7 +99,7 @@ def told(message: BaseException | str) -> str:
     words = _VALUE.split(str(message), maxsplit=1)[0]
     words = textwrap.shorten(words.rstrip(" -,.;"), 100, placeholder=" …")
     words = words if len(words.split()) >= _LONG_ENOUGH else "damaged or unknown content"
-    return words if isinstance(message, str) else f"{words} ({type(message).__name__})"
+    return words if isinstance(message, (str, Warning)) else f"{words} ({type(message).__name__})"
 
 
 def shown(value: object) -> str:
