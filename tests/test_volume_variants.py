@@ -15,6 +15,7 @@ import SimpleITK
 
 from lumencut.errors import FormatError
 from lumencut.volume_files import inspect_volume, read_volume
+from lumencut.volume_files.rescale import slabs
 from test_volume_files import LPS_FROM_RAS, save_meta, save_nifti, save_nrrd
 from volume_samples import SIZE, assert_maps, coded, oblique
 
@@ -128,6 +129,15 @@ def test_nifti_oddities_become_notes(tmp_path, capfd, caplog):
     assert any("sform_code 77 not valid" in note for note in inspect_volume(path).notes)
     assert capfd.readouterr() == ("", "")
     assert {record.name for record in caplog.records} <= {"lumencut"}
+
+
+def test_many_slices_of_one_voxel(tmp_path):
+    array = np.arange(30_000, dtype="i2").reshape(30_000, 1, 1)
+    path = save_nifti(tmp_path / "x.nii", array, oblique(), scl_slope=2, scl_inter=1)
+    np.testing.assert_array_equal(read_volume(path).array, 2 * array.astype("i4") + 1)
+    pieces = list(slabs(np.zeros((1_000_000, 1, 1))))
+    assert len(pieces) == 4
+    assert sum(len(piece) for piece in pieces) == 1_000_000
 
 
 def test_capital_names_of_a_pair(tmp_path):
