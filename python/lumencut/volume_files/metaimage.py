@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile
+from lumencut.volume_files.opened import Progress, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
 
 _HEADER_LIMIT = 1 << 16
+_MOST_DIMS = 10
+_SEPARATOR = re.compile("[=:]")
 _TYPES = {
     "MET_CHAR": "i1",
     "MET_UCHAR": "u1",
@@ -32,24 +35,28 @@ _TYPES = {
 def open_metaimage(path: Path) -> VolumeFile:
     """Read the header of a MetaImage file."""
     fields, end = _fields(path)
-    dims = _numbers(path, fields, ("NDims",), 1, None).astype(int)[0]
-    sizes = [int(size) for size in _numbers(path, fields, ("DimSize",), dims, None)]
-    if dims < 3 or any(size != 1 for size in sizes[3:]) or min(sizes) < 1:
+    (dims,) = _whole(path, fields, "NDims", 1)
+    if not 3 <= dims <= _MOST_DIMS:
+        raise FormatError(str(path), f"NDims = {dims}", "3 axes, or more of length 1")
+    sizes = _whole(path, fields, "DimSize", dims)
+    if any(size != 1 for size in sizes[3:]) or min(sizes) < 1:
         raise FormatError(
-            str(path), f"DimSize {sizes}", "3 axes, or more of length 1", "write one time point"
+            str(path), f"DimSize {shown(sizes)}", "3 axes, or more of length 1", "write one time point"
         )
     if (channels := fields.get("ElementNumberOfChannels", "1")) != "1":
-        raise FormatError(str(path), f"{channels} channels per voxel", "one", "write one channel")
+        raise FormatError(str(path), f"{shown(channels)} channels per voxel", "one", "write one channel")
     notes: list[str] = []
     dtype = _dtype(path, fields)
     affine = _affine(path, fields, dims, notes)
     size = (sizes[0], sizes[1], sizes[2])
-    data_path, start = _data_place(path, fields, end, dtype.itemsize * sizes[0] * sizes[1] * sizes[2])
+    _note_intensity(fields, notes)
+    binary = _is_true(fields, "BinaryData", default=True)
+    codec: Codec = "zlib" if _is_true(fields, "CompressedData") else "raw"
+    data_path, start = _data_place(path, fields, end, binary and codec == "raw")
 
     def load(progress: Progress) -> npt.NDArray[Any]:
-        if not _is_true(fields, "BinaryData", default=True):
+        if not binary:
             return read_numbers(data_path, size[::-1], dtype, start=start)
-        codec: Codec = "zlib" if _is_true(fields, "CompressedData") else "raw"
         return read_voxels(data_path, size[::-1], dtype, start=start, codec=codec)
 
     return VolumeFile(path, "MetaImage", size, dtype, "LPS (as every MetaImage)", affine, load, notes)
@@ -63,14 +70,21 @@ def _fields(path: Path) -> tuple[dict[str, str], int]:
     start = 0
     while (stop := head.find(b"\n", start)) >= 0 or start < len(head):
         stop = len(head) if stop < 0 else stop
-        name, equals, value = head[start:stop].decode("latin-1").partition("=")
-        if not equals:
+        line = _SEPARATOR.split(decoded(head[start:stop]), maxsplit=1)
+        if len(line) < 2:
             break
-        fields[name.strip()] = value.strip()
+        fields[line[0].strip()] = line[1].strip()
         start = stop + 1
-        if name.strip() == "ElementDataFile":
+        if line[0].strip() == "ElementDataFile":
             return fields, start
     raise FormatError(str(path), "a header without ElementDataFile", "a MetaImage header")
+
+
+def _whole(path: Path, fields: dict[str, str], name: str, count: int) -> list[int]:
+    values = _numbers(path, fields, (name,), count, None)
+    if (values != np.rint(values)).any() or (np.abs(values) > 2**40).any():
+        raise FormatError(str(path), f"{name} = {shown(fields[name])}", "whole numbers")
+    return [int(value) for value in values]
 
 
 def _numbers(
@@ -85,19 +99,22 @@ def _numbers(
     except ValueError:
         values = np.empty(0)
     if values.size != count or not np.isfinite(values).all():
-        found = "nothing" if text is None else f"{text!r}"
+        found = "nothing" if text is None else shown(text)
         raise FormatError(str(path), f"{names[0]} = {found}", f"{count} finite numbers")
     return values
 
 
 def _is_true(fields: dict[str, str], name: str, *, default: bool = False) -> bool:
-    return fields.get(name, str(default)).lower() in ("true", "1")
+    """Tell as MetaIO does, by the first letter."""
+    return fields.get(name, str(default))[:1] in ("T", "t", "1")
 
 
 def _dtype(path: Path, fields: dict[str, str]) -> np.dtype[Any]:
     kind = fields.get("ElementType", "")
     if kind not in _TYPES:
-        raise FormatError(str(path), f"ElementType = {kind or 'nothing'}", f"one of {', '.join(_TYPES)}")
+        raise FormatError(
+            str(path), f"ElementType = {shown(kind) or 'nothing'}", f"one of {', '.join(_TYPES)}"
+        )
     big = _is_true(fields, "BinaryDataByteOrderMSB") or _is_true(fields, "ElementByteOrderMSB")
     return np.dtype((">" if big else "<") + _TYPES[kind])
 
@@ -126,14 +143,32 @@ def _compare_label(label: str, affine: npt.NDArray[np.float64], notes: list[str]
         notes.append(f"AnatomicalOrientation = {label}, the matrix says {''.join(sides)}: the matrix is used")
 
 
-def _data_place(path: Path, fields: dict[str, str], end: int, length: int) -> tuple[Path, int]:
-    """The file that holds the voxels and the byte at which they begin."""
+def _note_intensity(fields: dict[str, str], notes: list[str]) -> None:
+    """Note a scaling of the values, which ITK does not apply either."""
+    for name, neutral in (
+        ("ElementToIntensityFunctionSlope", 1.0),
+        ("ElementToIntensityFunctionOffset", 0.0),
+    ):
+        try:
+            odd = float(fields.get(name, neutral)) != neutral
+        except ValueError:
+            odd = True
+        if odd:
+            notes.append(f"{name} is not applied, as ITK does not")
+
+
+def _data_place(path: Path, fields: dict[str, str], end: int, plain: bool) -> tuple[Path, int]:
+    """The file that holds the voxels and the byte at which they begin, -1 if they are its last bytes."""
     name = fields["ElementDataFile"]
-    if name.upper().startswith("LIST") or "%" in name:
-        raise FormatError(str(path), f"ElementDataFile = {name}", "voxels in one file", "write a single .mha")
+    if name.split(maxsplit=1)[:1] == ["LIST"] or "%" in name:
+        raise FormatError(
+            str(path), f"ElementDataFile = {shown(name)}", "voxels in one file", "write a single .mha"
+        )
     local = name.upper() == "LOCAL"
-    data_path = path if local else path.parent / name
-    header = int(_numbers(path, fields, ("HeaderSize",), 1, [0.0])[0])
-    if header < 0:
-        return data_path, max(data_path.stat().st_size - length, 0)
-    return data_path, header + (end if local else 0)
+    data_path = path if local else inside(path, name, "ElementDataFile")
+    header = _whole(path, fields, "HeaderSize", 1)[0] if "HeaderSize" in fields else 0
+    if header < (-1 if plain else 0) or (local and header not in (-1, 0, end)):
+        # ITK counts from the start of the file even there, where nobody else would.
+        expected = "0 or more bytes before the voxels of another file, or -1 with plain voxels"
+        raise FormatError(str(path), f"HeaderSize = {header}", expected, "write a single .mha")
+    return data_path, end if local and header >= 0 else header

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import zlib
+import logging
 from pathlib import Path
 from typing import Any
 
@@ -11,34 +11,51 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile
-from lumencut.volume_files.payload import Codec, read_voxels
+from lumencut.volume_files.opened import Progress, VolumeFile, shown
+from lumencut.volume_files.payload import Codec, first_bytes, read_voxels
 from lumencut.volume_files.rescale import is_integral, rescaled
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 
 _HEADER_BYTES = {348: "NIfTI-1", 540: "NIfTI-2"}
+_PACKED = {b"BZh": "bzip2", b"\xfd7zXZ\0": "xz", b"\x28\xb5\x2f\xfd": "zstd", b"PK\3\4": "zip"}
+_NUMBERS = (2, 4, 8, 16, 64, 256, 512, 768, 1024, 1280)
+_COMPLEX = ("complex voxels", "write their magnitude")
+_COLOUR = ("colour voxels", "write one channel")
+_OTHER_TYPES = {
+    0: ("voxels of no stated type", "convert the file"),
+    1: ("voxels of one bit", "write bytes"),
+    32: _COMPLEX,
+    1792: _COMPLEX,
+    2048: _COMPLEX,
+    128: _COLOUR,
+    2304: _COLOUR,
+    1536: ("voxels of 128-bit floats", "write 64-bit floats"),
+}
 _MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
 
 
 def open_nifti(path: Path) -> VolumeFile:
     """Read the header of a NIfTI file or of either file of a pair."""
     header_path = _partner(path, ".img", ".hdr")
-    header, kind, paired = _header(header_path)
-    data_path = _partner(path, ".hdr", ".img") if paired else header_path
     notes: list[str] = []
+    header, kind, paired = _header(header_path)
+    data_path = _partner(header_path, ".hdr", ".img") if paired else header_path
+    offset = _offset(path, header, kind, data_path == header_path, notes)
     size = _size(path, header)
-    dtype = _dtype(path, header)
-    affine = LPS_FROM_RAS @ np.asarray(header.get_best_affine(), dtype=np.float64)
+    dtype = np.dtype(header.get_data_dtype())
+    _mend(header, notes)
+    affine = LPS_FROM_RAS @ _best_affine(path, header)
     affine[:3] *= millimetres(header, notes)
     _note_forms(header, size, notes)
-    slope, intercept = (float(value) for value in _scaling(header))
+    slope, intercept = _scaling(path, header)
     if (slope, intercept) != (1.0, 0.0):
         exact = (
-            "kept as integers" if dtype.kind in "iu" and is_integral(slope, intercept) else "read as floats"
+            "integers where 64 bits hold them"
+            if dtype.kind in "iu" and is_integral(slope, intercept)
+            else "read as floats"
         )
         notes.append(f"values are scaled by {slope:g} and shifted by {intercept:g}: {exact}")
-    offset = int(header["vox_offset"])
 
     def load(progress: Progress) -> npt.NDArray[Any]:
         codec: Codec = "zlib" if _is_gzip(data_path) else "raw"
@@ -54,6 +71,7 @@ def _partner(path: Path, mine: str, other: str) -> Path:
     stem = name[: len(name) - len(zipped)]
     if not stem.lower().endswith(mine):
         return path
+    other = other.upper() if stem.endswith(mine.upper()) else other
     found = [path.with_name(stem[: -len(mine)] + other + tail) for tail in (zipped, "", ".gz")]
     return next((candidate for candidate in found if candidate.exists()), found[0])
 
@@ -66,10 +84,15 @@ def _is_gzip(path: Path) -> bool:
 def head_bytes(path: Path, count: int) -> bytes:
     """Give the first bytes of a file, decompressed if it is gzipped."""
     with checked_path(path, "a file with a header").open("rb") as file:
-        raw = file.read(count + 4096)
-    if raw[:2] == b"\x1f\x8b":
-        raw = zlib.decompressobj(zlib.MAX_WBITS | 32).decompress(raw, count)
-    return raw[:count]
+        start = file.read(8)
+        for magic, name in _PACKED.items():
+            if start.startswith(magic):
+                found = f"a file compressed with {name}"
+                raise FormatError(str(path), found, "a plain or gzipped file", "decompress it first")
+        file.seek(0)
+        if start[:2] == b"\x1f\x8b":
+            return first_bytes(path, file, count)
+        return file.read(count)
 
 
 def nifti_kind(head: bytes) -> str | None:
@@ -97,8 +120,50 @@ def _header(path: Path) -> tuple[Any, str, bool]:
             str(path), f"{len(head)} bytes", f"a header of {length} bytes", "copy the file again"
         )
     # The pair class reads no extensions, whose stated lengths could ask for any amount of memory.
-    header = (Nifti1PairHeader if first else Nifti2PairHeader)(head[:length])
+    header: Any = (Nifti1PairHeader if first else Nifti2PairHeader)(head[:length], check=False)
+    _require_type(path, header)
     return header, kind, magic[1:2] == b"i"
+
+
+def _mend(header: Any, notes: list[str]) -> None:
+    """Let nibabel mend what it can. What it logs is about numbers of the header, never about its texts."""
+    log = logging.Logger("mended")
+    log.addHandler(_Notes(notes))
+    header.check_fix(logger=log, error_level=40)
+
+
+class _Notes(logging.Handler):
+    """Turns log records into notes."""
+
+    def __init__(self, notes: list[str]) -> None:
+        super().__init__(logging.WARNING)
+        self.notes = notes
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep what is said."""
+        if "divisible by 16" not in (text := shown(record.getMessage())):
+            self.notes.append(text)
+
+
+def _require_type(path: Path, header: Any) -> None:
+    """Refuse by name the types that nibabel does not know or that are no single number."""
+    code = int(header["datatype"])
+    if code in _NUMBERS:
+        return
+    found, mend = _OTHER_TYPES.get(code, (f"voxels of the unknown type {code}", "convert the file"))
+    raise FormatError(str(path), found, "one integer or float of up to 64 bits per voxel", mend)
+
+
+def _offset(path: Path, header: Any, kind: str, single: bool, notes: list[str]) -> int:
+    """The first byte of the voxels, which in a single file lie behind the header."""
+    offset, least = float(header["vox_offset"]), 352 if kind == "NIfTI-1" else 544
+    if single and offset == 0:
+        notes.append(f"vox_offset is 0: {least} assumed, where the header ends")
+        return least
+    if not offset.is_integer() or offset < (least if single else 0):
+        expected = f"a whole number from {least}" if single else "a whole number from 0"
+        raise FormatError(str(path), f"vox_offset {offset:g}", expected, "copy the file again")
+    return int(offset)
 
 
 def _size(path: Path, header: Any) -> tuple[int, int, int]:
@@ -114,18 +179,22 @@ def _size(path: Path, header: Any) -> tuple[int, int, int]:
     return shape[0], shape[1], shape[2]
 
 
-def _dtype(path: Path, header: Any) -> np.dtype[Any]:
-    dtype: np.dtype[Any] = np.dtype(header.get_data_dtype())
-    if dtype.fields or dtype.kind not in "iuf" or dtype.itemsize > 8:
-        names = {"c": "complex voxels", "f": "128-bit floats"}
-        found = "colour voxels" if dtype.fields else names.get(dtype.kind, f"voxels of type {dtype}")
-        raise FormatError(str(path), found, "one integer or float of up to 64 bits per voxel")
-    return dtype
+def _scaling(path: Path, header: Any) -> tuple[float, float]:
+    slope, intercept = float(header["scl_slope"]), float(header["scl_inter"])
+    if not np.isfinite(slope) or slope == 0:
+        return 1.0, 0.0
+    if not np.isfinite(intercept):
+        raise FormatError(str(path), f"scl_slope {slope:g} and scl_inter {intercept:g}", "finite numbers")
+    return slope, intercept
 
 
-def _scaling(header: Any) -> tuple[float, float]:
-    slope, intercept = header.get_slope_inter()
-    return (1.0, 0.0) if slope is None else (slope, intercept or 0.0)
+def _best_affine(path: Path, header: Any) -> npt.NDArray[np.float64]:
+    """World (RAS) from index by the sform, shear and all, else by the qform, else as nibabel guesses."""
+    try:
+        return np.asarray(header.get_best_affine(), dtype=np.float64)
+    except ValueError:
+        mend = "state an sform"
+        raise FormatError(str(path), "a qform that is no rotation", "a unit quaternion", mend) from None
 
 
 def millimetres(header: Any, notes: list[str]) -> float:
@@ -155,7 +224,12 @@ def _note_forms(header: Any, size: tuple[int, int, int], notes: list[str]) -> No
             "no placement (qform_code = sform_code = 0): centred at the origin, i to the left, like nibabel"
         )
     if by_sform and by_qform:
+        try:
+            qform = header.get_qform()
+        except ValueError:
+            notes.append("the qform is no rotation: the sform is used")
+            return
         ends = np.array([[i, j, k, 1.0] for i in (0, size[0]) for j in (0, size[1]) for k in (0, size[2])])
-        apart = np.abs(ends @ (header.get_sform() - header.get_qform()).T).max()
+        apart = np.abs(ends @ (header.get_sform() - qform).T).max()
         if not apart <= 0.01:
             notes.append(f"sform and qform lie up to {apart:.3g} apart: the sform is used")

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile
+from lumencut.volume_files.opened import Progress, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
 
 _TO_LPS = {
@@ -42,16 +42,23 @@ _NAMES = {
     "f4": "float",
     "f8": "double",
 }
+_FIELDS = frozenset(
+    [
+        *("type", "dimension", "sizes", "encoding", "endian", "kinds", "data file", "line skip", "byte skip"),
+        *("space", "space dimension", "space directions", "space origin", "space units", "spacings"),
+        "axis mins",
+    ]
+)
+_WITH_BLANK = {name.replace(" ", ""): name for name in _FIELDS if " " in name}
+_HEADER_LIMIT = 1 << 20
+_VALUE_LIMIT = 4096
+"""Letters of a field: the parser's time grows with their square."""
 _TYPES = {name: code for code, names in _NAMES.items() for name in names.split(", ")}
 
 
 def open_nrrd(path: Path) -> VolumeFile:
     """Read the header of an NRRD file, attached or detached."""
-    import nrrd
-
-    with path.open("rb") as file:
-        header: dict[str, Any] = dict(nrrd.read_header(file))
-        end = file.tell()
+    header, end = _header(path)
     notes: list[str] = []
     axes = _spatial_axes(path, header)
     sizes = [int(size) for size in header["sizes"]]
@@ -59,34 +66,95 @@ def open_nrrd(path: Path) -> VolumeFile:
     dtype = _dtype(path, header)
     space = str(header.get("space", ""))
     affine = _affine(path, header, axes, notes)
+    encoding = _encoding(path, header)
+    lines, skip = _skips(path, header, encoding)
     data_path, start = _data_place(path, header, end)
-    encoding = str(header.get("encoding", "")).lower()
-    if encoding not in _CODECS and encoding not in _TEXT:
-        raise FormatError(str(path), f"encoding: {encoding or 'nothing'}", "raw, ascii, gzip or bzip2")
-    skip = int(_field(header, "byte skip", 0))
 
     def load(progress: Progress) -> npt.NDArray[Any]:
-        begin = _after_lines(data_path, start, int(_field(header, "line skip", 0)))
+        begin = _after_lines(data_path, start, lines)
         if encoding in _TEXT:
-            return read_numbers(data_path, size[::-1], dtype, start=begin + max(skip, 0))
-        if skip == -1 and _CODECS[encoding] == "raw":
-            length = dtype.itemsize * size[0] * size[1] * size[2]
-            return read_voxels(data_path, size[::-1], dtype, start=data_path.stat().st_size - length)
+            return read_numbers(data_path, size[::-1], dtype, start=begin + skip)
+        if skip == -1:
+            return read_voxels(data_path, size[::-1], dtype, start=-1)
         return read_voxels(data_path, size[::-1], dtype, start=begin, codec=_CODECS[encoding], skip=skip)
 
-    return VolumeFile(path, "NRRD", size, dtype, space or "none stated", affine, load, notes)
+    return VolumeFile(path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes)
 
 
-def _field(header: dict[str, Any], name: str, default: Any) -> Any:
-    """A field whose name may be written with or without its blank."""
-    return header.get(name, header.get(name.replace(" ", ""), default))
+def _header(path: Path) -> tuple[dict[str, Any], int]:
+    """The fields that place and describe the voxels, and the byte behind the header.
+
+    pynrrd parses them. It never sees the other fields nor the key/value pairs, where whoever wrote the file
+    may have put anything: it refuses files for what is in them, and quotes it.
+    """
+    import nrrd
+
+    with path.open("rb") as file:
+        head = file.read(_HEADER_LIMIT)
+    if not head.startswith(b"NRRD"):
+        raise FormatError(str(path), "a compressed NRRD file", "a plain one", "decompress it first")
+    stated: dict[str, str] = {}
+    lines, end = _lines(path, head)
+    for line in lines[1:]:
+        name, colon, value = decoded(line).partition(":")
+        name = " ".join(name.lower().split())
+        name = _WITH_BLANK.get(name, name)
+        if line.startswith(b"#") or not colon or value.startswith("=") or name not in _FIELDS:
+            continue
+        if name in stated:
+            raise FormatError(str(path), f"two fields {name!r}", "one", "remove one of them")
+        if len(value) > _VALUE_LIMIT:
+            found = f"{len(value)} letters in the field {name!r}"
+            raise FormatError(str(path), found, f"at most {_VALUE_LIMIT}")
+        stated[name] = value.strip()
+    try:
+        parsed = nrrd.read_header([lines[0].decode("latin-1"), *(f"{n}: {v}" for n, v in stated.items())])
+    except (nrrd.NRRDError, ValueError, TypeError, IndexError) as error:
+        if "version" in str(error):
+            raise FormatError(str(path), "a newer or no NRRD version", "NRRD0001 to NRRD0005") from None
+        found = "a field of the header that cannot be read"
+        raise FormatError(str(path), found, "numbers as NRRD writes them") from None
+    return dict(parsed), end
+
+
+def _lines(path: Path, head: bytes) -> tuple[list[bytes], int]:
+    """The lines of a header, up to an empty line or the end of the file, and the byte behind them."""
+    lines, start = [], 0
+    while start < len(head):
+        stop = head.find(b"\n", start)
+        if stop < 0 and len(head) == _HEADER_LIMIT:
+            raise FormatError(str(path), f"a header of over {_HEADER_LIMIT} bytes", "an NRRD header")
+        stop = len(head) if stop < 0 else stop
+        line, start = head[start:stop].rstrip(), stop + 1
+        if not line:
+            break
+        lines.append(line)
+    return lines, min(start, len(head))
+
+
+def _encoding(path: Path, header: dict[str, Any]) -> str:
+    encoding = str(_required(path, header, "encoding")).lower()
+    if encoding not in _CODECS and encoding not in _TEXT:
+        mend = "write it with encoding gzip or raw"
+        raise FormatError(str(path), f"encoding: {shown(encoding)}", "raw, ascii, gzip or bzip2", mend)
+    return encoding
+
+
+def _skips(path: Path, header: dict[str, Any], encoding: str) -> tuple[int, int]:
+    """Lines and bytes to leave out before the voxels; -1 bytes stand for all but the last ones."""
+    lines, skip = int(header.get("line skip", 0)), int(header.get("byte skip", 0))
+    if lines < 0:
+        raise FormatError(str(path), f"line skip: {lines}", "0 or more lines")
+    if skip < (-1 if encoding == "raw" else 0):
+        raise FormatError(str(path), f"byte skip: {skip}", "0 or more bytes, or -1 with encoding raw")
+    return lines, skip
 
 
 def _spatial_axes(path: Path, header: dict[str, Any]) -> list[int]:
     """The three axes of the grid; further axes must have length 1."""
     sizes = [int(size) for size in _required(path, header, "sizes")]
     if len(sizes) != int(_required(path, header, "dimension")) or len(sizes) < 3 or min(sizes) < 1:
-        raise FormatError(str(path), f"sizes: {sizes}", "3 axes, none empty")
+        raise FormatError(str(path), f"sizes: {shown(sizes)}", "3 axes, none empty")
     axes = list(range(len(sizes)))
     directions = header.get("space directions")
     if directions is not None and len(directions) == len(sizes):
@@ -95,14 +163,14 @@ def _spatial_axes(path: Path, header: dict[str, Any]) -> list[int]:
         axes = [axis for axis in axes if sizes[axis] > 1 or len(sizes) - axis <= 3][:3]
     others = [axis for axis in range(len(sizes)) if axis not in axes[:3]]
     if len(axes) != 3 or any(sizes[axis] != 1 for axis in others):
-        kinds = " ".join(str(kind) for kind in header.get("kinds", [])) or "not stated"
-        found = f"several values per voxel or time points (sizes: {sizes}, kinds: {kinds})"
+        kinds = shown(" ".join(str(kind) for kind in header.get("kinds", []))) or "not stated"
+        found = f"several values per voxel or time points (sizes: {shown(sizes)}, kinds: {kinds})"
         raise FormatError(str(path), found, "3 axes with a direction", "write one component or time point")
     kinds = header.get("kinds", ["domain"] * len(sizes))
     odd = [str(kinds[axis]) for axis in axes if axis < len(kinds) and _is_no_grid_axis(str(kinds[axis]))]
     if odd:
         raise FormatError(
-            str(path), f"an axis of kind {odd[0]}", "domain or space axes", "write one component"
+            str(path), f"an axis of kind {shown(odd[0])}", "domain or space axes", "write one component"
         )
     return axes
 
@@ -124,15 +192,15 @@ def _required(path: Path, header: dict[str, Any], name: str) -> Any:
 
 
 def _dtype(path: Path, header: dict[str, Any]) -> np.dtype[Any]:
-    name = str(_required(path, header, "type"))
+    name = str(_required(path, header, "type")).lower()
     if name not in _TYPES:
-        raise FormatError(str(path), f"type: {name}", "an integer or float type")
+        raise FormatError(str(path), f"type: {shown(name)}", "an integer or float type")
     dtype = np.dtype(_TYPES[name])
-    endian = str(header.get("endian", ""))
+    endian = str(header.get("endian", "")).lower()
     if dtype.itemsize == 1 or str(header.get("encoding", "")).lower() in _TEXT:
         return dtype
     if endian not in ("little", "big"):
-        raise FormatError(str(path), f"endian: {endian or 'nothing'}", "little or big")
+        raise FormatError(str(path), f"endian: {shown(endian) or 'nothing'}", "little or big")
     return dtype.newbyteorder("<" if endian == "little" else ">")
 
 
@@ -151,9 +219,13 @@ def _affine(path: Path, header: dict[str, Any], axes: list[int], notes: list[str
             notes.append("no spacing stated: 1 mm assumed")
         affine[:3, :3] = np.diag(np.where(np.isfinite(stated), stated, 1.0))
     if "space origin" in header:
-        affine[:3, 3] = np.asarray(header["space origin"], dtype=np.float64)
+        origin = np.asarray(header["space origin"], dtype=np.float64)
+        if origin.shape != (3,):
+            raise FormatError(str(path), f"space origin: {origin.size} numbers", "3 numbers")
+        affine[:3, 3] = origin
     else:
-        notes.append("no space origin stated: (0, 0, 0) assumed")
+        unused = ", axis mins are not used" if "axis mins" in header else ""
+        notes.append(f"no space origin stated{unused}: (0, 0, 0) assumed")
     affine[:3] *= _unit(header, notes)
     return np.diag([*_signs(path, header, notes), 1.0]) @ affine
 
@@ -165,7 +237,9 @@ def _signs(path: Path, header: dict[str, Any], notes: list[str]) -> tuple[float,
     if space in _TO_LPS:
         return _TO_LPS[space]
     notes.append(
-        f"space {space!r} names no patient axes: LPS assumed" if space else "no space stated: LPS assumed"
+        f"space {shown(space)!r} names no patient axes: LPS assumed"
+        if space
+        else "no space stated: LPS assumed"
     )
     return 1.0, 1.0, 1.0
 
@@ -177,7 +251,7 @@ def _unit(header: dict[str, Any], notes: list[str]) -> float:
         return 1.0
     unit = stated[0] if stated[0] in _MILLIMETRES else stated[0].removesuffix("s")
     if unit not in _MILLIMETRES:
-        notes.append(f"space units {stated[0]!r} are not known: mm assumed")
+        notes.append(f"space units {shown(stated[0])!r} are not known: mm assumed")
     elif _MILLIMETRES[unit] != 1.0:
         notes.append(f"lengths are in {unit}: converted to mm")
     return _MILLIMETRES.get(unit, 1.0)
@@ -185,12 +259,14 @@ def _unit(header: dict[str, Any], notes: list[str]) -> float:
 
 def _data_place(path: Path, header: dict[str, Any], end: int) -> tuple[Path, int]:
     """The file that holds the voxels and the byte at which they, or the lines to skip, begin."""
-    name = _field(header, "data file", None)
-    if name is None:
+    if "data file" not in header:
         return path, end
-    if not isinstance(name, str) or name.startswith("LIST") or "%" in name:
-        raise FormatError(str(path), f"data file: {name}", "voxels in one file", "write a single .nrrd")
-    return path.parent / name, 0
+    name = str(header["data file"])
+    if name.split(maxsplit=1)[:1] == ["LIST"] or "%" in name:
+        raise FormatError(
+            str(path), f"data file: {shown(name)}", "voxels in one file", "write a single .nrrd"
+        )
+    return inside(path, name, "data file"), 0
 
 
 def _after_lines(path: Path, start: int, lines: int) -> int:

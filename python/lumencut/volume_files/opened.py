@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import logging
+import re
 import textwrap
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
 import numpy as np
@@ -53,17 +56,23 @@ def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:
     try:
         return Volume(voxels, world_from_index=file.world_from_index)
     except VolumeError as error:
-        raise FormatError(
-            str(file.path), f"{error.subject} {error.found}", error.expected, error.mend
-        ) from error
+        found = " ".join(f"{error.subject} {error.found}".split())
+        raise FormatError(str(file.path), found, error.expected, error.mend) from error
+
+
+_reading = ContextVar("reading", default=False)
+# pydicom logs its warnings as well, values and all; here they become notes.
+logging.getLogger("pydicom").addFilter(lambda record: not _reading.get())
 
 
 @contextmanager
 def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
     """Turn whatever a foreign reader raises into an error that names the file, and its warnings into notes.
 
-    Damaged files make the readers below raise nearly every built-in exception; none of them names the file.
+    Damaged files make the readers below raise nearly every built-in exception; none of them names the file,
+    and many quote it: neither the error nor a printed traceback shows a value out of the file.
     """
+    before = _reading.set(True)
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -73,14 +82,74 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
     except Exception as error:
         if isinstance(error, OSError) and error.errno is not None:
             found = error.strerror or type(error).__name__
-            raise FileError(str(error.filename or subject), found, "a readable file") from error
-        raise FormatError(str(subject), _brief(error), f"a sound {kind} file") from error
+            raise FileError(str(error.filename or subject), found, "a readable file") from None
+        raise FormatError(str(subject), told(error), f"a sound {kind} file") from None
+    finally:
+        _reading.reset(before)
     for warning in caught:
-        if (text := _brief(warning.message)) not in notes:
+        if (text := told(warning.message)) not in notes:
             notes.append(text)
 
 
-def _brief(message: object) -> str:
-    """One line, printable and not too long, of a message that may quote the file's bytes."""
-    text = "".join(letter if letter.isprintable() else " " for letter in str(message))
-    return textwrap.shorten(text, 200, placeholder=" …") or type(message).__name__
+_VALUE = re.compile(r"""[^ -~]|[\d"'`:=<>^(\[{\\]""")
+_LONG_ENOUGH = 3
+
+
+def told(message: BaseException | str) -> str:
+    """What a foreign error or warning says before it quotes a value, which may be a patient's name.
+
+    Values follow a colon, a quotation mark or a bracket; whatever has digits is one.
+    """
+    words = _VALUE.split(str(message), maxsplit=1)[0]
+    words = textwrap.shorten(words.rstrip(" -,.;"), 100, placeholder=" …")
+    words = words if len(words.split()) >= _LONG_ENOUGH else "damaged or unknown content"
+    return words if isinstance(message, (str, Warning)) else f"{words} ({type(message).__name__})"
+
+
+def shown(value: object) -> str:
+    """A value of a header's field that is no free text, as one short printable line."""
+    text = "".join(letter if letter.isprintable() else "�" for letter in str(value))
+    return textwrap.shorten(text, 60, placeholder=" …") if len(text) <= 60 else text[:59] + "…"
+
+
+def decoded(line: bytes) -> str:
+    """A line of a header as UTF-8 unless it cannot be: names of files have letters of either kind."""
+    try:
+        return line.decode()
+    except UnicodeDecodeError:
+        return line.decode("latin-1")
+
+
+def inside(header: Path, name: str, field: str) -> Path:
+    """Give the file that a header names, which must lie in the header's folder or a folder below it.
+
+    Parameters
+    ----------
+    header : Path
+        The file that names the other.
+    name : str
+        What it writes there; Windows' separators are understood.
+    field : str
+        The header's field, for the error.
+
+    Raises
+    ------
+    FormatError
+        For absolute paths, drives, ``..`` and links that lead out: opening a volume must not read a file
+        that its sender chose.
+    """
+    windows = PureWindowsPath(name)
+    parts = windows.parts
+    if not parts or not name.isprintable():
+        raise FormatError(str(header), f"no file's name in {field}", "the name of a file beside the header")
+    leaves = windows.drive or windows.root or ".." in parts or name.startswith("~")
+    home = header.parent.resolve()
+    place = header.parent.joinpath(*parts)
+    if leaves or not place.resolve().is_relative_to(home):
+        raise FormatError(
+            str(header),
+            f"{field}: a path that leaves the folder ({shown(name)})",
+            "a file in the folder of the header or below",
+            "copy it there and name it without a path",
+        )
+    return place

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 _INTEGERS = tuple(np.dtype(name) for name in ("int16", "uint16", "int32", "uint32", "int64"))
+_SLAB = 1 << 18
 
 
 def is_integral(slope: float, intercept: float) -> bool:
@@ -42,12 +44,19 @@ def rescaled(stored: npt.NDArray[Any], slope: float, intercept: float) -> npt.ND
     return _slab_wise(stored, np.dtype(np.float64), float(slope), float(intercept), result)
 
 
+def slabs(array: npt.NDArray[Any]) -> Iterator[npt.NDArray[Any]]:
+    """Views on slices of the first axis, some at a time: there may be a million slices of one voxel."""
+    step = max(_SLAB // max(array[:1].size, 1), 1)
+    for start in range(0, len(array), step):
+        yield array[start : start + step]
+
+
 def _slab_wise(
     stored: npt.NDArray[Any], between: np.dtype[Any], slope: float, intercept: float, result: np.dtype[Any]
 ) -> npt.NDArray[Any]:
-    """Rescale one slab of the first axis after the other: the wide type never exists for the whole volume."""
+    """Rescale one slab after the other: the wide type never exists for the whole volume."""
     values = np.empty(stored.shape, result)
     with np.errstate(over="ignore", invalid="ignore"):
-        for slab, target in zip(stored, values, strict=True):
+        for slab, target in zip(slabs(stored), slabs(values), strict=True):
             target[...] = slab.astype(between) * between.type(slope) + between.type(intercept)
     return values
