@@ -1,6 +1,6 @@
 //! Centerline files for `lumencut.centerlines`.
 
-use lumencut_io::{Centerlines, Line, Space, junctions};
+use lumencut_io::{Centerlines, Line, Result, Space, Unit, junctions};
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
@@ -17,8 +17,8 @@ pub fn read_centerlines<'py>(
     content: &[u8],
     name: &str,
 ) -> PyResult<(Vec<Vessel<'py>>, Option<&'static str>, Vec<String>)> {
-    let read = py.detach(|| lumencut_io::read(content, name).map(junctions::vessels));
-    let Centerlines { lines, space, notes } =
+    let read = py.detach(|| read_in_mm(content, name).map(junctions::vessels));
+    let Centerlines { lines, space, notes, .. } =
         read.map_err(|e| exception("FormatError", &e.subject, &e.found, &e.expected, &e.mend))?;
     let space = space.map(|space| match space {
         Space::Lps => "lps",
@@ -26,6 +26,16 @@ pub fn read_centerlines<'py>(
     });
     let vessels = lines.into_iter().map(|line| vessel(py, line)).collect();
     Ok((vessels, space, notes))
+}
+
+/// The lines of a file in mm; a file that states no unit is taken to be in mm.
+fn read_in_mm(content: &[u8], name: &str) -> Result<Centerlines> {
+    let mut read = lumencut_io::read(content, name)?;
+    let in_mm = read.unit.map_or(1.0, Unit::in_mm);
+    if in_mm != 1.0 {
+        read.notes.push(format!("coordinates converted to mm (1 unit = {in_mm} mm)"));
+    }
+    read.scaled(in_mm).map_err(|error| error.in_file(name))
 }
 
 fn vessel(py: Python<'_>, line: Line) -> Vessel<'_> {
