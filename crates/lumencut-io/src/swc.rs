@@ -28,7 +28,8 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
 
 /// Whether a line of text is a node.
 pub fn is_node(line: &str) -> bool {
-    text::fields(line, Separator::Blanks).len() == 7 && node(0, line).is_ok()
+    let fields = text::fields(line, Separator::Blanks);
+    fields.len() == 7 && whole(0, fields[1]).is_ok() && node(0, line).is_ok()
 }
 
 struct Node {

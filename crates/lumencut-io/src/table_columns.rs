@@ -158,6 +158,11 @@ impl Columns {
     }
 }
 
+/// Whether the fields of a row name coordinates.
+pub fn name_coordinates(fields: &[&str]) -> bool {
+    coordinates(&fields.iter().map(|field| Name::of(field)).collect::<Vec<_>>()).is_some()
+}
+
 /// The columns of the three coordinates, and the space that their names state.
 fn coordinates(names: &[Name]) -> Option<([usize; 3], Option<Space>)> {
     let of = |axes: [&str; 3]| {

@@ -90,6 +90,8 @@ fn what_is_not_clear_is_refused() {
     assert!(
         message("x (px),y (px),z (px)\n1,2,3\n").contains("line 1: unit of the column 'x (px)': found 'px'")
     );
+    assert!(message("# x (px),y (px),z (px)\n1,2,3\n").contains("line 1: unit of the column"));
+    assert!(message("1 8 2 3 0\n2 8 2 3 0\n").contains("a number that counts the rows"), "five columns");
     assert!(message("x (cm),y (mm),z (mm)\n1,2,3\n").contains("one unit for all three"));
     assert!(message("1,5 2,5 3,5\n1,5 2,5 4,5\n").contains("line 1"));
     assert!(message("1,2,3,4\n1,2,4,-1\n").contains("radius of line 0: found -1 at point 1"));
