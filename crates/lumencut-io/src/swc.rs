@@ -23,7 +23,21 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let tree = Tree::new(&nodes)?;
     let mut out = Centerlines::of("SWC");
     out.lines = tree.branches(&nodes)?;
+    if let Some(scale) = unused_scale(bytes) {
+        out.notes.push(format!("the comment {} was not applied", excerpt(&scale)));
+    }
     out.tidy()
+}
+
+/// A comment `SCALE` in front of the nodes that is not 1 along all axes. Programs differ in whether the
+/// nodes already hold it.
+fn unused_scale(bytes: &[u8]) -> Option<String> {
+    let comments = text::lines(bytes).map_while(|(_, line)| Some(line.strip_prefix('#')?.trim().to_owned()));
+    let is_one = |word: &str| word.parse() == Ok(1.0);
+    comments.into_iter().find(|comment| {
+        let mut words = comment.split_ascii_whitespace();
+        words.next() == Some("SCALE") && !words.all(is_one)
+    })
 }
 
 /// Whether a line of text is a node.

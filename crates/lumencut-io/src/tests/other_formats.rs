@@ -82,6 +82,10 @@ fn swc_branches_share_their_ends_whatever_the_order_of_nodes() {
     assert_eq!(read.lines[2].radius.as_deref(), Some(&[1.5, 1.0, 0.5][..]));
     assert!(read.notes[0].starts_with("1 line(s) of fewer than two"), "the root without children");
     assert_eq!(ok(tree, "a.txt").format, "SWC", "told by its content");
+    let scaled = ok(format!("# SCALE 1.0 1.0 1.0\n{tree}"), "a.swc");
+    assert_eq!(scaled.notes, read.notes);
+    let scaled = ok(format!("# SCALE 0.5 0.5 2\n{tree}"), "a.swc");
+    assert_eq!(scaled.notes[0], "the comment 'SCALE 0.5 0.5 2' was not applied");
     assert_eq!(ok("1.0 1 0 0 0 2 -1.0\n2.0 1 0 0 1 2 1.0", "a.swc").lines.len(), 1);
 }
 

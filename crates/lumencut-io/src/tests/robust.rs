@@ -72,7 +72,11 @@ const NASTY: [&[u8]; 12] = [
 
 #[test]
 fn mutated_files_never_panic() {
-    let files = sample::files();
+    let mut files = sample::files();
+    // As often as the many forms of `.vtp`.
+    let others: Vec<_> =
+        sample::other_files().into_iter().map(|(content, name, _)| (content, name)).collect();
+    files.extend(others.iter().cycle().take(64).cloned());
     let mut random = Random(0x2545_f491_4f6c_dd1d);
     let mut read_whole = 0;
     for round in 0..20_000 {

@@ -80,6 +80,7 @@ fn what_is_not_clear_is_refused() {
     assert!(message("1,2,3,4,5\n").contains("5 column(s) of numbers without a header"));
     assert!(message("0,1,2,3\n1,1,2,4\n2,1,2,5\n").contains("a number that counts the rows"));
     assert!(message("x,y\n1,2\n").contains("line 1: found 'x,y'; expected numbers, or a header"));
+    assert!(message("x_m,y_m,z_m\n1,2,3\n").contains("a header that names x, y, z"));
     assert!(message("hello world\n").contains("line 1: found 'hello world'"));
     assert!(message("1,2,3\n4,5\n").contains("line 2: found 2 column(s), '4,5'; expected 3 columns"));
     assert!(message("1,2,3\n4,five,6\n").contains("line 2: found 'five'; expected a finite number"));
