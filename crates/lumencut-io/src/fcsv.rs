@@ -7,8 +7,8 @@ use crate::unit::Unit;
 
 /// The columns where the file names none.
 const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
-/// What 3D Slicer writes behind the named columns for a point that has a place.
-const PLACED: &str = "2";
+/// What 3D Slicer writes behind the named columns for a point that is being placed or lost its place; 2 has one.
+const UNPLACED: [&str; 3] = ["0", "1", "3"];
 
 /// The points of a fiducial list as one line, in mm by definition of the format.
 ///
@@ -42,8 +42,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
                 "the columns of the header",
             ));
         };
-        let status = fields.get(columns.count);
-        if status.is_some_and(|status| !status.is_empty() && *status != PLACED) {
+        if fields.get(columns.count).is_some_and(|status| UNPLACED.contains(status)) {
             without_place += 1;
             continue;
         }

@@ -58,6 +58,9 @@ use kind::Kind;
 
 /// The centerlines of a file, in its own unit and space.
 ///
+/// The lines are for [`Centerlines::scaled`], which holds them to the limit of 1e6 mm that cannot be checked
+/// where the unit is not known; its factor may be 1.
+///
 /// The format is told by the content; the ending of `file_name` decides only where the content does not tell.
 ///
 /// # Errors

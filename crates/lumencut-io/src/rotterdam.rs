@@ -2,6 +2,7 @@
 
 use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};
+use crate::table;
 use crate::text::{self, Separator};
 
 /// Columns of a row: x, y, z, radius and, in most files, the variance between observers.
@@ -10,7 +11,7 @@ const COLUMNS: [usize; 2] = [4, 5];
 /// The vessel of a reference file, one line. It states neither space nor unit.
 ///
 /// # Errors
-/// Naming the line of the file where a row is not 4 or 5 numbers.
+/// Naming the line of the file where a row is not 4 or 5 numbers, and where the first only counts the rows.
 pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (mut points, mut radius) = (Vec::new(), Vec::new());
     for (number, row) in text::data_lines(bytes) {
@@ -27,6 +28,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     let mut out = Centerlines::of("Rotterdam reference");
     out.lines.push(Line { points, radius: Some(radius), ..Line::default() });
+    table::refuse_counter(&out.lines)?;
     out.tidy()
 }
 

@@ -1,8 +1,5 @@
 //! SWC trees: one node per line, `id type x y z radius parent`.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
-
 use glam::DVec3;
 
 use crate::centerlines::{Centerlines, Line};
@@ -26,12 +23,27 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let tree = Tree::new(&nodes)?;
     let mut out = Centerlines::of("SWC");
     out.lines = tree.branches(&nodes)?;
+    if let Some(scale) = unused_scale(bytes) {
+        out.notes.push(format!("the comment {} was not applied", excerpt(&scale)));
+    }
     out.tidy()
+}
+
+/// A comment `SCALE` in front of the nodes that is not 1 along all axes. Programs differ in whether the
+/// nodes already hold it.
+fn unused_scale(bytes: &[u8]) -> Option<String> {
+    let comments = text::lines(bytes).map_while(|(_, line)| Some(line.strip_prefix('#')?.trim().to_owned()));
+    let is_one = |word: &str| word.parse() == Ok(1.0);
+    comments.into_iter().find(|comment| {
+        let mut words = comment.split_ascii_whitespace();
+        words.next() == Some("SCALE") && !words.all(is_one)
+    })
 }
 
 /// Whether a line of text is a node.
 pub fn is_node(line: &str) -> bool {
-    text::fields(line, Separator::Blanks).len() == 7 && node(0, line).is_ok()
+    let fields = text::fields(line, Separator::Blanks);
+    fields.len() == 7 && whole(0, fields[1]).is_ok() && node(0, line).is_ok()
 }
 
 struct Node {
@@ -77,20 +89,18 @@ struct Tree {
 
 impl Tree {
     fn new(nodes: &[Node]) -> Result<Self> {
-        let mut index = HashMap::with_capacity(nodes.len());
-        for (i, node) in nodes.iter().enumerate() {
-            match index.entry(node.id) {
-                Entry::Vacant(entry) => drop(entry.insert(i)),
-                Entry::Occupied(entry) => {
-                    let first = nodes[*entry.get()].line;
-                    let found = format!("the id {} once more, first in line {first}", node.id);
-                    return Err(Error::new(format!("line {}", node.line), found, "every id once"));
-                }
-            }
+        // The nodes in the order of their ids, in which they usually stand in the file.
+        let mut order: Vec<(i64, usize)> = nodes.iter().enumerate().map(|(i, node)| (node.id, i)).collect();
+        order.sort_unstable();
+        if let Some(pair) = order.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            let [first, again] = [pair[0].1, pair[1].1].map(|i| nodes[i].line);
+            let found = format!("the id {} once more, first in line {first}", pair[0].0);
+            return Err(Error::new(format!("line {again}"), found, "every id once"));
         }
+        let index = |id: i64| order.binary_search_by_key(&id, |(id, _)| *id).ok().map(|at| order[at].1);
         let parent = |node: &Node| match node.parent {
             None => Ok(None),
-            Some(id) => index.get(&id).copied().map(Some).ok_or_else(|| {
+            Some(id) => index(id).map(Some).ok_or_else(|| {
                 let found = format!("the parent {id}, which is no node of the file");
                 Error::truncated(format!("line {}", node.line), found, "the id of a node, or -1 for a root")
             }),

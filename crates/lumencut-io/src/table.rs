@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};
-use crate::table_columns::Columns;
+use crate::table_columns::{Columns, name_coordinates};
 use crate::text::{self, Separator};
 
 /// The lines of a table with a point per row. Blank rows part lines, and so do changes of a column such as
@@ -24,22 +24,24 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let has_header = !all_numbers(&fields, separator);
     let named = match has_header {
         true => Some(Columns::of_header(first, &row, &fields)?),
-        false => header_in_comment(bytes, first, fields.len()),
+        false => header_in_comment(bytes, first, fields.len())?,
     };
     let guessed = named.is_none();
     let columns = named.map_or_else(|| Columns::of_count(first, fields.len()), Ok)?;
     let mut rows = Rows::new(columns, separator);
     for (number, line) in text::lines(bytes).skip(first - usize::from(!has_header)) {
-        match line.trim_start().chars().next() {
-            None => rows.finish_line(),
-            Some('#') => {}
-            Some(_) => rows.add(number, &line)?,
+        if line.trim_start().starts_with('#') {
+            continue;
+        }
+        // A spreadsheet writes a blank row as separators.
+        match line.trim_matches([' ', '\t', ',', ';']) {
+            "" => rows.finish_line(),
+            _ => rows.add(number, &line)?,
         }
     }
     rows.finish_line();
-    if guessed && counts_rows(&rows.out.lines) {
-        return Err(Error::new("column 1", "a number that counts the rows", "4 columns x, y, z, radius")
-            .mend("name the columns in the first line, or leave the counter out"));
+    if guessed {
+        refuse_counter(&rows.out.lines)?;
     }
     rows.out.tidy()
 }
@@ -49,7 +51,7 @@ pub fn is_first_row(line: &str) -> bool {
     let separator = separator_of(line);
     let fields = fields_of(line, separator);
     let numbers = fields.len() >= 3 && all_numbers(&fields, separator);
-    numbers || Columns::of_header(0, line, &fields).is_ok()
+    numbers || name_coordinates(&fields)
 }
 
 /// What parts the columns of a row. Blanks beside tabs part too, where no name holds blanks.
@@ -88,21 +90,30 @@ fn with_point(field: &str, separator: Separator) -> Cow<'_, str> {
 }
 
 /// The columns that the last comment in front of the rows names, where it names as many as there are.
-fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Option<Columns> {
+fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<Columns>> {
     let comment = text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')).last();
-    let (number, line) = comment?;
+    let Some((number, line)) = comment else { return Ok(None) };
     let names = line.trim_start_matches('#');
     let fields = fields_of(names, separator_of(names));
-    Columns::of_header(number, names, &fields).ok().filter(|columns| columns.count == count)
+    if fields.len() != count || !name_coordinates(&fields) {
+        return Ok(None);
+    }
+    Columns::of_header(number, names, &fields).map(Some)
 }
 
-/// Whether the first coordinate is only the number of the row.
-fn counts_rows(lines: &[Line]) -> bool {
+/// Refuses lines whose columns nobody named and whose x only counts the rows: then y is x, and z the radius.
+///
+/// # Errors
+/// Where a radius follows such an x.
+pub fn refuse_counter(lines: &[Line]) -> Result<()> {
     let mut x = lines.iter().flat_map(|line| &line.points).map(|p| p.x).enumerate();
-    let Some((_, first)) = x.next() else { return false };
-    lines.iter().any(|line| line.radius.is_some())
-        && (first == 0.0 || first == 1.0)
-        && x.all(|(i, x)| x == first + i as f64)
+    let begins = x.next().map(|(_, first)| first).filter(|first| *first == 0.0 || *first == 1.0);
+    let counts = begins.is_some_and(|first| x.all(|(i, x)| x == first + i as f64));
+    if !counts || lines.iter().all(|line| line.radius.is_none()) {
+        return Ok(());
+    }
+    Err(Error::new("column 1", "a number that counts the rows", "columns x, y, z, radius")
+        .mend("name the columns in the first line, or leave the counter out"))
 }
 
 /// The lines so far.

@@ -57,7 +57,8 @@ impl Name {
             return Self { base: base.trim().into(), unit: (!unit.is_empty()).then(|| unit.into()) };
         }
         match field.rsplit_once(['_', ' ']) {
-            Some((base, unit)) if Unit::of_name(unit).is_some() => {
+            // `_m` may mean anything.
+            Some((base, unit)) if unit.len() > 1 && Unit::of_name(unit).is_some() => {
                 Self { base: base.trim().into(), unit: Some(unit.into()) }
             }
             _ => Self { base: field, unit: None },
@@ -156,6 +157,11 @@ impl Columns {
         self.radius = Some((column, part * factor));
         Ok(())
     }
+}
+
+/// Whether the fields of a row name coordinates.
+pub fn name_coordinates(fields: &[&str]) -> bool {
+    coordinates(&fields.iter().map(|field| Name::of(field)).collect::<Vec<_>>()).is_some()
 }
 
 /// The columns of the three coordinates, and the space that their names state.

@@ -64,7 +64,7 @@ impl Cloud {
     }
 
     fn has_radius(&self) -> bool {
-        self.segments.iter().all(|segment| segment.radius.is_some())
+        self.segments.iter().any(|segment| segment.radius.is_some())
     }
 
     /// The other segment at a place that chains pass.

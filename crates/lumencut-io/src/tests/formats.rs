@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::sample::{self, RADIUS};
-use crate::{Centerlines, Space, read};
+use crate::{Centerlines, Space, Unit, read};
 
 fn assert_is_sample(read: &Centerlines, what: &str) {
     assert_eq!(read.space, Some(Space::Ras), "{what}");
@@ -49,35 +49,66 @@ fn every_legacy_form_gives_the_same_lines() {
 
 #[test]
 fn markups_are_read_in_their_space_and_unit() {
-    for (space, unit, per_mm) in [("RAS", "mm", 1.0), ("0", "cm", 0.125), ("RAS", "um", 1.0)] {
-        let read = read(&sample::mrk_json(space, unit, per_mm), "a.mrk.json").unwrap();
-        let scale =
-            per_mm * [("mm", 1.0), ("cm", 10.0), ("um", 1e-3)].iter().find(|u| u.0 == unit).unwrap().1;
-        for (i, line) in read.lines.iter().enumerate() {
-            let expected: Vec<DVec3> = sample::line(i).into_iter().map(|p| p * scale).collect();
-            assert!(line.points.iter().zip(&expected).all(|(a, b)| a.distance(*b) < 1e-12), "{unit}");
-            assert_eq!(line.points.len(), expected.len());
-        }
+    for (space, unit, in_mm) in [("RAS", Unit::Millimetre, 1.0), ("0", Unit::Centimetre, 10.0)] {
+        let read = read(&sample::mrk_json(space, unit.name(), 1.0), "a.mrk.json").unwrap();
+        assert_eq!((read.unit, read.format), (Some(unit), "3D Slicer markups"));
+        assert_eq!(read.lines[1].points, sample::line(1), "points stay in the file's unit");
         assert_eq!(read.space, Some(Space::Ras));
-        assert_eq!(read.lines[1].radius.as_deref(), Some(&RADIUS[3..]));
         assert_eq!(read.lines[1].name.as_deref(), Some("curve 3"));
-        assert_eq!(read.notes.iter().any(|note| note.contains("converted")), unit != "mm");
+        let read = read.scaled(unit.in_mm()).unwrap();
+        let expected: Vec<DVec3> = sample::line(1).into_iter().map(|p| p * in_mm).collect();
+        assert_eq!(read.lines[1].points, expected);
+        let radius = read.lines[1].radius.as_ref().unwrap();
+        let near = radius.iter().zip(&RADIUS[3..]).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(near && radius.len() == 4, "the sample's radius is in mm whatever the coordinates");
     }
     assert_eq!(read(&sample::mrk_json("LPS", "mm", 1.0), "a.json").unwrap().space, Some(Space::Lps));
     let silent = replaced(sample::mrk_json("LPS", "mm", 1.0), "\"coordinateSystem\": \"LPS\",", "");
     assert_eq!(read(&silent, "a.json").unwrap().space, None);
+    let silent = replaced(sample::mrk_json("LPS", "cm", 1.0), "\"coordinateUnits\": \"cm\",", "");
+    assert_eq!(read(&silent, "a.json").unwrap().unit, Some(Unit::Millimetre));
     let expected = "a.json: markup 0: coordinateSystem: found 'IJK'; expected 'LPS' or 'RAS'";
     assert_eq!(message(&sample::mrk_json("IJK", "mm", 1.0), "a.json"), expected);
     assert!(message(&sample::mrk_json("LPS", "inch", 1.0), "a.json").contains("coordinateUnits"));
 }
 
+/// The first markup of one file with the second of another.
+fn mixed(first: Vec<u8>, second: Vec<u8>) -> Vec<u8> {
+    let [first, second] = [first, second].map(|bytes| String::from_utf8(bytes).unwrap());
+    let at = |text: &str| text.find("{\"type\": \"Curve\", \"name\": \"curve 3\"").unwrap();
+    (first[..at(&first)].to_owned() + &second[at(&second)..]).into_bytes()
+}
+
+#[test]
+fn markups_in_two_units_are_brought_into_the_first() {
+    let bytes = mixed(sample::mrk_json("RAS", "mm", 1.0), sample::mrk_json("RAS", "cm", 0.125));
+    let read = read(&bytes, "a.mrk.json").unwrap();
+    assert_eq!(read.unit, Some(Unit::Millimetre));
+    assert_eq!(read.lines[0].points, sample::line(0));
+    assert_eq!(read.lines[1].points, sample::line(1).iter().map(|p| *p * 1.25).collect::<Vec<_>>());
+    assert_eq!(read.lines[1].radius.as_deref(), Some(&RADIUS[3..]));
+    assert!(read.notes.iter().any(|note| note.contains("different units were brought into mm")));
+}
+
+#[test]
+fn scaling_checks_the_limit_again() {
+    let read = read(&ascii_vtp(), "a.vtp").unwrap();
+    assert_eq!((read.unit, read.conventional_unit), (None, Some(Unit::Millimetre)));
+    let twice = read.clone().scaled(2.0).unwrap();
+    assert_eq!(twice.lines[0].points[2], sample::line(0)[2] * 2.0);
+    assert_eq!(twice.lines[0].radius.as_ref().unwrap()[0], 2.0 * RADIUS[0]);
+    assert_eq!((twice.notes, twice.unit), (read.notes.clone(), read.unit));
+    let error = read.clone().scaled(1e6).unwrap_err().to_string();
+    assert!(error.ends_with("expected coordinates of at most 1e6 mm"), "{error}");
+    for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(read.clone().scaled(factor).unwrap_err().to_string().contains("a finite factor above 0"));
+    }
+}
+
 #[test]
 fn markups_in_two_spaces_are_brought_into_the_first() {
-    let ras = String::from_utf8(sample::mrk_json("RAS", "mm", 1.0)).unwrap();
-    let lps = String::from_utf8(sample::mrk_json("LPS", "mm", 1.0)).unwrap();
-    let second = |text: &str| text.find("{\"type\": \"Curve\", \"name\": \"curve 3\"").unwrap();
-    let mixed = ras[..second(&ras)].to_owned() + &lps[second(&lps)..];
-    let read = read(mixed.as_bytes(), "a.mrk.json").unwrap();
+    let bytes = mixed(sample::mrk_json("RAS", "mm", 1.0), sample::mrk_json("LPS", "mm", 1.0));
+    let read = read(&bytes, "a.mrk.json").unwrap();
     assert_is_sample(&read, "second markup in LPS");
     assert!(read.notes.iter().any(|note| note.contains("different spaces")));
 }
@@ -128,11 +159,21 @@ fn points_without_lines_are_named() {
 }
 
 #[test]
+fn a_cloud_of_points_and_a_document_type_are_refused_by_name() {
+    let cloud = b"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\nVERTICES 2 4\n1 0 1 1\n";
+    let expected = "a.vtk: lines: found 2 point(s), 2 other cell(s) and no line; expected at least one line \
+                    through the points; give a file of centerlines, not of points or surfaces";
+    assert_eq!(message(cloud, "a.vtk"), expected);
+    let bomb = replaced(ascii_vtp(), "<VTKFile", "<!DOCTYPE a [<!ENTITY b \"c\">]><VTKFile");
+    assert!(message(&bomb, "a.vtp").contains("found a document type (<!DOCTYPE)"));
+}
+
+#[test]
 fn nan_points_wild_ids_and_negative_radii_are_named() {
     let nan = replaced(ascii_vtp(), "-4\n 2\n 8.125", "-4\n nan\n 8.125");
     assert!(message(&nan, "a.vtp").contains("points of line 0: found [-4, NaN, 8.125] at point 2"));
     let far = replaced(ascii_vtp(), "-4\n 2\n 8.125", "-4\n 2e300\n 8.125");
-    assert!(message(&far, "a.vtp").contains("at point 2; expected coordinates of at most 1e6 mm"));
+    assert!(message(&far, "a.vtp").contains("at point 2; expected coordinates of at most 1e9"));
     let id = replaced(ascii_vtp(), ">0\n 1\n 2\n", ">0\n 7\n 2\n");
     assert!(
         message(&id, "a.vtp")
@@ -201,7 +242,9 @@ fn repeated_points_and_lines_of_one_place_are_dropped_and_noted() {
 fn content_that_is_no_centerline_file_is_named() {
     assert!(message(b"", "a.vtp").contains("an empty file"));
     assert!(message(b"GIF89a", "a.vtp").contains("expected a VTK XML file"));
-    assert!(message(b"GIF89a", "a.gif").contains("expected a .vtp, legacy .vtk or .mrk.json file"));
+    assert!(
+        message(b"GIF89a", "a.gif").contains("the name ends in 'gif'); expected a .vtp, .vtk, .mrk.json")
+    );
     let grid = replaced(ascii_vtp(), "type=\"PolyData\"", "type=\"ImageData\"");
     assert_eq!(
         message(&grid, "a.vtp"),

@@ -1,6 +1,11 @@
-//! Tests on small files that are written here, in every encoding.
+//! Tests on small files that are written here, in every encoding, and on the shared samples where they are.
 
 mod formats;
+mod hostile;
 mod joining;
+mod other_formats;
 mod robust;
 mod sample;
+mod segments;
+mod shared_data;
+mod tables;

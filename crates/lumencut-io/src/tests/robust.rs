@@ -16,10 +16,15 @@ fn read_and_check(bytes: &[u8], name: &str) -> bool {
 
 #[test]
 fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
+    let text = ["a.pth", "a.swc", "a.tre", "a.fcsv", "reference.txt", "a.txt", "a.csv"];
     for (bytes, name) in sample::files() {
         assert!(read_and_check(&bytes, name));
         for length in 0..bytes.trim_ascii_end().len() {
             if !read_and_check(&bytes[..length], name) {
+                continue;
+            }
+            // Rows of text may end anywhere.
+            if text.contains(&name) {
                 continue;
             }
             // Nothing tells that a legacy file ends too early between two sections; the end of appended data
@@ -39,10 +44,10 @@ fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
 }
 
 /// A small generator with a fixed seed (xorshift), so that a failure repeats.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn below(&mut self, limit: usize) -> usize {
+    pub fn below(&mut self, limit: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -67,7 +72,11 @@ const NASTY: [&[u8]; 12] = [
 
 #[test]
 fn mutated_files_never_panic() {
-    let files = sample::files();
+    let mut files = sample::files();
+    // As often as the many forms of `.vtp`.
+    let others: Vec<_> =
+        sample::other_files().into_iter().map(|(content, name, _)| (content, name)).collect();
+    files.extend(others.iter().cycle().take(64).cloned());
     let mut random = Random(0x2545_f491_4f6c_dd1d);
     let mut read_whole = 0;
     for round in 0..20_000 {

@@ -256,6 +256,98 @@ pub fn mrk_json(space: &str, unit: &str, per_mm: f64) -> Vec<u8> {
     format!("{{\"markups\": [{}, {}]}}", curve(0, ENDS[0]), curve(ENDS[0], ENDS[1])).into_bytes()
 }
 
+/// The sample as a SimVascular path file of two roots, a path for each line.
+pub fn pth() -> Vec<u8> {
+    let mut out = "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<format version=\"1.0\"/>\n".to_owned();
+    for i in 0..2 {
+        let positions: String = line(i)
+            .iter()
+            .map(|p| {
+                format!(
+                    "<path_point id=\"0\">\n<pos x=\"{}\" y=\"{}\" z=\"{}\" />\n</path_point>\n",
+                    p.x, p.y, p.z
+                )
+            })
+            .collect();
+        out += &format!(
+            "<path id=\"{i}\" version=\"1.0\"><timestep id=\"0\"><path_element method=\"0\"><control_points>\
+             <point id=\"0\" x=\"0\" y=\"0\" z=\"0\"/></control_points><path_points>{positions}</path_points>\
+             </path_element></timestep></path>\n"
+        );
+    }
+    out.into_bytes()
+}
+
+/// The rows of line `i`: x, y, z, radius.
+fn rows(i: usize) -> Vec<[f64; 4]> {
+    let begin = if i == 0 { 0 } else { ENDS[0] };
+    line(i).iter().zip(&RADIUS[begin..]).map(|(p, r)| [p.x, p.y, p.z, *r]).collect()
+}
+
+/// Line 0 as a NumPy array, or any other rows.
+pub fn npy(rows: &[[f64; 4]], columns: usize, kind: &str, fortran: bool, version: u8) -> Vec<u8> {
+    let order = if kind.starts_with('>') { ByteOrder::Big } else { ByteOrder::Little };
+    let header = format!(
+        "{{'descr': '{kind}', 'fortran_order': {}, 'shape': ({}, {columns}), }}\n",
+        if fortran { "True" } else { "False" },
+        rows.len()
+    );
+    let mut out = b"\x93NUMPY".to_vec();
+    out.extend([version, 0]);
+    match version {
+        1 => out.extend((header.len() as u16).to_le_bytes()),
+        _ => out.extend((header.len() as u32).to_le_bytes()),
+    }
+    out.extend(header.bytes());
+    let mut put = |value: f64| out.extend(number(value, kind.contains('i'), kind.ends_with('8'), order));
+    match fortran {
+        true => (0..columns).for_each(|column| rows.iter().for_each(|row| put(row[column]))),
+        false => rows.iter().for_each(|row| row[..columns].iter().for_each(|value| put(*value))),
+    }
+    out
+}
+
+/// The sample in the formats that hold all of it or its first line, with a name and the name of the format.
+pub fn other_files() -> Vec<(Vec<u8>, &'static str, &'static str)> {
+    let row =
+        |separator: &str, [x, y, z, r]: [f64; 4]| format!("{x}{separator}{y}{separator}{z}{separator}{r}\n");
+    let text = |i: usize, prefix: &str, separator: &str| -> String {
+        rows(i).into_iter().map(|values| format!("{prefix}{}", row(separator, values))).collect()
+    };
+    let swc = |first: usize, i: usize| -> String {
+        let node = |(k, [x, y, z, r]): (usize, [f64; 4])| {
+            let parent = if k == 0 { -1 } else { (first + k - 1) as i64 };
+            format!("{} 0 {x} {y} {z} {r} {parent}\n", first + k)
+        };
+        rows(i).into_iter().enumerate().map(node).collect()
+    };
+    let tube = |i: usize| {
+        let count = rows(i).len();
+        let points = text(i, "", " ");
+        format!(
+            "ObjectType = VesselTube\nNDims = 3\nID = {i}\nPointDim = x y z r\nNPoints = {count}\nPoints = \n{points}"
+        )
+    };
+    let fiducials =
+        "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n# columns = id,x,y,z,w\n"
+            .to_owned();
+    let reference: String = text(0, "", " ").replace('\n', " 0.0\n");
+    vec![
+        (pth(), "a.pth", "SimVascular path"),
+        ((swc(1, 0) + &swc(11, 1)).into_bytes(), "a.swc", "SWC"),
+        ((tube(0) + &tube(1)).into_bytes(), "a.tre", "ITK tube"),
+        ((fiducials + &text(0, "p,", ",")).into_bytes(), "a.fcsv", "3D Slicer fiducials"),
+        (reference.into_bytes(), "reference.txt", "Rotterdam reference"),
+        ((text(0, "", " ") + "\n" + &text(1, "", " ")).into_bytes(), "a.txt", "text table"),
+        (
+            ("line,x,y,z,radius\n".to_owned() + &text(0, "a,", ",") + &text(1, "b,", ",")).into_bytes(),
+            "a.csv",
+            "text table",
+        ),
+        (npy(&rows(0), 4, "<f8", false, 1), "a.npy", "NumPy array"),
+    ]
+}
+
 /// One small file of each kind, with the name to read it under.
 pub fn files() -> Vec<(Vec<u8>, &'static str)> {
     let mut out: Vec<_> = styles().into_iter().map(|style| (vtp(style), "a.vtp")).collect();
@@ -263,5 +355,6 @@ pub fn files() -> Vec<(Vec<u8>, &'static str)> {
         out.extend([false, true].map(|offsets| (vtk(binary, offsets), "a.vtk")));
     }
     out.push((mrk_json("RAS", "mm", 1.0), "a.mrk.json"));
+    out.extend(other_files().into_iter().map(|(content, name, _)| (content, name)));
     out
 }

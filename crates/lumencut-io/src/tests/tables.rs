@@ -1,0 +1,101 @@
+//! Tables: separators, headers, units, lines; what is not clear is refused.
+
+use glam::DVec3;
+
+use crate::{Centerlines, Space, Unit, read};
+
+fn ok(content: &str) -> Centerlines {
+    read(content.as_bytes(), "a.csv").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn message(content: &str) -> String {
+    read(content.as_bytes(), "a.csv").unwrap_err().to_string()
+}
+
+const ENDS: [DVec3; 2] = [DVec3::new(12.9013, -2.0, 3.5), DVec3::new(4.0, 5.0, 6.25)];
+
+#[test]
+fn every_separator_and_line_end_gives_the_same_points() {
+    let rows = [["1.290130000000000088e+01", "-2", "+3.5"], ["4.", "5", "6.25"]];
+    for separator in [",", ";", "\t", " ", "  ", ", ", " ;", ",\t"] {
+        for end in ["\n", "\r\n", "\r"] {
+            let text: String = rows.iter().map(|row| row.join(separator) + end).collect();
+            let read = ok(&text);
+            assert_eq!(read.lines[0].points, ENDS, "{text:?}");
+            assert_eq!((read.unit, read.space, read.lines[0].radius.is_none()), (None, None, true));
+            assert_eq!(read.notes, ["no radius in the file"]);
+            assert_eq!(ok(&format!("\u{feff}{text}")).lines, read.lines, "with a byte order mark");
+        }
+    }
+    assert_eq!(ok("12,9013;-2;3,5\n4;5;6,25\n").lines[0].points, ENDS, "decimal commas");
+    assert_eq!(ok("12.9013,-2,3.5,\n4,5,6.25,\n").lines[0].points, ENDS, "separators at the end");
+}
+
+#[test]
+fn headers_name_the_columns() {
+    let body = "9,12.9013,-2,3.5,1\n9,4,5,6.25,0.5\n";
+    for (header, unit, space) in [
+        ("i,x,y,z,r", None, None),
+        ("i,X [mm],Y [mm],Z [mm],Radius [mm]", Some(Unit::Millimetre), None),
+        ("i,x_cm,y_cm,z_cm,radius_cm", Some(Unit::Centimetre), None),
+        ("i,x (\u{b5}m),y (\u{3bc}m),z (um),Radius", Some(Unit::Micrometre), None),
+        ("i,\"Points:0\",\"Points:1\",\"Points:2\",\"MaximumInscribedSphereRadius\"", None, None),
+        ("i,Points_0,Points_1,Points_2,mean_radius", None, None),
+        ("i,L,P,S,r", None, Some(Space::Lps)),
+        ("i,R,A,S,radius", None, Some(Space::Ras)),
+        ("i,x,y,z,radius (mm)", Some(Unit::Millimetre), None),
+    ] {
+        let read = ok(&format!("{header}\n{body}"));
+        assert_eq!(read.lines[0].points, ENDS, "{header}");
+        assert_eq!(read.lines[0].radius.as_deref(), Some(&[1.0, 0.5][..]), "{header}");
+        assert_eq!((read.unit, read.space), (unit, space), "{header}");
+    }
+    let read = ok(&format!("i,x,y,z,Diameter\n{body}"));
+    assert_eq!(read.lines[0].radius.as_deref(), Some(&[0.5, 0.25][..]));
+    assert_eq!(read.notes, ["radius from half the column 'Diameter'"]);
+    let read = ok(&format!("i,x [cm],y [cm],z [cm],r [mm]\n{body}"));
+    assert_eq!(read.lines[0].radius.as_deref(), Some(&[0.1, 0.05][..]), "in the unit of the points");
+    let read = ok(&format!("# made today\n# i,x,y,z,r\n{body}"));
+    assert_eq!(read.lines[0].points, ENDS, "a header in a comment");
+}
+
+#[test]
+fn blank_rows_and_columns_part_lines() {
+    let read = ok("\n1 2 3\n1 2 4\n\n \n5 6 7\n5 6 8\n5 6 9\n\n");
+    assert_eq!(read.lines.iter().map(|l| l.points.len()).collect::<Vec<_>>(), [2, 3]);
+    let read =
+        ok("vessel;x;y;z\nLAD;1;2;3\nLAD;1;2;4\n\"R;CA\";0;0;0\n\"R;CA\";0;0;1\nLAD;9;9;9\nLAD;9;9;8\n");
+    let names: Vec<_> = read.lines.iter().map(|line| line.name.as_deref().unwrap()).collect();
+    assert_eq!(names, ["LAD", "R;CA", "LAD"]);
+    assert!(read.notes.iter().any(|note| note.starts_with("rows of one line stand apart")));
+    let read = ok("x,y,z,GroupIds\n1,2,3,4\n1,2,4,4\n1,2,5,6\n1,2,6,6\n");
+    assert_eq!(read.lines.iter().map(|line| line.group).collect::<Vec<_>>(), [Some(4), Some(6)]);
+    let read = ok("x,y,z,CenterlineIds,GroupIds\n1,2,3,0,4\n1,2,4,0,5\n1,2,5,1,4\n1,2,6,1,6\n");
+    assert!(read.lines.len() == 2 && read.lines.iter().all(|l| l.group.is_none() && l.name.is_none()));
+}
+
+#[test]
+fn what_is_not_clear_is_refused() {
+    assert!(message("1,2\n3,4\n").contains("line 1: found 2 column(s) of numbers without a header"));
+    assert!(message("1,2,3,4,5\n").contains("5 column(s) of numbers without a header"));
+    assert!(message("0,1,2,3\n1,1,2,4\n2,1,2,5\n").contains("a number that counts the rows"));
+    assert!(message("x,y\n1,2\n").contains("line 1: found 'x,y'; expected numbers, or a header"));
+    assert!(message("x_m,y_m,z_m\n1,2,3\n").contains("a header that names x, y, z"));
+    assert!(message("hello world\n").contains("line 1: found 'hello world'"));
+    assert!(message("1,2,3\n4,5\n").contains("line 2: found 2 column(s), '4,5'; expected 3 columns"));
+    assert!(message("1,2,3\n4,five,6\n").contains("line 2: found 'five'; expected a finite number"));
+    for wrong in ["nan", "inf", "-infinity", "1e400", ""] {
+        let text = format!("1,2,3\r\n4,{wrong},6\r\n");
+        assert!(message(&text).contains(&format!("line 2: found '{wrong}'; expected a finite number")));
+    }
+    assert!(
+        message("x (px),y (px),z (px)\n1,2,3\n").contains("line 1: unit of the column 'x (px)': found 'px'")
+    );
+    assert!(message("# x (px),y (px),z (px)\n1,2,3\n").contains("line 1: unit of the column"));
+    assert!(message("1 8 2 3 0\n2 8 2 3 0\n").contains("a number that counts the rows"), "five columns");
+    assert!(message("x (cm),y (mm),z (mm)\n1,2,3\n").contains("one unit for all three"));
+    assert!(message("1,5 2,5 3,5\n1,5 2,5 4,5\n").contains("line 1"));
+    assert!(message("1,2,3,4\n1,2,4,-1\n").contains("radius of line 0: found -1 at point 1"));
+    assert!(message("# only a comment\n").contains("no row"));
+    assert!(message("x_cm,y_cm,z_cm\n0,0,0\n200000,0,0\n").contains("at most 1e5 cm"));
+}
