@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
+_NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
     "CONTEXTS",
@@ -21,6 +22,7 @@ __all__ = [
     "make_phantom",
     "read_centerlines",
     "sample",
+    "write_centerlines",
 ]
 
 __version__: str
@@ -42,12 +44,9 @@ def check_settings(settings: Any) -> None: ...
 def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
 def devices() -> list[dict[str, Any]]: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
-def read_centerlines(
-    content: bytes, name: str
-) -> tuple[
-    list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], str | None, list[str]
-]: ...
+def read_centerlines(content: bytes, name: str) -> tuple[list[_NamedArrays], str | None, list[str]]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
+def write_centerlines(vessels: list[_NamedArrays], kind: str) -> bytes: ...
 
 class _Phantom(TypedDict):
     name: str

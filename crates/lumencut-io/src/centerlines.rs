@@ -33,9 +33,14 @@ pub struct Centerlines {
     pub lines: Vec<Line>,
     /// The space that the file states; `None` where it states none.
     pub space: Option<Space>,
+    /// Whether the file says that its lines are vessels already, so that none is joined to another.
+    pub joined: bool,
     /// What a user should know about how the file was read, one sentence each.
     pub notes: Vec<String>,
 }
+
+/// What a file of this crate carries, to say that its lines are vessels already.
+pub(crate) const JOINED_MARK: &str = "LumencutVessels";
 
 /// Beyond this no coordinate or radius (mm) belongs to a patient: a damaged file, or binary data read the
 /// wrong way. The core draws the same line.
@@ -72,7 +77,11 @@ impl Centerlines {
     }
 }
 
-fn check(line: &Line, index: usize) -> Result<()> {
+/// Checks that the points and radii of a line are places and sizes.
+///
+/// # Errors
+/// Naming the line by its `index`.
+pub(crate) fn check(line: &Line, index: usize) -> Result<()> {
     if let Some(i) = line.points.iter().position(|p| p.is_nan() || p.abs().max_element() > LARGEST_COORDINATE)
     {
         let found = format!("{} at point {i}", line.points[i]);

@@ -1,4 +1,4 @@
-//! Readers of centerline files: one room per format.
+//! Readers and writers of centerline files: one room per format.
 //!
 //! [`read`] turns the bytes of a file into the [`Centerlines`] that stand in it, in the file's own space;
 //! [`junctions::vessels`] turns lines that repeat a trunk into vessels that meet at shared end points.
@@ -19,12 +19,14 @@ mod vtk_cursor;
 mod vtk_legacy;
 mod vtp;
 mod vtp_xml;
+mod write;
 
 #[cfg(test)]
 mod tests;
 
 pub use centerlines::{Centerlines, Line, Space};
 pub use error::{Error, Result};
+pub use write::{write_mrk_json, write_vtp};
 
 /// The centerlines of a `.vtp`, legacy `.vtk` or `.mrk.json` file, in mm, in the file's own space.
 ///

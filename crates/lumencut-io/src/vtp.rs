@@ -1,6 +1,6 @@
 //! VTK XML poly data (`.vtp`): ascii, inline base64 and appended data, compressed or not.
 
-use crate::centerlines::Centerlines;
+use crate::centerlines::{Centerlines, JOINED_MARK};
 use crate::compression::{Budget, Compressor};
 use crate::data_array::{ByteOrder, NumberType, numbers_of_text};
 use crate::encoding::{self, Bytes, Layout};
@@ -25,10 +25,9 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     let layout = layout(&document.file)?;
     let mut arrays = Arrays { layout, appended, budget: Budget::of_file(bytes.len()) };
-    let mut out = Centerlines::default();
-    if let Some(space) =
-        document.field_arrays.iter().find(|array| array.attributes.get("Name") == Some("SPACE"))
-    {
+    let field = |name| document.field_arrays.iter().find(|array| array.attributes.get("Name") == Some(name));
+    let mut out = Centerlines { joined: field(JOINED_MARK).is_some(), ..Centerlines::default() };
+    if let Some(space) = field("SPACE") {
         let codes = arrays.numbers(space)?;
         out.space = poly_data::space_of(&codes.iter().map(|c| char::from(*c as u8)).collect::<String>());
     }
@@ -124,7 +123,22 @@ impl Arrays<'_> {
             other_cells: cells_before_lines.saturating_add(after),
             point_arrays: self.data_of(piece, "PointData")?,
             cell_arrays: self.data_of(piece, "CellData")?,
+            names: self.names(piece)?,
         })
+    }
+
+    /// The texts of the string array of cells that names them; each ends with a zero.
+    fn names(&mut self, piece: &Piece) -> Result<Option<Vec<String>>> {
+        let is_name = |array: &&Declared| {
+            let has = |key, value| array.attributes.get(key) == Some(value);
+            array.section == "CellData" && has("type", "String") && has("Name", poly_data::NAMES)
+        };
+        let Some(array) = piece.arrays.iter().find(is_name) else { return Ok(None) };
+        // VTK writes the bytes of a text as signed numbers.
+        let codes: Vec<u8> =
+            self.numbers(array)?.into_iter().map(|code| code.rem_euclid(256.0) as u8).collect();
+        let texts = codes.strip_suffix(&[0]).unwrap_or(&codes).split(|code| *code == 0);
+        Ok(Some(texts.map(|text| String::from_utf8_lossy(text).into_owned()).collect()))
     }
 
     /// The arrays of a section that the poly data reads, each name once.

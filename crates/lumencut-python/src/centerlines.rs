@@ -18,7 +18,7 @@ pub fn read_centerlines<'py>(
     name: &str,
 ) -> PyResult<(Vec<Vessel<'py>>, Option<&'static str>, Vec<String>)> {
     let read = py.detach(|| lumencut_io::read(content, name).map(junctions::vessels));
-    let Centerlines { lines, space, notes } =
+    let Centerlines { lines, space, notes, joined: _ } =
         read.map_err(|e| exception("FormatError", &e.subject, &e.found, &e.expected, &e.mend))?;
     let space = space.map(|space| match space {
         Space::Lps => "lps",

@@ -39,10 +39,15 @@ struct Path {
 /// The vessels that the lines of `centerlines` form, in place of the lines; end points that vessels share are
 /// equal to the last bit. A note tells how many lines became how many vessels where that changed anything.
 ///
+/// Lines that their file says are vessels already stay as they are.
+///
 /// Vessels keep the name of the first line they come from; several vessels may have one name.
 #[must_use]
 pub fn vessels(centerlines: Centerlines) -> Centerlines {
-    let Centerlines { lines, space, mut notes } = centerlines;
+    if centerlines.joined {
+        return centerlines;
+    }
+    let Centerlines { lines, space, joined, mut notes } = centerlines;
     let count = lines.len();
     let spacing = median_spacing(&lines);
     let (points, mut paths) = weld::weld(lines, spacing);
@@ -61,7 +66,7 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
     if followed > 0 {
         notes.push(format!("{followed} line end(s) that ran closely along another line were joined to it"));
     }
-    Centerlines { lines: vessels, space, notes }
+    Centerlines { lines: vessels, space, joined, notes }
 }
 
 /// The median distance between neighbouring points (mm).

@@ -4,3 +4,4 @@ mod formats;
 mod joining;
 mod robust;
 mod sample;
+mod writing;

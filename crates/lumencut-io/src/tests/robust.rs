@@ -39,10 +39,10 @@ fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
 }
 
 /// A small generator with a fixed seed (xorshift), so that a failure repeats.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn below(&mut self, limit: usize) -> usize {
+    pub fn below(&mut self, limit: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
