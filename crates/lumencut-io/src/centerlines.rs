@@ -99,12 +99,11 @@ pub(crate) fn check(line: &Line, index: usize) -> Result<()> {
 
 /// Drops points that equal their predecessor; returns how many.
 fn drop_repeated_points(line: &mut Line) -> usize {
-    let points = std::mem::take(&mut line.points);
-    let keep: Vec<bool> = (0..points.len()).map(|i| i == 0 || points[i] != points[i - 1]).collect();
-    let kept = |i: &usize| keep[*i];
-    line.points = (0..points.len()).filter(kept).map(|i| points[i]).collect();
+    let count = line.points.len();
     if let Some(radius) = &mut line.radius {
-        *radius = (0..points.len()).filter(kept).map(|i| radius[i]).collect();
+        let mut at = 0..count;
+        radius.retain(|_| at.next().is_some_and(|i| i == 0 || line.points[i] != line.points[i - 1]));
     }
-    points.len() - line.points.len()
+    line.points.dedup();
+    count - line.points.len()
 }

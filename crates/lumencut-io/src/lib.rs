@@ -20,6 +20,7 @@ mod vtk_legacy;
 mod vtp;
 mod vtp_xml;
 mod write;
+mod xz;
 
 #[cfg(test)]
 mod tests;

@@ -175,6 +175,7 @@ impl Arrays<'_> {
             }
         };
         let content = encoding::content(&name, bytes, self.layout, &mut self.budget)?;
+        self.budget.take(&name, (content.len() / kind.size() * size_of::<f64>()) as u64)?;
         Ok(kind.numbers(&content, self.layout.order))
     }
 }

@@ -50,9 +50,19 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
     let Centerlines { lines, space, joined, mut notes } = centerlines;
     let count = lines.len();
     let spacing = median_spacing(&lines);
+    if !weld::resolves(&lines, spacing) {
+        notes.push(
+            "points closer together than a billionth of their coordinates: no lines were joined".into(),
+        );
+        return Centerlines { lines, space, joined, notes };
+    }
     let (points, mut paths) = weld::weld(lines, spacing);
     let followed = if count <= MOST_LINES_TO_FOLLOW {
-        follow::follow(&points, &mut paths, spacing)
+        let followed = follow::follow(&points, &mut paths, spacing);
+        if !followed.whole {
+            notes.push("lines near too many others were joined only at points that coincide".into());
+        }
+        followed.ends
     } else {
         notes
             .push(format!("of more than {MOST_LINES_TO_FOLLOW} lines only points that coincide were joined"));
@@ -71,8 +81,10 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
 
 /// The median distance between neighbouring points (mm).
 fn median_spacing(lines: &[Line]) -> f64 {
-    let mut steps: Vec<f64> =
-        lines.iter().flat_map(|l| l.points.windows(2)).map(|pair| pair[0].distance(pair[1])).collect();
+    let mut steps = Vec::with_capacity(lines.iter().map(|line| line.points.len() - 1).sum());
+    for line in lines {
+        steps.extend(line.points.windows(2).map(|pair| pair[0].distance(pair[1])));
+    }
     if steps.is_empty() {
         return 0.0;
     }
