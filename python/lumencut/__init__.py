@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lumencut._lumencut import __version__
     from lumencut.camera import VIEWS, Camera
+    from lumencut.centerline_writers import write_centerlines
     from lumencut.centerlines import read_centerlines
     from lumencut.device import Device, devices
     from lumencut.errors import (
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
 _HOME = {
     "_lumencut": ("__version__",),
     "camera": ("VIEWS", "Camera"),
+    "centerline_writers": ("write_centerlines",),
     "centerlines": ("read_centerlines",),
     "device": ("Device", "devices"),
     "errors": (
@@ -100,6 +102,7 @@ __all__ = [
     "read_centerlines",
     "read_volume",
     "render",
+    "write_centerlines",
 ]
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
+_NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
     "CONTEXTS",
@@ -21,6 +22,7 @@ __all__ = [
     "levels",
     "make_phantom",
     "sample",
+    "write_centerlines",
 ]
 
 __version__: str
@@ -62,6 +64,7 @@ def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64
 def devices() -> list[dict[str, Any]]: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
+def write_centerlines(vessels: list[_NamedArrays], kind: str) -> bytes: ...
 
 class _Phantom(TypedDict):
     name: str

@@ -41,23 +41,28 @@ pub struct Centerlines {
     pub conventional_unit: Option<Unit>,
     /// The name of the format, such as "VTK XML PolyData".
     pub format: &'static str,
+    /// Whether the file says that its lines are vessels already, so that none is joined to another.
+    pub joined: bool,
     /// What a user should know about how the file was read, one sentence each.
     pub notes: Vec<String>,
 }
+
+/// What a file of this crate carries, to say that its lines are vessels already.
+pub(crate) const JOINED_MARK: &str = "LumencutVessels";
 
 /// Beyond this no coordinate or radius (mm) belongs to a patient: a damaged file, or binary data read the
 /// wrong way. The core draws the same line.
 const LARGEST_COORDINATE: f64 = 1e6;
 
 /// The largest coordinate that is believed, in the unit of the lines.
-struct Limit {
+pub(crate) struct Limit {
     largest: f64,
     unit: &'static str,
 }
 
 impl Limit {
     /// The limit where the lines are in `unit`; where none is known, that of the smallest unit.
-    fn of(unit: Option<Unit>) -> Self {
+    pub(crate) fn of(unit: Option<Unit>) -> Self {
         let assumed = unit.unwrap_or(Unit::Micrometre);
         Self { largest: LARGEST_COORDINATE / assumed.in_mm(), unit: unit.map_or("", Unit::name) }
     }
@@ -138,7 +143,11 @@ impl Centerlines {
     }
 }
 
-fn check(line: &Line, index: usize, limit: &Limit) -> Result<()> {
+/// Checks that the points and radii of a line are places and sizes.
+///
+/// # Errors
+/// Naming the line by its `index`.
+pub(crate) fn check(line: &Line, index: usize, limit: &Limit) -> Result<()> {
     let is_far = |p: &DVec3| p.is_nan() || p.abs().max_element() > limit.largest;
     if let Some(i) = line.points.iter().position(is_far) {
         let found = format!("{} at point {i}", line.points[i]);
@@ -158,12 +167,11 @@ fn check(line: &Line, index: usize, limit: &Limit) -> Result<()> {
 
 /// Drops points that equal their predecessor; returns how many.
 fn drop_repeated_points(line: &mut Line) -> usize {
-    let points = std::mem::take(&mut line.points);
-    let keep: Vec<bool> = (0..points.len()).map(|i| i == 0 || points[i] != points[i - 1]).collect();
-    let kept = |i: &usize| keep[*i];
-    line.points = (0..points.len()).filter(kept).map(|i| points[i]).collect();
+    let count = line.points.len();
     if let Some(radius) = &mut line.radius {
-        *radius = (0..points.len()).filter(kept).map(|i| radius[i]).collect();
+        let mut at = 0..count;
+        radius.retain(|_| at.next().is_some_and(|i| i == 0 || line.points[i] != line.points[i - 1]));
     }
-    points.len() - line.points.len()
+    line.points.dedup();
+    count - line.points.len()
 }

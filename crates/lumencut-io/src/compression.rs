@@ -3,6 +3,7 @@
 use std::io::Read;
 
 use crate::error::{Error, Result};
+use crate::xz;
 
 /// A `compressor` attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,9 +12,6 @@ pub enum Compressor {
     Lz4,
     Lzma,
 }
-
-/// Dictionary (KiB) beyond which an LZMA block is refused: that of the strongest preset and some room.
-const LZMA_MEMORY_KIB: u32 = 80 << 10;
 
 impl Compressor {
     /// The compressor with the class name that VTK writes.
@@ -32,16 +30,33 @@ impl Compressor {
         }
     }
 
+    /// How many bytes one byte of a block unpacks to at most.
+    fn largest_ratio(self) -> usize {
+        match self {
+            Self::Zlib => 1032,
+            Self::Lz4 => 255,
+            // A match of 273 bytes takes a third of a bit at least: 7000 bytes from one.
+            Self::Lzma => 1 << 14,
+        }
+    }
+
     /// Unpacks one block of exactly `size` bytes onto `out`. The caller has charged `size` to its budget.
     ///
     /// # Errors
     /// Naming `subject` where the block is damaged or of another size.
     pub fn unpack(self, subject: &str, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<()> {
         let before = out.len();
+        let most = block.len().saturating_mul(self.largest_ratio());
+        if size > most {
+            let found = format!("a block of {} bytes", block.len());
+            return Err(Error::new(subject, found, format!("{self:?} data for {size} bytes")));
+        }
+        out.reserve_exact(size);
         let done = match self {
             Self::Zlib => read_up_to(flate2::read::ZlibDecoder::new(block), size, out),
             Self::Lzma => {
-                read_up_to(lzma_rust2::XzReader::new_mem_limit(block, false, LZMA_MEMORY_KIB), size, out)
+                let (block, memory) = xz::with_small_dictionary(block, size);
+                read_up_to(lzma_rust2::XzReader::new_mem_limit(&block[..], false, memory), size, out)
             }
             Self::Lz4 => {
                 out.resize(before + size, 0);
@@ -69,17 +84,17 @@ fn read_up_to(reader: impl Read, size: usize, out: &mut Vec<u8>) -> std::result:
     reader.take(limit).read_to_end(out).map(|_| ()).map_err(|error| error.to_string())
 }
 
-/// How many bytes may still be unpacked from one file.
+/// How many bytes the arrays of one file may still take, as they stand in it and as numbers.
 #[derive(Debug)]
 pub struct Budget {
     left: u64,
 }
 
 impl Budget {
-    /// 16 MiB and 64 times the size of the file: many times what centerlines compress to, and far from the
-    /// ratio of a decompression bomb.
+    /// 1 MiB and 16 times the size of the file. A point with its radius and its place in a line takes about
+    /// 66 bytes, and in a compressed file seldom less than 8; decompression bombs take thousands per byte.
     pub fn of_file(size: usize) -> Self {
-        Self { left: (size as u64).saturating_mul(64).saturating_add(16 << 20) }
+        Self { left: (size as u64).saturating_mul(16).saturating_add(1 << 20) }
     }
 
     /// Takes `size` bytes, as a length that fits the machine.

@@ -1,4 +1,4 @@
-//! Readers of centerline files: one room per format.
+//! Readers and writers of centerline files: one room per format.
 //!
 //! [`read`] turns the bytes of a file into the [`Centerlines`] that stand in it, in the file's own space and
 //! unit; [`Centerlines::scaled`] brings them to mm; [`junctions::vessels`] turns lines that repeat a trunk, or
@@ -45,7 +45,9 @@ mod vtk_cursor;
 mod vtk_legacy;
 mod vtp;
 mod vtp_xml;
+mod write;
 mod xml;
+mod xz;
 
 #[cfg(test)]
 mod tests;
@@ -53,6 +55,7 @@ mod tests;
 pub use centerlines::{Centerlines, Line, Space};
 pub use error::{Error, Result};
 pub use unit::Unit;
+pub use write::{write_mrk_json, write_vtp};
 
 use kind::Kind;
 

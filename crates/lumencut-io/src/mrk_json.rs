@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde_json::Value;
 
-use crate::centerlines::{Centerlines, Line, Space};
+use crate::centerlines::{Centerlines, JOINED_MARK, Line, Space};
 use crate::error::{Error, Result, excerpt};
 use crate::unit::Unit;
 
@@ -19,7 +19,8 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let markups = root.get("markups").and_then(Value::as_array);
     let markups =
         markups.ok_or_else(|| Error::new("markups", "no list", "a 3D Slicer markups file with a list"))?;
-    let mut out = Centerlines::of("3D Slicer markups");
+    let joined = root.get(JOINED_MARK).and_then(Value::as_bool).unwrap_or(false);
+    let mut out = Centerlines { joined, ..Centerlines::of("3D Slicer markups") };
     let mut other_types = Vec::new();
     for (i, markup) in markups.iter().enumerate() {
         let kind = markup.get("type").and_then(Value::as_str).unwrap_or("unnamed type");

@@ -30,14 +30,23 @@ pub struct PolyData {
     pub other_cells: usize,
     pub point_arrays: Vec<Array>,
     pub cell_arrays: Vec<Array>,
+    /// The name of each cell.
+    pub names: Option<Vec<String>>,
 }
 
-const RADIUS_NAMES: [&str; 4] = ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
+/// The string array of cells that names them.
+pub const NAMES: &str = "Name";
+/// The array of cells that is 0 where the name, which is empty there, is none.
+pub const HAS_NAME: &str = "HasName";
+/// The array of cells that is 0 where the radii, which are 0 there, are none.
+pub const HAS_RADIUS: &str = "HasRadius";
+/// The arrays of points that hold radii, by how plainly their name says so.
+pub const RADIUS_NAMES: [&str; 4] = ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
 const GROUP_NAME: &str = "GroupIds";
 
 /// Whether the array of this name is read from point or cell data.
 pub fn wanted(name: &str) -> bool {
-    name == GROUP_NAME || name.to_ascii_lowercase().contains("radi")
+    name == GROUP_NAME || name == HAS_NAME || name.to_ascii_lowercase().contains("radi")
 }
 
 /// The space that the text `LPS` or `RAS` names.
@@ -66,6 +75,10 @@ impl PolyData {
         }
         let radius = self.radius(points.len(), &mut out.notes)?;
         let groups = self.groups(points.len())?;
+        let (has_radius, has_name) = (self.of_lines(HAS_RADIUS)?, self.of_lines(HAS_NAME)?);
+        let says = |has: Option<&[f64]>, cell: usize| has.is_none_or(|has| has[cell] != 0.0);
+        let names =
+            self.names.as_ref().map(|names| self.lines_of(NAMES, names)).transpose()?.unwrap_or_default();
         let mut start = 0;
         for (cell, end) in self.ends.iter().enumerate() {
             let end = data_array::index("offsets of the lines", *end, self.connectivity.len() + 1)?;
@@ -75,11 +88,12 @@ impl PolyData {
             start = end;
             let index = |id: &f64| data_array::index("point ids of the lines", *id, points.len());
             let ids = ids.iter().map(index).collect::<Result<Vec<_>>>()?;
+            let radius = radius.filter(|_| says(has_radius, cell));
             let line = |ids: &[usize], group| Line {
                 points: ids.iter().map(|i| DVec3::from(points[*i])).collect(),
                 radius: radius.map(|r| ids.iter().map(|i| r[*i]).collect()),
                 group,
-                name: None,
+                name: names.get(cell).filter(|_| says(has_name, cell)).cloned(),
             };
             match &groups {
                 Groups::None => out.lines.push(line(&ids, None)),
@@ -112,24 +126,29 @@ impl PolyData {
     }
 
     fn groups(&self, points: usize) -> Result<Groups<'_>> {
-        let of_name =
-            |arrays: &'_ [Array]| arrays.iter().position(|a| a.name == GROUP_NAME && a.components == 1);
-        if let Some(i) = of_name(&self.cell_arrays) {
-            let array = &self.cell_arrays[i];
-            let range = self.cells_before_lines..self.cells_before_lines.saturating_add(self.ends.len());
-            let values = array.values.get(range).ok_or_else(|| {
-                let found = format!("{} values", array.values.len());
-                Error::new(
-                    "cell array 'GroupIds'",
-                    found,
-                    format!("one per cell, of {} lines", self.ends.len()),
-                )
-            })?;
+        if let Some(values) = self.of_lines(GROUP_NAME)? {
             return Ok(Groups::OfLines(values));
         }
-        let Some(i) = of_name(&self.point_arrays) else { return Ok(Groups::None) };
-        one_value_each(&self.point_arrays[i], points, "point")?;
-        Ok(Groups::OfPoints(&self.point_arrays[i].values))
+        let is_group = |array: &&Array| array.name == GROUP_NAME && array.components == 1;
+        let Some(array) = self.point_arrays.iter().find(is_group) else { return Ok(Groups::None) };
+        one_value_each(array, points, "point")?;
+        Ok(Groups::OfPoints(&array.values))
+    }
+
+    /// The values that the array of cells with this name has for the lines.
+    fn of_lines(&self, name: &str) -> Result<Option<&[f64]>> {
+        let array = self.cell_arrays.iter().find(|array| array.name == name && array.components == 1);
+        array.map(|array| self.lines_of(name, &array.values)).transpose()
+    }
+
+    /// The part of one value per cell that is of lines.
+    fn lines_of<'a, T>(&self, name: &str, values: &'a [T]) -> Result<&'a [T]> {
+        let range = self.cells_before_lines..self.cells_before_lines.saturating_add(self.ends.len());
+        values.get(range).ok_or_else(|| {
+            let found = format!("{} values", values.len());
+            let expected = format!("one per cell, of {} lines", self.ends.len());
+            Error::new(format!("cell array '{name}'"), found, expected)
+        })
     }
 }
 

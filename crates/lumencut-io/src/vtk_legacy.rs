@@ -83,6 +83,14 @@ impl Sections<'_> {
         ValueType::of_name(subject, &name)
     }
 
+    /// The type of ids. Bits are none: eight of them in a byte become far more than the file is large.
+    fn id_type(&mut self, subject: &str) -> Result<ValueType> {
+        match self.value_type(subject)? {
+            kind @ ValueType::Number(_) => Ok(kind),
+            other => Err(Error::new(subject, format!("ids of the type {other:?}"), "whole numbers")),
+        }
+    }
+
     fn cells(&mut self, keyword: &str) -> Result<()> {
         let (first, second) = (self.cursor.count(keyword)?, self.cursor.count(keyword)?);
         let (ends, connectivity) = if self.cursor.is_next("OFFSETS") {
@@ -110,13 +118,13 @@ impl Sections<'_> {
         ids: usize,
     ) -> Result<(Vec<f64>, Vec<f64>)> {
         self.cursor.word(keyword)?;
-        let kind = self.value_type(keyword)?;
+        let kind = self.id_type(keyword)?;
         let mut offsets = self.cursor.values(keyword, kind, offsets)?;
         let word = self.cursor.word(keyword)?;
         if !word.eq_ignore_ascii_case("CONNECTIVITY") {
             return Err(Error::new(keyword, excerpt(&word), "CONNECTIVITY"));
         }
-        let kind = self.value_type(keyword)?;
+        let kind = self.id_type(keyword)?;
         let connectivity = self.cursor.values(keyword, kind, ids)?;
         if offsets.first().is_some_and(|first| *first != 0.0) {
             return Err(Error::new(keyword, format!("a first offset of {}", offsets[0]), "offsets from 0"));

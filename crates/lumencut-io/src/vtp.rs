@@ -1,11 +1,12 @@
 //! VTK XML poly data (`.vtp`): ascii, inline base64 and appended data, compressed or not.
 
-use crate::centerlines::Centerlines;
+use crate::centerlines::{Centerlines, JOINED_MARK};
 use crate::compression::{Budget, Compressor};
 use crate::data_array::{ByteOrder, NumberType, numbers_of_text};
 use crate::encoding::{self, Bytes, Layout};
 use crate::error::{Error, Result, excerpt};
 use crate::poly_data::{self, Array, PolyData};
+use crate::unit::Unit;
 use crate::vtp_xml::{self, Declared, Piece};
 use crate::xml::Attributes;
 
@@ -26,10 +27,14 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     let layout = layout(&document.file)?;
     let mut arrays = Arrays { layout, appended, budget: Budget::of_file(bytes.len()) };
+    let field = |name| document.field_arrays.iter().find(|array| array.attributes.get("Name") == Some(name));
     let mut out = Centerlines::of("VTK XML PolyData");
-    if let Some(space) =
-        document.field_arrays.iter().find(|array| array.attributes.get("Name") == Some("SPACE"))
-    {
+    if field(JOINED_MARK).is_some() {
+        // Our own files: vessels already, in mm.
+        out.joined = true;
+        out.unit = Some(Unit::Millimetre);
+    }
+    if let Some(space) = field("SPACE") {
         let codes = arrays.numbers(space)?;
         out.space = poly_data::space_of(&codes.iter().map(|c| char::from(*c as u8)).collect::<String>());
     }
@@ -125,7 +130,22 @@ impl Arrays<'_> {
             other_cells: cells_before_lines.saturating_add(after),
             point_arrays: self.data_of(piece, "PointData")?,
             cell_arrays: self.data_of(piece, "CellData")?,
+            names: self.names(piece)?,
         })
+    }
+
+    /// The texts of the string array of cells that names them; each ends with a zero.
+    fn names(&mut self, piece: &Piece) -> Result<Option<Vec<String>>> {
+        let is_name = |array: &&Declared| {
+            let has = |key, value| array.attributes.get(key) == Some(value);
+            array.section == "CellData" && has("type", "String") && has("Name", poly_data::NAMES)
+        };
+        let Some(array) = piece.arrays.iter().find(is_name) else { return Ok(None) };
+        // VTK writes the bytes of a text as signed numbers.
+        let codes: Vec<u8> =
+            self.numbers(array)?.into_iter().map(|code| code.rem_euclid(256.0) as u8).collect();
+        let texts = codes.strip_suffix(&[0]).unwrap_or(&codes).split(|code| *code == 0);
+        Ok(Some(texts.map(|text| String::from_utf8_lossy(text).into_owned()).collect()))
     }
 
     /// The arrays of a section that the poly data reads, each name once.
@@ -162,6 +182,7 @@ impl Arrays<'_> {
             }
         };
         let content = encoding::content(&name, bytes, self.layout, &mut self.budget)?;
+        self.budget.take(&name, (content.len() / kind.size() * size_of::<f64>()) as u64)?;
         Ok(kind.numbers(&content, self.layout.order))
     }
 }

@@ -14,6 +14,7 @@ mod pool;
 mod renderer;
 mod tree;
 mod volume;
+mod write_centerlines;
 
 #[pymodule]
 fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -28,5 +29,6 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
+    module.add_function(wrap_pyfunction!(write_centerlines::write_centerlines, module)?)?;
     Ok(())
 }

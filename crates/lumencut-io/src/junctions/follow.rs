@@ -1,5 +1,7 @@
 //! Lines that run along another line without sharing its points take its points.
 
+use std::cell::Cell;
+
 use glam::DVec3;
 
 use super::Path;
@@ -14,17 +16,29 @@ const PART_OF_SPACING: f64 = 0.5;
 const MOST_BY_SPACING: f64 = 0.5;
 /// How long the shared stretch must be, as a multiple of the distance allowed beside it.
 const SHORTEST_STRETCH: f64 = 10.0;
+/// How many times a point may be compared with a segment, a second's work. Lines of a patient take a small
+/// part; radii as wide as the whole tree make every point near every segment.
+const MOST_COMPARISONS: usize = 1 << 26;
 
-/// Lets the ends of paths follow earlier paths; returns how many ends do.
-pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> usize {
+/// What came of following.
+pub struct Followed {
+    /// How many ends of paths follow another path.
+    pub ends: usize,
+    /// Whether all was compared that there is to compare.
+    pub whole: bool,
+}
+
+/// Lets the ends of paths follow earlier paths.
+pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
     let mut followed = 0;
+    let left = Cell::new(MOST_COMPARISONS);
     // A path that follows another one leaves its own end behind, where a third path may begin.
     let mut moved: Vec<(usize, usize)> = Vec::new();
     for i in 1..paths.len() {
         let (earlier, rest) = paths.split_at_mut(i);
         let path = &mut rest[0];
         for _ in 0..2 {
-            if let Some(shared) = longest(points, path, earlier, spacing) {
+            if let Some(shared) = longest(points, path, earlier, spacing, &left) {
                 moved.extend(shared.replace(path, earlier));
                 followed += 1;
             }
@@ -37,7 +51,7 @@ pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> usize {
         }
         drop_repeats(path);
     }
-    followed
+    Followed { ends: followed, whole: left.get() > 0 }
 }
 
 /// A stretch at the beginning of a path that runs along another one.
@@ -55,7 +69,13 @@ struct Shared {
 /// The longest stretch at the beginning of `path` beside one of the `earlier` paths. None where the path
 /// shares its first step with one of them: points that coincide say where lines part better than any
 /// tolerance does.
-fn longest(points: &[DVec3], path: &Path, earlier: &[Path], spacing: f64) -> Option<Shared> {
+fn longest(
+    points: &[DVec3],
+    path: &Path,
+    earlier: &[Path],
+    spacing: f64,
+    left: &Cell<usize>,
+) -> Option<Shared> {
     let count = path.nodes.len();
     if earlier.iter().any(|other| shares_end(other, &path.nodes[..2])) {
         return None;
@@ -67,7 +87,7 @@ fn longest(points: &[DVec3], path: &Path, earlier: &[Path], spacing: f64) -> Opt
             continue;
         }
         for backwards in [false, true] {
-            let walk = Walk { points, path, other: candidate, backwards, spacing };
+            let walk = Walk { points, path, other: candidate, backwards, spacing, left };
             let found = walk.along().map(|(last, other_last, length)| Shared {
                 other,
                 backwards,
@@ -96,6 +116,8 @@ struct Walk<'a> {
     other: &'a Path,
     backwards: bool,
     spacing: f64,
+    /// The comparisons that are left.
+    left: &'a Cell<usize>,
 }
 
 impl Walk<'_> {
@@ -116,7 +138,8 @@ impl Walk<'_> {
         }
     }
 
-    /// The last point beside the other path, the other's last point, and the length (mm) of the stretch.
+    /// The last point beside the other path, the other's last point, and the length (mm) of the stretch. None
+    /// where the path is beside the other nowhere, or no comparison is left.
     fn along(&self) -> Option<(usize, usize, f64)> {
         let in_group = self.path.group.is_some() && self.path.group == self.other.group;
         let first = self.points[self.path.nodes[0]];
@@ -129,6 +152,9 @@ impl Walk<'_> {
             let point = self.points[*node];
             let step = point.distance(before);
             let (segment, distance) = self.nearest(at, point, 2.0 * step + self.tolerance(at, in_group));
+            if self.left.get() == 0 {
+                return None;
+            }
             if distance > self.tolerance(segment, in_group) {
                 break;
             }
@@ -151,6 +177,7 @@ impl Walk<'_> {
         let mut best = (from, f64::INFINITY);
         let mut travelled = 0.0;
         for segment in from..self.other.nodes.len() - 1 {
+            self.left.set(self.left.get().saturating_sub(1));
             let (a, b) = (self.other_point(segment), self.other_point(segment + 1));
             let edge = b - a;
             let t = ((point - a).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);

@@ -42,16 +42,32 @@ struct Path {
 /// The vessels that the lines (mm) of `centerlines` form, in place of the lines; end points that vessels share are
 /// equal to the last bit. A note tells how many lines became how many vessels where that changed anything.
 ///
+/// Lines that their file says are vessels already stay as they are.
+///
 /// Vessels keep the name of the first line they come from; several vessels may have one name.
 #[must_use]
 pub fn vessels(centerlines: Centerlines) -> Centerlines {
+    if centerlines.joined {
+        return centerlines;
+    }
+    let count = centerlines.lines.len();
+    let spacing = median_spacing(&centerlines.lines);
+    if !weld::resolves(&centerlines.lines, spacing) {
+        let mut whole = centerlines;
+        whole.notes.push(
+            "points closer together than a billionth of their coordinates: no lines were joined".into(),
+        );
+        return whole;
+    }
     let Centerlines { lines, mut notes, .. } = centerlines;
-    let count = lines.len();
-    let spacing = median_spacing(&lines);
     let (points, paths) = weld::weld(lines, spacing);
     let mut paths = segments::join(&points, paths, &mut notes);
     let followed = if paths.len() <= MOST_LINES_TO_FOLLOW {
-        follow::follow(&points, &mut paths, spacing)
+        let followed = follow::follow(&points, &mut paths, spacing);
+        if !followed.whole {
+            notes.push("lines near too many others were joined only at points that coincide".into());
+        }
+        followed.ends
     } else {
         notes
             .push(format!("of more than {MOST_LINES_TO_FOLLOW} lines only points that coincide were joined"));
@@ -70,8 +86,10 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
 
 /// The median distance between neighbouring points (mm).
 fn median_spacing(lines: &[Line]) -> f64 {
-    let mut steps: Vec<f64> =
-        lines.iter().flat_map(|l| l.points.windows(2)).map(|pair| pair[0].distance(pair[1])).collect();
+    let mut steps = Vec::with_capacity(lines.iter().map(|line| line.points.len() - 1).sum());
+    for line in lines {
+        steps.extend(line.points.windows(2).map(|pair| pair[0].distance(pair[1])));
+    }
     if steps.is_empty() {
         return 0.0;
     }

@@ -9,14 +9,19 @@ use crate::centerlines::Line;
 
 /// Weld distance as a part of the median spacing of the points.
 const PART_OF_SPACING: f64 = 1e-3;
-/// The smallest weld distance as a part of the largest coordinate: the cells of the grid stay countable.
-const PART_OF_COORDINATE: f64 = 1e-12;
+/// The smallest spacing as a part of the largest coordinate: the cells of the grid stay countable.
+const PART_OF_COORDINATE: f64 = 1e-9;
+
+/// Whether the spacing is wide enough to tell places apart.
+pub fn resolves(lines: &[Line], spacing: f64) -> bool {
+    let largest = lines.iter().flat_map(|l| &l.points).map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    spacing > largest * PART_OF_COORDINATE
+}
 
 /// The places that the points of all lines are, and the lines as paths through them. A place has the
-/// coordinates of the first point that was found there.
+/// coordinates of the first point that was found there. The spacing [`resolves`] the lines.
 pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
-    let largest = lines.iter().flat_map(|l| &l.points).map(|p| p.abs().max_element()).fold(0.0, f64::max);
-    let distance = (spacing * PART_OF_SPACING).max(largest * PART_OF_COORDINATE).max(f64::MIN_POSITIVE);
+    let distance = spacing * PART_OF_SPACING;
     let mut grid = Grid { distance, points: Vec::new(), cells: HashMap::new() };
     let paths = lines.into_iter().filter_map(|line| path(line, &mut grid)).collect();
     (grid.points, paths)
@@ -24,7 +29,7 @@ pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
 
 /// The path of a line; `None` where all its points are one place.
 fn path(line: Line, grid: &mut Grid) -> Option<Path> {
-    let all: Vec<usize> = line.points.iter().map(|p| grid.place(*p)).collect();
+    let all: Vec<usize> = line.points.into_iter().map(|p| grid.place(p)).collect();
     let kept: Vec<usize> = (0..all.len()).filter(|i| *i == 0 || all[*i] != all[i - 1]).collect();
     let nodes: Vec<usize> = kept.iter().map(|i| all[*i]).collect();
     let radius = line.radius.map(|radius| kept.iter().map(|i| radius[*i]).collect());

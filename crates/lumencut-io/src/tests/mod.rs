@@ -9,3 +9,4 @@ mod sample;
 mod segments;
 mod shared_data;
 mod tables;
+mod writing;

@@ -1,8 +1,10 @@
 //! Damaged files give an error or lines, and nothing else.
 
+use glam::DVec3;
+
 use super::sample;
 use crate::junctions::vessels;
-use crate::read;
+use crate::{Centerlines, Line, read};
 
 /// What is read must be sound whatever the bytes were.
 fn read_and_check(bytes: &[u8], name: &str) -> bool {
@@ -95,4 +97,33 @@ fn mutated_files_never_panic() {
         read_whole += usize::from(read_and_check(&bytes, name));
     }
     assert!((1..20_000).contains(&read_whole), "{read_whole} of the mutated files were read");
+}
+
+/// Every point is near every segment: comparing them all would take the square of their number.
+#[test]
+fn radii_as_wide_as_the_tree_end_in_time() {
+    const COUNT: usize = 30_000;
+    let line = |y: f64| Line {
+        points: (0..COUNT).map(|i| DVec3::new(i as f64, y, (i % 2) as f64 * 1e-3)).collect(),
+        radius: Some(vec![1e6; COUNT]),
+        ..Line::default()
+    };
+    let begin = std::time::Instant::now();
+    let found = vessels(Centerlines { lines: vec![line(0.0), line(5.0)], ..Centerlines::default() });
+    assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
+    assert!(
+        found.notes.contains(&"lines near too many others were joined only at points that coincide".into())
+    );
+    assert_eq!(found.lines.len(), 2);
+}
+
+/// Lines so short that welding makes each of them one place stay lines.
+#[test]
+fn lines_shorter_than_the_weld_distance_stay() {
+    for (at, step) in [(0.0, 1e-310), (1e6, 1e-7), (1e-200, 1e-205)] {
+        let points = vec![DVec3::splat(at), DVec3::splat(at + step)];
+        let lines = vec![Line { points, ..Line::default() }];
+        let found = vessels(Centerlines { lines: lines.clone(), ..Centerlines::default() });
+        assert_eq!(found.lines, lines);
+    }
 }

@@ -1,0 +1,55 @@
+//! What must hold for any bytes that are read as a centerline file.
+
+mod memory;
+
+use lumencut_io::{Error, Line, junctions, read, write_mrk_json, write_vtp};
+
+/// The most memory that reading may take: this many times the size of the file.
+const MOST_TIMES: usize = 10;
+/// Smaller files may take what a file of this size (bytes) may.
+const SMALL: usize = 1 << 20;
+
+/// Reads `data` as a file of this name and checks what becomes of it.
+///
+/// # Panics
+/// Where the lines are not sound, reading takes too much memory, or what is written is read back otherwise.
+pub fn check(data: &[u8], name: &str) {
+    let (vessels, peak) = memory::peak_of(|| read(data, name).map(junctions::vessels));
+    let most = MOST_TIMES * data.len().max(SMALL);
+    assert!(peak <= most, "reading {} bytes took {peak} bytes, more than {most}", data.len());
+    let Ok(vessels) = vessels else { return };
+    // Lines are joined in place; what stood in the file is read once more.
+    let lines = read(data, name).expect("a file that was read before").lines;
+    for lines in [lines, vessels.lines] {
+        assert_sound(&lines);
+        assert_written_alike(lines);
+    }
+}
+
+fn assert_sound(lines: &[Line]) {
+    assert!(!lines.is_empty(), "no line");
+    for (i, line) in lines.iter().enumerate() {
+        let count = line.points.len();
+        assert!(count >= 2, "line {i} has {count} points");
+        assert!(line.points.iter().all(|p| p.is_finite()), "line {i} has points that are no places");
+        let Some(radius) = &line.radius else { continue };
+        assert_eq!(radius.len(), count, "line {i} has another number of radii than of points");
+        assert!(radius.iter().all(|r| r.is_finite() && *r >= 0.0), "line {i} has radii that are no sizes");
+    }
+}
+
+fn assert_written_alike(mut lines: Vec<Line>) {
+    type Writer = fn(&[Line]) -> Result<Vec<u8>, Error>;
+    // Groups are read, not written; a text of VTK ends at its first null character.
+    let null = lines.iter().any(|line| line.name.as_ref().is_some_and(|name| name.contains('\0')));
+    lines.iter_mut().for_each(|line| line.group = None);
+    for (write, name, able) in [(write_vtp as Writer, "b.vtp", !null), (write_mrk_json, "b.mrk.json", true)] {
+        if able {
+            let bytes = write(&lines).unwrap_or_else(|error| panic!("not written as {name}: {error}"));
+            let back = read(&bytes, name).unwrap_or_else(|error| panic!("not read back: {error}"));
+            let back = junctions::vessels(back).lines;
+            // Text that tells zeros of either sign apart.
+            assert!(format!("{back:?}") == format!("{lines:?}"), "read back otherwise from {name}");
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! What is written is read back to the bit: count, order, direction, names, points and radii.
+
+use glam::DVec3;
+
+use super::robust::Random;
+use super::sample;
+use crate::junctions::vessels;
+use crate::{Error, Line, Space, Unit, read, write_mrk_json, write_vtp};
+
+type Writer = fn(&[Line]) -> Result<Vec<u8>, Error>;
+
+const FORMATS: [(Writer, &str); 2] = [(write_vtp, "a.vtp"), (write_mrk_json, "a.mrk.json")];
+
+/// Text that tells every bit of the lines, zeros of either sign too.
+fn bits(lines: &[Line]) -> String {
+    format!("{lines:?}")
+}
+
+fn assert_round_trip(lines: &[Line]) {
+    for (write, name) in FORMATS {
+        let bytes = write(lines).unwrap();
+        let read = read(&bytes, name).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(read.unit, Some(Unit::Millimetre), "{name}");
+        let back = vessels(read.scaled(1.0).unwrap());
+        assert_eq!(bits(&back.lines), bits(lines), "{name}");
+        assert_eq!(back.space, Some(Space::Lps), "{name}");
+        assert!(back.joined, "{name}");
+        assert!(back.notes.iter().all(|note| note.contains("radi")), "{name}: {:?}", back.notes);
+    }
+}
+
+/// Numbers at the ends of what a coordinate can be, and some that decimals cannot give exactly.
+const EXTREMES: [f64; 10] = [0.0, -0.0, 1e-300, 5e-324, -1e6, 1e6, 0.1, 1.0 / 3.0, -2.225e-308, 1e-5];
+
+fn number(random: &mut Random) -> f64 {
+    match random.below(3) {
+        0 => EXTREMES[random.below(EXTREMES.len())],
+        1 => random.below(1000) as f64 / 8.0,
+        _ => (random.below(1 << 53) as f64 / (1u64 << 52) as f64 - 1.0) * 1e6,
+    }
+}
+
+const NAMES: [&str; 8] =
+    ["", "LAD", "a \"quoted\" <b> & c", "línea 静脈 🩸", "two\nlines\r\n\ttab", " ", "]]>", "\\u0041"];
+
+/// A tree whose vessels mostly begin where another one ends or bends, run beside one another, or cross.
+fn tree(random: &mut Random) -> Vec<Line> {
+    let mut out: Vec<Line> = Vec::new();
+    for _ in 0..=random.below(6) {
+        let mut points = vec![DVec3::from([(); 3].map(|()| number(random)))];
+        if !out.is_empty() && random.below(4) > 0 {
+            let other = &out[random.below(out.len())].points;
+            points[0] = other[random.below(other.len())];
+        }
+        for _ in 0..=random.below(9) {
+            let last = points[points.len() - 1];
+            let step = DVec3::from([(); 3].map(|()| random.below(9) as f64 * 1e-4));
+            let near = (last + step).min(DVec3::splat(1e6));
+            points.push(if random.below(2) == 0 {
+                near
+            } else {
+                DVec3::from([(); 3].map(|()| number(random)))
+            });
+        }
+        points.dedup();
+        if points.len() < 2 {
+            points.push(points[0] * 0.5 + DVec3::splat(1.5));
+        }
+        let radius = (random.below(3) > 0).then(|| points.iter().map(|_| number(random).abs()).collect());
+        let name = (random.below(3) > 0).then(|| NAMES[random.below(NAMES.len())].to_owned());
+        out.push(Line { points, radius, group: None, name });
+    }
+    out
+}
+
+#[test]
+fn random_trees_come_back_to_the_bit() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    for _ in 0..2000 {
+        assert_round_trip(&tree(&mut random));
+    }
+}
+
+#[test]
+fn vessels_of_a_file_come_back_to_the_bit() {
+    for (bytes, name) in sample::files() {
+        let mut lines = vessels(read(&bytes, name).unwrap()).lines;
+        assert_eq!(lines.len(), 3);
+        lines.iter_mut().for_each(|line| line.group = None);
+        assert_round_trip(&lines);
+    }
+}
+
+/// A file that says nothing of vessels has its lines joined, the same file written here has not.
+#[test]
+fn the_mark_of_vessels_keeps_lines_apart() {
+    let lines: Vec<Line> =
+        [0, 1].map(|i| Line { points: sample::line(i), ..Line::default() }).into_iter().collect();
+    assert_round_trip(&lines);
+    for (write, name) in FORMATS {
+        let text = String::from_utf8(write(&lines).unwrap()).unwrap();
+        assert_eq!(text.matches("LumencutVessels").count(), 1);
+        let unmarked = text.replace("LumencutVessels", "Other");
+        assert_eq!(vessels(read(unmarked.as_bytes(), name).unwrap()).lines.len(), 3);
+    }
+}
+
+#[test]
+fn what_cannot_come_back_is_refused() {
+    let line = |points: &[[f64; 3]]| Line {
+        points: points.iter().map(|p| DVec3::from(*p)).collect(),
+        ..Line::default()
+    };
+    let good = line(&[[0.0; 3], [1.0; 3]]);
+    let wrong = [
+        (vec![], "vessels: found none"),
+        (vec![good.clone(), line(&[[0.0; 3]])], "points of line 1: found 1 point(s)"),
+        (vec![line(&[[0.0; 3], [-0.0; 3], [1.0; 3]])], "points of line 0: found point 1 equal to the one"),
+        (vec![line(&[[0.0; 3], [f64::NAN; 3]])], "points of line 0: found [NaN"),
+        (vec![line(&[[0.0; 3], [1.1e6; 3]])], "points of line 0: found [1100000"),
+        (vec![Line { radius: Some(vec![1.0]), ..good.clone() }], "radius of line 0: found 1 radii for 2"),
+        (vec![Line { radius: Some(vec![1.0, -1.0]), ..good.clone() }], "radius of line 0: found -1"),
+    ];
+    for (lines, expected) in &wrong {
+        for (write, _) in FORMATS {
+            let error = write(lines).unwrap_err().to_string();
+            assert!(error.starts_with(expected), "{error}");
+        }
+    }
+    let null = [Line { name: Some("a\0b".into()), ..good }];
+    let error = write_vtp(&null).unwrap_err().to_string();
+    assert!(error.contains("null character") && error.contains(".mrk.json"), "{error}");
+    let back = read(&write_mrk_json(&null).unwrap(), "a.mrk.json").unwrap();
+    assert_eq!(back.lines, null);
+}

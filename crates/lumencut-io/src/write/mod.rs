@@ -1,0 +1,42 @@
+//! Writers of vessels: what they write is read back to the bit, with nothing joined or left out.
+//!
+//! Coordinates and radii stand in the shortest decimals that give the same numbers back. The files are
+//! marked as vessels already (`LumencutVessels`), so that no reader of this crate joins their lines anew;
+//! other programs pass over the mark. Groups are not written: they tell which lines are one vessel.
+
+mod mrk_json;
+mod vtp;
+
+pub use mrk_json::write_mrk_json;
+pub use vtp::write_vtp;
+
+use crate::centerlines::{Limit, Line, check};
+use crate::error::{Error, Result};
+use crate::unit::Unit;
+
+/// Checks that reading gives every vessel back.
+///
+/// # Errors
+/// Where there is no vessel, or one is not what a [`Line`] is.
+fn check_all(vessels: &[Line]) -> Result<()> {
+    if vessels.is_empty() {
+        return Err(Error::new("vessels", "none", "at least one vessel"));
+    }
+    for (index, vessel) in vessels.iter().enumerate() {
+        check(vessel, index, &Limit::of(Some(Unit::Millimetre)))?;
+        let count = vessel.points.len();
+        let subject = || format!("points of line {index}");
+        if count < 2 {
+            return Err(Error::new(subject(), format!("{count} point(s)"), "at least 2 points"));
+        }
+        if let Some(i) = (1..count).find(|i| vessel.points[*i] == vessel.points[i - 1]) {
+            let found = format!("point {i} equal to the one before");
+            return Err(Error::new(subject(), found, "no two neighbours equal").mend("leave one of them out"));
+        }
+        if let Some(radius) = vessel.radius.as_ref().filter(|radius| radius.len() != count) {
+            let found = format!("{} radii for {count} points", radius.len());
+            return Err(Error::new(format!("radius of line {index}"), found, "one radius per point"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,48 @@
+//! 3D Slicer markups (`.mrk.json`): one Curve per vessel.
+
+use serde_json::Value;
+
+use super::check_all;
+use crate::centerlines::{JOINED_MARK, Line};
+use crate::error::Result;
+
+/// The schema that 3D Slicer states in the markups it writes.
+const SCHEMA: &str = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#";
+
+/// A `.mrk.json` file of vessels (mm, LPS): one Curve each, radii as its measurement `Radius`.
+///
+/// # Errors
+/// Where there is no vessel, or one is not what a [`Line`] is.
+pub fn write_mrk_json(vessels: &[Line]) -> Result<Vec<u8>> {
+    check_all(vessels)?;
+    let curves: Vec<String> = vessels.iter().map(curve).collect();
+    let head = format!("\"@schema\": \"{SCHEMA}\",\n\"{JOINED_MARK}\": true");
+    Ok(format!("{{\n{head},\n\"markups\": [{}]\n}}\n", curves.join(", ")).into_bytes())
+}
+
+fn curve(vessel: &Line) -> String {
+    let name = vessel.name.as_ref().map(|name| format!("\n  \"name\": {},", Value::from(name.as_str())));
+    let points: Vec<String> = vessel.points.iter().enumerate().map(control_point).collect();
+    format!(
+        "{{\n  \"type\": \"Curve\",{}\n  \"coordinateSystem\": \"LPS\",\n  \"coordinateUnits\": \"mm\",\n  \
+         \"controlPoints\": [\n    {}\n  ],\n  \"measurements\": [{}]\n}}",
+        name.unwrap_or_default(),
+        points.join(",\n    "),
+        vessel.radius.as_deref().map(measurement).unwrap_or_default(),
+    )
+}
+
+fn control_point((i, point): (usize, &glam::DVec3)) -> String {
+    let (number, position) = (i + 1, point.to_array());
+    format!(
+        "{{\"id\": \"{number}\", \"label\": \"{number}\", \"position\": {position:?}, \
+         \"positionStatus\": \"defined\"}}"
+    )
+}
+
+fn measurement(radius: &[f64]) -> String {
+    format!(
+        "\n    {{\"name\": \"Radius\", \"enabled\": true, \"units\": \"mm\", \"printFormat\": \"%-#4.4g%s\",\n     \
+         \"controlPointValues\": {radius:?}}}\n  "
+    )
+}

@@ -1,0 +1,43 @@
+//! Centerline files for `lumencut.centerline_writers`.
+
+use glam::DVec3;
+use lumencut_io::{Line, write_mrk_json, write_vtp};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::errors::exception;
+
+/// Points (n, 3), radii (n,) and name of one vessel.
+type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>, Option<String>);
+
+/// The content of a file of vessels in mm, LPS; `kind` is `"vtp"` or `"mrk.json"`.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn write_centerlines<'py>(
+    py: Python<'py>,
+    vessels: Vec<NamedVessel<'py>>,
+    kind: &str,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let write = match kind {
+        "vtp" => write_vtp,
+        "mrk.json" => write_mrk_json,
+        _ => return Err(exception("FormatError", "format", kind, "vtp or mrk.json", "")),
+    };
+    let lines = vessels.into_iter().map(line).collect::<PyResult<Vec<_>>>()?;
+    let written = py.detach(|| write(&lines));
+    let bytes =
+        written.map_err(|e| exception("VesselTreeError", &e.subject, &e.found, &e.expected, &e.mend))?;
+    Ok(PyBytes::new(py, &bytes))
+}
+
+fn line((points, radius, name): NamedVessel) -> PyResult<Line> {
+    let shape = points.shape();
+    if shape[1] != 3 {
+        let found = format!("shape {shape:?}");
+        return Err(exception("VesselTreeError", "points of the vessel", &found, "shape (n, 3)", ""));
+    }
+    let rows = points.as_array();
+    let points = rows.rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect();
+    Ok(Line { points, radius: radius.map(|r| r.as_array().to_vec()), group: None, name })
+}

@@ -1,0 +1,139 @@
+"""Feed the readers of centerlines with inputs that a fuzzer makes up, as many as the command line asks for.
+
+Builds the targets of crates/lumencut-io/fuzz with the stable compiler: the coverage that
+libFuzzer follows is a pass of LLVM that needs no sanitizer. `cargo fuzz` runs the same targets.
+What the fuzzer learns is kept in the target folder and goes on from there the next time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+CRATE = ROOT / "crates/lumencut-io/fuzz"
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or ROOT / "target").resolve() / "fuzz"
+NAMES = sorted(path.stem for path in (CRATE / "fuzz_targets").glob("*.rs"))
+#: Inputs per target where the command line names no number.
+RUNS = 20_000
+#: Counters for libFuzzer at every edge, and calls at every comparison.
+COVERAGE = (
+    "--cfg=fuzzing",
+    "-Cpasses=sancov-module",
+    "-Cllvm-args=-sanitizer-coverage-level=4",
+    "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
+    "-Cllvm-args=-sanitizer-coverage-pc-table",
+    "-Cllvm-args=-sanitizer-coverage-trace-compares",
+)
+#: An input may take two seconds; the targets count memory themselves, this bounds the whole process.
+LIMITS = ("-timeout=2", "-rss_limit_mb=1024", "-max_len=65536")
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What the fuzzer told of one target."""
+
+    name: str
+    status: int
+    seconds: float
+    text: str
+
+    def stated(self, pattern: str) -> str:
+        """The last number that the text states in this way, 0 where it states none."""
+        numbers: list[str] = re.findall(rf"{pattern} *(\d+)", self.text)
+        return numbers[-1] if numbers else "0"
+
+    @property
+    def inputs(self) -> int:
+        """How many inputs were run."""
+        return int(self.stated("stat::number_of_executed_units:"))
+
+    @property
+    def found(self) -> str:
+        """The file of the input that failed, nothing where none did."""
+        return "".join(re.findall(r"Test unit written to (.*)", self.text)[-1:])
+
+    def __str__(self) -> str:
+        return (
+            f"{self.name:>12} {self.inputs:>10,} {self.stated('cov:'):>9} "
+            f"{self.inputs / self.seconds:>12,.0f} {self.stated('stat::slowest_unit_time_sec:'):>8} s "
+            f"{self.stated('stat::peak_rss_mb:'):>7} MiB"
+        )
+
+
+def build() -> Path:
+    """Build the targets; returns the folder where they are."""
+    told = subprocess.run(("rustc", "-vV"), cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    host: str = re.findall(r"^host: (.*)$", told, re.MULTILINE)[0]
+    # With a target named, the flags are left out of what runs while building.
+    command = ("cargo", "build", "--quiet", "--locked", "--release", "--bins", "--target", host)
+    environment = os.environ | {"RUSTFLAGS": " ".join(COVERAGE), "CARGO_TARGET_DIR": str(TARGET)}
+    subprocess.run(command, cwd=CRATE, check=True, env=environment)
+    return TARGET / host / "release"
+
+
+def fuzz(program: Path, runs: int) -> Outcome:
+    """Run one target on that many inputs."""
+    corpus, found = TARGET / "corpus" / program.name, TARGET / "found"
+    for folder in (corpus, found):
+        folder.mkdir(parents=True, exist_ok=True)
+    options = (f"-runs={runs}", *LIMITS, f"-artifact_prefix={found}/{program.name}-", "-print_final_stats=1")
+    start = time.monotonic()
+    done = subprocess.run(
+        (program, *options, corpus, CRATE / "seeds" / program.name),
+        cwd=TARGET,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+    )
+    return Outcome(program.name, done.returncode, time.monotonic() - start, done.stdout)
+
+
+def told_wrong(outcome: Outcome) -> str:
+    """What is wrong with a target, with the input to look at; nothing where all went well."""
+    if outcome.status == 0 and outcome.inputs:
+        return ""
+    lines = re.findall(r"^.*panicked at .*\n.*$|^.*ERROR: .*$", outcome.text, re.MULTILINE)
+    reason = "\n".join(lines[:2]) or outcome.text[-2000:]
+    return f"{outcome.name}: {outcome.found or 'no input was kept'}\n{reason}"
+
+
+def main() -> int:
+    """Fuzz the targets that the command line names; the status is 1 where an input fails."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"of {', '.join(NAMES)}; all by default")
+    parser.add_argument("--runs", type=int, help=f"inputs in all, {RUNS} per target by default")
+    parser.add_argument("--jobs", type=int, default=2, help="targets at once, 2 by default")
+    arguments = parser.parse_args()
+    targets = arguments.targets or NAMES
+    if unknown := set(targets) - set(NAMES):
+        parser.error(f"found {', '.join(sorted(unknown))}; expected one of {', '.join(NAMES)}")
+    runs = RUNS if arguments.runs is None else -(-arguments.runs // len(targets))
+    if runs < 1 or arguments.jobs < 1:
+        parser.error("found a number below 1; expected --runs and --jobs from 1")
+    try:
+        folder = build()
+    except (OSError, subprocess.CalledProcessError) as error:
+        print(f"the targets were not built: {error}")
+        return 1
+    print(f"{'target':>12} {'inputs':>10} {'coverage':>9} {'inputs/s':>12} {'slowest':>10} {'process':>11}")
+    wrong = []
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        for outcome in pool.map(lambda name: fuzz(folder / name, runs), targets):
+            print(outcome, flush=True)
+            wrong += [told] if (told := told_wrong(outcome)) else []
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
