@@ -6,19 +6,19 @@ use glam::DVec3;
 
 use super::Path;
 
-/// Where most paths are single segments: joins them at places where just two of them and nothing else meet.
-/// Other paths stay as they are. Notes what was done.
+/// Where most paths are single segments: joins them at places where just two of them meet. Other paths
+/// stay as they are; where one ends on a chain the graph cuts it. Notes what was done.
 ///
 /// Chains go the way of their segments where those follow each other throughout. Otherwise they run away from
 /// the open end with the largest radius, or the highest where no radius is known.
 pub fn join(points: &[DVec3], paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
-    let (segments, others): (Vec<Path>, Vec<Path>) =
-        paths.into_iter().partition(|path| path.nodes.len() == 2);
-    if segments.len() < 2 || segments.len() <= others.len() {
-        return segments.into_iter().chain(others).collect();
+    let is_segment = |path: &Path| path.nodes.len() == 2;
+    let count = paths.iter().filter(|path| is_segment(path)).count();
+    if count < 2 || count <= paths.len() / 2 {
+        return paths;
     }
-    let count = segments.len();
-    let cloud = Cloud::new(points, segments, &others);
+    let (segments, others): (Vec<Path>, Vec<Path>) = paths.into_iter().partition(is_segment);
+    let cloud = Cloud::new(points, segments);
     let mut chains = cloud.chains();
     if chains.len() < count {
         notes.push(format!("{count} single segments were joined to {} chain(s)", chains.len()));
@@ -44,7 +44,7 @@ struct Cloud {
 }
 
 impl Cloud {
-    fn new(points: &[DVec3], segments: Vec<Path>, others: &[Path]) -> Self {
+    fn new(points: &[DVec3], segments: Vec<Path>) -> Self {
         let mut known = HashSet::new();
         let is_new =
             |path: &Path| known.insert((path.nodes[0].min(path.nodes[1]), path.nodes[0].max(path.nodes[1])));
@@ -54,9 +54,8 @@ impl Cloud {
             segment.nodes.iter().for_each(|node| at[*node].push(i));
         }
         let alike = |a: &Path, b: &Path| a.name == b.name && a.group == b.group;
-        let mut open: Vec<bool> =
+        let open: Vec<bool> =
             at.iter().map(|ids| ids.len() == 2 && alike(&segments[ids[0]], &segments[ids[1]])).collect();
-        others.iter().flat_map(|path| &path.nodes).for_each(|node| open[*node] = false);
         let begins = |node: usize, i: usize| segments[i].nodes[0] == node;
         let follows = |node: usize| begins(node, at[node][0]) != begins(node, at[node][1]);
         let directed = (0..at.len()).filter(|node| open[*node]).all(follows);

@@ -140,6 +140,17 @@ fn a_loop_of_segments_is_one_closed_vessel() {
 }
 
 #[test]
+fn a_few_segments_among_lines_keep_their_place() {
+    let mut lines = tree(20);
+    let end = lines[4].points[20];
+    let step =
+        Line { points: vec![end, end + DVec3::Y * 3.0], radius: Some(vec![1.0; 2]), ..Line::default() };
+    lines.push(step.clone());
+    lines.push(Line { points: vec![step.points[1], end + DVec3::Y * 6.0], ..step });
+    assert_eq!(join(lines.clone()).lines, lines);
+}
+
+#[test]
 fn names_and_longer_lines_part_chains() {
     let mut segments = cut(&[polyline(DVec3::ZERO, DVec3::Z * 40.0, 20, [2.0; 2])]);
     segments[10..].iter_mut().for_each(|segment| segment.name = Some("upper".into()));
