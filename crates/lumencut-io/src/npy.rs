@@ -12,8 +12,8 @@ pub const MAGIC: &[u8] = b"\x93NUMPY";
 /// The longest header (bytes) that is read; NumPy itself draws the line at 10 000 characters.
 const LONGEST_HEADER: usize = 1 << 16;
 
-/// The array of a `.npy` file as one line: a row per point, of x, y, z and, where there is a fourth column,
-/// the radius.
+/// The array of a `.npy` file as one line, or several where it jumps: a row per point, of x, y, z and, where
+/// there is a fourth column, the radius.
 ///
 /// # Errors
 /// Where the header is damaged or states another shape or type, or the data ends early.
@@ -42,7 +42,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         radius: (columns == 4).then(|| (0..rows).map(|i| at(i, 3)).collect()),
         ..Line::default()
     });
-    out.tidy()
+    out.parted_at_jumps().tidy()
 }
 
 /// The header and the data behind it.

@@ -9,7 +9,7 @@ use crate::table_columns::{Columns, name_coordinates};
 use crate::text::{self, Separator};
 
 /// The lines of a table with a point per row. Blank rows part lines, and so do changes of a column such as
-/// `line`, `vessel`, `CenterlineId` or `GroupId`.
+/// `line`, `vessel`, `CenterlineId` or `GroupId`; without such a column, jumps do.
 ///
 /// Numbers may have a decimal comma where semicolons part the columns.
 ///
@@ -43,7 +43,9 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     if guessed {
         refuse_counter(&rows.out.lines)?;
     }
-    rows.out.tidy()
+    // Where a column tells lines apart, a gap in a line stays one.
+    let whole = rows.columns.key.is_some();
+    if whole { rows.out.tidy() } else { rows.out.parted_at_jumps().tidy() }
 }
 
 /// Whether a line of text can begin a table: a row of three or more numbers, or a header with coordinates.

@@ -99,3 +99,20 @@ fn what_is_not_clear_is_refused() {
     assert!(message("# only a comment\n").contains("no row"));
     assert!(message("x_cm,y_cm,z_cm\n0,0,0\n200000,0,0\n").contains("at most 1e5 cm"));
 }
+
+#[test]
+fn a_list_of_points_that_jumps_is_parted_where_no_column_tells_lines_apart() {
+    let row = |x: f64, y: f64| format!("{x},{y},0\n");
+    let tree: String =
+        (0..12).map(|i| row(f64::from(i), 0.0)).chain((0..9).map(|i| row(4.0, f64::from(i)))).collect();
+    assert_eq!(ok(&tree).lines.len(), 1, "a step back of 7.07 is no jump");
+    let far: String =
+        (0..12).map(|i| row(f64::from(i), 0.0)).chain((0..9).map(|i| row(40.0, f64::from(i)))).collect();
+    let parted = ok(&far);
+    assert_eq!(parted.lines.iter().map(|line| line.points.len()).collect::<Vec<_>>(), [12, 9]);
+    assert!(parted.notes.iter().any(|note| note.contains("parted into 2 lines")), "{:?}", parted.notes);
+    let named =
+        "line,x,y,z\n".to_owned() + &far.lines().map(|line| format!("a,{line}\n")).collect::<String>();
+    assert_eq!(ok(&named).lines.len(), 1, "the column says that it is one line");
+    assert_eq!(ok("0,0,0\n1,0,0\n200,0,0\n").lines.len(), 1, "too few points to tell");
+}

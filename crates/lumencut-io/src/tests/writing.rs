@@ -90,6 +90,7 @@ fn vessels_of_a_file_come_back_to_the_bit() {
         lines.iter_mut().for_each(|line| line.group = None);
         assert_round_trip(&lines);
     }
+    assert!(forks > 5, "{forks} files of a tree that forks");
 }
 
 /// A file that says nothing of vessels has its lines joined, the same file written here has not.
