@@ -2,7 +2,7 @@
 
 >>> import lumencut
 >>> volume = lumencut.read_volume("ct.nii.gz")
->>> tree = lumencut.read_centerlines("centerlines.vtp")
+>>> tree = lumencut.read_centerlines("centerlines.vtp", volume=volume)
 >>> lumencut.render(volume, tree).save("anterior.png")
 
 Lumencut is not a medical device.
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         FormatError,
         LumencutError,
         MissingPackageError,
+        SeriesError,
         SettingsError,
         SpaceWarning,
         VesselTreeError,
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from lumencut.transfer import TransferFunction
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
-    from lumencut.volume_files import read_volume
+    from lumencut.volume_files import SeriesReport, list_series, read_volume
     from lumencut.window import Opacity, Window
 
 #: Where each public name lives; modules are imported on first use, so that ``import lumencut`` is quick.
@@ -56,6 +57,7 @@ _HOME = {
         "FormatError",
         "LumencutError",
         "MissingPackageError",
+        "SeriesError",
         "SettingsError",
         "SpaceWarning",
         "VesselTreeError",
@@ -67,7 +69,7 @@ _HOME = {
     "transfer": ("TransferFunction",),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),
-    "volume_files": ("read_volume",),
+    "volume_files": ("SeriesReport", "list_series", "read_volume"),
     "window": ("Opacity", "Window"),
 }
 _MODULE = {name: module for module, names in _HOME.items() for name in names}
@@ -86,6 +88,8 @@ __all__ = [
     "MissingPackageError",
     "Opacity",
     "Renderer",
+    "SeriesError",
+    "SeriesReport",
     "Settings",
     "SettingsError",
     "Slab",
@@ -99,6 +103,7 @@ __all__ = [
     "Window",
     "__version__",
     "devices",
+    "list_series",
     "read_centerlines",
     "read_volume",
     "render",
