@@ -64,7 +64,7 @@ def test_what_cannot_be_mended_stays_refused(tmp_path):
     folder = with_holes(tmp_path / "few", missing=range(2, 10))
     with pytest.raises(FormatError, match="8 missing slices"):
         read_volume(folder, fill_gaps=True)
-    folder = write_stack(tmp_path / "far", coded(), AXIAL, shift(2, 1e12, which=4))
+    folder = write_stack(tmp_path / "far", coded(), AXIAL, shift(2, 1e8, which=4))
     with pytest.raises(FormatError, match="missing slices"):
         read_volume(folder, fill_gaps=True)
 

@@ -21,7 +21,8 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         return Err(Error::new("", "no node", "an SWC file with a node per line"));
     }
     let tree = Tree::new(&nodes)?;
-    let mut out = Centerlines::of("SWC");
+    // Which node follows which is stated: nothing is to be guessed from places.
+    let mut out = Centerlines { joined: true, ..Centerlines::of("SWC") };
     out.lines = tree.branches(&nodes)?;
     if let Some(scale) = unused_scale(bytes) {
         out.notes.push(format!("the comment {} was not applied", excerpt(&scale)));
