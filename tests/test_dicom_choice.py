@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from lumencut import list_series, read_volume
+from lumencut.cli import main
 from lumencut.errors import FileError, FormatError, SeriesError
 from lumencut.volume_files import inspect_volume
 from test_dicom import AXIAL
@@ -79,6 +83,48 @@ def test_a_number_that_two_series_share_chooses_none(study):
     with pytest.raises(SeriesError, match=r"2 series: .*expected one series with the number or UID '2'"):
         read_volume(study, series=2)
     assert read_volume(study, series="1.2.2").size == SIZE
+
+
+def phases(folder, **keyword):
+    """A series of two phases, the second one with values that are larger by 1000."""
+    for number, (name, values) in enumerate(keyword.items()):
+        for phase, value in enumerate(values):
+            array = coded() + 1000 * phase
+            for k in range(len(array)):
+                save(slice_of(array, AXIAL, k, **{name: value}), folder / f"{number}-{phase}-{k}.dcm")
+
+
+@pytest.mark.parametrize(
+    ("keyword", "values"),
+    [
+        ("TriggerTime", ["0", "400"]),
+        ("TemporalPositionIdentifier", [1, 2]),
+        ("ConvolutionKernel", ["B30f", "B60f"]),
+    ],
+)
+def test_one_of_several_phases_is_read_where_it_is_named(tmp_path, keyword, values):
+    phases(tmp_path, **{keyword: values})
+    with pytest.raises(
+        FormatError, match=rf"{keyword} differs \({values[0]} in 5 slices, {values[1]} in 5 slices"
+    ):
+        read_volume(tmp_path)
+    for number, value in enumerate(values):
+        volume = read_volume(tmp_path, phase=value)
+        assert_maps(volume, AXIAL, lambda i, j, k, add=1000 * number: add + i + 10 * j + 100 * k)
+    with pytest.raises(FormatError, match=rf"no phase '7': {keyword} is {values[0]} in 5 slices"):
+        read_volume(tmp_path, phase=7)
+    if keyword == "TriggerTime":
+        assert read_volume(tmp_path, phase=400.0).array.max() == 1423
+
+
+def test_the_command_line_takes_a_phase(tmp_path):
+    phases(tmp_path, TriggerTime=["0", "400"])
+    words = ["info", "--json", str(tmp_path)]
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 1
+    assert "give the value of the one to read as --phase VALUE" in result.stderr
+    (found,) = json.loads(CliRunner().invoke(main, [*words, "--phase", "400"]).stdout)["files"]
+    assert found["value_range"] == [1000, 1423]
 
 
 def test_patient_names_appear_nowhere(study, caplog):

@@ -27,12 +27,12 @@ _ORIGINS = {
 _LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
 
 
-def of_volume(path: Path, series: str | None = None, *, fill_gaps: bool = False) -> dict[str, Any]:
-    """Look into a volume file."""
+def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
+    """Look into a volume file, of which the series, phase and filling of gaps may be chosen."""
     from lumencut.volume_files import inspect_volume
 
     with bar(f"reading {path.name}", "slice") as told:
-        report = inspect_volume(path, series=series, fill_gaps=fill_gaps, progress=told)
+        report = inspect_volume(path, progress=told, **chosen)
     affine = report.world_from_index
     low_high = None if report.value_range is None else [float(value) for value in report.value_range]
     return {

@@ -9,7 +9,13 @@ from typing import Any, Literal
 import click
 
 from lumencut.cli import findings
-from lumencut.cli.options import coordinates_option, fill_gaps_option, series_option, unit_option
+from lumencut.cli.options import (
+    coordinates_option,
+    fill_gaps_option,
+    phase_option,
+    series_option,
+    unit_option,
+)
 from lumencut.cli.report import FAILED, complain, say, verbose_option
 from lumencut.errors import LumencutError, SeriesError
 
@@ -24,6 +30,7 @@ _ONLY_IN_JSON = {"file", "name", "volume", "centerlines", "notes", "decisions", 
 @coordinates_option
 @unit_option
 @series_option
+@phase_option
 @fill_gaps_option
 @click.option(
     "--devices", "with_devices", is_flag=True, help="List the GPUs of this machine; FILE may be left out."
@@ -35,6 +42,7 @@ def info(
     coordinates: Literal["lps", "ras"] | None,
     unit: Literal["um", "mm", "cm", "dm", "m"] | None,
     series: str | None,
+    phase: str | None,
     fill_gaps: bool,
     with_devices: bool,
     as_json: bool,
@@ -57,7 +65,7 @@ def info(
             if _holds_centerlines(path):
                 found[path] = findings.of_centerlines(path, coordinates, unit, volumes)
             else:
-                found[path] = findings.of_volume(path, series, fill_gaps=fill_gaps)
+                found[path] = findings.of_volume(path, series=series, phase=phase, fill_gaps=fill_gaps)
         except SeriesError as error:
             found[path] = findings.of_series(path, error)
         except LumencutError as error:

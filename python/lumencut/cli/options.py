@@ -38,6 +38,15 @@ series_option = click.option(
 )
 
 
+#: Which of several phases of one DICOM series to read.
+phase_option = click.option(
+    "--phase",
+    metavar="VALUE",
+    help="Which phase of a DICOM series that mixes several: the value that tells it apart, "
+    "as the error without it lists them.",
+)
+
+
 #: What becomes of a DICOM series from which slices are missing.
 fill_gaps_option = click.option(
     "--fill-gaps",
@@ -79,6 +88,7 @@ def scene_arguments(command: Command) -> Command:
         coordinates_option,
         unit_option,
         series_option,
+        phase_option,
         fill_gaps_option,
         device_option,
     )

@@ -105,7 +105,8 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
 def _one_line(text: object) -> str:
     line = " ".join(str(text).split())
     # The library names its arguments; here they are options.
-    line = line.replace("as `series`", "as --series NUMBER|UID").replace("fill_gaps=True", "--fill-gaps")
+    line = line.replace("as `series`", "as --series NUMBER|UID").replace("as `phase`", "as --phase VALUE")
+    line = line.replace("fill_gaps=True", "--fill-gaps")
     line = re.sub(r'(coordinates|unit)="(\w+)"', r"--\1 \2", line)
     return re.sub(r'(--coordinates (?:lps|ras)),? or "(\w+)"', r"\1 or --coordinates \2", line)
 

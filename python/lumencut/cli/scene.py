@@ -31,6 +31,7 @@ class SceneFiles:
     coordinates: Literal["lps", "ras"] | None
     unit: Literal["um", "mm", "cm", "dm", "m"] | None
     series: str | None
+    phase: str | None
     fill_gaps: bool
     device: Literal["auto", "cpu", "gpu"]
 
@@ -59,7 +60,13 @@ def read_scene(files: SceneFiles) -> Renderer:
     # The small file first: what is wrong with it shows before gigabytes are read.
     lines = None if files.centerlines is None else CenterlineFile(files.centerlines)
     with bar(f"reading {files.volume.name}", "slice") as told:
-        voxels = read_volume(files.volume, series=files.series, fill_gaps=files.fill_gaps, progress=told)
+        voxels = read_volume(
+            files.volume,
+            series=files.series,
+            phase=files.phase,
+            fill_gaps=files.fill_gaps,
+            progress=told,
+        )
     detail(f"{files.volume}: {voxels!r}")
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
     if tree is not None:

@@ -14,12 +14,20 @@ import numpy.typing as npt
 from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError
 from lumencut.volume import Volume
-from lumencut.volume_files.dicom import SeriesReport, is_dicom, is_zip, list_dicom_series, open_dicom
+from lumencut.volume_files.dicom import (
+    SeriesReport,
+    Wanted,
+    is_dicom,
+    list_dicom_series,
+    open_dicom,
+    zipped,
+)
 from lumencut.volume_files.memory import as_volume
 from lumencut.volume_files.metaimage import open_metaimage
 from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
 from lumencut.volume_files.nrrd import open_nrrd
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
+from lumencut.volume_files.rescale import slabs
 
 __all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
 
@@ -77,6 +85,7 @@ def read_volume(
     path: str | os.PathLike[str],
     *,
     series: str | int | None = None,
+    phase: str | float | None = None,
     fill_gaps: bool = False,
     progress: Progress | None = None,
 ) -> Volume:
@@ -89,6 +98,9 @@ def read_volume(
     series : str or int, optional
         Number or UID of the DICOM series to read where a folder holds several. By default the only one
         that can be an angiography volume.
+    phase : str or number, optional
+        Which phase (or echo, or kernel) of a DICOM series that mixes several: the value of the attribute that
+        tells them apart, as the refusal without it lists them.
     fill_gaps : bool, default False
         Interpolate missing DICOM slices linearly between their neighbours instead of refusing the series;
         `Volume.filled_slices` tells which.
@@ -109,7 +121,7 @@ def read_volume(
     FileError
         For a file that is missing or cannot be read.
     """
-    file = _open(path, series, fill_gaps=fill_gaps)
+    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps))
     told = progress if progress is not None else _untold
     volume = file.volume(told)
     if file.format != "DICOM":
@@ -123,6 +135,7 @@ def inspect_volume(
     path: str | os.PathLike[str],
     *,
     series: str | int | None = None,
+    phase: str | float | None = None,
     fill_gaps: bool = False,
     values: bool = True,
     progress: Progress | None = None,
@@ -135,7 +148,7 @@ def inspect_volume(
         A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
     series : str or int, optional
         Number or UID of the DICOM series where a folder holds several.
-    fill_gaps : bool, default False
+    phase, fill_gaps
         As for `read_volume`.
     values : bool, default True
         Read the voxels too, for their range and soundness; False reads headers only.
@@ -147,7 +160,7 @@ def inspect_volume(
     VolumeReport
         Format, grid, values and oddities.
     """
-    file = _open(path, series, fill_gaps=fill_gaps)
+    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps))
     dtype, value_range = file.dtype.newbyteorder("="), None
     if values:
         array = file.volume(progress if progress is not None else _untold).array
@@ -187,7 +200,7 @@ def _untold(done: int, total: int) -> None:
 
 def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, float] | None:
     low, high, odd = np.inf, -np.inf, 0
-    for slab in array:
+    for slab in slabs(array):
         finite = slab[np.isfinite(slab)] if array.dtype.kind == "f" else slab
         odd += slab.size - finite.size
         if finite.size:
@@ -204,19 +217,24 @@ def _existing(given: str | os.PathLike[str]) -> Path:
     return path
 
 
-def _open(given: str | os.PathLike[str], series: str | int | None, *, fill_gaps: bool) -> VolumeFile:
+def _wanted(series: object, phase: object, *, fill_gaps: bool) -> Wanted:
+    return Wanted(None if series is None else str(series), None if phase is None else str(phase), fill_gaps)
+
+
+def _open(given: str | os.PathLike[str], wanted: Wanted) -> VolumeFile:
     """Find the room by what the file holds, by its name only where the content does not tell."""
     path = _existing(given)
-    wanted = None if series is None else str(series)
     notes: list[str] = []
     with refusing(path, "volume", notes):
         if path.is_dir():
-            return open_dicom(path, wanted, fill_gaps=fill_gaps).checked()
+            return open_dicom(path, wanted).checked()
+        if zipped(path):
+            return open_dicom(path, wanted).checked()
         head = head_bytes(path, 352)
         if head.startswith(b"NRRD"):
             file = open_nrrd(path)
-        elif is_dicom(head) or is_zip(head):
-            file = open_dicom(path, wanted, fill_gaps=fill_gaps)
+        elif is_dicom(head):
+            file = open_dicom(path, wanted)
         elif _is_metaimage(path, head):
             file = open_metaimage(path)
         elif nifti_kind(head) is not None or _has_nifti_name(path):

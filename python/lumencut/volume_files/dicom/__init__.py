@@ -5,30 +5,44 @@ Pixels are decoded by pydicom and its plugins; geometry and rescaling are ours.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.volume_files.dicom.faults import of_phase
 from lumencut.volume_files.dicom.geometry import Stack, stacked
 from lumencut.volume_files.dicom.headers import Header, is_dicom
 from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, grouped, read_images
 from lumencut.volume_files.dicom.slices import listed
-from lumencut.volume_files.dicom.sources import is_zip
+from lumencut.volume_files.dicom.sources import zipped
 from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
 from lumencut.volume_files.rescale import is_integral
 
-__all__ = ["SeriesReport", "is_dicom", "is_zip", "list_dicom_series", "open_dicom"]
+__all__ = ["SeriesReport", "Wanted", "is_dicom", "list_dicom_series", "open_dicom", "zipped"]
 
 
-def open_dicom(path: Path, series: str | None = None, *, fill_gaps: bool = False) -> VolumeFile:
+@dataclass(frozen=True)
+class Wanted:
+    """What of a DICOM folder is to be read: which series and phase, and whether gaps are filled."""
+
+    series: str | None = None
+    phase: str | None = None
+    fill_gaps: bool = False
+
+
+def open_dicom(path: Path, wanted: Wanted) -> VolumeFile:
     """Read the headers of a DICOM series."""
     notes: list[str] = []
     with refusing(path, "DICOM", notes):
-        one = chosen(path, grouped(read_images(path, notes)), series, notes)
-        stack = stacked(str(path), one.slices(str(path), notes), notes, fill_gaps=fill_gaps)
+        one = chosen(path, grouped(read_images(path, notes)), wanted.series, notes)
+        slices = one.slices(str(path), notes)
+        if wanted.phase is not None:
+            slices = of_phase(str(path), slices, wanted.phase)
+        stack = stacked(str(path), slices, notes, fill_gaps=wanted.fill_gaps)
         _note_oddities(stack, notes)
         stored = _stored_type(stack.slices[0].image.header)
         details = _details(one, stack)

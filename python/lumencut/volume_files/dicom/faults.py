@@ -51,7 +51,7 @@ def refuse_duplicates(subject: str, ordered: Sequence[Slice], gaps: npt.NDArray[
     named = listed([f"{first.name} and {second.name}" for first, second in pairs])
     found = f"{len(ordered)} slices at {places} places: {named}"
     if phases := _phases(ordered, pairs):
-        mend = "give a folder or series with one of them"
+        mend = "give the value of the one to read as `phase`"
         raise FormatError(subject, f"{found}; {phases}", "one slice per place", mend)
     if all(_uid(first) == _uid(second) and first.frame == second.frame for first, second in pairs):
         found += ", copies of one image each"
@@ -76,6 +76,31 @@ def _counted(ordered: Sequence[Slice], keyword: str) -> str:
     return listed([f"{value} in {count} slices" for value, count in sorted(counts.items())])
 
 
+def of_phase(subject: str, slices: Sequence[Slice], phase: str) -> list[Slice]:
+    """Pick the slices of one phase, by the value of the first attribute that has it for some of them only."""
+    for keyword in _PHASE_KEYWORDS:
+        picked = [s for s in slices if _is(s.get(keyword), phase)]
+        if 0 < len(picked) < len(slices):
+            return picked
+    told = [
+        f"{keyword} is {_counted(slices, keyword)}"
+        for keyword in _PHASE_KEYWORDS
+        if 1 < len({str(s.get(keyword)) for s in slices}) < len(slices)
+    ]
+    found = f"no phase {phase!r}: {'; '.join(told) or 'nothing tells phases apart'}"
+    raise FormatError(subject, found, "the value of an attribute that some slices have")
+
+
+def _is(value: object, phase: str) -> bool:
+    """Whether a value is what somebody calls it: 400 is 400.0, as a text or a number."""
+    if str(value) == phase:
+        return True
+    try:
+        return float(str(value)) == float(phase)
+    except ValueError:
+        return False
+
+
 def refuse_interleaved(subject: str, ordered: Sequence[Slice]) -> None:
     """Refuse phases whose slices lie between each other's at places of their own."""
     for keyword in _WHOLE_PHASE:
@@ -83,7 +108,7 @@ def refuse_interleaved(subject: str, ordered: Sequence[Slice]) -> None:
         changes = sum(a != b for a, b in itertools.pairwise(values))
         if changes >= len(set(values)) > 1:
             found = f"slices that alternate between phases: {keyword} is {_counted(ordered, keyword)}"
-            mend = "give a folder or series with one of the phases"
+            mend = "give the value of the one to read as `phase`"
             raise FormatError(subject, found, "one phase", mend)
 
 

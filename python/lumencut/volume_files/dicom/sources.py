@@ -68,14 +68,13 @@ def sources(path: Path) -> list[Source]:
     if path.is_dir():
         files = sorted(file for file in path.rglob("*") if file.is_file())
         return [Source(file, file.stat().st_size) for file in files]
-    with path.open("rb") as file:
-        zipped = is_zip(file.read(4))
-    return _members(path) if zipped else [Source(path, path.stat().st_size)]
+    return _members(path) if zipped(path) else [Source(path, path.stat().st_size)]
 
 
-def is_zip(head: bytes) -> bool:
+def zipped(path: Path) -> bool:
     """Tell a zip archive by its first bytes."""
-    return head[:4] in _ZIP_SIGNATURES
+    with path.open("rb") as file:
+        return file.read(4) in _ZIP_SIGNATURES
 
 
 def _members(path: Path) -> list[Source]:
