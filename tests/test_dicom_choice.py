@@ -78,6 +78,18 @@ def test_a_volume_with_a_missing_slice_is_not_passed_by(study):
         read_volume(study, series="1.2.2")
 
 
+def test_long_identifiers_are_told_apart(tmp_path):
+    stem = "1.2." + "7" * 58 + "."
+    for last in "12":
+        folder = tmp_path / last
+        write_stack(
+            folder, coded(), AXIAL, lambda k, d, uid=stem + last: setattr(d, "SeriesInstanceUID", uid)
+        )
+    with pytest.raises(SeriesError, match="2 series"):
+        read_volume(tmp_path)
+    assert read_volume(tmp_path, series=stem + "2").size == SIZE
+
+
 def test_a_number_that_two_series_share_chooses_none(study):
     write_stack(study / "v", coded(), AXIAL, part("venous", 2))
     with pytest.raises(SeriesError, match=r"2 series: .*expected one series with the number or UID '2'"):

@@ -19,7 +19,7 @@ from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, gro
 from lumencut.volume_files.dicom.slices import listed
 from lumencut.volume_files.dicom.sources import zipped
 from lumencut.volume_files.dicom.values import load
-from lumencut.volume_files.opened import Progress, VolumeFile, refusing
+from lumencut.volume_files.opened import Progress, VolumeFile, refusing, shown
 from lumencut.volume_files.rescale import is_integral
 
 __all__ = ["SeriesReport", "Wanted", "is_dicom", "list_dicom_series", "open_dicom", "zipped"]
@@ -70,7 +70,7 @@ def _details(series: Series, stack: Stack) -> dict[str, str]:
         "series_uid": report.uid,
         "modality": report.modality,
         "files": str(len(images)),
-        "pixels": listed(sorted({image.transfer_syntax.name for image in images})),
+        "pixels": listed(sorted({shown(image.transfer_syntax.name) for image in images})),
     }
 
 
@@ -93,6 +93,6 @@ def _note_oddities(stack: Stack, notes: list[str]) -> None:
         notes.append("the images were compressed with loss")
     if any(header.PhotometricInterpretation == "MONOCHROME1" for header in headers):
         notes.append("MONOCHROME1 (meant to be shown inverted): values are read as they are")
-    padding = sorted({str(header.PixelPaddingValue) for header in headers if "PixelPaddingValue" in header})
+    padding = sorted({shown(header.PixelPaddingValue) for header in headers if "PixelPaddingValue" in header})
     if padding:
         notes.append(f"stored value {', '.join(padding)} marks pixels outside the scan: read as they are")

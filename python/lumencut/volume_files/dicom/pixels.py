@@ -17,7 +17,7 @@ from lumencut.volume_files.dicom.decoding import PLUGINS, decode_frame, decode_n
 from lumencut.volume_files.dicom.headers import Image
 from lumencut.volume_files.dicom.slices import Slice
 from lumencut.volume_files.dicom.workers import Request, Workers
-from lumencut.volume_files.opened import refusing
+from lumencut.volume_files.opened import refusing, shown
 
 _COMPRESSION_LIMIT = 10_000
 """No codec makes a real slice this much smaller; a header that claims more lies."""
@@ -138,7 +138,7 @@ def _plugin(image: Image) -> str:
     if syntax not in PLUGINS:
         expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels"
         mend = "convert it to one of these, lossless where it can be"
-        raise FormatError(str(image.source), f"pixels in {syntax.name}", expected, mend)
+        raise FormatError(str(image.source), f"pixels in {shown(syntax.name)}", expected, mend)
     return PLUGINS[syntax]
 
 

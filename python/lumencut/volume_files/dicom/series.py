@@ -21,10 +21,12 @@ from lumencut.volume_files.dicom.slices import (
     slices_of,
 )
 from lumencut.volume_files.dicom.sources import sources
+from lumencut.volume_files.opened import shown
 
 _MODALITIES = ("CT", "MR", "XA")
 """Of which a stack can be an angiography volume."""
 _FEWEST_SLICES = 3
+_LONGEST_UID = 64
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ class SeriesReport:
             parts.append(" × ".join(f"{step:.4g}" for step in self.spacing) + " mm")
         else:
             parts.append(f"{self.images} image{'s' if self.images > 1 else ''}")
-        parts.append(f"UID {self.uid or 'not stated'}")
+        parts.append(f"UID {_printable(self.uid) or 'not stated'}")
         tail = f": {self.trouble}" if self.trouble else ""
         return f"number {self.number or 'not stated'} ({', '.join(parts)}{tail})"
 
@@ -125,11 +127,14 @@ class Series:
         )
 
 
+def _printable(text: str) -> str:
+    return "".join(letter for letter in text if letter.isprintable())[:_LONGEST_UID]
+
+
 def _text(header: Header, keyword: str) -> str:
-    """An attribute as one printable line."""
+    """An attribute as one short printable line."""
     value = header.get(keyword)
-    shown = "" if value is None else " ".join(str(value).split())
-    return "".join(letter for letter in shown if letter.isprintable())[:64]
+    return "" if value is None else shown(value)
 
 
 def _why_no_angiography(series: Series, count: int) -> str:
@@ -177,14 +182,15 @@ def read_images(path: Path, notes: list[str]) -> list[Image]:
 def kind(header: Header) -> str:
     """The name of what the instance is, such as ``CT Image Storage``."""
     uid = header.get("SOPClassUID") or header.file_meta.get("MediaStorageSOPClassUID")
-    return str(getattr(uid, "name", None) or "DICOM of no stated kind")
+    return shown(getattr(uid, "name", None) or "DICOM of no stated kind")
 
 
 def grouped(images: Iterable[Image]) -> list[Series]:
     """Put images of one series together, in the order in which the series appear."""
     groups: dict[str, list[Image]] = defaultdict(list)
     for image in images:
-        groups[_text(image.header, "SeriesInstanceUID")].append(image)
+        # Never shortened: identifiers of one study differ in their last digits.
+        groups[str(image.header.get("SeriesInstanceUID") or "")].append(image)
     return [Series(uid, group) for uid, group in groups.items()]
 
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.headers import Image
+from lumencut.volume_files.opened import shown
 
 _COSINE = 1e-3
 """Directions may be this far (per cosine, and in length) from orthogonal unit vectors."""
@@ -112,17 +113,19 @@ def require_grey(image: Image) -> None:
     """Refuse every kind of image whose frames are not slices of single numbers."""
     subject, header = str(image.source), image.header
     if not all(isinstance(length, int) for length in (header.Rows, header.Columns)):
-        raise FormatError(subject, f"Rows {header.Rows}, Columns {header.Columns}", "a number each")
+        found = f"Rows {shown(header.Rows)}, Columns {shown(header.Columns)}"
+        raise FormatError(subject, found, "a number each")
     photometric = str(header.get("PhotometricInterpretation", ""))
     if int(header.get("SamplesPerPixel") or 1) != 1 or not photometric.startswith("MONOCHROME"):
         kind = "a palette" if "PALETTE" in photometric else "a colour"
-        found = f"{kind} image (PhotometricInterpretation {photometric or 'not stated'})"
+        found = f"{kind} image (PhotometricInterpretation {shown(photometric) or 'not stated'})"
         raise FormatError(subject, found, "MONOCHROME2")
     if header.get("ModalityLUTSequence"):
         found = "values behind a modality look-up table"
         raise FormatError(subject, found, "RescaleSlope and RescaleIntercept")
     if int(header.get("BitsAllocated") or 0) not in (8, 16, 32, 64):
-        raise FormatError(subject, f"BitsAllocated {header.get('BitsAllocated')}", "8, 16, 32 or 64")
+        found = f"BitsAllocated {shown(header.get('BitsAllocated'))}"
+        raise FormatError(subject, found, "8, 16, 32 or 64")
     _require_groups(image)
 
 
@@ -174,7 +177,7 @@ def _numbers(image: Image, frame: int, keyword: str, count: int) -> npt.NDArray[
     except (TypeError, ValueError):
         values = np.empty(0)
     if values.shape != (count,) or not np.isfinite(values).all():
-        found = f"no {keyword}" if stated in (None, "") else f"{keyword} {stated}"
+        found = f"no {keyword}" if stated in (None, "") else f"{keyword} {shown(stated)}"
         raise FormatError(str(image.source), found, f"{count} finite numbers")
     return values
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.decoding import decode_frame
+from lumencut.volume_files.opened import told
 
 _MEMORY = 4 << 30
 """Far above what one slice needs, far below what a damaged one may ask for."""
@@ -39,8 +40,7 @@ def main() -> None:
             data = pixels.tobytes()
             head: dict[str, object] = {"shape": pixels.shape, "dtype": pixels.dtype.str, "length": len(data)}
         except Exception as error:
-            text = error.found if isinstance(error, FormatError) else str(error)
-            data, head = b"", {"error": " ".join(text.split())[:200] or type(error).__name__}
+            data, head = b"", {"error": error.found if isinstance(error, FormatError) else told(error)}
         answers.write(json.dumps(head).encode() + b"\n" + data)
         answers.flush()
 
