@@ -64,11 +64,10 @@ def list_dicom_series(path: Path) -> list[SeriesReport]:
 
 def _details(series: Series, stack: Stack) -> dict[str, str]:
     images = list({id(s.image): s.image for s in stack.slices}.values())
-    report = series.report()
     return {
-        "series": f"number {report.number or 'not stated'}, {report.description or 'no description'}",
-        "series_uid": report.uid,
-        "modality": report.modality,
+        "series": f"number {series.number or 'not stated'}, {series.description or 'no description'}",
+        "series_uid": series.uid,
+        "modality": series.modality,
         "files": str(len(images)),
         "pixels": listed(sorted({shown(image.transfer_syntax.name) for image in images})),
     }

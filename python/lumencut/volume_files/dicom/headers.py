@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import struct
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 from lumencut.volume_files.dicom.sources import Source, refuse_deflate_bomb
@@ -51,15 +51,26 @@ class Image:
     pixel_keyword: str
     pixel_vr: str
 
-    @property
+    @cached_property
     def frame_count(self) -> int:
         """How many frames it states."""
         return int(self.header.get("NumberOfFrames") or 1)
 
-    @property
+    @cached_property
     def transfer_syntax(self) -> Any:
         """How the pixels are written."""
         return transfer_syntax(self.header)
+
+    @cached_property
+    def shared_groups(self) -> Any:
+        """The functional groups of all frames, None where the image has none."""
+        groups = self.header.get("SharedFunctionalGroupsSequence")
+        return groups[0] if groups else None
+
+    @cached_property
+    def frame_groups(self) -> Any:
+        """The functional groups of each frame, None where the image has none."""
+        return self.header.get("PerFrameFunctionalGroupsSequence") or None
 
 
 def is_dicom(head: bytes) -> bool:

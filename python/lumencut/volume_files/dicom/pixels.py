@@ -32,8 +32,9 @@ class PixelReader:
         self._slices, self._notes = iter(slices), notes
         self._last: _OpenImage | None = None
         self._workers: Workers | None = None
-        packed = [one for one in slices if one.image.transfer_syntax.is_encapsulated]
-        if len(packed) > _FEW or any(_plugin(one.image) == "gdcm" for one in packed):
+        # To send what RLE unpacks would take longer than to unpack it.
+        packed = [one for one in slices if PLUGINS.get(one.image.transfer_syntax) in ("gdcm", "pylibjpeg")]
+        if len(packed) > _FEW or any(PLUGINS[one.image.transfer_syntax] == "gdcm" for one in packed):
             self._workers = Workers(map(self._request, packed), len(packed) // 8 + 1)
 
     def __enter__(self) -> PixelReader:
@@ -52,7 +53,7 @@ class PixelReader:
         one = next(self._slices)
         if not one.image.transfer_syntax.is_encapsulated:
             pixels = self._opened(one.image).native(one.frame)
-        elif self._workers is not None:
+        elif self._workers is not None and _plugin(one.image) != "pydicom":
             pixels = self._workers.next()
         else:
             request = self._request(one)

@@ -83,6 +83,16 @@ class Series:
         """Its number, empty where it is not stated."""
         return _text(self.images[0].header, "SeriesNumber")
 
+    @property
+    def description(self) -> str:
+        """Its description, empty where it is not stated."""
+        return _text(self.images[0].header, "SeriesDescription")
+
+    @property
+    def modality(self) -> str:
+        """Its modality, empty where it is not stated."""
+        return _text(self.images[0].header, "Modality")
+
     def slices(self, subject: str, notes: list[str]) -> list[Slice]:
         """All slices of the series; localisers among them are left out where others are there."""
         images = self.images
@@ -100,7 +110,6 @@ class Series:
 
     def report(self) -> SeriesReport:
         """Describe the series, and tell whether it may be an angiography volume."""
-        header = self.images[0].header
         count = sum(image.frame_count for image in self.images)
         size = spacing = None
         trouble = odd = _why_no_angiography(self, count)
@@ -117,8 +126,8 @@ class Series:
         return SeriesReport(
             number=self.number,
             uid=self.uid,
-            description=_text(header, "SeriesDescription"),
-            modality=_text(header, "Modality"),
+            description=self.description,
+            modality=self.modality,
             images=count,
             size=size,
             spacing=spacing,
@@ -140,8 +149,8 @@ def _text(header: Header, keyword: str) -> str:
 def _why_no_angiography(series: Series, count: int) -> str:
     """Why a series is surely none; empty if it may be one, even one that cannot be read as it is."""
     header = series.images[0].header
-    if _text(header, "Modality") not in _MODALITIES:
-        return f"modality {_text(header, 'Modality') or 'not stated'}"
+    if series.modality not in _MODALITIES:
+        return f"modality {series.modality or 'not stated'}"
     if "Segmentation" in kind(header):
         return "a segmentation"
     if "Secondary Capture" in kind(header) or int(header.get("SamplesPerPixel") or 1) != 1:

@@ -81,9 +81,8 @@ def frame_name(image: Image, frame: int) -> str:
 
 def frame_value(image: Image, frame: int, keyword: str) -> Any:
     """Look an attribute up: in the frame's functional groups, in the shared ones, then at the top level."""
-    own = image.header.get("PerFrameFunctionalGroupsSequence")
-    shared = image.header.get("SharedFunctionalGroupsSequence")
-    places = ([own[frame]] if own and frame < len(own) else []) + ([shared[0]] if shared else [])
+    own, shared = image.frame_groups, image.shared_groups
+    places = ([own[frame]] if own and frame < len(own) else []) + ([shared] if shared else [])
     for place in places:
         for sequence in _GROUPS.get(keyword, ()):
             group = place.get(sequence)
@@ -131,7 +130,7 @@ def require_grey(image: Image) -> None:
 
 def _require_groups(image: Image) -> None:
     """Refuse several frames in one file without a description of each."""
-    count, groups = image.frame_count, image.header.get("PerFrameFunctionalGroupsSequence")
+    count, groups = image.frame_count, image.frame_groups
     if count < 1 or (count > 1 and not groups):
         found = f"a multi-frame image of {count} frames without a position for each"
         mend = "convert it to single-frame or enhanced DICOM, NIfTI or NRRD"

@@ -27,6 +27,8 @@ _PATIENCE = 60.0
 _AHEAD = 2
 """Frames per process that are decoded before they are asked for."""
 _MOST = 4
+_PIPE = 1 << 20
+"""Bytes that a pipe holds where the system lets one ask for it: a slice in one go."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,7 @@ class Worker:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
+            pipesize=_PIPE,
             env=os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"},
         )
 
