@@ -13,7 +13,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint format fuzz bench bench-gpu compare-dicom wheel lock clean develop tools toolchain
+.PHONY: help demo test lint format fuzz bench bench-gpu bench-dicom compare-dicom wheel lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -44,6 +44,9 @@ bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--q
 
 compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases too; rewrites the table of README.md.
 	$(BIN)/python scripts/compare_dicom.py --update README.md
+
+bench-dicom: develop tools ## Measure how fast long DICOM series are read, the decoder alone beside it.
+	$(BIN)/python benches/read_dicom.py
 
 wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
 	$(BIN)/maturin build --release --locked --out dist
