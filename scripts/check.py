@@ -22,7 +22,9 @@ from xml.etree import ElementTree as ET
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
 PORTABLE = ("--package", "lumencut-core", "--package", "lumencut-io", "--package", "lumencut-gpu")
-SCRIPTS = ("scripts/check.py", "scripts/toolchain.py", "scripts/wasm_size.py")
+SCRIPTS = ("scripts/check.py", "scripts/fuzz.py", "scripts/toolchain.py", "scripts/wasm_size.py")
+FUZZ_RUNS = 220_000
+"""Inputs of libFuzzer, over all formats."""
 WEB = "target/wasm32-unknown-unknown/wasm/examples/web.wasm"
 
 
@@ -125,6 +127,7 @@ def test_checks(report: str) -> list[Check]:
             count=count_python,
             report=report,
         ),
+        Check("fuzzing", (sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS))),
     ]
 
 
