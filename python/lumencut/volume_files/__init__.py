@@ -210,12 +210,12 @@ def _open(given: str | os.PathLike[str], series: str | int | None, *, fill_gaps:
     wanted = None if series is None else str(series)
     notes: list[str] = []
     with refusing(path, "volume", notes):
-        if path.is_dir():
+        if path.is_dir() or _is_archive(path):
             return open_dicom(path, wanted, fill_gaps=fill_gaps).checked()
         head = head_bytes(path, 352)
         if head.startswith(b"NRRD"):
             file = open_nrrd(path)
-        elif is_dicom(head) or is_zip(head):
+        elif is_dicom(head):
             file = open_dicom(path, wanted, fill_gaps=fill_gaps)
         elif _is_metaimage(path, head):
             file = open_metaimage(path)
@@ -225,6 +225,11 @@ def _open(given: str | os.PathLike[str], series: str | int | None, *, fill_gaps:
             raise FormatError(str(path), "a file of no known format", _KNOWN)
     file.notes.extend(note for note in notes if note not in file.notes)
     return file.checked()
+
+
+def _is_archive(path: Path) -> bool:
+    with path.open("rb") as file:
+        return is_zip(file.read(4))
 
 
 def _is_metaimage(path: Path, head: bytes) -> bool:
