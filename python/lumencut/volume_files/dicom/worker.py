@@ -43,7 +43,3 @@ def main() -> None:
             data, head = b"", {"error": " ".join(text.split())[:200] or type(error).__name__}
         answers.write(json.dumps(head).encode() + b"\n" + data)
         answers.flush()
-
-
-if __name__ == "__main__":
-    main()

@@ -27,6 +27,8 @@ _PATIENCE = 60.0
 _AHEAD = 2
 """Frames per process that are decoded before they are asked for."""
 _MOST = 4
+_START = "import sys; sys.path[:] = sys.argv[1:]; from lumencut.volume_files.dicom.worker import main; main()"
+"""Modules come from where ours came from: never from the current folder, which may be a stranger's."""
 
 
 @dataclass(frozen=True)
@@ -44,13 +46,12 @@ class Worker:
     """A process that decodes one frame after the other."""
 
     def __init__(self) -> None:
-        path = os.pathsep.join(entry for entry in sys.path if entry)
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "lumencut.volume_files.dicom.worker"],
+            [sys.executable, "-c", _START, *(entry for entry in sys.path if isinstance(entry, str))],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env=os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"},
+            env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
         )
 
     def kill(self) -> None:
