@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import re
 import textwrap
+import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -74,8 +75,7 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
     """
     before = _reading.set(True)
     try:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
+        with _heard() as caught:
             yield
     except LumencutError:
         raise
@@ -87,8 +87,62 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
     finally:
         _reading.reset(before)
     for warning in caught:
-        if (text := told(warning.message)) not in notes:
+        if (text := told(warning)) not in notes:
             notes.append(text)
+
+
+_caught: ContextVar[list[Warning] | None] = ContextVar("caught", default=None)
+_NOT_OF_FILES = (DeprecationWarning, PendingDeprecationWarning, ImportWarning, ResourceWarning)
+
+
+class _Hearing:
+    """The way of warnings to whoever reads in their thread.
+
+    Python has one way for all threads: the first reader bends it, the last one puts it back.
+    """
+
+    def __init__(self) -> None:
+        self._lock, self._readers = threading.Lock(), 0
+        self._catcher, self._usual = warnings.catch_warnings(), warnings.showwarning
+
+    def start(self) -> None:
+        with self._lock:
+            if self._readers == 0:
+                self._usual, self._catcher = warnings.showwarning, warnings.catch_warnings()
+                self._catcher.__enter__()
+                warnings.simplefilter("always")
+                warnings.showwarning = self._told
+            self._readers += 1
+
+    def end(self) -> None:
+        with self._lock:
+            self._readers -= 1
+            if self._readers == 0:
+                self._catcher.__exit__(None, None, None)
+                warnings.showwarning = self._usual
+
+    def _told(self, message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        caught = _caught.get()
+        if caught is None:
+            self._usual(message, category, *where, **more)
+        elif not issubclass(category, _NOT_OF_FILES):
+            caught.append(message if isinstance(message, Warning) else category(message))
+
+
+_hearing = _Hearing()
+
+
+@contextmanager
+def _heard() -> Iterator[list[Warning]]:
+    """Collect the warnings of this thread that are about a file."""
+    caught: list[Warning] = []
+    before = _caught.set(caught)
+    _hearing.start()
+    try:
+        yield caught
+    finally:
+        _hearing.end()
+        _caught.reset(before)
 
 
 _VALUE = re.compile(r"""[^ -~]|[\d"'`:=<>^(\[{\\]""")
