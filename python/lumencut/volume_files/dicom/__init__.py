@@ -13,8 +13,8 @@ import numpy.typing as npt
 
 from lumencut.volume_files.dicom.geometry import Stack, stacked
 from lumencut.volume_files.dicom.headers import Header, is_dicom
-from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, grouped, read_images
-from lumencut.volume_files.dicom.slices import listed
+from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, grouped, read_images, text
+from lumencut.volume_files.dicom.slices import counted, listed
 from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
@@ -50,11 +50,11 @@ def list_dicom_series(path: Path) -> list[SeriesReport]:
 
 def _details(series: Series, stack: Stack) -> dict[str, str]:
     images = list({id(s.image): s.image for s in stack.slices}.values())
-    report = series.report()
+    description, modality = (text(images[0].header, name) for name in ("SeriesDescription", "Modality"))
     return {
-        "series": f"number {report.number or 'not stated'}, {report.description or 'no description'}",
-        "series_uid": report.uid,
-        "modality": report.modality,
+        "series": f"number {series.number or 'not stated'}, {description or 'no description'}",
+        "series_uid": series.uid,
+        "modality": modality,
         "files": str(len(images)),
         "pixels": listed(sorted({image.transfer_syntax.name for image in images})),
     }
@@ -70,11 +70,13 @@ def _note_oddities(stack: Stack, notes: list[str]) -> None:
     scalings = {s.scaling for s in stack.slices}
     if stack.missing:
         names = listed([str(k) for k in stack.missing])
-        notes.append(f"{len(stack.missing)} missing slices were interpolated: k = {names}")
+        notes.append(f"{counted(len(stack.missing), 'missing slice')} interpolated: k = {names}")
     if len(scalings) > 1:
         notes.append(f"{len(scalings)} different rescale slopes and intercepts: applied slice by slice")
     if not all(is_integral(*scaling) for scaling in scalings):
         notes.append("rescaling makes fractions: read as float32")
+    if any("HighBit" in header and header.HighBit != header.get("BitsStored", 0) - 1 for header in headers):
+        notes.append("HighBit is not BitsStored - 1: the lowest BitsStored bits are read")
     if any(str(header.get("LossyImageCompression", "")) == "01" for header in headers):
         notes.append("the images were compressed with loss")
     if any(header.PhotometricInterpretation == "MONOCHROME1" for header in headers):

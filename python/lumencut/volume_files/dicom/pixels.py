@@ -33,7 +33,7 @@ class PixelReader:
         self._last: _OpenImage | None = None
         self._workers: Workers | None = None
         packed = [one for one in slices if one.image.transfer_syntax.is_encapsulated]
-        if len(packed) > _FEW or any(_plugin(one.image) == "gdcm" for one in packed):
+        if len(packed) > _FEW or any(PLUGINS[one.image.transfer_syntax] == "gdcm" for one in packed):
             self._workers = Workers(map(self._request, packed), len(packed) // 8 + 1)
 
     def __enter__(self) -> PixelReader:
@@ -66,7 +66,6 @@ class PixelReader:
     def _request(self, one: Slice) -> Request:
         image, subject = one.image, str(one.image.source)
         with refusing(image.source, "DICOM", self._notes):
-            _plugin(image)
             claimed = _frame_bytes(image)
             frame = self._opened(image).compressed(one.frame)
             if claimed > len(frame) * _COMPRESSION_LIMIT:
@@ -130,16 +129,6 @@ def _inflated_pixels(stream: BinaryIO) -> bytes:
 
     data: bytes = pydicom.dcmread(stream, force=True, specific_tags=["PixelData"]).PixelData
     return data
-
-
-def _plugin(image: Image) -> str:
-    """What decodes an image, or a refusal by the name of its transfer syntax."""
-    syntax = image.transfer_syntax
-    if syntax not in PLUGINS:
-        expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels"
-        mend = "convert it to one of these, lossless where it can be"
-        raise FormatError(str(image.source), f"pixels in {syntax.name}", expected, mend)
-    return PLUGINS[syntax]
 
 
 def _options(image: Image) -> dict[str, Any]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+import os
 import zipfile
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
@@ -66,16 +68,38 @@ class Source:
 def sources(path: Path) -> list[Source]:
     """List the files below a folder, the members of a zip archive, or a single file."""
     if path.is_dir():
-        files = sorted(file for file in path.rglob("*") if file.is_file())
-        return [Source(file, file.stat().st_size) for file in files]
+        return [Source(file, file.stat().st_size) for file in sorted(_below(path))]
     with path.open("rb") as file:
         zipped = is_zip(file.read(4))
     return _members(path) if zipped else [Source(path, path.stat().st_size)]
 
 
+def _below(folder: Path) -> Iterator[Path]:
+    """The files below a folder; linked folders are entered too, each real one once."""
+    seen: set[tuple[int, int]] = set()
+    for place, folders, names in os.walk(folder, followlinks=True, onerror=_unreadable):
+        state = os.stat(place)
+        if (state.st_dev, state.st_ino) in seen:
+            folders.clear()
+            continue
+        seen.add((state.st_dev, state.st_ino))
+        yield from (file for name in names if (file := Path(place, name)).is_file())
+
+
+def _unreadable(error: OSError) -> None:
+    raise error
+
+
 def is_zip(head: bytes) -> bool:
     """Tell a zip archive by its first bytes."""
     return head[:4] in _ZIP_SIGNATURES
+
+
+def not_dicom(source: Source) -> str:
+    """Name what a file is that is no DICOM as it lies there."""
+    head = source.head(4)
+    packed = "zip archive" if is_zip(head) else "gzipped" if head[:2] == b"\x1f\x8b" else ""
+    return f"{packed}; unpack it first" if packed else "no DICOM"
 
 
 def _members(path: Path) -> list[Source]:
