@@ -240,6 +240,18 @@ def test_gaps_too_wide_are_not_said_to_be_mended(tmp_path):
     assert caught.value.mend == "add the missing files"
 
 
+def test_names_of_files_are_told_on_one_printable_line(tmp_path):
+    long = "1.2.840.113619." * 5
+    Stack(PLAIN_STACK, name=lambda k: f"{long}\x1b[31m\n{k:02}\udcdc.dcm")(tmp_path)
+    sorted(tmp_path.iterdir())[5].unlink()
+    found = CliRunner().invoke(main, ["info", str(tmp_path)])
+    assert f"between {long}�[31m�04�.dcm and {long}�[31m�06�.dcm" in found.stderr
+    (tmp_path / "ready\x1b[31m").mkdir()
+    found = CliRunner().invoke(main, ["info", str(tmp_path / "ready\x1b[31m")])
+    assert found.stderr.count("\n") == 1
+    assert "\x1b" not in found.stderr
+
+
 def test_a_directory_record_is_sent_to_its_folder(tmp_path):
     data = pydicom.dcmread(STACK(tmp_path).path / "IM0001.dcm")
     for keyword in ("PixelData", "Rows", "Columns"):

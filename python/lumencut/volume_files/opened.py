@@ -162,8 +162,13 @@ def told(message: BaseException | str) -> str:
 
 def shown(value: object) -> str:
     """A value of a header's field that is no free text, as one short printable line."""
-    text = "".join(letter if letter.isprintable() else "�" for letter in str(value))
+    text = printable(str(value))
     return textwrap.shorten(text, 60, placeholder=" …") if len(text) <= 60 else text[:59] + "…"
+
+
+def printable(text: str) -> str:
+    """A text with nothing in it that breaks a line or steers a terminal."""
+    return "".join(letter if letter.isprintable() else "�" for letter in text)
 
 
 def decoded(line: bytes) -> str:

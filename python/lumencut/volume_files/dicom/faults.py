@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.slices import Slice, counted, listed
+from lumencut.volume_files.opened import shown
 
 _ONE_PLACE = 0.01
 #: What may tell phases apart, the surest first.
@@ -73,7 +74,7 @@ def _phases(ordered: Sequence[Slice], pairs: Sequence[tuple[Slice, Slice]]) -> s
 
 def _counted(ordered: Sequence[Slice], keyword: str) -> str:
     counts = Counter(str(s.get(keyword)) for s in ordered)
-    return listed([f"{value} in {count} slices" for value, count in sorted(counts.items())])
+    return listed([f"{shown(value)} in {counted(count, 'slice')}" for value, count in sorted(counts.items())])
 
 
 def refuse_interleaved(subject: str, ordered: Sequence[Slice]) -> None:

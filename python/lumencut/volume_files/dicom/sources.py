@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import refusing
+from lumencut.volume_files.opened import printable, refusing
 
 _ZIP_SIGNATURES = (b"PK\x03\x04", b"PK\x05\x06")
 _ALWAYS_ALLOWED = 1 << 30
@@ -46,11 +46,11 @@ class Source:
 
     @property
     def name(self) -> str:
-        """Its name without folders."""
-        return self.member.rpartition("/")[2] if self.member else self.path.name
+        """Its name without folders, on one printable line."""
+        return printable(self.member.rpartition("/")[2] if self.member else self.path.name)
 
     def __str__(self) -> str:
-        return f"{self.path}: {self.member}" if self.member else str(self.path)
+        return f"{self.path}: {printable(self.member)}" if self.member else str(self.path)
 
     def open(self) -> BinaryIO:
         """Open it for reading; a member of an archive is unpacked into memory, no further than it claims."""
