@@ -10,6 +10,7 @@ import sys
 import threading
 import warnings
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -163,6 +164,32 @@ def test_damaged_pixels_are_named_alike_and_leave_no_process(tmp_path, encoder, 
 
 def _command(process):
     return Path(f"/proc/{process}/cmdline").read_text()
+
+
+@pytest.mark.parametrize("codec", ["JPEGLSLossless", "JPEG2000Lossless"])
+def test_empty_slices_may_be_packed_to_nearly_nothing(tmp_path, codec):
+    empty = [replace(one, values=np.zeros((1024, 1024), np.int32)) for one in PLAIN_STACK[:3]]
+    Stack(empty, encoder=gdcm_does(codec))(tmp_path)
+    assert (tmp_path / "IM0001.dcm").stat().st_size < 2000
+    assert not read_volume(tmp_path).array.any()
+
+
+def test_what_progress_raises_is_the_callers(tmp_path):
+    class StoppedError(Exception):
+        pass
+
+    def progress(done, total):
+        if done == 3:
+            raise StoppedError
+
+    Stack(PLAIN_STACK, encoder=jpeg)(tmp_path)
+    with pytest.raises(StoppedError):
+        read_volume(tmp_path, progress=progress)
+
+
+def test_too_little_memory_is_no_damage():
+    with pytest.raises(FormatError, match="more than the free memory holds"), refusing("x", "DICOM", []):
+        np.empty(1 << 60, np.uint8)
 
 
 def test_three_codecs_in_one_series(tmp_path):

@@ -40,9 +40,23 @@ class VolumeFile:
     details: dict[str, str] = field(default_factory=dict)
 
     def volume(self, progress: Progress) -> Volume:
-        """Read the voxels."""
-        with refusing(self.path, self.format, self.notes):
-            voxels = self.load(progress)
+        """Read the voxels; what `progress` raises passes through."""
+        raised: list[Exception] = []
+
+        def passed_on(done: int, total: int) -> None:
+            try:
+                progress(done, total)
+            except Exception as error:
+                raised.append(error)
+                raise
+
+        try:
+            with refusing(self.path, self.format, self.notes):
+                voxels = self.load(passed_on)
+        except LumencutError:
+            if raised:
+                raise raised[0] from None
+            raise
         volume = _placed(self, voxels)
         volume._filled_slices = self.filled
         return volume
@@ -79,6 +93,9 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
             yield
     except LumencutError:
         raise
+    except MemoryError:
+        found, expected = "more than the free memory holds", "a volume that fits into it"
+        raise FormatError(str(subject), found, expected) from None
     except Exception as error:
         if isinstance(error, OSError) and error.errno is not None:
             found = error.strerror or type(error).__name__

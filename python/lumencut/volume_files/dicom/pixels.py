@@ -19,8 +19,10 @@ from lumencut.volume_files.dicom.slices import Slice
 from lumencut.volume_files.dicom.workers import Request, Workers
 from lumencut.volume_files.opened import refusing
 
+_ALWAYS_ALLOWED = 16 << 20
+"""Bytes that any frame may become: an empty one of 2048 × 2048 pixels is packed to a hundred bytes."""
 _COMPRESSION_LIMIT = 10_000
-"""No codec makes a real slice this much smaller; a header that claims more lies."""
+"""Beyond, no codec makes a real slice this much smaller; a header that claims more lies."""
 _FEW = 40
 """So many frames are decoded here about as fast as the first process starts."""
 
@@ -68,7 +70,7 @@ class PixelReader:
         with refusing(image.source, "DICOM", self._notes):
             claimed = _frame_bytes(image)
             frame = self._opened(image).compressed(one.frame)
-            if claimed > len(frame) * _COMPRESSION_LIMIT:
+            if claimed > max(_ALWAYS_ALLOWED, len(frame) * _COMPRESSION_LIMIT):
                 raise _too_short(image, len(frame))
             return Request(subject, str(image.transfer_syntax), frame, _options(image), 4 * claimed)
 
