@@ -123,6 +123,19 @@ def test_members_of_archives_are_never_unpacked_to_their_places(tmp_path, name):
     assert sorted(tmp_path.rglob("*")) == before
 
 
+@pytest.mark.parametrize("name", ["x.zip", "x.nii.zip"])
+def test_archives_without_dicom_and_damaged_ones_are_refused(tmp_path, name):
+    with zipfile.ZipFile(tmp_path / name, "w") as archive:
+        archive.writestr("x.nii", bytes(400))
+        archive.writestr("y.zip", b"PK\3\4" + bytes(40))
+    words = r"no image: x\.nii \(no DICOM\), y\.zip \(zip archive; unpack it first\)"
+    with pytest.raises(FormatError, match=words):
+        read_volume(tmp_path / name)
+    (tmp_path / name).write_bytes((tmp_path / name).read_bytes()[:-60])
+    with pytest.raises(FormatError, match="expected a sound zip archive"):
+        read_volume(tmp_path / name)
+
+
 @needs_posix
 def test_links_to_folders_are_followed_once(tmp_path):
     for name in ("real", "given"):
