@@ -128,6 +128,22 @@ def test_what_the_volume_cannot_tell_is_asked_for(tmp_path):
         read_centerlines(path, unit="inch")
 
 
+def test_what_hardly_fits_the_volume_is_logged_as_a_doubt(tmp_path, caplog):
+    line = np.linspace([10, 100, 10], [20, 140, 190], 100)
+    volume = Volume(np.zeros((60, 150, 30), np.uint8))
+    read_centerlines(write_vtk(tmp_path, line), volume=volume)
+    (record,) = caplog.records
+    assert record.levelname == "WARNING"
+    assert "lps in mm fits the volume (28 of 100 points inside, 0 in ras)" in record.getMessage()
+
+
+@pytest.mark.parametrize("title", ["SPACE=LPS", "SPACE=RAS"])
+def test_centerlines_beside_a_volume_are_not_read_in_silence(title, tmp_path, caplog):
+    path = write_vtk(tmp_path, POINTS + 5000, title)
+    read_centerlines(path, unit="mm", volume=volume_around(POINTS))
+    assert "no point lies inside the volume; perhaps the centerlines are of another scan" in caplog.text
+
+
 def test_check_space_warns_for_a_tree_read_before(tmp_path):
     tree = VesselTree([Vessel(POINTS), Vessel(POINTS + 1.0)])
     check_space(tree, volume_around(POINTS))

@@ -137,7 +137,7 @@ def test_a_volume_that_is_wholly_transparent_is_a_warning_of_its_own(volume, tmp
 def test_a_cut_surface_beside_the_volume_is_no_warning_where_its_context_is_seen(volume, tmp_path):
     lines = write_lines(tmp_path / "lines.vtk", [[12, -40, 2], [12, -40, 30], [12, 5, 31]])
     words = ["render", volume, lines, "-o", tmp_path / "out.png", "--size", "24x24"]
-    words += ["--center", "12,-40,12", "--pixel-spacing", "0.5", "--levels", "0"]
+    words += ["--center", "12,-40,12", "--pixel-spacing", "0.5", "--levels", "0", "--coordinates", "lps"]
     result = invoke(*words, "--context", "mip")
     assert (result.exit_code, result.stderr) == (0, "")
     assert "no pixel of the view shows the volume" in invoke(*words, "--context", "none").stderr

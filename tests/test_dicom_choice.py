@@ -72,7 +72,7 @@ def test_two_volumes_are_a_choice_for_the_user(study):
 def test_a_volume_with_a_missing_slice_is_not_passed_by(study):
     write_stack(study / "v", coded((4, 3, 12)), AXIAL, part("venous", 3))
     (study / "v" / "IM0004.dcm").unlink()
-    with pytest.raises(SeriesError, match=r"venous, CT, 4 × 3 × 12, .*: 1 missing slices"):
+    with pytest.raises(SeriesError, match=r"venous, CT, 4 × 3 × 12, .*: 1 missing slice"):
         read_volume(study)
     with pytest.raises(FormatError, match="1 missing slices: 1 between"):
         read_volume(study, series="1.2.2")

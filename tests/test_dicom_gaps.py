@@ -37,7 +37,7 @@ def test_holes_are_filled_on_request_and_marked(tmp_path, affine, caplog):
     np.testing.assert_array_equal(volume.array, coded(SIZE))
     np.testing.assert_allclose(volume.world_from_index, affine, atol=1e-6)
     assert volume.filled_slices == (3, 7, 8)
-    assert "3 missing slices were interpolated: k = 3, 7, 8" in caplog.text
+    assert "3 missing slices interpolated: k = 3, 7, 8" in caplog.text
 
 
 def test_filled_slices_are_rounded_to_whole_values(tmp_path):
@@ -77,7 +77,7 @@ def test_the_command_line_fills_and_tells(tmp_path):
     assert result.stderr.rstrip().endswith("or have them interpolated with --fill-gaps")
     result = CliRunner().invoke(main, [*words, "--fill-gaps"])
     assert result.exit_code == 0
-    assert "3 missing slices were interpolated: k = 3, 7, 8" in result.stderr
+    assert "3 missing slices interpolated: k = 3, 7, 8" in result.stderr
     result = CliRunner().invoke(main, ["info", "--json", "--fill-gaps", str(folder)])
     (found,) = json.loads(result.stdout)["files"]
     assert found["filled_slices"] == [3, 7, 8]

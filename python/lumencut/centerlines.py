@@ -21,6 +21,7 @@ from lumencut.placement import (
     Unit,
     check_choice,
     check_space_once,
+    fits_nowhere,
     placement,
 )
 from lumencut.vessel_tree import Vessel, VesselTree
@@ -125,7 +126,8 @@ class CenterlineFile:
         if report.is_unusual:
             warnings.warn(f"{self.path.name}: {report.decision}", SpaceWarning, stacklevel=3)
         elif report.decision:
-            level = logging.WARNING if report.space_from == "assumed" else logging.INFO
+            weak = report.space_from == "volume" and _mostly_outside(tree, volume)
+            level = logging.WARNING if weak or report.space_from == "assumed" else logging.INFO
             _log.log(level, "%s: %s", self.path, report.decision)
         return tree
 
@@ -147,6 +149,10 @@ class CenterlineFile:
             is_unusual=place.is_unusual,
             notes=tuple(notes),
         )
+
+
+def _mostly_outside(tree: VesselTree, volume: Volume | None) -> bool:
+    return volume is not None and 2 * int(volume.contains(tree.points).sum()) < len(tree.points)
 
 
 def read_centerlines(
@@ -194,6 +200,9 @@ def read_centerlines(
     tree = file.tree(coordinates, unit, volume)
     if volume is not None:
         check_space_once(tree, volume, file.path.name)
+        if fits_nowhere(tree.points, volume):
+            missed = "no point lies inside the volume; perhaps the centerlines are of another scan"
+            _log.warning("%s: %s", file.path, missed)
     return tree
 
 

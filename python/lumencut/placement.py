@@ -169,6 +169,11 @@ def _counts(points: npt.NDArray[np.float64], places: list[Place], volume: Volume
     return counts
 
 
+def fits_nowhere(points: npt.NDArray[np.float64], volume: Volume) -> bool:
+    """Tell whether points in LPS and mm miss the volume, in whatever space and unit they might be meant."""
+    return not any(_counts(points, list(itertools.product(SPACES, MILLIMETRES)), volume).values())
+
+
 def check_choice(coordinates: object, unit: object) -> None:
     """Refuse what is no space or unit."""
     if coordinates not in (None, *SPACES):

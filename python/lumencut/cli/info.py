@@ -22,7 +22,8 @@ from lumencut.errors import LumencutError, SeriesError
 FILE = click.Path(path_type=Path)
 _CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".txt", ".npy")
 #: Found, but of use to programs only.
-_ONLY_IN_JSON = {"file", "name", "volume", "centerlines", "notes", "decisions", "world_from_index", "kind"}
+_ONLY_IN_JSON = {"file", "name", "volume", "centerlines", "notes", "decisions", "world_from_index"}
+_ONLY_IN_JSON |= {"kind", "error"}
 
 
 @click.command(short_help="Tell what files hold, and what is odd.")
@@ -68,6 +69,9 @@ def info(
                 found[path] = findings.of_volume(path, series=series, phase=phase, fill_gaps=fill_gaps)
         except SeriesError as error:
             found[path] = findings.of_series(path, error)
+            if series is not None:
+                complain(error)
+                found[path]["error"] = str(error)
         except LumencutError as error:
             complain(error)
             found[path] = {"file": str(path), "kind": "unreadable", "error": str(error)}
@@ -76,7 +80,7 @@ def info(
     trees = [one for one in every if one["kind"] == "centerlines"]
     compared = [pair for tree in trees for pair in findings.compared(tree, volumes)]
     say(_as_json(gpus, every, compared) if as_json else _as_text(gpus, every, compared))
-    if any(one["kind"] == "unreadable" for one in every):
+    if any("error" in one for one in every):
         click.get_current_context().exit(FAILED)
 
 

@@ -103,7 +103,8 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
 
 
 def _one_line(text: object) -> str:
-    line = " ".join(str(text).split())
+    # Names of files may hold anything, what steers a terminal too.
+    line = "".join(letter if letter.isprintable() else "�" for letter in " ".join(str(text).split()))
     # The library names its arguments; here they are options.
     line = line.replace("as `series`", "as --series NUMBER|UID").replace("as `phase`", "as --phase VALUE")
     line = line.replace("fill_gaps=True", "--fill-gaps")

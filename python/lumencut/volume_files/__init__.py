@@ -18,9 +18,9 @@ from lumencut.volume_files.dicom import (
     SeriesReport,
     Wanted,
     is_dicom,
+    is_zip,
     list_dicom_series,
     open_dicom,
-    zipped,
 )
 from lumencut.volume_files.memory import as_volume
 from lumencut.volume_files.metaimage import open_metaimage
@@ -226,9 +226,7 @@ def _open(given: str | os.PathLike[str], wanted: Wanted) -> VolumeFile:
     path = _existing(given)
     notes: list[str] = []
     with refusing(path, "volume", notes):
-        if path.is_dir():
-            return open_dicom(path, wanted).checked()
-        if zipped(path):
+        if path.is_dir() or _is_archive(path):
             return open_dicom(path, wanted).checked()
         head = head_bytes(path, 352)
         if head.startswith(b"NRRD"):
@@ -243,6 +241,11 @@ def _open(given: str | os.PathLike[str], wanted: Wanted) -> VolumeFile:
             raise FormatError(str(path), "a file of no known format", _KNOWN)
     file.notes.extend(note for note in notes if note not in file.notes)
     return file.checked()
+
+
+def _is_archive(path: Path) -> bool:
+    with path.open("rb") as file:
+        return is_zip(file.read(4))
 
 
 def _is_metaimage(path: Path, head: bytes) -> bool:

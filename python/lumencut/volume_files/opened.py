@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import re
 import textwrap
+import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -39,9 +40,23 @@ class VolumeFile:
     details: dict[str, str] = field(default_factory=dict)
 
     def volume(self, progress: Progress) -> Volume:
-        """Read the voxels."""
-        with refusing(self.path, self.format, self.notes):
-            voxels = self.load(progress)
+        """Read the voxels; what `progress` raises passes through."""
+        raised: list[Exception] = []
+
+        def passed_on(done: int, total: int) -> None:
+            try:
+                progress(done, total)
+            except Exception as error:
+                raised.append(error)
+                raise
+
+        try:
+            with refusing(self.path, self.format, self.notes):
+                voxels = self.load(passed_on)
+        except LumencutError:
+            if raised:
+                raise raised[0] from None
+            raise
         volume = _placed(self, voxels)
         volume._filled_slices = self.filled
         return volume
@@ -74,11 +89,13 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
     """
     before = _reading.set(True)
     try:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
+        with _heard() as caught:
             yield
     except LumencutError:
         raise
+    except MemoryError:
+        found, expected = "more than the free memory holds", "a volume that fits into it"
+        raise FormatError(str(subject), found, expected) from None
     except Exception as error:
         if isinstance(error, OSError) and error.errno is not None:
             found = error.strerror or type(error).__name__
@@ -87,8 +104,62 @@ def refusing(subject: object, kind: str, notes: list[str]) -> Iterator[None]:
     finally:
         _reading.reset(before)
     for warning in caught:
-        if (text := told(warning.message)) not in notes:
+        if (text := told(warning)) not in notes:
             notes.append(text)
+
+
+_caught: ContextVar[list[Warning] | None] = ContextVar("caught", default=None)
+_NOT_OF_FILES = (DeprecationWarning, PendingDeprecationWarning, ImportWarning, ResourceWarning)
+
+
+class _Hearing:
+    """The way of warnings to whoever reads in their thread.
+
+    Python has one way for all threads: the first reader bends it, the last one puts it back.
+    """
+
+    def __init__(self) -> None:
+        self._lock, self._readers = threading.Lock(), 0
+        self._catcher, self._usual = warnings.catch_warnings(), warnings.showwarning
+
+    def start(self) -> None:
+        with self._lock:
+            if self._readers == 0:
+                self._usual, self._catcher = warnings.showwarning, warnings.catch_warnings()
+                self._catcher.__enter__()
+                warnings.simplefilter("always")
+                warnings.showwarning = self._told
+            self._readers += 1
+
+    def end(self) -> None:
+        with self._lock:
+            self._readers -= 1
+            if self._readers == 0:
+                self._catcher.__exit__(None, None, None)
+                warnings.showwarning = self._usual
+
+    def _told(self, message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        caught = _caught.get()
+        if caught is None:
+            self._usual(message, category, *where, **more)
+        elif not issubclass(category, _NOT_OF_FILES):
+            caught.append(message if isinstance(message, Warning) else category(message))
+
+
+_hearing = _Hearing()
+
+
+@contextmanager
+def _heard() -> Iterator[list[Warning]]:
+    """Collect the warnings of this thread that are about a file."""
+    caught: list[Warning] = []
+    before = _caught.set(caught)
+    _hearing.start()
+    try:
+        yield caught
+    finally:
+        _hearing.end()
+        _caught.reset(before)
 
 
 _VALUE = re.compile(r"""[^ -~]|[\d"'`:=<>^(\[{\\]""")
@@ -108,8 +179,13 @@ def told(message: BaseException | str) -> str:
 
 def shown(value: object) -> str:
     """A value of a header's field that is no free text, as one short printable line."""
-    text = "".join(letter if letter.isprintable() else "�" for letter in str(value))
+    text = printable(str(value))
     return textwrap.shorten(text, 60, placeholder=" …") if len(text) <= 60 else text[:59] + "…"
+
+
+def printable(text: str) -> str:
+    """A text with nothing in it that breaks a line or steers a terminal."""
+    return "".join(letter if letter.isprintable() else "�" for letter in text)
 
 
 def decoded(line: bytes) -> str:

@@ -16,13 +16,13 @@ from lumencut.volume_files.dicom.faults import of_phase
 from lumencut.volume_files.dicom.geometry import Stack, stacked
 from lumencut.volume_files.dicom.headers import Header, is_dicom
 from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, grouped, read_images
-from lumencut.volume_files.dicom.slices import listed
-from lumencut.volume_files.dicom.sources import zipped
+from lumencut.volume_files.dicom.slices import counted, listed
+from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing, shown
 from lumencut.volume_files.rescale import is_integral
 
-__all__ = ["SeriesReport", "Wanted", "is_dicom", "list_dicom_series", "open_dicom", "zipped"]
+__all__ = ["SeriesReport", "Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom"]
 
 
 @dataclass(frozen=True)
@@ -83,11 +83,13 @@ def _note_oddities(stack: Stack, notes: list[str]) -> None:
     scalings = {s.scaling for s in stack.slices}
     if stack.missing:
         names = listed([str(k) for k in stack.missing])
-        notes.append(f"{len(stack.missing)} missing slices were interpolated: k = {names}")
+        notes.append(f"{counted(len(stack.missing), 'missing slice')} interpolated: k = {names}")
     if len(scalings) > 1:
         notes.append(f"{len(scalings)} different rescale slopes and intercepts: applied slice by slice")
     if not all(is_integral(*scaling) for scaling in scalings):
         notes.append("rescaling makes fractions: read as float32")
+    if any("HighBit" in header and header.HighBit != header.get("BitsStored", 0) - 1 for header in headers):
+        notes.append("HighBit is not BitsStored - 1: the lowest BitsStored bits are read")
     if any(str(header.get("LossyImageCompression", "")) == "01" for header in headers):
         notes.append("the images were compressed with loss")
     if any(header.PhotometricInterpretation == "MONOCHROME1" for header in headers):

@@ -15,6 +15,8 @@ _JPEG_2000 = tuple(f"1.2.840.10008.1.2.4.{number}" for number in (90, 91, 201, 2
 _RLE = "1.2.840.10008.1.2.5"
 _JPEG = tuple(f"1.2.840.10008.1.2.4.{number}" for number in (50, 51, 57, 70, 80, 81))
 _JPEG_EXTENDED = "1.2.840.10008.1.2.4.51"
+NATIVE = ("1.2.840.10008.1.2", *(f"1.2.840.10008.1.2.{end}" for end in ("1", "1.99", "2")))
+"""Transfer syntaxes whose pixels are not compressed, or deflated with all of the file."""
 PLUGINS = {
     _RLE: "pydicom",
     **dict.fromkeys(_JPEG_2000, "pylibjpeg"),
@@ -34,15 +36,27 @@ def decode_native(
 
 def decode_frame(subject: str, syntax: str, frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
     """Decode one compressed frame."""
+    if syntax in _JPEG_2000:
+        _require_codestream(subject, frame, options)
+    try:
+        return _decoded(syntax, frame, options)
+    except ImportError:
+        raise
+    except Exception:  # decoders raise nearly all there are, with words for programmers
+        found, expected = "damaged pixels", "pixels that can be decoded"
+        raise FormatError(subject, found, expected, "copy the file again") from None
+
+
+def _decoded(syntax: str, frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
     from pydicom.encaps import encapsulate
     from pydicom.pixels.decoders.base import get_decoder
 
-    if syntax in _JPEG_2000:
-        _require_codestream(subject, frame, options)
     if syntax == _JPEG_EXTENDED and options["bits_stored"] > 8:
         return _jpeg_of_12_bits(frame, options)
     single = options | {"number_of_frames": 1}
     decoder = get_decoder(syntax)
+    if PLUGINS[syntax] not in decoder.available_plugins:
+        raise ImportError(f"no decoder of {PLUGINS[syntax]} is installed")
     packed = encapsulate([frame], has_bot=False)
     return np.asarray(decoder.as_array(packed, index=0, decoding_plugin=PLUGINS[syntax], **single)[0])
 

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FormatError
-from lumencut.volume_files.dicom.slices import Slice, listed
+from lumencut.volume_files.dicom.slices import Slice, counted, listed
 from lumencut.volume_files.opened import shown
 
 _ONE_PLACE = 0.01
@@ -48,9 +48,9 @@ def refuse_duplicates(subject: str, ordered: Sequence[Slice], gaps: npt.NDArray[
     if not doubles:
         return
     pairs = [(ordered[n], ordered[n + 1]) for n in doubles]
-    places = len(gaps) + 1 - len(doubles)
+    places = counted(len(gaps) + 1 - len(doubles), "place")
     named = listed([f"{first.name} and {second.name}" for first, second in pairs])
-    found = f"{len(ordered)} slices at {places} places: {named}"
+    found = f"{len(ordered)} slices at {places}: {named}"
     if phases := _phases(ordered, pairs):
         mend = "give the value of the one to read as `phase`"
         raise FormatError(subject, f"{found}; {phases}", "one slice per place", mend)
@@ -73,8 +73,8 @@ def _phases(ordered: Sequence[Slice], pairs: Sequence[tuple[Slice, Slice]]) -> s
 
 
 def _counted(ordered: Sequence[Slice], keyword: str) -> str:
-    counts = Counter(shown(s.get(keyword)) for s in ordered)
-    return listed([f"{value} in {count} slices" for value, count in sorted(counts.items())])
+    counts = Counter(str(s.get(keyword)) for s in ordered)
+    return listed([f"{shown(value)} in {counted(count, 'slice')}" for value, count in sorted(counts.items())])
 
 
 def of_phase(subject: str, slices: Sequence[Slice], phase: str) -> list[Slice]:
@@ -125,8 +125,10 @@ def refuse_gaps(
         f"({gaps[hole]:.4g} mm apart at {_point(ordered[hole])})"
         for hole in holes
     ]
-    found = f"{int((steps[holes] - 1).sum())} missing slices: {listed(places)}"
-    mend = "add the missing files, or have them interpolated with fill_gaps=True"
+    found = f"{counted(int((steps[holes] - 1).sum()), 'missing slice')}: {listed(places)}"
+    # More made up than measured would be no mending.
+    too_many = (steps - 1).sum() > len(ordered)
+    mend = "add the missing files" + ("" if too_many else ", or have them interpolated with fill_gaps=True")
     raise FormatError(subject, found, f"slices every {np.median(gaps):.4g} mm", mend)
 
 

@@ -19,12 +19,13 @@ _KEYWORDS = (
     "SpecificCharacterSet", "SOPClassUID", "SOPInstanceUID", "ImageType", "Modality",
     "SeriesDescription", "SeriesInstanceUID", "SeriesNumber", "Rows", "Columns", "NumberOfFrames",
     "SamplesPerPixel", "PlanarConfiguration", "PhotometricInterpretation", "BitsAllocated", "BitsStored",
-    "PixelRepresentation", "PixelPaddingValue", "RescaleSlope", "RescaleIntercept", "ModalityLUTSequence",
-    "LossyImageCompression", "PixelSpacing", "ImagePositionPatient", "ImageOrientationPatient",
-    "SliceThickness", "SpacingBetweenSlices", "GantryDetectorTilt", "SharedFunctionalGroupsSequence",
-    "PerFrameFunctionalGroupsSequence", "AcquisitionNumber", "AcquisitionTime", "ContentTime",
-    "TriggerTime", "NominalPercentageOfCardiacPhase", "TemporalPositionIdentifier", "EchoNumbers",
-    "EchoTime", "ConvolutionKernel", "ExtendedOffsetTable", "ExtendedOffsetTableLengths",
+    "HighBit", "PixelRepresentation", "PixelPaddingValue", "RescaleSlope", "RescaleIntercept",
+    "ModalityLUTSequence", "LossyImageCompression", "PixelSpacing", "ImagePositionPatient",
+    "ImageOrientationPatient", "SliceThickness", "SpacingBetweenSlices", "GantryDetectorTilt",
+    "SharedFunctionalGroupsSequence", "PerFrameFunctionalGroupsSequence", "AcquisitionNumber",
+    "AcquisitionTime", "ContentTime", "TriggerTime", "NominalPercentageOfCardiacPhase",
+    "TemporalPositionIdentifier", "EchoNumbers", "EchoTime", "ConvolutionKernel", "ExtendedOffsetTable",
+    "ExtendedOffsetTableLengths",
 )
 # fmt: on
 _HEAD = 1 << 17
@@ -96,6 +97,8 @@ def read_header(source: Source, notes: list[str]) -> Image | None:
         for tag in tuple(found.header.keys()):
             # Damaged values are to show here, where the file is known.
             found.header[tag]
+        for keyword in ("NumberOfFrames", "SamplesPerPixel"):
+            int(found.header.get(keyword) or 1)
         return found
 
 

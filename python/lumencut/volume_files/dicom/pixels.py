@@ -17,10 +17,12 @@ from lumencut.volume_files.dicom.decoding import PLUGINS, decode_frame, decode_n
 from lumencut.volume_files.dicom.headers import Image
 from lumencut.volume_files.dicom.slices import Slice
 from lumencut.volume_files.dicom.workers import Request, Workers
-from lumencut.volume_files.opened import refusing, shown
+from lumencut.volume_files.opened import refusing
 
+_ALWAYS_ALLOWED = 16 << 20
+"""Bytes that any frame may become: an empty one of 2048 × 2048 pixels is packed to a hundred bytes."""
 _COMPRESSION_LIMIT = 10_000
-"""No codec makes a real slice this much smaller; a header that claims more lies."""
+"""Beyond, no codec makes a real slice this much smaller; a header that claims more lies."""
 _FEW = 40
 """So many frames are decoded here about as fast as the first process starts."""
 
@@ -53,7 +55,7 @@ class PixelReader:
         one = next(self._slices)
         if not one.image.transfer_syntax.is_encapsulated:
             pixels = self._opened(one.image).native(one.frame)
-        elif self._workers is not None and _plugin(one.image) != "pydicom":
+        elif self._workers is not None and PLUGINS[one.image.transfer_syntax] != "pydicom":
             pixels = self._workers.next()
         else:
             request = self._request(one)
@@ -67,10 +69,9 @@ class PixelReader:
     def _request(self, one: Slice) -> Request:
         image, subject = one.image, str(one.image.source)
         with refusing(image.source, "DICOM", self._notes):
-            _plugin(image)
             claimed = _frame_bytes(image)
             frame = self._opened(image).compressed(one.frame)
-            if claimed > len(frame) * _COMPRESSION_LIMIT:
+            if claimed > max(_ALWAYS_ALLOWED, len(frame) * _COMPRESSION_LIMIT):
                 raise _too_short(image, len(frame))
             return Request(subject, str(image.transfer_syntax), frame, _options(image), 4 * claimed)
 
@@ -131,16 +132,6 @@ def _inflated_pixels(stream: BinaryIO) -> bytes:
 
     data: bytes = pydicom.dcmread(stream, force=True, specific_tags=["PixelData"]).PixelData
     return data
-
-
-def _plugin(image: Image) -> str:
-    """What decodes an image, or a refusal by the name of its transfer syntax."""
-    syntax = image.transfer_syntax
-    if syntax not in PLUGINS:
-        expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels"
-        mend = "convert it to one of these, lossless where it can be"
-        raise FormatError(str(image.source), f"pixels in {shown(syntax.name)}", expected, mend)
-    return PLUGINS[syntax]
 
 
 def _options(image: Image) -> dict[str, Any]:

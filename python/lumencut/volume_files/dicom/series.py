@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -14,19 +15,21 @@ from lumencut.volume_files.dicom.geometry import stacked
 from lumencut.volume_files.dicom.headers import Header, Image, read_header
 from lumencut.volume_files.dicom.slices import (
     Slice,
+    counted,
+    has_positions,
     is_localizer,
     listed,
     missing_positions,
     require_grey,
     slices_of,
 )
-from lumencut.volume_files.dicom.sources import sources
-from lumencut.volume_files.opened import shown
+from lumencut.volume_files.dicom.sources import not_dicom, sources
+from lumencut.volume_files.opened import refusing
 
 _MODALITIES = ("CT", "MR", "XA")
 """Of which a stack can be an angiography volume."""
 _FEWEST_SLICES = 3
-_LONGEST_UID = 64
+_DIRECTORY = "Media Storage Directory"
 
 
 @dataclass(frozen=True)
@@ -65,8 +68,8 @@ class SeriesReport:
             parts.append(" × ".join(map(str, self.size)))
             parts.append(" × ".join(f"{step:.4g}" for step in self.spacing) + " mm")
         else:
-            parts.append(f"{self.images} image{'s' if self.images > 1 else ''}")
-        parts.append(f"UID {_printable(self.uid) or 'not stated'}")
+            parts.append(counted(self.images, "image"))
+        parts.append(f"UID {self.uid or 'not stated'}")
         tail = f": {self.trouble}" if self.trouble else ""
         return f"number {self.number or 'not stated'} ({', '.join(parts)}{tail})"
 
@@ -81,17 +84,17 @@ class Series:
     @property
     def number(self) -> str:
         """Its number, empty where it is not stated."""
-        return _text(self.images[0].header, "SeriesNumber")
+        return _plain(text(self.images[0].header, "SeriesNumber"))
 
     @property
     def description(self) -> str:
         """Its description, empty where it is not stated."""
-        return _text(self.images[0].header, "SeriesDescription")
+        return text(self.images[0].header, "SeriesDescription")
 
     @property
     def modality(self) -> str:
         """Its modality, empty where it is not stated."""
-        return _text(self.images[0].header, "Modality")
+        return text(self.images[0].header, "Modality")
 
     def slices(self, subject: str, notes: list[str]) -> list[Slice]:
         """All slices of the series; localisers among them are left out where others are there."""
@@ -101,12 +104,18 @@ class Series:
             images = [image for image in images if image not in scouts]
             notes.append(f"left out, localisers: {listed([image.source.name for image in scouts])}")
         for image in images:
-            require_grey(image)
+            with refusing(image.source, "DICOM", notes):
+                require_grey(image)
         if missing := missing_positions(images):
             total = sum(image.frame_count for image in images)
-            found = f"no ImagePositionPatient in {len(missing)} of {total} images: {listed(missing)}"
+            without = f"{len(missing)} of {counted(total, 'image')}"
+            found = f"no ImagePositionPatient in {without}: {listed(missing)}"
             raise FormatError(subject, found, "a position for each slice", "leave those images out")
-        return [one for image in images for one in slices_of(image)]
+        placed: list[Slice] = []
+        for image in images:
+            with refusing(image.source, "DICOM", notes):
+                placed += slices_of(image)
+        return placed
 
     def report(self) -> SeriesReport:
         """Describe the series, and tell whether it may be an angiography volume."""
@@ -120,7 +129,7 @@ class Series:
             steps = np.linalg.norm(stack.world_from_index[:3, :3], axis=0)
             spacing = (float(steps[0]), float(steps[1]), float(steps[2]))
             if not odd and stack.missing:
-                trouble = f"{len(stack.missing)} missing slices"
+                trouble = counted(len(stack.missing), "missing slice")
         except (FormatError, ValueError, TypeError) as error:
             trouble = odd or (error.found if isinstance(error, FormatError) else "damaged attributes")
         return SeriesReport(
@@ -136,14 +145,16 @@ class Series:
         )
 
 
-def _printable(text: str) -> str:
-    return "".join(letter for letter in text if letter.isprintable())[:_LONGEST_UID]
-
-
-def _text(header: Header, keyword: str) -> str:
-    """An attribute as one short printable line."""
+def text(header: Header, keyword: str) -> str:
+    """An attribute as one printable line."""
     value = header.get(keyword)
-    return "" if value is None else shown(value)
+    shown = "" if value is None else " ".join(str(value).split())
+    return "".join(letter for letter in shown if letter.isprintable())[:64]
+
+
+def _plain(number: str) -> str:
+    """A number without the zeros or the sign before it."""
+    return str(int(number)) if re.fullmatch(r"[+-]?[0-9]{1,64}", number) else number
 
 
 def _why_no_angiography(series: Series, count: int) -> str:
@@ -159,7 +170,7 @@ def _why_no_angiography(series: Series, count: int) -> str:
         return "a localiser"
     if count < _FEWEST_SLICES:
         return f"fewer than {_FEWEST_SLICES} images"
-    if len(missing_positions(series.images)) == count:
+    if not any(map(has_positions, series.images)):
         return "no positions"
     return ""
 
@@ -178,11 +189,12 @@ def read_images(path: Path, notes: list[str]) -> list[Image]:
                 str(source), "an image without rows and columns", "a whole file", "copy the file again"
             )
         else:
-            what = kind(image.header) if image is not None else "no DICOM"
+            what = kind(image.header) if image is not None else not_dicom(source)
             foreign.append(f"{source.name} ({what})")
     if not images:
         held = f"no image: {listed(foreign)}" if found else "nothing in it"
-        raise FormatError(str(path), held, "DICOM images")
+        mend = "give the folder that it is in" if foreign and _DIRECTORY in foreign[0] else ""
+        raise FormatError(str(path), held, "DICOM images", mend)
     if foreign:
         notes.append(f"left out, no images: {listed(foreign)}")
     return images
@@ -191,22 +203,22 @@ def read_images(path: Path, notes: list[str]) -> list[Image]:
 def kind(header: Header) -> str:
     """The name of what the instance is, such as ``CT Image Storage``."""
     uid = header.get("SOPClassUID") or header.file_meta.get("MediaStorageSOPClassUID")
-    return shown(getattr(uid, "name", None) or "DICOM of no stated kind")
+    name = str(getattr(uid, "name", ""))
+    return name if uid and name != uid else "DICOM of no known kind"
 
 
 def grouped(images: Iterable[Image]) -> list[Series]:
     """Put images of one series together, in the order in which the series appear."""
     groups: dict[str, list[Image]] = defaultdict(list)
     for image in images:
-        # Never shortened: identifiers of one study differ in their last digits.
-        groups[str(image.header.get("SeriesInstanceUID") or "")].append(image)
+        groups[text(image.header, "SeriesInstanceUID")].append(image)
     return [Series(uid, group) for uid, group in groups.items()]
 
 
 def chosen(path: Path, every: Sequence[Series], wanted: str | None, notes: list[str]) -> Series:
     """The series that is asked for, the only one, or the only one that can be an angiography volume."""
     if wanted is not None:
-        meant = [one for one in every if wanted in (one.uid, one.number)]
+        meant = [one for one in every if wanted in (one.uid, one.number) or _plain(wanted) == one.number]
         if len(meant) != 1:
             raise _not_one(path, meant or every, f"one series with the number or UID {wanted!r}")
         return meant[0]

@@ -11,12 +11,16 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FormatError
+from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
 from lumencut.volume_files.dicom.headers import Image
-from lumencut.volume_files.opened import shown
 
 _COSINE = 1e-3
 """Directions may be this far (per cosine, and in length) from orthogonal unit vectors."""
 _MENTIONED = 4
+_COLOURS = (
+    *("PALETTE COLOR", "RGB", "HSV", "ARGB", "CMYK", "XYB"),
+    *("YBR_FULL", "YBR_FULL_422", "YBR_PARTIAL_422", "YBR_PARTIAL_420", "YBR_ICT", "YBR_RCT"),
+)
 
 # Where an enhanced multi-frame image keeps what a single-frame image has at its top level (PS3.3 C.7.6.16).
 _GROUPS = {
@@ -112,20 +116,39 @@ def require_grey(image: Image) -> None:
     """Refuse every kind of image whose frames are not slices of single numbers."""
     subject, header = str(image.source), image.header
     if not all(isinstance(length, int) for length in (header.Rows, header.Columns)):
-        found = f"Rows {shown(header.Rows)}, Columns {shown(header.Columns)}"
-        raise FormatError(subject, found, "a number each")
-    photometric = str(header.get("PhotometricInterpretation", ""))
+        raise FormatError(subject, "Rows and Columns that are no numbers", "a number each")
+    photometric = str(header.get("PhotometricInterpretation") or "")
     if int(header.get("SamplesPerPixel") or 1) != 1 or not photometric.startswith("MONOCHROME"):
         kind = "a palette" if "PALETTE" in photometric else "a colour"
-        found = f"{kind} image (PhotometricInterpretation {shown(photometric) or 'not stated'})"
+        named = photometric if photometric in _COLOURS else "unknown" if photometric else "not stated"
+        found = f"{kind} image (PhotometricInterpretation {named})"
         raise FormatError(subject, found, "MONOCHROME2")
     if header.get("ModalityLUTSequence"):
         found = "values behind a modality look-up table"
         raise FormatError(subject, found, "RescaleSlope and RescaleIntercept")
-    if int(header.get("BitsAllocated") or 0) not in (8, 16, 32, 64):
-        found = f"BitsAllocated {shown(header.get('BitsAllocated'))}"
-        raise FormatError(subject, found, "8, 16, 32 or 64")
+    if image.transfer_syntax not in (*NATIVE, *PLUGINS):
+        name = image.transfer_syntax.name
+        found = f"pixels in {'an unknown transfer syntax' if name == image.transfer_syntax else name}"
+        expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels"
+        mend = "convert it to one of these, lossless where it can be"
+        raise FormatError(subject, found, expected, mend)
+    _require_bits(image)
     _require_groups(image)
+
+
+def _require_bits(image: Image) -> None:
+    """Refuse pixels of which it is not known how many bits they have, and whether one is a sign."""
+    subject, header = str(image.source), image.header
+    allocated = int(header.get("BitsAllocated") or 0)
+    if allocated not in (8, 16, 32, 64):
+        raise FormatError(subject, f"BitsAllocated {allocated or 'not stated'}", "8, 16, 32 or 64")
+    if image.pixel_keyword != "PixelData":
+        return
+    if not 1 <= (stored := int(header.get("BitsStored") or 0)) <= allocated:
+        raise FormatError(subject, f"BitsStored {stored or 'not stated'}", f"1 to {allocated}")
+    if header.get("PixelRepresentation") not in (0, 1):
+        found = "no word on whether its values have a sign"
+        raise FormatError(subject, found, "PixelRepresentation 0 or 1")
 
 
 def _require_groups(image: Image) -> None:
@@ -150,6 +173,13 @@ def missing_positions(images: Sequence[Image]) -> list[str]:
     ]
 
 
+def has_positions(image: Image) -> bool:
+    """Tell whether any frame says where it lies; the count that a header states may be a lie."""
+    groups = image.header.get("PerFrameFunctionalGroupsSequence") or ()
+    frames = range(min(max(image.frame_count, 1), max(len(groups), 1)))
+    return any(frame_value(image, frame, "ImagePositionPatient") not in (None, "") for frame in frames)
+
+
 def _placed(image: Image, frame: int) -> Slice:
     position = _numbers(image, frame, "ImagePositionPatient", 3)
     cosines = _numbers(image, frame, "ImageOrientationPatient", 6).reshape(2, 3)
@@ -166,6 +196,9 @@ def _placed(image: Image, frame: int) -> Slice:
     placed = Slice(image, frame, position, unit[0], unit[1], spacing[::-1])
     if not np.isfinite(placed.scaling).all():
         raise FormatError(str(image.source), f"slope and intercept {placed.scaling}", "finite numbers")
+    if placed.scaling[0] == 0:
+        found = "RescaleSlope 0, which makes all values one"
+        raise FormatError(str(image.source), found, "any other slope", "export the series again")
     return placed
 
 
@@ -176,9 +209,16 @@ def _numbers(image: Image, frame: int, keyword: str, count: int) -> npt.NDArray[
     except (TypeError, ValueError):
         values = np.empty(0)
     if values.shape != (count,) or not np.isfinite(values).all():
-        found = f"no {keyword}" if stated in (None, "") else f"{keyword} {shown(stated)}"
+        # A damaged value may be any text, a patient's name too: it is not told.
+        odd = f"{len(values)} numbers" if len(values) and np.isfinite(values).all() else "damaged values"
+        found = f"no {keyword}" if stated in (None, "") else f"{odd} in {keyword}"
         raise FormatError(str(image.source), found, f"{count} finite numbers")
     return values
+
+
+def counted(count: int, what: str) -> str:
+    """A count and what is counted, in the plural where there are several."""
+    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 def listed(names: Sequence[str]) -> str:

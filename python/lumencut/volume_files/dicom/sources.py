@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import io
+import os
 import zipfile
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import refusing, shown
+from lumencut.volume_files.opened import printable, refusing
 
 _ZIP_SIGNATURES = (b"PK\x03\x04", b"PK\x05\x06")
 _ALWAYS_ALLOWED = 1 << 30
@@ -44,11 +46,11 @@ class Source:
 
     @property
     def name(self) -> str:
-        """Its name without folders."""
-        return shown(self.member.rpartition("/")[2]) if self.member else self.path.name
+        """Its name without folders, on one printable line."""
+        return printable(self.member.rpartition("/")[2] if self.member else self.path.name)
 
     def __str__(self) -> str:
-        return f"{self.path}: {shown(self.member)}" if self.member else str(self.path)
+        return f"{self.path}: {printable(self.member)}" if self.member else str(self.path)
 
     def open(self) -> BinaryIO:
         """Open it for reading; a member of an archive is unpacked into memory, no further than it claims."""
@@ -66,15 +68,38 @@ class Source:
 def sources(path: Path) -> list[Source]:
     """List the files below a folder, the members of a zip archive, or a single file."""
     if path.is_dir():
-        files = sorted(file for file in path.rglob("*") if file.is_file())
-        return [Source(file, file.stat().st_size) for file in files]
-    return _members(path) if zipped(path) else [Source(path, path.stat().st_size)]
-
-
-def zipped(path: Path) -> bool:
-    """Tell a zip archive by its first bytes."""
+        return [Source(file, file.stat().st_size) for file in sorted(_below(path))]
     with path.open("rb") as file:
-        return file.read(4) in _ZIP_SIGNATURES
+        zipped = is_zip(file.read(4))
+    return _members(path) if zipped else [Source(path, path.stat().st_size)]
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    """The files below a folder; linked folders are entered too, each real one once."""
+    seen: set[tuple[int, int]] = set()
+    for place, folders, names in os.walk(folder, followlinks=True, onerror=_unreadable):
+        state = os.stat(place)
+        if (state.st_dev, state.st_ino) in seen:
+            folders.clear()
+            continue
+        seen.add((state.st_dev, state.st_ino))
+        yield from (file for name in names if (file := Path(place, name)).is_file())
+
+
+def _unreadable(error: OSError) -> None:
+    raise error
+
+
+def is_zip(head: bytes) -> bool:
+    """Tell a zip archive by its first bytes."""
+    return head[:4] in _ZIP_SIGNATURES
+
+
+def not_dicom(source: Source) -> str:
+    """Name what a file is that is no DICOM as it lies there."""
+    head = source.head(4)
+    packed = "zip archive" if is_zip(head) else "gzipped" if head[:2] == b"\x1f\x8b" else ""
+    return f"{packed}; unpack it first" if packed else "no DICOM"
 
 
 def _members(path: Path) -> list[Source]:

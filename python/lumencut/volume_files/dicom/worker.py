@@ -43,7 +43,3 @@ def main() -> None:
             data, head = b"", {"error": error.found if isinstance(error, FormatError) else told(error)}
         answers.write(json.dumps(head).encode() + b"\n" + data)
         answers.flush()
-
-
-if __name__ == "__main__":
-    main()

@@ -29,6 +29,8 @@ _AHEAD = 2
 _MOST = 4
 _PIPE = 1 << 20
 """Bytes that a pipe holds where the system lets one ask for it: a slice in one go."""
+_START = "import sys; sys.path[:] = sys.argv[1:]; from lumencut.volume_files.dicom.worker import main; main()"
+"""Modules come from where ours came from: never from the current folder, which may be a stranger's."""
 
 
 @dataclass(frozen=True)
@@ -46,14 +48,12 @@ class Worker:
     """A process that decodes one frame after the other."""
 
     def __init__(self) -> None:
-        path = os.pathsep.join(entry for entry in sys.path if entry)
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "lumencut.volume_files.dicom.worker"],
+            [sys.executable, "-c", _START, *(entry for entry in sys.path if isinstance(entry, str))],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            pipesize=_PIPE,
-            env=os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"},
+            env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
         )
 
     def kill(self) -> None:
