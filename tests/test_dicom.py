@@ -138,7 +138,8 @@ def test_no_preamble_and_implicit(tmp_path):
 def test_progress(tmp_path):
     calls = []
     read_volume(write_stack(tmp_path / "s", coded(), AXIAL), progress=lambda *call: calls.append(call))
-    assert calls == [(n, 5) for n in range(1, 6)]
+    # The headers of all files first, then the slices.
+    assert calls == 2 * [(n, 5) for n in range(1, 6)]
 
 
 def test_single_file(tmp_path):

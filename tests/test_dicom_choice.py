@@ -74,7 +74,7 @@ def test_a_volume_with_a_missing_slice_is_not_passed_by(study):
     (study / "v" / "IM0004.dcm").unlink()
     with pytest.raises(SeriesError, match=r"venous, CT, 4 × 3 × 12, .*: 1 missing slice"):
         read_volume(study)
-    with pytest.raises(FormatError, match="1 missing slices: 1 between"):
+    with pytest.raises(FormatError, match="1 missing slice: 1 between"):
         read_volume(study, series="1.2.2")
 
 

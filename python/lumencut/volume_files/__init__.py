@@ -26,7 +26,7 @@ from lumencut.volume_files.memory import as_volume
 from lumencut.volume_files.metaimage import open_metaimage
 from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
 from lumencut.volume_files.nrrd import open_nrrd
-from lumencut.volume_files.opened import Progress, VolumeFile, refusing
+from lumencut.volume_files.opened import Progress, VolumeFile, heeding, refusing
 from lumencut.volume_files.rescale import slabs
 
 __all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
@@ -105,7 +105,7 @@ def read_volume(
         Interpolate missing DICOM slices linearly between their neighbours instead of refusing the series;
         `Volume.filled_slices` tells which.
     progress : callable, optional
-        Called with (slices read, slices in all).
+        Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
     Returns
     -------
@@ -121,8 +121,8 @@ def read_volume(
     FileError
         For a file that is missing or cannot be read.
     """
-    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps))
     told = progress if progress is not None else _untold
+    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps), told)
     volume = file.volume(told)
     if file.format != "DICOM":
         told(volume.size[2], volume.size[2])
@@ -153,17 +153,18 @@ def inspect_volume(
     values : bool, default True
         Read the voxels too, for their range and soundness; False reads headers only.
     progress : callable, optional
-        Called with (slices read, slices in all).
+        Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
     Returns
     -------
     VolumeReport
         Format, grid, values and oddities.
     """
-    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps))
+    told = progress if progress is not None else _untold
+    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps), told)
     dtype, value_range = file.dtype.newbyteorder("="), None
     if values:
-        array = file.volume(progress if progress is not None else _untold).array
+        array = file.volume(told).array
         dtype, value_range = array.dtype, _finite_range(array, file.notes)
     spacing = np.linalg.norm(file.world_from_index[:3, :3], axis=0)
     return VolumeReport(
@@ -221,18 +222,18 @@ def _wanted(series: object, phase: object, *, fill_gaps: bool) -> Wanted:
     return Wanted(None if series is None else str(series), None if phase is None else str(phase), fill_gaps)
 
 
-def _open(given: str | os.PathLike[str], wanted: Wanted) -> VolumeFile:
+def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
     """Find the room by what the file holds, by its name only where the content does not tell."""
     path = _existing(given)
     notes: list[str] = []
-    with refusing(path, "volume", notes):
+    with heeding(progress) as told, refusing(path, "volume", notes):
         if path.is_dir() or _is_archive(path):
-            return open_dicom(path, wanted).checked()
+            return open_dicom(path, wanted, told).checked()
         head = head_bytes(path, 352)
         if head.startswith(b"NRRD"):
             file = open_nrrd(path)
         elif is_dicom(head):
-            file = open_dicom(path, wanted)
+            file = open_dicom(path, wanted, told)
         elif _is_metaimage(path, head):
             file = open_metaimage(path)
         elif nifti_kind(head) is not None or _has_nifti_name(path):

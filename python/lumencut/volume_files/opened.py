@@ -41,22 +41,8 @@ class VolumeFile:
 
     def volume(self, progress: Progress) -> Volume:
         """Read the voxels; what `progress` raises passes through."""
-        raised: list[Exception] = []
-
-        def passed_on(done: int, total: int) -> None:
-            try:
-                progress(done, total)
-            except Exception as error:
-                raised.append(error)
-                raise
-
-        try:
-            with refusing(self.path, self.format, self.notes):
-                voxels = self.load(passed_on)
-        except LumencutError:
-            if raised:
-                raise raised[0] from None
-            raise
+        with heeding(progress) as told_on, refusing(self.path, self.format, self.notes):
+            voxels = self.load(told_on)
         volume = _placed(self, voxels)
         volume._filled_slices = self.filled
         return volume
@@ -73,6 +59,26 @@ def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:
     except VolumeError as error:
         found = " ".join(f"{error.subject} {error.found}".split())
         raise FormatError(str(file.path), found, error.expected, error.mend) from error
+
+
+@contextmanager
+def heeding(progress: Progress) -> Iterator[Progress]:
+    """Give a progress function whose own errors pass through everything that refuses files."""
+    raised: list[Exception] = []
+
+    def told_on(done: int, total: int) -> None:
+        try:
+            progress(done, total)
+        except Exception as error:
+            raised.append(error)
+            raise
+
+    try:
+        yield told_on
+    except Exception:
+        if raised:
+            raise raised[0] from None
+        raise
 
 
 _reading = ContextVar("reading", default=False)

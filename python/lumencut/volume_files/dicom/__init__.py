@@ -34,11 +34,11 @@ class Wanted:
     fill_gaps: bool = False
 
 
-def open_dicom(path: Path, wanted: Wanted) -> VolumeFile:
-    """Read the headers of a DICOM series."""
+def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
+    """Read the headers of a DICOM series; `progress` counts the files looked into."""
     notes: list[str] = []
     with refusing(path, "DICOM", notes):
-        one = chosen(path, grouped(read_images(path, notes)), wanted.series, notes)
+        one = chosen(path, grouped(read_images(path, notes, progress)), wanted.series, notes)
         slices = one.slices(str(path), notes)
         if wanted.phase is not None:
             slices = of_phase(str(path), slices, wanted.phase)

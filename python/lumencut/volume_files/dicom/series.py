@@ -24,7 +24,7 @@ from lumencut.volume_files.dicom.slices import (
     slices_of,
 )
 from lumencut.volume_files.dicom.sources import not_dicom, sources
-from lumencut.volume_files.opened import refusing
+from lumencut.volume_files.opened import Progress, refusing
 
 _MODALITIES = ("CT", "MR", "XA")
 """Of which a stack can be an angiography volume."""
@@ -175,13 +175,18 @@ def _why_no_angiography(series: Series, count: int) -> str:
     return ""
 
 
-def read_images(path: Path, notes: list[str]) -> list[Image]:
-    """Read the headers of all images below a folder, in a zip archive, or of a single file."""
+def read_images(path: Path, notes: list[str], progress: Progress | None = None) -> list[Image]:
+    """Read the headers of all images below a folder, in a zip archive, or of a single file.
+
+    `progress` is called with (files looked into, files in all).
+    """
     found = sources(path)
     images: list[Image] = []
     foreign: list[str] = []
-    for source in found:
+    for number, source in enumerate(found, 1):
         image = read_header(source, notes)
+        if progress is not None:
+            progress(number, len(found))
         if image is not None and image.header.get("Rows") and image.header.get("Columns"):
             images.append(image)
         elif image is not None and kind(image.header).endswith("Image Storage"):
