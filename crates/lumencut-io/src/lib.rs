@@ -28,6 +28,7 @@ mod encoding;
 mod error;
 mod fcsv;
 mod itk_tube;
+mod json;
 pub mod junctions;
 mod kind;
 mod meta_object;
