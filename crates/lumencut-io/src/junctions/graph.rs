@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Path;
-use super::ids::{Buckets, Id, Incidence, id};
+use super::ids::{Id, Incidence, Table, id, make_room};
 use crate::centerlines::Line;
 
 /// What an edge goes on as at one of its ends.
@@ -46,7 +46,7 @@ impl Edge {
 
 /// The chains of edges between junctions, as lines, in the order of the paths they come from.
 pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
-    let (mut graph, steps) = Graph::of(paths);
+    let (mut graph, steps) = Graph::of(points.len(), paths);
     for (path, steps) in paths.iter().zip(&steps) {
         for (i, pair) in steps.windows(2).enumerate() {
             graph.pair(path.nodes[i + 1], pair[0], pair[1]);
@@ -70,28 +70,34 @@ pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
 
 struct Graph {
     edges: Vec<Edge>,
+    /// How many steps are still to come.
+    left: usize,
 }
 
 impl Graph {
     /// The edges of all paths, and the edge of every step of each.
-    fn of(paths: &[Path]) -> (Self, Vec<Vec<Id>>) {
-        let count = paths.iter().map(|path| path.nodes.len() - 1).sum();
-        let mut graph = Self { edges: Vec::with_capacity(count) };
-        let mut known = Buckets::with_capacity(count);
+    fn of(places: usize, paths: &[Path]) -> (Self, Vec<Vec<Id>>) {
+        // A tree has about as many edges as places.
+        let expected = places + places / 16;
+        let steps: usize = paths.iter().map(|path| path.nodes.len() - 1).sum();
+        let mut graph = Self { edges: Vec::with_capacity(expected.min(steps)), left: steps };
+        let mut known = Table::default();
         let steps = paths.iter().enumerate().map(|(i, path)| graph.add(path, id(i), &mut known)).collect();
         (graph, steps)
     }
 
     /// The edges of path number `number`, new ones added.
-    fn add(&mut self, path: &Path, number: Id, known: &mut Buckets) -> Vec<Id> {
+    fn add(&mut self, path: &Path, number: Id, known: &mut Table) -> Vec<Id> {
         let step = |(i, pair): (usize, &[Id])| {
             let nodes = [pair[0].min(pair[1]), pair[0].max(pair[1])];
             let radius = path.radius.is_some().then_some([number, id(i)]);
             let same = known.like(&nodes).find(|edge| self.edges[*edge as usize].nodes == nodes);
             let step = same.unwrap_or_else(|| {
+                make_room(&mut self.edges, self.left);
                 self.edges.push(Edge { nodes, radius, partners: [Partner::None; 2], grouped: true });
                 known.push(&nodes)
             });
+            self.left -= 1;
             let edge = &mut self.edges[step as usize];
             edge.radius = edge.radius.or(radius);
             edge.grouped &= path.group.is_some();
@@ -191,7 +197,11 @@ impl Graph {
         let points = nodes.iter().map(|node| places[*node as usize]).collect();
         // The first place has the radius of the first edge, every other one that of the edge to it.
         let edges = chain.iter().take(1).chain(chain).map(edge);
-        let radius = nodes.iter().zip(edges).map(|(node, edge)| edge.radius_at(*node, paths)).collect();
+        let radius = chain.iter().all(|id| edge(id).radius.is_some()).then(|| {
+            let mut out = Vec::with_capacity(nodes.len());
+            out.extend(nodes.iter().zip(edges).filter_map(|(node, edge)| edge.radius_at(*node, paths)));
+            out
+        });
         (points, radius)
     }
 }

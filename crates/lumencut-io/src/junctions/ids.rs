@@ -16,37 +16,65 @@ pub fn id(i: usize) -> Id {
     i as Id
 }
 
-/// Ids from 0, found by keys that stay with the caller.
-pub struct Buckets {
-    /// The newest id of each bucket.
-    newest: Vec<Id>,
-    /// The id in the same bucket that is next older than each.
-    older: Vec<Id>,
+/// Ids from 0, found by keys that stay with the caller: a hash table with linear probing.
+#[derive(Default)]
+pub struct Table {
+    /// As many as a power of two, at most three quarters of them taken; none before the first key.
+    slots: Vec<Slot>,
+    count: usize,
     state: RandomState,
 }
 
-impl Buckets {
-    /// No ids yet, with room for `count`.
-    pub fn with_capacity(count: usize) -> Self {
-        let newest = vec![NONE; count.next_power_of_two()];
-        Self { newest, older: Vec::with_capacity(count), state: RandomState::new() }
-    }
+#[derive(Clone, Copy)]
+struct Slot {
+    hash: u32,
+    id: Id,
+}
 
-    fn bucket(&self, key: &impl Hash) -> usize {
-        self.state.hash_one(key) as usize & (self.newest.len() - 1)
-    }
-
+impl Table {
     /// The ids whose key may be this one.
     pub fn like(&self, key: &impl Hash) -> impl Iterator<Item = Id> {
-        let some = |id: Id| Some(id).filter(|id| *id != NONE);
-        std::iter::successors(some(self.newest[self.bucket(key)]), move |id| some(self.older[*id as usize]))
+        let hash = self.hash(key);
+        self.from(hash).take_while(|slot| slot.id != NONE).filter(move |slot| slot.hash == hash).map(|s| s.id)
     }
 
     /// Gives this key the next id.
     pub fn push(&mut self, key: &impl Hash) -> Id {
-        let (bucket, next) = (self.bucket(key), id(self.older.len()));
-        self.older.push(std::mem::replace(&mut self.newest[bucket], next));
-        next
+        if 4 * self.count >= 3 * self.slots.len() {
+            let empty = vec![Slot { hash: 0, id: NONE }; (2 * self.slots.len()).max(4)];
+            let known = std::mem::replace(&mut self.slots, empty);
+            known.into_iter().filter(|slot| slot.id != NONE).for_each(|slot| self.put(slot));
+        }
+        let slot = Slot { hash: self.hash(key), id: id(self.count) };
+        self.put(slot);
+        self.count += 1;
+        slot.id
+    }
+
+    fn put(&mut self, slot: Slot) {
+        let mask = self.slots.len() - 1;
+        let mut at = slot.hash as usize & mask;
+        while self.slots[at].id != NONE {
+            at = (at + 1) & mask;
+        }
+        self.slots[at] = slot;
+    }
+
+    /// All slots, from the one where this hash belongs.
+    fn from(&self, hash: u32) -> impl Iterator<Item = &Slot> {
+        let begin = hash as usize & self.slots.len().saturating_sub(1);
+        self.slots[begin..].iter().chain(&self.slots[..begin])
+    }
+
+    fn hash(&self, key: &impl Hash) -> u32 {
+        self.state.hash_one(key) as u32
+    }
+}
+
+/// Makes room for one more element: for as many as there are, but for no more than the `most` to come.
+pub fn make_room<T>(all: &mut Vec<T>, most: usize) {
+    if all.len() == all.capacity() {
+        all.reserve_exact(all.len().max(16).min(most.max(1)));
     }
 }
 

@@ -12,14 +12,14 @@ use super::ids::{Id, Incidence, id};
 ///
 /// Chains go the way of their segments where those follow each other throughout. Otherwise they run away from
 /// the open end with the largest radius, or the highest where no radius is known.
-pub fn join(points: &[DVec3], paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
+pub fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
     let is_segment = |path: &Path| path.nodes.len() == 2;
     let count = paths.iter().filter(|path| is_segment(path)).count();
     if count < 2 || count <= paths.len() / 2 {
         return paths;
     }
-    let (segments, others): (Vec<Path>, Vec<Path>) = paths.into_iter().partition(is_segment);
-    let cloud = Cloud::new(points, segments);
+    let others: Vec<Path> = paths.extract_if(.., |path| !is_segment(path)).collect();
+    let cloud = Cloud::new(points, paths);
     let mut chains = cloud.chains();
     if chains.len() < count {
         notes.push(format!("{count} single segments were joined to {} chain(s)", chains.len()));

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Path;
-use super::ids::{Buckets, Id};
+use super::ids::{Id, Table, make_room};
 use crate::centerlines::Line;
 
 /// Weld distance as a part of the median spacing of the points.
@@ -22,8 +22,7 @@ pub fn resolves(lines: &[Line], spacing: f64) -> bool {
 pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     let distance = spacing * PART_OF_SPACING;
     let count = lines.iter().map(|line| line.points.len()).sum();
-    let cells = Buckets::with_capacity(count);
-    let mut grid = Grid { distance, points: Vec::with_capacity(count), cells };
+    let mut grid = Grid { distance, left: count, points: Vec::new(), cells: Table::default() };
     let paths = lines.into_iter().filter_map(|line| path(line, &mut grid)).collect();
     (grid.points, paths)
 }
@@ -39,14 +38,17 @@ fn path(line: Line, grid: &mut Grid) -> Option<Path> {
 /// Points in cubic cells as wide as the weld distance, which may hold only a few points each.
 struct Grid {
     distance: f64,
+    /// How many points are still to come.
+    left: usize,
     points: Vec<DVec3>,
-    cells: Buckets,
+    cells: Table,
 }
 
 impl Grid {
     /// The id of the place at `point`.
     fn place(&mut self, point: DVec3) -> Id {
         let cell = self.cell(point);
+        self.left -= 1;
         for offset in 0..27 {
             let near = [offset % 3, offset / 3 % 3, offset / 9];
             let near = [0, 1, 2].map(|axis| cell[axis].saturating_add(near[axis] - 1));
@@ -58,6 +60,7 @@ impl Grid {
                 return first;
             }
         }
+        make_room(&mut self.points, self.left + 1);
         self.points.push(point);
         self.cells.push(&cell)
     }
