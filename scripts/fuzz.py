@@ -84,7 +84,9 @@ def fuzz(program: Path, runs: int) -> Outcome:
     corpus, found = TARGET / "corpus" / program.name, TARGET / "found"
     for folder in (corpus, found):
         folder.mkdir(parents=True, exist_ok=True)
-    options = (f"-runs={runs}", *LIMITS, f"-artifact_prefix={found}/{program.name}-", "-print_final_stats=1")
+    words = CRATE / "dictionaries" / f"{program.name}.dict"
+    options = [f"-runs={runs}", *LIMITS, f"-artifact_prefix={found}/{program.name}-", "-print_final_stats=1"]
+    options += [f"-dict={words}"] if words.exists() else []
     start = time.monotonic()
     done = subprocess.run(
         (program, *options, corpus, CRATE / "seeds" / program.name),

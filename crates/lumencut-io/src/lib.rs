@@ -28,6 +28,7 @@ mod encoding;
 mod error;
 mod fcsv;
 mod itk_tube;
+mod json;
 mod jumps;
 pub mod junctions;
 mod kind;

@@ -5,10 +5,32 @@ use glam::{DAffine3, DMat3, DVec3};
 use crate::centerlines::Line;
 use crate::error::{Error, Result, excerpt};
 
+/// The fields that are read; others are not kept.
+const KNOWN: [&str; 18] = [
+    "NDims",
+    "ID",
+    "ParentID",
+    "Name",
+    "PointDim",
+    "NPoints",
+    "BinaryData",
+    "CompressedData",
+    "ElementType",
+    "BinaryDataByteOrderMSB",
+    "ElementByteOrderMSB",
+    "ElementSpacing",
+    "TransformMatrix",
+    "Rotation",
+    "Orientation",
+    "Offset",
+    "Position",
+    "Origin",
+];
+
 /// One object of a scene: its type and its fields.
 pub struct MetaObject {
     kind: String,
-    fields: Vec<(String, String)>,
+    fields: Vec<(&'static str, String)>,
     /// The points of a tube, in units of the object.
     pub line: Option<Line>,
 }
@@ -36,12 +58,15 @@ impl MetaObject {
         Ok(())
     }
 
+    /// Keeps a field, of several with one name the first.
     pub fn set(&mut self, key: &str, value: &str) {
-        self.fields.push((key.to_owned(), value.to_owned()));
+        if let Some(key) = KNOWN.iter().find(|known| **known == key).filter(|key| self.get(key).is_none()) {
+            self.fields.push((key, value.to_owned()));
+        }
     }
 
     pub fn get(&self, key: &str) -> Option<&str> {
-        self.fields.iter().find(|(known, _)| known == key).map(|(_, value)| value.as_str())
+        self.fields.iter().find(|(known, _)| *known == key).map(|(_, value)| value.as_str())
     }
 
     pub fn is_true(&self, key: &str) -> bool {

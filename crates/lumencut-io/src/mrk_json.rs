@@ -1,11 +1,14 @@
 //! 3D Slicer markups (`.mrk.json`): Curve, ClosedCurve and Line.
 
 use glam::DVec3;
-use serde_json::Value;
 
 use crate::centerlines::{Centerlines, JOINED_MARK, Line, Space};
 use crate::error::{Error, Result, excerpt};
+use crate::json::Json;
 use crate::unit::Unit;
+
+/// Types of other markups that a message names, and then only counts.
+const MOST_NAMED: usize = 8;
 
 /// The curves and lines of a `.mrk.json` file, one line each through the control points, in the unit of the
 /// first.
@@ -13,36 +16,84 @@ use crate::unit::Unit;
 /// # Errors
 /// Where the JSON is damaged, a point or unit is none, or no markup is a curve or line.
 pub fn read(bytes: &[u8]) -> Result<Centerlines> {
-    let root: Value = serde_json::from_slice(bytes).map_err(|error| {
+    let root = Json::of(bytes).map_err(|error| {
         Error::truncated("", format!("damaged JSON ({error})"), "a 3D Slicer markups file")
     })?;
-    let markups = root.get("markups").and_then(Value::as_array);
-    let markups =
-        markups.ok_or_else(|| Error::new("markups", "no list", "a 3D Slicer markups file with a list"))?;
-    let joined = root.get(JOINED_MARK).and_then(Value::as_bool).unwrap_or(false);
+    let [markups, joined] = root.fields(["markups", JOINED_MARK]);
+    let joined = joined.is_some_and(|joined| joined.raw() == "true");
     let mut out = Centerlines { joined, ..Centerlines::of("3D Slicer markups") };
-    let mut other_types = Vec::new();
-    for (i, markup) in markups.iter().enumerate() {
-        let kind = markup.get("type").and_then(Value::as_str).unwrap_or("unnamed type");
-        if matches!(kind, "Curve" | "ClosedCurve" | "Line") {
-            markup_line(markup, kind, &mut out).map_err(|error| error.in_file(&format!("markup {i}")))?;
-        } else {
-            other_types.push(excerpt(kind));
+    let mut others = Others::default();
+    let take = |i, value| {
+        let markup = Markup::of(value);
+        let kind = markup.kind.and_then(Json::text);
+        match kind.as_deref().unwrap_or("unnamed type") {
+            kind @ ("Curve" | "ClosedCurve" | "Line") => {
+                markup_line(&markup, kind, &mut out).map_err(|error| error.in_file(&format!("markup {i}")))
+            }
+            kind => {
+                others.add(kind);
+                Ok(())
+            }
         }
-    }
-    if out.lines.is_empty() && !other_types.is_empty() {
+    };
+    markups
+        .and_then(|markups| markups.each(take))
+        .unwrap_or_else(|| Err(Error::new("markups", "no list", "a 3D Slicer markups file with a list")))?;
+    if out.lines.is_empty() && others.count > 0 {
         let expected = "a markup of type Curve, ClosedCurve or Line";
-        return Err(Error::new("markups", other_types.join(", "), expected));
+        return Err(Error::new("markups", others.text(), expected));
     }
-    if !other_types.is_empty() {
-        out.notes.push(format!("markups that are no curves were left out: {}", other_types.join(", ")));
+    if others.count > 0 {
+        out.notes.push(format!("markups that are no curves were left out: {}", others.text()));
     }
     out.tidy()
 }
 
-fn markup_line(markup: &Value, kind: &str, out: &mut Centerlines) -> Result<()> {
-    let space = space(markup)?;
-    let own = unit_of("coordinateUnits", markup.get("coordinateUnits"))?;
+/// The types of markups that are no curves.
+#[derive(Default)]
+struct Others {
+    named: Vec<String>,
+    count: usize,
+}
+
+impl Others {
+    fn add(&mut self, kind: &str) {
+        self.count += 1;
+        if self.named.len() < MOST_NAMED {
+            self.named.push(excerpt(kind));
+        }
+    }
+
+    fn text(&self) -> String {
+        let named = self.named.join(", ");
+        match self.count - self.named.len() {
+            0 => named,
+            more => format!("{named} and {more} more"),
+        }
+    }
+}
+
+/// The fields of a markup that are read.
+struct Markup<'a> {
+    kind: Option<Json<'a>>,
+    name: Option<Json<'a>>,
+    space: Option<Json<'a>>,
+    unit: Option<Json<'a>>,
+    controls: Option<Json<'a>>,
+    measurements: Option<Json<'a>>,
+}
+
+impl<'a> Markup<'a> {
+    fn of(value: Json<'a>) -> Self {
+        let names = ["type", "name", "coordinateSystem", "coordinateUnits", "controlPoints", "measurements"];
+        let [kind, name, space, unit, controls, measurements] = value.fields(names);
+        Self { kind, name, space, unit, controls, measurements }
+    }
+}
+
+fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<()> {
+    let space = space(markup.space)?;
+    let own = unit_of("coordinateUnits", markup.unit)?;
     let unit = *out.unit.get_or_insert(own);
     if unit != own {
         out.note_once(format!(
@@ -50,15 +101,11 @@ fn markup_line(markup: &Value, kind: &str, out: &mut Centerlines) -> Result<()> 
             unit.name()
         ));
     }
-    let empty = Vec::new();
-    let controls = markup.get("controlPoints").and_then(Value::as_array).unwrap_or(&empty);
-    let placed: Vec<usize> = (0..controls.len()).filter(|i| is_placed(&controls[*i])).collect();
-    if placed.len() < controls.len() {
-        let count = controls.len() - placed.len();
+    let Controls { mut points, placed } = Controls::of(markup.controls, own.in_units_of(unit))?;
+    if points.len() < placed.len() {
+        let count = placed.len() - points.len();
         out.note_once(format!("{count} control point(s) without a place were left out"));
     }
-    let point = |i: &usize| position(&controls[*i], *i).map(|p| p * own.in_units_of(unit));
-    let mut points = placed.iter().map(point).collect::<Result<Vec<DVec3>>>()?;
     if out.lines.is_empty() {
         out.space = space;
     } else if space.unwrap_or(Space::Lps) != out.space.unwrap_or(Space::Lps) {
@@ -66,23 +113,22 @@ fn markup_line(markup: &Value, kind: &str, out: &mut Centerlines) -> Result<()> 
         points.iter_mut().for_each(|p| *p *= DVec3::new(-1.0, -1.0, 1.0));
         out.note_once("markups in different spaces were brought into the space of the first".into());
     }
-    let mut radius = radius(markup, controls, &placed, [own, unit], out)?;
+    let mut radius = radius(markup.measurements, &placed, [own, unit])?;
+    if radius.is_some() {
+        out.note_once("radius from the measurement 'Radius'".into());
+    }
     if kind == "ClosedCurve" && points.len() > 2 {
         points.push(points[0]);
         radius.iter_mut().for_each(|r| r.push(r[0]));
     }
-    let name = markup.get("name").and_then(Value::as_str).map(str::to_owned);
-    out.lines.push(Line { points, radius, group: None, name });
+    out.lines.push(Line { points, radius, group: None, name: markup.name.and_then(Json::text) });
     Ok(())
 }
 
 /// The stated space, by name or by the number that 3D Slicer gives it.
-fn space(markup: &Value) -> Result<Option<Space>> {
-    let text = match markup.get("coordinateSystem") {
-        None | Some(Value::Null) => return Ok(None),
-        Some(Value::String(text)) => text.clone(),
-        Some(other) => other.to_string(),
-    };
+fn space(stated: Option<Json>) -> Result<Option<Space>> {
+    let Some(stated) = stated else { return Ok(None) };
+    let text = stated.text().unwrap_or_else(|| stated.raw().to_owned());
     match text.trim() {
         "LPS" | "1" => Ok(Some(Space::Lps)),
         "RAS" | "0" => Ok(Some(Space::Ras)),
@@ -91,75 +137,98 @@ fn space(markup: &Value) -> Result<Option<Space>> {
 }
 
 /// The stated unit; one name, or one equal name per axis. Millimetres where none is stated.
-fn unit_of(subject: &str, unit: Option<&Value>) -> Result<Unit> {
-    let name = match unit {
-        None | Some(Value::Null) => return Ok(Unit::Millimetre),
-        Some(Value::Array(axes)) if !axes.is_empty() && axes.iter().all(|axis| *axis == axes[0]) => &axes[0],
-        Some(other) => other,
-    };
-    match name.as_str() {
+fn unit_of(subject: &str, stated: Option<Json>) -> Result<Unit> {
+    let Some(stated) = stated else { return Ok(Unit::Millimetre) };
+    let (mut first, mut alike) = (None, true);
+    let axes = stated.each(|_, axis| {
+        alike &= first.get_or_insert(axis).raw() == axis.raw();
+        Ok(())
+    });
+    let name = first.filter(|_| axes.is_some() && alike).unwrap_or(stated);
+    match name.text().as_deref() {
         Some("") => Some(Unit::Millimetre),
         known => known.and_then(Unit::of_name),
     }
-    .ok_or_else(|| Error::new(subject, excerpt(&name.to_string()), "one of um, mm, cm, dm, m"))
+    .ok_or_else(|| Error::new(subject, excerpt(name.raw()), "one of um, mm, cm, dm, m"))
 }
 
-/// Control points that are being placed, or whose place was taken away, have no position of their own.
-fn is_placed(control: &Value) -> bool {
-    let status = control.get("positionStatus").and_then(Value::as_str).unwrap_or("defined");
-    status == "defined" && control.get("position").is_some_and(|position| !position.is_null())
+/// The control points of a markup.
+#[derive(Default)]
+struct Controls {
+    /// The points that have a place.
+    points: Vec<DVec3>,
+    /// Which have one: those that are being placed, or whose place was taken away, do not.
+    placed: Vec<bool>,
 }
 
-fn position(control: &Value, index: usize) -> Result<DVec3> {
-    let position = control.get("position").and_then(Value::as_array);
-    let numbers: Option<Vec<f64>> = position.and_then(|p| p.iter().map(Value::as_f64).collect());
-    match numbers.as_deref() {
-        Some([x, y, z]) => Ok(DVec3::new(*x, *y, *z)),
-        _ => {
-            let found = control.get("position").map(Value::to_string).unwrap_or_default();
-            Err(Error::new(format!("position of control point {index}"), excerpt(&found), "3 numbers"))
-        }
+impl Controls {
+    /// The points of a list, their places multiplied by `factor`.
+    fn of(list: Option<Json>, factor: f64) -> Result<Self> {
+        let mut out = Self::default();
+        let take = |i, control: Json| {
+            let [status, position] = control.fields(["positionStatus", "position"]);
+            let defined = status.and_then(Json::text).is_none_or(|status| status == "defined");
+            let place = position.filter(|_| defined);
+            out.placed.push(place.is_some());
+            if let Some(place) = place {
+                out.points.push(position_of(place, i)? * factor);
+            }
+            Ok(())
+        };
+        list.and_then(|list| list.each(take)).transpose()?;
+        Ok(out)
     }
 }
 
-/// The `Radius` measurement of the placed control points. Of the two units the first is the markup's own, the
-/// second the one that is wanted.
-fn radius(
-    markup: &Value,
-    controls: &[Value],
-    placed: &[usize],
-    [own, wanted]: [Unit; 2],
-    out: &mut Centerlines,
-) -> Result<Option<Vec<f64>>> {
-    let measurements = markup.get("measurements").and_then(Value::as_array);
-    let is_radius = |m: &&Value| {
-        let name = m.get("name").and_then(Value::as_str).unwrap_or_default();
-        name.eq_ignore_ascii_case("radius") || name == "MaximumInscribedSphereRadius"
-    };
-    let Some(measurement) = measurements.and_then(|list| list.iter().find(is_radius)) else {
+fn position_of(place: Json, index: usize) -> Result<DVec3> {
+    place.three_numbers().map(DVec3::from).ok_or_else(|| {
+        Error::new(format!("position of control point {index}"), excerpt(place.raw()), "3 numbers")
+    })
+}
+
+/// The `Radius` measurement of the control points that are `placed`. Of the two units the first is the
+/// markup's own, the second the one that is wanted.
+fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2]) -> Result<Option<Vec<f64>>> {
+    let Some([values, stated]) = measurements.and_then(measured_radius) else { return Ok(None) };
+    let Some(count) = values.and_then(|values| values.each(|_, _| Ok(()))).transpose()? else {
         return Ok(None);
     };
-    let Some(values) = measurement.get("controlPointValues").and_then(Value::as_array) else {
-        return Ok(None);
-    };
-    if values.len() != controls.len() {
-        let found = format!("{} values for {} control points", values.len(), controls.len());
+    if count != placed.len() {
+        let found = format!("{count} values for {} control points", placed.len());
         return Err(Error::new("measurement Radius", found, "one value per control point"));
     }
-    let unit = match measurement.get("units") {
-        None | Some(Value::Null) => own,
+    let unit = match stated {
+        None => own,
         unit => unit_of("units of the measurement Radius", unit)?,
     };
-    let value = |i: &usize| {
-        let number = values[*i].as_f64().map(|value| value * unit.in_units_of(wanted));
-        number.ok_or_else(|| {
-            Error::new(
-                "measurement Radius",
-                format!("{} at point {i}", values[*i]),
-                "a number per control point",
-            )
-        })
+    let mut out = Vec::new();
+    let take = |i: usize, value: Json| {
+        if placed[i] {
+            let wrong = || {
+                Error::new(
+                    "measurement Radius",
+                    format!("{} at point {i}", excerpt(value.raw())),
+                    "a number per control point",
+                )
+            };
+            out.push(value.number().ok_or_else(wrong)? * unit.in_units_of(wanted));
+        }
+        Ok(())
     };
-    out.note_once("radius from the measurement 'Radius'".into());
-    placed.iter().map(value).collect::<Result<Vec<f64>>>().map(Some)
+    values.and_then(|values| values.each(take)).transpose()?;
+    Ok(Some(out))
+}
+
+/// The values of the first measurement that is a radius, and their unit.
+fn measured_radius(measurements: Json) -> Option<[Option<Json>; 2]> {
+    let mut found = None;
+    measurements.each(|_, measurement| {
+        let [name, values, unit] = measurement.fields(["name", "controlPointValues", "units"]);
+        let name = name.and_then(Json::text).unwrap_or_default();
+        if name.eq_ignore_ascii_case("radius") || name == "MaximumInscribedSphereRadius" {
+            found.get_or_insert([values, unit]);
+        }
+        Ok(())
+    });
+    found
 }

@@ -79,6 +79,7 @@ impl PolyData {
         let says = |has: Option<&[f64]>, cell: usize| has.is_none_or(|has| has[cell] != 0.0);
         let names =
             self.names.as_ref().map(|names| self.lines_of(NAMES, names)).transpose()?.unwrap_or_default();
+        out.lines.reserve(self.ends.len());
         let mut start = 0;
         for (cell, end) in self.ends.iter().enumerate() {
             let end = data_array::index("offsets of the lines", *end, self.connectivity.len() + 1)?;

@@ -1,6 +1,6 @@
 //! VTK XML poly data (`.vtp`): ascii, inline base64 and appended data, compressed or not.
 
-use crate::centerlines::{Centerlines, JOINED_MARK};
+use crate::centerlines::{Centerlines, JOINED_MARK, Line};
 use crate::compression::{Budget, Compressor};
 use crate::data_array::{ByteOrder, NumberType, numbers_of_text};
 use crate::encoding::{self, Bytes, Layout};
@@ -122,6 +122,9 @@ impl Arrays<'_> {
             let ends = numbers("offsets of Lines", of("Lines", Some("offsets")), Some(lines))?;
             (ends, numbers("connectivity of Lines", of("Lines", Some("connectivity")), None)?)
         };
+        // Lines of fewer than two points cost nothing to pack.
+        let empty = lines.saturating_sub(connectivity.len() / 2).saturating_mul(size_of::<Line>());
+        self.budget.take("Lines", empty as u64)?;
         Ok(PolyData {
             points: coordinates,
             connectivity,

@@ -42,15 +42,12 @@ fn turns(compressor: &str, pack: Packer, ids: usize) -> Vec<u8> {
     let points = block(&[0, 0, 0, 1, 0, 0, 0, 1, 0], 9);
     let connectivity = block(&turns, ids);
     let ends = block(&(ids as u32).to_le_bytes(), 4);
-    let array = |name: &str, kind: &str, offset: usize| {
-        format!("<DataArray Name=\"{name}\" type=\"{kind}\" format=\"appended\" offset=\"{offset}\"/>")
-    };
     let head = format!(
         "<VTKFile type=\"PolyData\" compressor=\"{compressor}\"><PolyData><Piece NumberOfPoints=\"3\" \
          NumberOfLines=\"1\"><Points>{}</Points><Lines>{}{}</Lines></Piece></PolyData><AppendedData encoding=\"raw\">_",
-        array("Points", "Int8", 0),
-        array("connectivity", "Int8", points.len()),
-        array("offsets", "UInt32", points.len() + connectivity.len()),
+        appended("Points", "Int8", 0),
+        appended("connectivity", "Int8", points.len()),
+        appended("offsets", "UInt32", points.len() + connectivity.len()),
     );
     let mut out = [head.into_bytes(), points, connectivity, ends].concat();
     out.resize(FILE, b' ');
@@ -92,6 +89,9 @@ fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
         let text = format!("{begin}{}{end}", piece.repeat((FILE - 32) / piece.len()));
         assert_small(what, text.as_bytes(), "a.mrk.json", "unnamed type");
     }
+    assert_small("lines of no point", &empty_lines(220_000), "a.vtp", "bytes to unpack");
+    let fields = format!("ObjectType = Tube\n{}", "a=\n".repeat((FILE - 32) / 3));
+    assert_small("fields", fields.as_bytes(), "a.tre", "no Points");
     assert_small("steps", &legacy("unsigned_char", FILE - 1000), "a.vtk", "vessel(s)");
     assert_small("bits", &legacy("bit", (FILE - 1000) * 8), "a.vtk", "ids of the type Bits");
 }
@@ -109,4 +109,30 @@ fn legacy(kind: &str, ids: usize) -> Vec<u8> {
         (random >> 24) as u8
     }));
     out
+}
+
+/// A `.vtp` of one line and many that have no point.
+fn empty_lines(count: usize) -> Vec<u8> {
+    let block = |content: &[u8]| {
+        let packed = zlib(content);
+        let header = [1, content.len() as u32, 0, packed.len() as u32].map(u32::to_le_bytes).concat();
+        [header, packed].concat()
+    };
+    let blocks = [block(&[0, 0, 0, 1, 0, 0]), block(&[0, 1]), block(&vec![2; count])];
+    let places = [0, blocks[0].len(), blocks[0].len() + blocks[1].len()];
+    let head = format!(
+        "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece NumberOfPoints=\"2\" \
+         NumberOfLines=\"{count}\"><Points>{}</Points><Lines>{}{}</Lines></Piece></PolyData>\
+         <AppendedData encoding=\"raw\">_",
+        appended("Points", "Int8", places[0]),
+        appended("connectivity", "Int8", places[1]),
+        appended("offsets", "UInt8", places[2]),
+    );
+    let mut out = [head.into_bytes(), blocks.concat()].concat();
+    out.resize(FILE, b' ');
+    out
+}
+
+fn appended(name: &str, kind: &str, offset: usize) -> String {
+    format!("<DataArray Name=\"{name}\" type=\"{kind}\" format=\"appended\" offset=\"{offset}\"/>")
 }

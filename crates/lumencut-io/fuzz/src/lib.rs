@@ -1,25 +1,41 @@
 //! What must hold for any bytes that are read as a centerline file.
 
 mod memory;
+mod packed;
 
 use lumencut_io::{Error, Line, junctions, read, write_mrk_json, write_vtp};
+
+pub use packed::vtp as packed_vtp;
 
 /// The most memory that reading may take: this many times the size of the file.
 const MOST_TIMES: usize = 10;
 /// Smaller files may take what a file of this size (bytes) may.
 const SMALL: usize = 1 << 20;
 
-/// Reads `data` as a file of this name and checks what becomes of it.
+/// Lines of at most this many points are looked at in other units too.
+const FEW_POINTS: usize = 1000;
+
+/// Reads `data` as a file of this name, as every caller does, and checks what becomes of it.
 ///
 /// # Panics
 /// Where the lines are not sound, reading takes too much memory, or what is written is read back otherwise.
 pub fn check(data: &[u8], name: &str) {
-    let (vessels, peak) = memory::peak_of(|| read(data, name).map(junctions::vessels));
+    let (vessels, peak) =
+        memory::peak_of(|| read(data, name).and_then(|found| found.scaled(1.0)).map(junctions::vessels));
     let most = MOST_TIMES * data.len().max(SMALL);
     assert!(peak <= most, "reading {} bytes took {peak} bytes, more than {most}", data.len());
+    // In another unit the limit of the coordinates is another one.
+    let Ok(found) = read(data, name) else { return };
+    assert_sound(&found.lines);
+    if found.lines.iter().map(|line| line.points.len()).sum::<usize>() <= FEW_POINTS {
+        for factor in [10.0, 1e-3] {
+            let scaled = found.clone().scaled(factor).map(junctions::vessels);
+            scaled.iter().for_each(|vessels| assert_sound(&vessels.lines));
+        }
+    }
     let Ok(vessels) = vessels else { return };
-    // Lines are joined in place; what stood in the file is read once more.
-    let lines = read(data, name).expect("a file that was read before").lines;
+    // Lines are joined in place; what stood in the file is written too.
+    let lines = found.scaled(1.0).expect("a file that was read before").lines;
     for lines in [lines, vessels.lines] {
         assert_sound(&lines);
         assert_written_alike(lines);

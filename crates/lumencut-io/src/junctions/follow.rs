@@ -5,6 +5,7 @@ use std::cell::Cell;
 use glam::DVec3;
 
 use super::Path;
+use super::ids::Id;
 
 /// How far beside another line a line may run, as a part of the radius there.
 const PART_OF_RADIUS: f64 = 0.1;
@@ -33,7 +34,7 @@ pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
     let mut followed = 0;
     let left = Cell::new(MOST_COMPARISONS);
     // A path that follows another one leaves its own end behind, where a third path may begin.
-    let mut moved: Vec<(usize, usize)> = Vec::new();
+    let mut moved: Vec<(Id, Id)> = Vec::new();
     for i in 1..paths.len() {
         let (earlier, rest) = paths.split_at_mut(i);
         let path = &mut rest[0];
@@ -49,7 +50,7 @@ pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
         for (from, to) in &moved {
             path.nodes.iter_mut().filter(|node| *node == from).for_each(|node| *node = *to);
         }
-        drop_repeats(path);
+        path.drop_repeats();
     }
     Followed { ends: followed, whole: left.get() > 0 }
 }
@@ -104,8 +105,8 @@ fn longest(
 }
 
 /// Whether `other` begins or ends with this step, in either direction.
-fn shares_end(other: &Path, step: &[usize]) -> bool {
-    let is_step = |pair: &[usize]| pair == step || [pair[1], pair[0]] == step;
+fn shares_end(other: &Path, step: &[Id]) -> bool {
+    let is_step = |pair: &[Id]| pair == step || [pair[1], pair[0]] == step;
     is_step(&other.nodes[..2]) || is_step(&other.nodes[other.nodes.len() - 2..])
 }
 
@@ -126,7 +127,7 @@ impl Walk<'_> {
     }
 
     fn other_point(&self, i: usize) -> DVec3 {
-        self.points[self.other.nodes[self.other_index(i)]]
+        self.points[self.other.nodes[self.other_index(i)] as usize]
     }
 
     /// How far the path may run beside point `i` of the other (mm).
@@ -142,14 +143,14 @@ impl Walk<'_> {
     /// where the path is beside the other nowhere, or no comparison is left.
     fn along(&self) -> Option<(usize, usize, f64)> {
         let in_group = self.path.group.is_some() && self.path.group == self.other.group;
-        let first = self.points[self.path.nodes[0]];
+        let first = self.points[self.path.nodes[0] as usize];
         if first.distance(self.other_point(0)) > self.tolerance(0, in_group) {
             return None;
         }
         let (mut at, mut last, mut length) = (0, 0, 0.0);
         let mut before = first;
         for (i, node) in self.path.nodes.iter().enumerate().skip(1) {
-            let point = self.points[*node];
+            let point = self.points[*node as usize];
             let step = point.distance(before);
             let (segment, distance) = self.nearest(at, point, 2.0 * step + self.tolerance(at, in_group));
             if self.left.get() == 0 {
@@ -196,7 +197,7 @@ impl Walk<'_> {
 
 impl Shared {
     /// Gives `path` the other's points; returns the ends of the path that were replaced, and by what.
-    fn replace(self, path: &mut Path, earlier: &[Path]) -> Vec<(usize, usize)> {
+    fn replace(self, path: &mut Path, earlier: &[Path]) -> Vec<(Id, Id)> {
         let other = &earlier[self.other];
         let count = other.nodes.len();
         let index = |i: usize| if self.backwards { count - 1 - i } else { i };
@@ -217,13 +218,4 @@ impl Shared {
 fn reverse(path: &mut Path) {
     path.nodes.reverse();
     path.radius.iter_mut().for_each(|radius| radius.reverse());
-}
-
-fn drop_repeats(path: &mut Path) {
-    let kept: Vec<usize> =
-        (0..path.nodes.len()).filter(|i| *i == 0 || path.nodes[*i] != path.nodes[i - 1]).collect();
-    if kept.len() < path.nodes.len() {
-        path.radius = path.radius.as_ref().map(|radius| kept.iter().map(|i| radius[*i]).collect());
-        path.nodes = kept.iter().map(|i| path.nodes[*i]).collect();
-    }
 }

@@ -1,26 +1,25 @@
 //! Paths as a graph: shared stretches are the same edges, and chains between junctions are vessels.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 
 use super::Path;
+use super::ids::{Id, Incidence, Table, id, make_room};
 use crate::centerlines::Line;
 
 /// What an edge goes on as at one of its ends.
 #[derive(Clone, Copy, PartialEq)]
 enum Partner {
     None,
-    One(usize),
+    One(Id),
     Many,
 }
 
 /// A step between two places that at least one path makes.
 struct Edge {
     /// The two places, the smaller id first.
-    nodes: [usize; 2],
-    /// The radius (mm) at both, from the first path that has one.
-    radius: Option<[f64; 2]>,
+    nodes: [Id; 2],
+    /// The first path along it that has a radius, and the step that it is there.
+    radius: Option<[Id; 2]>,
     /// How the edge goes on at either place.
     partners: [Partner; 2],
     /// Whether every path along it has a group.
@@ -28,19 +27,26 @@ struct Edge {
 }
 
 impl Edge {
-    fn side(&self, node: usize) -> usize {
+    fn side(&self, node: Id) -> usize {
         usize::from(self.nodes[1] == node)
     }
 
-    fn other_end(&self, node: usize) -> usize {
+    fn other_end(&self, node: Id) -> Id {
         self.nodes[1 - self.side(node)]
+    }
+
+    /// The radius (mm) at one of the two places.
+    fn radius_at(&self, node: Id, paths: &[Path]) -> Option<f64> {
+        let [path, step] = self.radius?;
+        let (path, step) = (&paths[path as usize], step as usize);
+        let at = step + usize::from(path.nodes[step] != node);
+        path.radius.as_ref().map(|radius| radius[at])
     }
 }
 
 /// The chains of edges between junctions, as lines, in the order of the paths they come from.
 pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
-    let mut graph = Graph { edges: Vec::new(), ids: HashMap::new() };
-    let steps: Vec<Vec<usize>> = paths.iter().map(|path| graph.add(path)).collect();
+    let (mut graph, steps) = Graph::of(points.len(), paths);
     for (path, steps) in paths.iter().zip(&steps) {
         for (i, pair) in steps.windows(2).enumerate() {
             graph.pair(path.nodes[i + 1], pair[0], pair[1]);
@@ -51,9 +57,11 @@ pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
     let mut out = Vec::new();
     for (path, steps) in paths.iter().zip(&steps) {
         for (i, edge) in steps.iter().enumerate() {
-            if !done[*edge] {
+            if !done[*edge as usize] {
                 let (start, first) = graph.beginning(path.nodes[i], *edge);
-                out.push(graph.chain(points, start, first, &mut done, path));
+                let chain = graph.chain(start, first, &mut done);
+                let (points, radius) = graph.along(start, &chain, points, paths);
+                out.push(Line { points, radius, group: path.group, name: path.name.clone() });
             }
         }
     }
@@ -62,38 +70,51 @@ pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
 
 struct Graph {
     edges: Vec<Edge>,
-    ids: HashMap<[usize; 2], usize>,
+    /// How many steps are still to come.
+    left: usize,
 }
 
 impl Graph {
-    /// The edges of a path, new ones added.
-    fn add(&mut self, path: &Path) -> Vec<usize> {
-        let step = |(i, pair): (usize, &[usize])| {
-            let swap = usize::from(pair[0] > pair[1]);
-            let nodes = [pair[swap], pair[1 - swap]];
-            let radius = path.radius.as_ref().map(|r| [r[i + swap], r[i + 1 - swap]]);
-            let next = self.edges.len();
-            let id = *self.ids.entry(nodes).or_insert(next);
-            if id == next {
+    /// The edges of all paths, and the edge of every step of each.
+    fn of(places: usize, paths: &[Path]) -> (Self, Vec<Vec<Id>>) {
+        // A tree has about as many edges as places.
+        let expected = places + places / 16;
+        let steps: usize = paths.iter().map(|path| path.nodes.len() - 1).sum();
+        let mut graph = Self { edges: Vec::with_capacity(expected.min(steps)), left: steps };
+        let mut known = Table::default();
+        let steps = paths.iter().enumerate().map(|(i, path)| graph.add(path, id(i), &mut known)).collect();
+        (graph, steps)
+    }
+
+    /// The edges of path number `number`, new ones added.
+    fn add(&mut self, path: &Path, number: Id, known: &mut Table) -> Vec<Id> {
+        let step = |(i, pair): (usize, &[Id])| {
+            let nodes = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+            let radius = path.radius.is_some().then_some([number, id(i)]);
+            let same = known.like(&nodes).find(|edge| self.edges[*edge as usize].nodes == nodes);
+            let step = same.unwrap_or_else(|| {
+                make_room(&mut self.edges, self.left);
                 self.edges.push(Edge { nodes, radius, partners: [Partner::None; 2], grouped: true });
-            }
-            let edge = &mut self.edges[id];
+                known.push(&nodes)
+            });
+            self.left -= 1;
+            let edge = &mut self.edges[step as usize];
             edge.radius = edge.radius.or(radius);
             edge.grouped &= path.group.is_some();
-            id
+            step
         };
         path.nodes.windows(2).enumerate().map(step).collect()
     }
 
     /// Notes that a path goes from edge `a` to edge `b` at `node`, in either direction.
-    fn pair(&mut self, node: usize, a: usize, b: usize) {
+    fn pair(&mut self, node: Id, a: Id, b: Id) {
         if a == b {
             return;
         }
         for (from, to) in [(a, b), (b, a)] {
-            let side = self.edges[from].side(node);
-            let partner = &mut self.edges[from].partners[side];
-            *partner = match *partner {
+            let edge = &mut self.edges[from as usize];
+            let side = edge.side(node);
+            edge.partners[side] = match edge.partners[side] {
                 Partner::None => Partner::One(to),
                 Partner::One(known) if known == to => Partner::One(to),
                 _ => Partner::Many,
@@ -104,66 +125,83 @@ impl Graph {
     /// Pairs the edges of places where just two edges of lines with groups end at each other, and forbids to
     /// pass places where an edge ends or goes on in several ways.
     fn join_groups(&mut self, places: usize) {
-        let mut at: Vec<Vec<usize>> = vec![Vec::new(); places];
-        for (id, edge) in self.edges.iter().enumerate() {
-            edge.nodes.iter().for_each(|node| at[*node].push(id));
-        }
-        for (node, ids) in at.iter().enumerate() {
-            let partner = |id: &usize| self.edges[*id].partners[self.edges[*id].side(node)];
-            let ends = |id: &usize| partner(id) == Partner::None;
-            if ids.len() == 2 && ids.iter().all(|id| ends(id) && self.edges[*id].grouped) {
-                self.pair(node, ids[0], ids[1]);
-            } else if !ids.iter().all(|id| matches!(partner(id), Partner::One(_))) {
-                for id in ids {
-                    let side = self.edges[*id].side(node);
-                    self.edges[*id].partners[side] = Partner::None;
+        let incidence = Incidence::new(places, self.edges.len(), |edge| self.edges[edge].nodes);
+        for place in 0..places {
+            let (node, edges) = (id(place), incidence.at(place));
+            let ends = |edge: &Id| self.partner(node, *edge) == Partner::None;
+            let grouped = |edge: &Id| self.edges[*edge as usize].grouped;
+            if edges.len() == 2 && edges.iter().all(|edge| ends(edge) && grouped(edge)) {
+                self.pair(node, edges[0], edges[1]);
+            } else if !edges.iter().all(|edge| matches!(self.partner(node, *edge), Partner::One(_))) {
+                for edge in edges {
+                    let edge = &mut self.edges[*edge as usize];
+                    edge.partners[edge.side(node)] = Partner::None;
                 }
             }
         }
     }
 
-    fn next(&self, node: usize, edge: usize) -> Option<usize> {
-        match self.edges[edge].partners[self.edges[edge].side(node)] {
+    fn partner(&self, node: Id, edge: Id) -> Partner {
+        let edge = &self.edges[edge as usize];
+        edge.partners[edge.side(node)]
+    }
+
+    fn next(&self, node: Id, edge: Id) -> Option<Id> {
+        match self.partner(node, edge) {
             Partner::One(next) => Some(next),
             Partner::None | Partner::Many => None,
         }
     }
 
     /// Where the chain through `edge`, which is walked from `node`, begins: its first place and edge.
-    fn beginning(&self, node: usize, edge: usize) -> (usize, usize) {
+    fn beginning(&self, node: Id, edge: Id) -> (Id, Id) {
         let (mut at, mut current) = (node, edge);
         while let Some(before) = self.next(at, current) {
             if before == edge {
                 return (node, edge);
             }
-            at = self.edges[before].other_end(at);
+            at = self.edges[before as usize].other_end(at);
             current = before;
         }
         (at, current)
     }
 
-    /// The chain from the place `start` along `edge` to the next junction, or around to its first edge.
-    fn chain(&self, points: &[DVec3], start: usize, edge: usize, done: &mut [bool], path: &Path) -> Line {
-        let mut line = Line { points: vec![points[start]], name: path.name.clone(), ..Line::default() };
-        line.group = path.group;
-        let mut radius = Some(Vec::new());
-        let (mut at, mut current) = (start, Some(edge));
-        while let Some(id) = current.filter(|id| !done[*id]) {
-            done[id] = true;
-            let edge = &self.edges[id];
-            let side = edge.side(at);
-            radius = radius.zip(edge.radius).map(|(mut known, ends)| {
-                if known.is_empty() {
-                    known.push(ends[side]);
-                }
-                known.push(ends[1 - side]);
-                known
-            });
-            at = edge.nodes[1 - side];
-            line.points.push(points[at]);
-            current = self.next(at, id);
+    /// The edges from the place `start` along `first` to the next junction, or around to the first edge.
+    fn chain(&self, start: Id, first: Id, done: &mut [bool]) -> Vec<Id> {
+        let mut out = Vec::new();
+        let (mut at, mut current) = (start, Some(first));
+        while let Some(edge) = current.filter(|edge| !done[*edge as usize]) {
+            done[edge as usize] = true;
+            out.push(edge);
+            at = self.edges[edge as usize].other_end(at);
+            current = self.next(at, edge);
         }
-        line.radius = radius;
-        line
+        out
+    }
+
+    /// The points along a chain that begins at the place `start`, and the radius there where every edge has one.
+    fn along(
+        &self,
+        start: Id,
+        chain: &[Id],
+        places: &[DVec3],
+        paths: &[Path],
+    ) -> (Vec<DVec3>, Option<Vec<f64>>) {
+        let edge = |id: &Id| &self.edges[*id as usize];
+        let mut nodes = Vec::with_capacity(chain.len() + 1);
+        nodes.push(start);
+        nodes.extend(chain.iter().scan(start, |at, id| {
+            *at = edge(id).other_end(*at);
+            Some(*at)
+        }));
+        let points = nodes.iter().map(|node| places[*node as usize]).collect();
+        // The first place has the radius of the first edge, every other one that of the edge to it.
+        let edges = chain.iter().take(1).chain(chain).map(edge);
+        let radius = chain.iter().all(|id| edge(id).radius.is_some()).then(|| {
+            let mut out = Vec::with_capacity(nodes.len());
+            out.extend(nodes.iter().zip(edges).filter_map(|(node, edge)| edge.radius_at(*node, paths)));
+            out
+        });
+        (points, radius)
     }
 }

@@ -23,20 +23,33 @@
 
 mod follow;
 mod graph;
+mod ids;
 mod segments;
 mod weld;
 
 use crate::centerlines::{Centerlines, Line};
+use ids::{Id, MOST_POINTS};
 
 /// Beyond this many lines step 3 is left out: it compares each line with all before it.
 const MOST_LINES_TO_FOLLOW: usize = 1024;
 
 /// A line as ids of welded points, with the radius at each.
 struct Path {
-    nodes: Vec<usize>,
+    nodes: Vec<Id>,
     radius: Option<Vec<f64>>,
     group: Option<i64>,
     name: Option<String>,
+}
+
+impl Path {
+    /// Drops nodes that equal the one before.
+    fn drop_repeats(&mut self) {
+        if let Some(radius) = &mut self.radius {
+            let mut at = 0..self.nodes.len();
+            radius.retain(|_| at.next().is_some_and(|i| i == 0 || self.nodes[i] != self.nodes[i - 1]));
+        }
+        self.nodes.dedup();
+    }
 }
 
 /// The vessels that the lines (mm) of `centerlines` form, in place of the lines; end points that vessels share are
@@ -52,11 +65,13 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
     }
     let count = centerlines.lines.len();
     let spacing = median_spacing(&centerlines.lines);
-    if !weld::resolves(&centerlines.lines, spacing) {
+    let points: usize = centerlines.lines.iter().map(|line| line.points.len()).sum();
+    let too_many = (points > MOST_POINTS).then(|| format!("more than {MOST_POINTS} points"));
+    let too_close = || "points closer together than a billionth of their coordinates".into();
+    let reason = too_many.or_else(|| (!weld::resolves(&centerlines.lines, spacing)).then(too_close));
+    if let Some(reason) = reason {
         let mut whole = centerlines;
-        whole.notes.push(
-            "points closer together than a billionth of their coordinates: no lines were joined".into(),
-        );
+        whole.notes.push(format!("{reason}: no lines were joined"));
         return whole;
     }
     let Centerlines { lines, mut notes, .. } = centerlines;

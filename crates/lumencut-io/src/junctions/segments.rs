@@ -1,24 +1,25 @@
 //! Clouds of segments, each a line of its own in any order and direction, become the chains that they form.
 
-use std::collections::{HashMap, HashSet, VecDeque};
+use std::collections::{HashSet, VecDeque};
 
 use glam::DVec3;
 
 use super::Path;
+use super::ids::{Id, Incidence, id};
 
 /// Where most paths are single segments: joins them at places where just two of them meet. Other paths
 /// stay as they are; where one ends on a chain the graph cuts it. Notes what was done.
 ///
 /// Chains go the way of their segments where those follow each other throughout. Otherwise they run away from
 /// the open end with the largest radius, or the highest where no radius is known.
-pub fn join(points: &[DVec3], paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
+pub fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
     let is_segment = |path: &Path| path.nodes.len() == 2;
     let count = paths.iter().filter(|path| is_segment(path)).count();
     if count < 2 || count <= paths.len() / 2 {
         return paths;
     }
-    let (segments, others): (Vec<Path>, Vec<Path>) = paths.into_iter().partition(is_segment);
-    let cloud = Cloud::new(points, segments);
+    let others: Vec<Path> = paths.extract_if(.., |path| !is_segment(path)).collect();
+    let cloud = Cloud::new(points, paths);
     let mut chains = cloud.chains();
     if chains.len() < count {
         notes.push(format!("{count} single segments were joined to {} chain(s)", chains.len()));
@@ -36,7 +37,7 @@ pub fn join(points: &[DVec3], paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<
 struct Cloud {
     segments: Vec<Path>,
     /// The segments that end at each place.
-    at: Vec<Vec<usize>>,
+    at: Incidence,
     /// Whether chains pass each place.
     open: Vec<bool>,
     /// Whether the segments follow each other at all places that chains pass.
@@ -45,20 +46,18 @@ struct Cloud {
 
 impl Cloud {
     fn new(points: &[DVec3], segments: Vec<Path>) -> Self {
-        let mut known = HashSet::new();
-        let is_new =
-            |path: &Path| known.insert((path.nodes[0].min(path.nodes[1]), path.nodes[0].max(path.nodes[1])));
-        let segments: Vec<Path> = segments.into_iter().filter(is_new).collect();
-        let mut at = vec![Vec::new(); points.len()];
-        for (i, segment) in segments.iter().enumerate() {
-            segment.nodes.iter().for_each(|node| at[*node].push(i));
-        }
+        let segments = distinct(segments);
+        let at =
+            Incidence::new(points.len(), segments.len(), |i| [segments[i].nodes[0], segments[i].nodes[1]]);
         let alike = |a: &Path, b: &Path| a.name == b.name && a.group == b.group;
-        let open: Vec<bool> =
-            at.iter().map(|ids| ids.len() == 2 && alike(&segments[ids[0]], &segments[ids[1]])).collect();
-        let begins = |node: usize, i: usize| segments[i].nodes[0] == node;
-        let follows = |node: usize| begins(node, at[node][0]) != begins(node, at[node][1]);
-        let directed = (0..at.len()).filter(|node| open[*node]).all(follows);
+        let is_open = |place: usize| match at.at(place) {
+            [a, b] => alike(&segments[*a as usize], &segments[*b as usize]),
+            _ => false,
+        };
+        let open: Vec<bool> = (0..points.len()).map(is_open).collect();
+        let begins = |place: usize, i: Id| segments[i as usize].nodes[0] == id(place);
+        let follows = |place: usize| begins(place, at.at(place)[0]) != begins(place, at.at(place)[1]);
+        let directed = (0..points.len()).filter(|place| open[*place]).all(follows);
         Self { segments, at, open, directed }
     }
 
@@ -67,13 +66,13 @@ impl Cloud {
     }
 
     /// The other segment at a place that chains pass.
-    fn next(&self, node: usize, segment: usize) -> Option<usize> {
-        let at = &self.at[node];
-        self.open[node].then(|| if at[0] == segment { at[1] } else { at[0] })
+    fn next(&self, node: Id, segment: Id) -> Option<Id> {
+        let at = self.at.at(node as usize);
+        self.open[node as usize].then(|| if at[0] == segment { at[1] } else { at[0] })
     }
 
-    fn other_end(&self, node: usize, segment: usize) -> usize {
-        let nodes = &self.segments[segment].nodes;
+    fn other_end(&self, node: Id, segment: Id) -> Id {
+        let nodes = &self.segments[segment as usize].nodes;
         if nodes[0] == node { nodes[1] } else { nodes[0] }
     }
 
@@ -83,7 +82,7 @@ impl Cloud {
         let mut out = Vec::new();
         for first in 0..self.segments.len() {
             if !done[first] {
-                let (node, segment) = self.beginning(first);
+                let (node, segment) = self.beginning(id(first));
                 out.push(self.chain(node, segment, &mut done));
             }
         }
@@ -91,11 +90,12 @@ impl Cloud {
     }
 
     /// The place and segment where the chain through `first` begins; around a loop `first` itself.
-    fn beginning(&self, first: usize) -> (usize, usize) {
-        let (mut node, mut segment) = (self.segments[first].nodes[0], first);
+    fn beginning(&self, first: Id) -> (Id, Id) {
+        let start = self.segments[first as usize].nodes[0];
+        let (mut node, mut segment) = (start, first);
         while let Some(before) = self.next(node, segment) {
             if before == first {
-                return (self.segments[first].nodes[0], first);
+                return (start, first);
             }
             node = self.other_end(node, before);
             segment = before;
@@ -103,14 +103,14 @@ impl Cloud {
         (node, segment)
     }
 
-    fn chain(&self, start: usize, first: usize, done: &mut [bool]) -> Path {
-        let Path { group, name, .. } = &self.segments[first];
+    fn chain(&self, start: Id, first: Id, done: &mut [bool]) -> Path {
+        let Path { group, name, .. } = &self.segments[first as usize];
         let mut path =
             Path { nodes: vec![start], radius: Some(Vec::new()), group: *group, name: name.clone() };
         let (mut node, mut next) = (start, Some(first));
-        while let Some(i) = next.filter(|i| !done[*i]) {
-            done[i] = true;
-            let segment = &self.segments[i];
+        while let Some(i) = next.filter(|i| !done[*i as usize]) {
+            done[i as usize] = true;
+            let segment = &self.segments[i as usize];
             let side = usize::from(segment.nodes[0] != node);
             path.radius = path.radius.take().zip(segment.radius.as_ref()).map(|(mut known, ends)| {
                 if known.is_empty() {
@@ -127,49 +127,60 @@ impl Cloud {
     }
 }
 
+/// The first of all segments between the same places.
+fn distinct(mut segments: Vec<Path>) -> Vec<Path> {
+    let mut known = HashSet::new();
+    segments.retain(|path| {
+        let [a, b] = [path.nodes[0], path.nodes[1]];
+        known.insert([a.min(b), a.max(b)])
+    });
+    segments
+}
+
 /// Gives chains without a direction one that does not depend on the order of the file.
 struct Orientation<'a> {
     points: &'a [DVec3],
     chains: Vec<Option<Path>>,
     /// The chains that end at each place.
-    ends: HashMap<usize, Vec<usize>>,
+    ends: Incidence,
 }
 
 impl<'a> Orientation<'a> {
     fn new(points: &'a [DVec3], chains: Vec<Path>) -> Self {
-        let mut ends: HashMap<usize, Vec<usize>> = HashMap::new();
-        for (i, chain) in chains.iter().enumerate() {
-            let nodes = [chain.nodes[0], chain.nodes[chain.nodes.len() - 1]];
-            nodes.iter().for_each(|node| ends.entry(*node).or_default().push(i));
-        }
+        let ends = |i: usize| [chains[i].nodes[0], chains[i].nodes[chains[i].nodes.len() - 1]];
+        let ends = Incidence::new(points.len(), chains.len(), ends);
         Self { points, chains: chains.into_iter().map(Some).collect(), ends }
     }
 
     /// Where a vessel is likelier to come from than from another place: an open end, wide, high.
-    fn rank(&self, node: usize) -> [f64; 5] {
-        let chains = &self.ends[&node];
-        let radius = chains.iter().filter_map(|i| self.chains[*i].as_ref()).filter_map(|chain| {
+    fn rank(&self, node: Id) -> [f64; 5] {
+        let chains = self.ends.at(node as usize);
+        let radius = chains.iter().filter_map(|i| self.chains[*i as usize].as_ref()).filter_map(|chain| {
             let radius = chain.radius.as_ref()?;
             if chain.nodes[0] == node { radius.first() } else { radius.last() }
         });
-        let [x, y, z] = self.points[node].to_array();
+        let [x, y, z] = self.points[node as usize].to_array();
         [f64::from(u8::from(chains.len() == 1)), radius.copied().fold(0.0, f64::max), z, y, x]
     }
 
     /// All chains, each directed away from the root of its tree, the trees with the widest roots first.
     fn away_from_roots(mut self) -> Vec<Path> {
-        let mut roots: Vec<([f64; 5], usize)> =
-            self.ends.keys().map(|node| (self.rank(*node), *node)).collect();
+        let ends = (0..self.points.len()).filter(|place| !self.ends.at(*place).is_empty()).map(id);
+        let mut roots: Vec<([f64; 5], Id)> = ends.map(|node| (self.rank(node), node)).collect();
         roots.sort_by(|a, b| descending(&a.0, &b.0));
+        let mut left = vec![true; self.points.len()];
         let mut out = Vec::new();
         for (_, root) in roots {
             let mut next = VecDeque::from([root]);
             while let Some(node) = next.pop_front() {
-                let from = out.len();
-                for i in self.ends.remove(&node).unwrap_or_default() {
-                    out.extend(self.chains[i].take().map(|chain| begun_at(node, chain)));
+                if !std::mem::take(&mut left[node as usize]) {
+                    continue;
                 }
-                let second = |chain: &Path| self.points[chain.nodes[1]].to_array();
+                let from = out.len();
+                for i in self.ends.at(node as usize) {
+                    out.extend(self.chains[*i as usize].take().map(|chain| begun_at(node, chain)));
+                }
+                let second = |chain: &Path| self.points[chain.nodes[1] as usize].to_array();
                 out[from..].sort_by(|a, b| descending(&second(a), &second(b)));
                 next.extend(out[from..].iter().filter_map(|chain: &Path| chain.nodes.last()));
             }
@@ -183,7 +194,7 @@ fn descending(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
     pairs.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
 }
 
-fn begun_at(node: usize, mut chain: Path) -> Path {
+fn begun_at(node: Id, mut chain: Path) -> Path {
     if chain.nodes[0] != node {
         chain.nodes.reverse();
         chain.radius.iter_mut().for_each(|radius| radius.reverse());

@@ -1,10 +1,9 @@
 //! Points of lines that are the same place become one point.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 
 use super::Path;
+use super::ids::{Id, Table, make_room};
 use crate::centerlines::Line;
 
 /// Weld distance as a part of the median spacing of the points.
@@ -22,41 +21,51 @@ pub fn resolves(lines: &[Line], spacing: f64) -> bool {
 /// coordinates of the first point that was found there. The spacing [`resolves`] the lines.
 pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     let distance = spacing * PART_OF_SPACING;
-    let mut grid = Grid { distance, points: Vec::new(), cells: HashMap::new() };
+    let count = lines.iter().map(|line| line.points.len()).sum();
+    let mut grid = Grid { distance, left: count, points: Vec::new(), cells: Table::default() };
     let paths = lines.into_iter().filter_map(|line| path(line, &mut grid)).collect();
     (grid.points, paths)
 }
 
 /// The path of a line; `None` where all its points are one place.
 fn path(line: Line, grid: &mut Grid) -> Option<Path> {
-    let all: Vec<usize> = line.points.into_iter().map(|p| grid.place(p)).collect();
-    let kept: Vec<usize> = (0..all.len()).filter(|i| *i == 0 || all[*i] != all[i - 1]).collect();
-    let nodes: Vec<usize> = kept.iter().map(|i| all[*i]).collect();
-    let radius = line.radius.map(|radius| kept.iter().map(|i| radius[*i]).collect());
-    (nodes.len() >= 2).then_some(Path { nodes, radius, group: line.group, name: line.name })
+    let nodes = line.points.iter().map(|p| grid.place(*p)).collect();
+    let mut path = Path { nodes, radius: line.radius, group: line.group, name: line.name };
+    path.drop_repeats();
+    (path.nodes.len() >= 2).then_some(path)
 }
 
 /// Points in cubic cells as wide as the weld distance, which may hold only a few points each.
 struct Grid {
     distance: f64,
+    /// How many points are still to come.
+    left: usize,
     points: Vec<DVec3>,
-    cells: HashMap<[i64; 3], Vec<usize>>,
+    cells: Table,
 }
 
 impl Grid {
     /// The id of the place at `point`.
-    fn place(&mut self, point: DVec3) -> usize {
-        let cell = (point / self.distance).floor().to_array().map(|c| c as i64);
+    fn place(&mut self, point: DVec3) -> Id {
+        let cell = self.cell(point);
+        self.left -= 1;
         for offset in 0..27 {
             let near = [offset % 3, offset / 3 % 3, offset / 9];
             let near = [0, 1, 2].map(|axis| cell[axis].saturating_add(near[axis] - 1));
-            let known = self.cells.get(&near).into_iter().flatten();
-            if let Some(id) = known.copied().find(|id| self.points[*id].distance(point) < self.distance) {
-                return id;
+            let is_here = |id: &Id| {
+                let known = self.points[*id as usize];
+                known.distance(point) < self.distance && self.cell(known) == near
+            };
+            if let Some(first) = self.cells.like(&near).filter(is_here).min() {
+                return first;
             }
         }
+        make_room(&mut self.points, self.left + 1);
         self.points.push(point);
-        self.cells.entry(cell).or_default().push(self.points.len() - 1);
-        self.points.len() - 1
+        self.cells.push(&cell)
+    }
+
+    fn cell(&self, point: DVec3) -> [i64; 3] {
+        (point / self.distance).floor().to_array().map(|c| c as i64)
     }
 }

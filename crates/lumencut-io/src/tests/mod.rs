@@ -3,6 +3,7 @@
 mod formats;
 mod hostile;
 mod joining;
+mod markups;
 mod other_formats;
 mod robust;
 mod sample;

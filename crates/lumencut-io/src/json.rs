@@ -1,0 +1,95 @@
+//! JSON that stays text: what is wanted of a value is looked up in it, and nothing else is kept.
+
+use std::fmt;
+
+use serde_core::Deserializer;
+use serde_core::de::{IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde_json::value::RawValue;
+
+use crate::error::Result;
+
+/// A value of a sound JSON text.
+#[derive(Clone, Copy)]
+pub struct Json<'a>(&'a RawValue);
+
+impl<'a> Json<'a> {
+    /// The value that a whole file is.
+    ///
+    /// # Errors
+    /// Where the file is no JSON.
+    pub fn of(bytes: &'a [u8]) -> serde_json::Result<Self> {
+        serde_json::from_slice(bytes).map(Self)
+    }
+
+    /// The text that stands in the file.
+    pub fn raw(self) -> &'a str {
+        self.0.get()
+    }
+
+    /// The text of a string.
+    pub fn text(self) -> Option<String> {
+        serde_json::from_str(self.raw()).ok()
+    }
+
+    pub fn number(self) -> Option<f64> {
+        serde_json::from_str(self.raw()).ok()
+    }
+
+    /// The numbers of a list of just three.
+    pub fn three_numbers(self) -> Option<[f64; 3]> {
+        serde_json::from_str(self.raw()).ok()
+    }
+
+    /// The fields of an object by their names, of each the last; `None` for those that are null or missing, and
+    /// of values that are no objects.
+    pub fn fields<const N: usize>(self, names: [&str; N]) -> [Option<Self>; N] {
+        let fields = serde_json::Deserializer::from_str(self.raw()).deserialize_map(Fields(names));
+        fields.unwrap_or([None; N]).map(|field| field.filter(|value| value.raw() != "null"))
+    }
+
+    /// Calls `take` with every element of a list and its index up to the first error; gives the number of
+    /// elements, `None` for values that are no lists.
+    pub fn each(self, take: impl FnMut(usize, Self) -> Result<()>) -> Option<Result<usize>> {
+        serde_json::Deserializer::from_str(self.raw()).deserialize_seq(Each(take)).ok()
+    }
+}
+
+struct Fields<'n, const N: usize>([&'n str; N]);
+
+impl<'a, const N: usize> Visitor<'a> for Fields<'_, N> {
+    type Value = [Option<Json<'a>>; N];
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'a>>(self, mut map: A) -> std::result::Result<Self::Value, A::Error> {
+        let mut out = [None; N];
+        while let Some(key) = map.next_key::<String>()? {
+            match self.0.iter().position(|name| *name == key) {
+                Some(i) => out[i] = Some(Json(map.next_value()?)),
+                None => drop(map.next_value::<IgnoredAny>()?),
+            }
+        }
+        Ok(out)
+    }
+}
+
+struct Each<F>(F);
+
+impl<'a, F: FnMut(usize, Json<'a>) -> Result<()>> Visitor<'a> for Each<F> {
+    type Value = Result<usize>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a list")
+    }
+
+    fn visit_seq<A: SeqAccess<'a>>(mut self, mut list: A) -> std::result::Result<Self::Value, A::Error> {
+        let mut count = Ok(0);
+        // The parser wants the list to its end, errors or not.
+        while let Some(element) = list.next_element()? {
+            count = count.and_then(|i| (self.0)(i, Json(element)).map(|()| i + 1));
+        }
+        Ok(count)
+    }
+}
