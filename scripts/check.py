@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
 PORTABLE = ("--package", "lumencut-core", "--package", "lumencut-io", "--package", "lumencut-gpu")
 SCRIPTS = ("scripts/check.py", "scripts/fuzz.py", "scripts/toolchain.py", "scripts/wasm_size.py")
-FUZZ_RUNS = 220_000
+FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
 WEB = "target/wasm32-unknown-unknown/wasm/examples/web.wasm"
 
