@@ -20,7 +20,7 @@ impl CenterlineFile {
     /// Reads the content of the file `name`.
     #[new]
     fn new(py: Python<'_>, content: &[u8], name: String) -> PyResult<Self> {
-        let lines = py.detach(|| lumencut_io::read(content, &name)).map_err(raised)?;
+        let lines = py.detach(|| lumencut_io::read(content, &name)).map_err(|error| raised(&error))?;
         Ok(Self { name, lines })
     }
 
@@ -64,12 +64,12 @@ impl CenterlineFile {
     fn vessels<'py>(&self, py: Python<'py>, mm_per_unit: f64) -> PyResult<(Vec<Vessel<'py>>, Vec<String>)> {
         let lines = self.lines.clone();
         let placed = py.detach(|| lines.scaled(mm_per_unit).map(junctions::vessels));
-        let placed = placed.map_err(|error| raised(error.in_file(&self.name)))?;
+        let placed = placed.map_err(|error| raised(&error.in_file(&self.name)))?;
         Ok((placed.lines.into_iter().map(|line| vessel(py, line)).collect(), placed.notes))
     }
 }
 
-fn raised(error: Error) -> PyErr {
+fn raised(error: &Error) -> PyErr {
     exception("FormatError", &error.subject, &error.found, &error.expected, &error.mend)
 }
 
