@@ -84,7 +84,7 @@ def test_info_decides_by_the_volume_and_says_so(files):
     assert "  > the file states no space and no unit; 0 of 25 points" in result.stdout
     assert re.search(r"inside +25\n", result.stdout)
     found = json.loads(info("--json", *files).stdout)["files"][1]
-    assert found["decisions"][0].endswith('read so; coordinates="ras" confirms it')
+    assert found["decisions"][0].endswith("read so; --coordinates ras confirms it")
     alone = json.loads(info("--json", files[1]).stdout)["files"][0]
     assert alone["decisions"] == ["the file states no space and no unit; lps in mm is assumed"]
 

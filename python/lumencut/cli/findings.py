@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from lumencut.cli.report import bar
+from lumencut.cli.report import bar, one_line
 from lumencut.errors import FormatError, SeriesError
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def of_centerlines(
         tree, report = file.placed(coordinates, unit, _grid(volumes[0]) if volumes else None)
     except FormatError as error:
         tree, report = file.placed(coordinates, unit)
-        undecided = [f"{error.found}; {error.mend}"]
+        undecided = [one_line(f"{error.found}; {error.mend}")]
     lengths, radii = [vessel.length for vessel in tree], [vessel.radius for vessel in tree]
     known = [float(value) for radius in radii if radius is not None for value in (radius.min(), radius.max())]
     degrees = _ends(tree)
@@ -100,7 +100,7 @@ def of_centerlines(
         "space": f"{report.space} ({_ORIGINS[report.space_from]})",
         "unit": f"{report.unit} ({_ORIGINS[report.unit_from]})",
         "bounds_mm": tree.bounds.round(3).tolist(),
-        "decisions": [report.decision] if report.decision else [],
+        "decisions": [one_line(report.decision)] if report.decision else [],
         "notes": [*undecided, *report.notes, *_odd_tree(tree)],
         "_tree": tree,
     }

@@ -55,12 +55,12 @@ def detail(text: str) -> None:
 
 def warn(text: object) -> None:
     """Print a warning in one line."""
-    click.echo(f"lumencut: warning: {_one_line(text)}", err=True)
+    click.echo(f"lumencut: warning: {one_line(text)}", err=True)
 
 
 def complain(text: object) -> None:
     """Print an error in one line."""
-    click.echo(f"lumencut: error: {_one_line(text)}", err=True)
+    click.echo(f"lumencut: error: {one_line(text)}", err=True)
 
 
 def timings(title: str, milliseconds: dict[str, float]) -> None:
@@ -102,7 +102,8 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
     ctx.exit(FAILED)
 
 
-def _one_line(text: object) -> str:
+def one_line(text: object) -> str:
+    """Say something in one line, with options in place of the library's arguments."""
     # Names of files may hold anything, what steers a terminal too.
     line = "".join(letter if letter.isprintable() else "�" for letter in " ".join(str(text).split()))
     # The library names its arguments; here they are options.
