@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import gdcm
 import numpy as np
 import pydicom
 import pytest
 import SimpleITK
 from pydicom.uid import ExplicitVRLittleEndian
 
+from dicom_codecs import gdcm_does
 from lumencut.errors import FormatError
 from lumencut.volume_files import inspect_volume, read_volume
 from volume_samples import DATA, SIZE, assert_maps, coded, oblique, save, slice_of, write_stack
@@ -104,25 +104,10 @@ def test_transfer_syntaxes(tmp_path, syntax, dtype):
         array -= 2000
     folder = write_stack(tmp_path / "series", array, AXIAL)
     for path in folder.iterdir():
-        transcode(path, syntax)
+        gdcm_does(syntax)(path)
     uids = {pydicom.dcmread(path).file_meta.TransferSyntaxUID for path in folder.iterdir()}
     assert ExplicitVRLittleEndian not in uids
     np.testing.assert_array_equal(read_volume(folder).array, array)
-
-
-def transcode(path, syntax):
-    reader = gdcm.ImageReader()
-    reader.SetFileName(str(path))
-    assert reader.Read()
-    change = gdcm.ImageChangeTransferSyntax()
-    change.SetTransferSyntax(gdcm.TransferSyntax(getattr(gdcm.TransferSyntax, syntax)))
-    change.SetInput(reader.GetImage())
-    assert change.Change()
-    writer = gdcm.ImageWriter()
-    writer.SetFileName(str(path))
-    writer.SetFile(reader.GetFile())
-    writer.SetImage(change.GetOutput())
-    assert writer.Write()
 
 
 def test_no_preamble_and_implicit(tmp_path):

@@ -14,14 +14,18 @@ pub type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray
 /// Points (n, 3) and radii (n,) of one vessel, made by this module.
 type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
 
-fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
+/// The rows of points (n, 3).
+pub fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
     let shape = points.shape();
     if shape[1] != 3 {
         let found = format!("shape {shape:?}");
         return Err(exception("VesselTreeError", "points of the vessel", &found, "shape (n, 3)", ""));
     }
-    let rows = points.as_array();
-    let points = rows.rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect();
+    Ok(points.as_array().rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect())
+}
+
+fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
+    let points = points_of(points)?;
     let radius = radius.as_ref().map(|r| r.as_array().to_vec());
     Vessel::new(points, radius).map_err(to_python)
 }

@@ -1,12 +1,12 @@
 //! Centerline files for `lumencut.centerline_writers`.
 
-use glam::DVec3;
 use lumencut_io::{Line, write_mrk_json, write_vtp};
-use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::errors::exception;
+use crate::tree::points_of;
 
 /// Points (n, 3), radii (n,) and name of one vessel.
 type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>, Option<String>);
@@ -32,12 +32,6 @@ pub fn write_centerlines<'py>(
 }
 
 fn line((points, radius, name): NamedVessel) -> PyResult<Line> {
-    let shape = points.shape();
-    if shape[1] != 3 {
-        let found = format!("shape {shape:?}");
-        return Err(exception("VesselTreeError", "points of the vessel", &found, "shape (n, 3)", ""));
-    }
-    let rows = points.as_array();
-    let points = rows.rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect();
+    let points = points_of(&points)?;
     Ok(Line { points, radius: radius.map(|r| r.as_array().to_vec()), group: None, name })
 }
