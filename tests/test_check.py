@@ -105,7 +105,8 @@ def test_a_missing_command_or_report_is_red(check):
 def test_ci_leaves_no_test_of_the_gpu_out(check, monkeypatch, ci):
     monkeypatch.setenv("CI", ci)
     wanted = {"LUMENCUT_REQUIRE_GPU": "1"} if ci else {}
-    assert [one.environment for one in check.test_checks("report.xml")] == [wanted] * 2
+    counted = [one for one in check.test_checks("report.xml") if one.count]
+    assert [one.environment for one in counted] == [wanted] * 2
     assert check.lint_checks()[0].command[-1] == "vulkan"
 
 
