@@ -46,7 +46,13 @@ const GROUP_NAME: &str = "GroupIds";
 
 /// Whether the array of this name is read from point or cell data.
 pub fn wanted(name: &str) -> bool {
-    name == GROUP_NAME || name == HAS_NAME || name.to_ascii_lowercase().contains("radi")
+    name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name)
+}
+
+/// Whether a name holds the word radius, and is not that of a curvature; a gradient is none.
+pub fn names_radius(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")
 }
 
 /// The space that the text `LPS` or `RAS` names.
@@ -113,10 +119,7 @@ impl PolyData {
         let named = RADIUS_NAMES.iter().find_map(|name| {
             self.point_arrays.iter().filter(scalar).find(|array| array.name.eq_ignore_ascii_case(name))
         });
-        let like = || {
-            let is_radius = |array: &&Array| array.name.to_ascii_lowercase().contains("radi");
-            self.point_arrays.iter().filter(scalar).find(is_radius)
-        };
+        let like = || self.point_arrays.iter().filter(scalar).find(|array| names_radius(&array.name));
         let Some(array) = named.or_else(like) else { return Ok(None) };
         one_value_each(array, points, "point")?;
         let note = format!("radius from the point array '{}'", array.name);

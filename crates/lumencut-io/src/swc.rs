@@ -27,7 +27,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     if let Some(scale) = unused_scale(bytes) {
         out.notes.push(format!("the comment {} was not applied", excerpt(&scale)));
     }
-    out.tidy()
+    out.without_zero_radii().tidy()
 }
 
 /// A comment `SCALE` in front of the nodes that is not 1 along all axes. Programs differ in whether the
