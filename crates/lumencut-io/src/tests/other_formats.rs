@@ -210,6 +210,24 @@ fn fiducials_are_one_line_in_their_space() {
 }
 
 #[test]
+fn a_point_array_of_vtk_is_a_radius_only_by_its_name() {
+    let head = "# vtk DataFile Version 3.0\n-\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n0 0 0\n0 0 9\n\
+                LINES 1 3\n2 0 1\nPOINT_DATA 2\n";
+    let with = |arrays: &[(&str, &str)]| {
+        let of = |(name, values): &(&str, &str)| {
+            format!("SCALARS {name} double\nLOOKUP_TABLE default\n{values}\n")
+        };
+        ok(head.to_owned() + &arrays.iter().map(of).collect::<String>(), "a.vtk").lines[0].radius.clone()
+    };
+    assert_eq!(with(&[("GradientMagnitude", "3 4")]), None);
+    assert_eq!(with(&[("RadiusOfCurvature", "3 4")]), None);
+    assert_eq!(with(&[("Radius", "0 0")]), None, "no program knows a vessel of no size");
+    assert_eq!(with(&[("Radius", "0 4")]), Some(vec![0.0, 4.0]));
+    assert_eq!(with(&[("Diameter", "3 4")]), Some(vec![1.5, 2.0]));
+    assert_eq!(with(&[("MinDiameter", "3 4"), ("MeanRadius", "5 6")]), Some(vec![5.0, 6.0]));
+}
+
+#[test]
 fn references_are_told_by_their_five_columns_or_their_name() {
     let five = "1 2 3 0.5 0.1\n1 2 4 0.5 0.1\n";
     let read = ok(five, "vessel.txt");
