@@ -122,8 +122,20 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<()>
         points.push(points[0]);
         radius.iter_mut().for_each(|r| r.push(r[0]));
     }
+    if kind != "Line" && !out.joined && points.windows(3).any(is_corner) {
+        out.note_once(
+            "control points far apart were joined by straight lines, where 3D Slicer may show a smooth curve"
+                .into(),
+        );
+    }
     out.lines.push(Line { points, radius, group: None, name: markup.name.and_then(Json::text) });
     Ok(())
+}
+
+/// Whether a line through three points turns by more than 30° at the second.
+fn is_corner(points: &[DVec3]) -> bool {
+    let [before, behind] = [points[1] - points[0], points[2] - points[1]];
+    before.dot(behind) < 0.75_f64.sqrt() * before.length() * behind.length()
 }
 
 /// The stated space, by name or by the number that 3D Slicer gives it.

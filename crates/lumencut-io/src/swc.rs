@@ -103,7 +103,9 @@ impl Tree {
             None => Ok(None),
             Some(id) => index(id).map(Some).ok_or_else(|| {
                 let found = format!("the parent {id}, which is no node of the file");
-                Error::truncated(format!("line {}", node.line), found, "the id of a node, or -1 for a root")
+                let expected = "the id of a node, or -1 for a root";
+                let error = Error::truncated(format!("line {}", node.line), found, expected);
+                if id == 0 { error.mend("write -1 as the parent of roots") } else { error }
             }),
         };
         let parents = nodes.iter().map(parent).collect::<Result<Vec<Option<usize>>>>()?;

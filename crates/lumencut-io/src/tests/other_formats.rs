@@ -86,6 +86,11 @@ fn swc_branches_share_their_ends_whatever_the_order_of_nodes() {
     assert_eq!(scaled.notes, read.notes);
     let scaled = ok(format!("# SCALE 0.5 0.5 2\n{tree}"), "a.swc");
     assert_eq!(scaled.notes[0], "the comment 'SCALE 0.5 0.5 2' was not applied");
+    assert!(message("1 1 0 0 0 2 0\n2 1 0 0 1 2 1\n", "a.swc").ends_with("write -1 as the parent of roots"));
+    let zero = ok("1 1 0 0 0 0 -1\n2 1 0 0 1 0 1\n", "a.swc");
+    assert!(zero.lines[0].radius.is_none() && zero.notes[0].contains("every radius is 0"));
+    let unnamed = ok(sample::npy(&[[1.5, 2.0, 3.0, 1.0], [1.5, 2.0, 4.0, 1.0]], 4, "<f8", false, 1), "a.npy");
+    assert_eq!(unnamed.notes, ["radius from the fourth column, which nothing names (1 everywhere)"]);
     assert_eq!(ok("1.0 1 0 0 0 2 -1.0\n2.0 1 0 0 1 2 1.0", "a.swc").lines.len(), 1);
 }
 
