@@ -128,6 +128,13 @@ def test_what_the_volume_cannot_tell_is_asked_for(tmp_path):
         read_centerlines(path, unit="inch")
 
 
+def test_another_unit_that_fits_the_volume_too_is_named(tmp_path, caplog):
+    path = write_vtk(tmp_path, POINTS)
+    with caplog.at_level("INFO", "lumencut"):
+        read_centerlines(path, "lps", volume=volume_around(np.concatenate([POINTS, 10 * POINTS])))
+    assert "lps in mm fits the volume (3 of 3 points inside), but lps in cm would fit too" in caplog.text
+
+
 def test_what_hardly_fits_the_volume_is_logged_as_a_doubt(tmp_path, caplog):
     line = np.linspace([10, 100, 10], [20, 140, 190], 100)
     volume = Volume(np.zeros((60, 150, 30), np.uint8))

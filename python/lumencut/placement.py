@@ -144,7 +144,13 @@ def _chosen(best: Place, usual: Place, counts: dict[Place, int], total: int) -> 
             for (space, unit), count in counts.items()
             if space != best[0] and unit == best[1]
         )
-        return f"{_named(best)} fits the volume ({counts[best]} of {total} points inside{others})"
+        also = [
+            _named(place)
+            for place, count in counts.items()
+            if place[1] != best[1] and count >= _AS_GOOD * counts[best]
+        ]
+        doubt = f", but {' and '.join(also)} would fit too" if also else ""
+        return f"{_named(best)} fits the volume ({counts[best]} of {total} points inside{others}){doubt}"
     options = {f'coordinates="{best[0]}"': best[0] != usual[0], f'unit="{best[1]}"': best[1] != usual[1]}
     given = " and ".join(option for option, needed in options.items() if needed)
     return (

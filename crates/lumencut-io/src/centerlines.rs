@@ -85,6 +85,33 @@ impl Centerlines {
         }
     }
 
+    /// Takes radii that are 0 everywhere as missing, as programs write them that know none, and notes it.
+    pub(crate) fn without_zero_radii(mut self) -> Self {
+        let mut radii = self.lines.iter().filter_map(|line| line.radius.as_ref()).flatten().peekable();
+        if radii.peek().is_some() && radii.all(|radius| *radius == 0.0) {
+            self.lines.iter_mut().for_each(|line| line.radius = None);
+            self.notes.push("every radius is 0: taken as missing".into());
+        }
+        self
+    }
+
+    /// Notes what numbers that nothing names may be instead: indices of voxels, or a fourth column that is no
+    /// radius.
+    pub(crate) fn doubt_unnamed_columns(&mut self) {
+        let mut numbers = self.lines.iter().flat_map(|line| &line.points).flat_map(|p| p.to_array());
+        if numbers.all(|number| number.fract() == 0.0) {
+            self.note_once(
+                "all coordinates are whole numbers: perhaps indices of voxels, which are not mm".into(),
+            );
+        }
+        let mut radii = self.lines.iter().filter_map(|line| line.radius.as_ref()).flatten();
+        if let Some(first) = radii.next() {
+            let same =
+                if radii.all(|r| r == first) { format!(" ({first} everywhere)") } else { String::new() };
+            self.note_once(format!("radius from the fourth column, which nothing names{same}"));
+        }
+    }
+
     /// Checks every line, drops repeated points and lines that are no lines, and notes both.
     ///
     /// # Errors

@@ -36,7 +36,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     if out.lines.is_empty() {
         return Err(Error::new("", format!("{} object(s) and no tube", objects.len()), "a scene with tubes"));
     }
-    out.tidy()
+    out.without_zero_radii().tidy()
 }
 
 /// All objects of the file, tubes with their lines, which are not yet placed.

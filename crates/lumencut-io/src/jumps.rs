@@ -2,37 +2,64 @@
 
 use crate::centerlines::{Centerlines, Line};
 
-/// A step this many times as long as the median leads to the next line: no vessel runs there.
+/// A step this many times as long as the median may lead to the next line: no vessel runs there.
 const JUMP: f64 = 20.0;
+/// It does so where it also is this many times as long as the steps before and behind it; else the points
+/// stand further apart there.
+const LOCAL_JUMP: f64 = 5.0;
 /// Fewer points do not tell what step is usual.
 const FEWEST_POINTS: usize = 8;
 
 impl Centerlines {
-    /// Parts every line where it jumps, and notes it.
+    /// Parts every line where it jumps, and notes it, and the long steps that are no jumps.
     pub(crate) fn parted_at_jumps(mut self) -> Self {
         let count = self.lines.len();
         let lines = std::mem::take(&mut self.lines);
-        self.lines = lines.into_iter().flat_map(parted).collect();
+        let mut kept = 0;
+        for line in lines {
+            let ends = ends_at_jumps(&line, &mut kept);
+            self.lines.extend(parted(line, ends));
+        }
         let parts = self.lines.len();
+        let kind = format!("steps more than {JUMP} times as long as the usual one");
         if parts > count {
-            let kind = format!("steps more than {JUMP} times as long as the usual one");
             self.notes
                 .push(format!("{count} list(s) of points with {kind}: parted into {parts} lines there"));
+        }
+        if kept > 0 {
+            self.notes
+                .push(format!("{kept} {kind} at an end or beside other long ones were kept in their line"));
         }
         self
     }
 }
 
-fn parted(line: Line) -> Vec<Line> {
+/// Where the parts of a line end; the last one ends with the line. Counts long steps that are no jumps.
+fn ends_at_jumps(line: &Line, kept: &mut usize) -> Vec<usize> {
+    let whole = vec![line.points.len()];
     let steps: Vec<f64> = line.points.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
-    let mut moved: Vec<f64> = steps.iter().copied().filter(|step| *step > 0.0).collect();
-    if moved.len() < FEWEST_POINTS - 1 || !moved.iter().all(|step| step.is_finite()) {
+    // Repeated points are no steps.
+    let moved: Vec<usize> = (0..steps.len()).filter(|i| steps[*i] > 0.0).collect();
+    if moved.len() < FEWEST_POINTS - 1 || !steps.iter().all(|step| step.is_finite()) {
+        return whole;
+    }
+    let mut sorted: Vec<f64> = moved.iter().map(|i| steps[*i]).collect();
+    let middle = sorted.len() / 2;
+    let longest = JUMP * *sorted.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let long = |i: &usize| steps[moved[*i]] > longest;
+    let is_jump = |i: &usize| {
+        let beside = [i.checked_sub(1), Some(i + 1)].map(|i| i.and_then(|i| moved.get(i)));
+        beside.iter().all(|at| at.is_some_and(|at| steps[moved[*i]] > LOCAL_JUMP * steps[*at]))
+    };
+    let (jumps, others): (Vec<usize>, Vec<usize>) = (0..moved.len()).filter(long).partition(is_jump);
+    *kept += others.len();
+    jumps.into_iter().map(|i| moved[i] + 1).chain(whole).collect()
+}
+
+fn parted(line: Line, ends: Vec<usize>) -> Vec<Line> {
+    if ends.len() == 1 {
         return vec![line];
     }
-    let middle = moved.len() / 2;
-    let longest = JUMP * *moved.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let mut ends: Vec<usize> = (0..steps.len()).filter(|i| steps[*i] > longest).map(|i| i + 1).collect();
-    ends.push(line.points.len());
     let mut start = 0;
     let part = |end: usize| {
         let range = std::mem::replace(&mut start, end)..end;

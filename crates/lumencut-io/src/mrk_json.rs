@@ -46,7 +46,8 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     if others.count > 0 {
         out.notes.push(format!("markups that are no curves were left out: {}", others.text()));
     }
-    out.tidy()
+    // What this crate wrote comes back as it was.
+    if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
 /// The types of markups that are no curves.
@@ -121,8 +122,20 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<()>
         points.push(points[0]);
         radius.iter_mut().for_each(|r| r.push(r[0]));
     }
+    if kind != "Line" && !out.joined && points.windows(3).any(is_corner) {
+        out.note_once(
+            "control points far apart were joined by straight lines, where 3D Slicer may show a smooth curve"
+                .into(),
+        );
+    }
     out.lines.push(Line { points, radius, group: None, name: markup.name.and_then(Json::text) });
     Ok(())
+}
+
+/// Whether a line through three points turns by more than 30° at the second.
+fn is_corner(points: &[DVec3]) -> bool {
+    let [before, behind] = [points[1] - points[0], points[2] - points[1]];
+    before.dot(behind) < 0.75_f64.sqrt() * before.length() * behind.length()
 }
 
 /// The stated space, by name or by the number that 3D Slicer gives it.
@@ -136,12 +149,14 @@ fn space(stated: Option<Json>) -> Result<Option<Space>> {
     }
 }
 
-/// The stated unit; one name, or one equal name per axis. Millimetres where none is stated.
+/// The stated unit; one name, one equal name per axis, or a code of UCUM, such as `["mm", "UCUM",
+/// "millimeter"]`. Millimetres where none is stated.
 fn unit_of(subject: &str, stated: Option<Json>) -> Result<Unit> {
     let Some(stated) = stated else { return Ok(Unit::Millimetre) };
-    let (mut first, mut alike) = (None, true);
-    let axes = stated.each(|_, axis| {
-        alike &= first.get_or_insert(axis).raw() == axis.raw();
+    let (mut first, mut alike, mut coded) = (None, true, false);
+    let axes = stated.each(|i, axis| {
+        coded |= i == 1 && axis.text().as_deref() == Some("UCUM");
+        alike &= coded || first.get_or_insert(axis).raw() == axis.raw();
         Ok(())
     });
     let name = first.filter(|_| axes.is_some() && alike).unwrap_or(stated);
@@ -197,7 +212,7 @@ fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2])
         let found = format!("{count} values for {} control points", placed.len());
         return Err(Error::new("measurement Radius", found, "one value per control point"));
     }
-    let unit = match stated {
+    let unit = match stated.filter(|unit| unit.text().as_deref() != Some("")) {
         None => own,
         unit => unit_of("units of the measurement Radius", unit)?,
     };

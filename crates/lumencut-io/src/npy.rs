@@ -42,7 +42,8 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         radius: (columns == 4).then(|| (0..rows).map(|i| at(i, 3)).collect()),
         ..Line::default()
     });
-    out.parted_at_jumps().tidy()
+    out.doubt_unnamed_columns();
+    out.parted_at_jumps().without_zero_radii().tidy()
 }
 
 /// The header and the data behind it.

@@ -46,7 +46,13 @@ const GROUP_NAME: &str = "GroupIds";
 
 /// Whether the array of this name is read from point or cell data.
 pub fn wanted(name: &str) -> bool {
-    name == GROUP_NAME || name == HAS_NAME || name.to_ascii_lowercase().contains("radi")
+    name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name) || names_diameter(name)
+}
+
+/// Whether a name holds the word radius, and is not that of a curvature; a gradient is none.
+pub fn names_radius(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")
 }
 
 /// The space that the text `LPS` or `RAS` names.
@@ -56,6 +62,10 @@ pub fn space_of(text: &str) -> Option<Space> {
         "RAS" => Some(Space::Ras),
         _ => None,
     }
+}
+
+fn names_diameter(name: &str) -> bool {
+    name.to_ascii_lowercase().contains("diameter")
 }
 
 impl PolyData {
@@ -92,7 +102,7 @@ impl PolyData {
             let radius = radius.filter(|_| says(has_radius, cell));
             let line = |ids: &[usize], group| Line {
                 points: ids.iter().map(|i| DVec3::from(points[*i])).collect(),
-                radius: radius.map(|r| ids.iter().map(|i| r[*i]).collect()),
+                radius: radius.map(|(r, part)| ids.iter().map(|i| r[*i] * part).collect()),
                 group,
                 name: names.get(cell).filter(|_| says(has_name, cell)).cloned(),
             };
@@ -107,23 +117,26 @@ impl PolyData {
         Ok(())
     }
 
-    /// The radius of every point, from the array whose name says so most plainly.
-    fn radius(&self, points: usize, notes: &mut Vec<String>) -> Result<Option<&[f64]>> {
+    /// The values of every point from the array whose name says radius most plainly, else diameter, and what
+    /// part of them is the radius.
+    fn radius(&self, points: usize, notes: &mut Vec<String>) -> Result<Option<(&[f64], f64)>> {
         let scalar = |array: &&Array| array.components == 1;
         let named = RADIUS_NAMES.iter().find_map(|name| {
             self.point_arrays.iter().filter(scalar).find(|array| array.name.eq_ignore_ascii_case(name))
         });
-        let like = || {
-            let is_radius = |array: &&Array| array.name.to_ascii_lowercase().contains("radi");
-            self.point_arrays.iter().filter(scalar).find(is_radius)
+        let like = || self.point_arrays.iter().filter(scalar).find(|array| names_radius(&array.name));
+        let radius = named.or_else(like).map(|array| (array, 1.0, ""));
+        let diameter = || {
+            let array = self.point_arrays.iter().filter(scalar).find(|array| names_diameter(&array.name));
+            array.map(|array| (array, 0.5, "half "))
         };
-        let Some(array) = named.or_else(like) else { return Ok(None) };
+        let Some((array, part, half)) = radius.or_else(diameter) else { return Ok(None) };
         one_value_each(array, points, "point")?;
-        let note = format!("radius from the point array '{}'", array.name);
+        let note = format!("radius from {half}the point array '{}'", array.name);
         if !notes.contains(&note) {
             notes.push(note);
         }
-        Ok(Some(&array.values))
+        Ok(Some((&array.values, part)))
     }
 
     fn groups(&self, points: usize) -> Result<Groups<'_>> {

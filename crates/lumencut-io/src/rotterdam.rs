@@ -29,7 +29,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("Rotterdam reference");
     out.lines.push(Line { points, radius: Some(radius), ..Line::default() });
     table::refuse_counter(&out.lines)?;
-    out.tidy()
+    out.without_zero_radii().tidy()
 }
 
 /// Whether a file that begins with this row is a reference: `reference.txt` in the evaluation's own layout,

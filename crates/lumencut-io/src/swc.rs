@@ -27,7 +27,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     if let Some(scale) = unused_scale(bytes) {
         out.notes.push(format!("the comment {} was not applied", excerpt(&scale)));
     }
-    out.tidy()
+    out.without_zero_radii().tidy()
 }
 
 /// A comment `SCALE` in front of the nodes that is not 1 along all axes. Programs differ in whether the
@@ -103,7 +103,9 @@ impl Tree {
             None => Ok(None),
             Some(id) => index(id).map(Some).ok_or_else(|| {
                 let found = format!("the parent {id}, which is no node of the file");
-                Error::truncated(format!("line {}", node.line), found, "the id of a node, or -1 for a root")
+                let expected = "the id of a node, or -1 for a root";
+                let error = Error::truncated(format!("line {}", node.line), found, expected);
+                if id == 0 { error.mend("write -1 as the parent of roots") } else { error }
             }),
         };
         let parents = nodes.iter().map(parent).collect::<Result<Vec<Option<usize>>>>()?;

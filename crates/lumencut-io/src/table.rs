@@ -7,8 +7,9 @@ use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};
 use crate::table_columns::{Columns, name_coordinates};
 use crate::text::{self, Separator};
+use crate::unit::Unit;
 
-/// The lines of a table with a point per row. Blank rows part lines, and so do changes of a column such as
+/// The lines of a table with a point per row. A first row `sep=;`, as spreadsheets want it, is passed over. Blank rows part lines, and so do changes of a column such as
 /// `line`, `vessel`, `CenterlineId` or `GroupId`; without such a column, jumps do.
 ///
 /// Numbers may have a decimal comma where semicolons part the columns.
@@ -16,18 +17,21 @@ use crate::text::{self, Separator};
 /// # Errors
 /// Naming the line of the file where a row is damaged, or it is not clear what the columns hold.
 pub fn read(bytes: &[u8]) -> Result<Centerlines> {
-    let Some((first, row)) = text::data_lines(bytes).next() else {
+    let Some((first, row)) = text::data_lines(bytes).find(|(_, row)| !names_separator(row)) else {
         return Err(Error::new("", "no row", "a table with a point per row"));
     };
     let separator = separator_of(&row);
     let fields = fields_of(&row, separator);
     let has_header = !all_numbers(&fields, separator);
     let named = match has_header {
-        true => Some(Columns::of_header(first, &row, &fields)?),
+        true => Some(Columns::of_header(first, &row, &fields_of(&closed_up(&row, separator), separator))?),
         false => header_in_comment(bytes, first, fields.len())?,
     };
     let guessed = named.is_none();
-    let columns = named.map_or_else(|| Columns::of_count(first, fields.len()), Ok)?;
+    let mut columns = named.map_or_else(|| Columns::of_count(first, fields.len()), Ok)?;
+    if columns.unit.is_none() {
+        unit_in_comments(bytes, first, &mut columns);
+    }
     let mut rows = Rows::new(columns, separator);
     for (number, line) in text::lines(bytes).skip(first - usize::from(!has_header)) {
         if line.trim_start().starts_with('#') {
@@ -41,11 +45,52 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     rows.finish_line();
     if guessed {
+        rows.out.doubt_unnamed_columns();
         refuse_counter(&rows.out.lines)?;
     }
     // Where a column tells lines apart, a gap in a line stays one.
     let whole = rows.columns.key.is_some();
-    if whole { rows.out.tidy() } else { rows.out.parted_at_jumps().tidy() }
+    let out = if whole { rows.out } else { rows.out.parted_at_jumps() };
+    out.without_zero_radii().tidy()
+}
+
+/// Whether a row only tells a spreadsheet what parts the columns.
+fn names_separator(row: &str) -> bool {
+    let named = row.trim().trim_matches('"').strip_prefix("sep=");
+    named.is_some_and(|separator| separator.chars().count() <= 1)
+}
+
+/// A header without the blanks in front of units, such as `x(mm)` for `x (mm)`, where blanks part columns.
+fn closed_up(header: &str, separator: Separator) -> Cow<'_, str> {
+    if separator != Separator::Blanks {
+        return Cow::Borrowed(header);
+    }
+    Cow::Owned(header.replace(" (", "(").replace(" [", "["))
+}
+
+/// Takes the unit from a comment such as `units: cm` in front of the rows; else notes the first unit there.
+fn unit_in_comments(bytes: &[u8], first: usize, columns: &mut Columns) {
+    let mut other = None;
+    for (_, line) in text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')) {
+        let comment = line.to_lowercase();
+        let signs = |c: char| c.is_whitespace() || "#()[],;:=.".contains(c);
+        let mut words = comment.split(signs).filter(|word| !word.is_empty());
+        // A single m may mean anything.
+        let known = |word: &str| Unit::of_name(word).filter(|unit| *unit != Unit::Metre);
+        let Some(unit) = words.clone().find_map(known) else { continue };
+        let said = [words.next(), words.next(), words.next()];
+        if let [Some("unit" | "units"), Some(word), None] = said
+            && known(word).is_some()
+        {
+            columns.unit = Some(unit);
+            columns.notes.push(format!("unit from the comment {}", excerpt(line.trim())));
+            return;
+        }
+        other.get_or_insert_with(|| excerpt(line.trim()));
+    }
+    if let Some(comment) = other {
+        columns.notes.push(format!("the comment {comment} was not taken as the unit of the coordinates"));
+    }
 }
 
 /// Whether a line of text can begin a table: a row of three or more numbers, or a header with coordinates.
@@ -96,7 +141,9 @@ fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<
     let comment = text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')).last();
     let Some((number, line)) = comment else { return Ok(None) };
     let names = line.trim_start_matches('#');
-    let fields = fields_of(names, separator_of(names));
+    let separator = separator_of(names);
+    let names = &*closed_up(names, separator);
+    let fields = fields_of(names, separator);
     if fields.len() != count || !name_coordinates(&fields) {
         return Ok(None);
     }

@@ -2,6 +2,7 @@
 
 use crate::centerlines::Space;
 use crate::error::{Error, Result, excerpt};
+use crate::poly_data::names_radius;
 use crate::unit::Unit;
 
 /// The columns that a line is made of.
@@ -93,6 +94,11 @@ impl Columns {
         let Some((xyz, space)) = coordinates(&names) else {
             return Err(Error::new(format!("line {line}"), excerpt(header), EXPECTED));
         };
+        if let Some(axis) = ["x", "y", "z"].into_iter().find(|axis| is_twice(&names, axis)) {
+            let found = format!("more than one column {axis}, {}", excerpt(header));
+            let error = Error::new(format!("line {line}"), found, "one column each for x, y and z");
+            return Err(error.mend("leave out the columns that are not meant"));
+        }
         let units = xyz.map(|column| unit(fields[column], &names[column]));
         let [x, y, z] = units;
         let (x, y, z) = (x.map_err(at)?, y.map_err(at)?, z.map_err(at)?);
@@ -133,7 +139,7 @@ impl Columns {
         let radius = RADIUS_NAMES
             .iter()
             .find_map(|name| find(&|column| column == *name))
-            .or_else(|| find(&|column| column.contains("radi")));
+            .or_else(|| find(&names_radius));
         let diameter = DIAMETER_NAMES
             .iter()
             .find_map(|name| find(&|column| column == *name))
@@ -162,6 +168,10 @@ impl Columns {
 /// Whether the fields of a row name coordinates.
 pub fn name_coordinates(fields: &[&str]) -> bool {
     coordinates(&fields.iter().map(|field| Name::of(field)).collect::<Vec<_>>()).is_some()
+}
+
+fn is_twice(names: &[Name], axis: &str) -> bool {
+    names.iter().filter(|name| name.axis() == axis).nth(1).is_some()
 }
 
 /// The columns of the three coordinates, and the space that their names state.

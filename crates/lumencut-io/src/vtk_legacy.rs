@@ -27,7 +27,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     out.space = out.space.or(sections.space);
     sections.data.into_centerlines(&mut out)?;
-    out.tidy()
+    out.without_zero_radii().tidy()
 }
 
 /// 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the title.

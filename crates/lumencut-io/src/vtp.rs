@@ -41,7 +41,8 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     for piece in &document.pieces {
         arrays.poly_data(piece)?.into_centerlines(&mut out)?;
     }
-    out.tidy()
+    // What this crate wrote comes back as it was.
+    if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
 /// The XML in front of the appended data, and the appended data behind its `_`.

@@ -91,6 +91,17 @@ fn markups_in_two_units_are_brought_into_the_first() {
 }
 
 #[test]
+fn units_of_markups_may_be_codes() {
+    let coded = |unit: &str, by: &str| {
+        let stated = format!("\"coordinateUnits\": [\"{unit}\", \"{by}\", \"length\"]");
+        replaced(sample::mrk_json("RAS", "mm", 1.0), "\"coordinateUnits\": \"mm\"", &stated)
+    };
+    assert_eq!(read(&coded("cm", "UCUM"), "a.mrk.json").unwrap().unit, Some(Unit::Centimetre));
+    assert!(message(&coded("cm", "DCM"), "a.mrk.json").contains("coordinateUnits: found"));
+    assert!(message(&coded("[in_i]", "UCUM"), "a.mrk.json").contains("coordinateUnits: found '\\\"[in_i]"));
+}
+
+#[test]
 fn scaling_checks_the_limit_again() {
     let read = read(&ascii_vtp(), "a.vtp").unwrap();
     assert_eq!((read.unit, read.conventional_unit), (None, Some(Unit::Millimetre)));

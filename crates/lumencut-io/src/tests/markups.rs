@@ -84,3 +84,30 @@ fn what_is_wrong_is_named() {
     let many = format!(r#"{{"markups": [{}3]}}"#, r#"{"type": "Plane"}, "#.repeat(20));
     assert!(message(&many).contains("'Plane', 'Plane' and 13 more; expected a markup of type Curve"));
 }
+
+#[test]
+fn corners_of_curves_are_noted_where_3d_slicer_shows_none() {
+    let of = |kind: &str, y: f64| {
+        let points =
+            format!(r#"{{"position": [0, 0, 0]}}, {{"position": [9, 0, 0]}}, {{"position": [18, {y}, 0]}}"#);
+        let notes =
+            ok(&format!(r#"{{"markups": [{{"type": "{kind}", "controlPoints": [{points}]}}]}}"#)).notes;
+        notes.iter().any(|note| note.contains("joined by straight lines"))
+    };
+    assert!(of("Curve", 9.0) && of("ClosedCurve", -9.0) && of("ClosedCurve", 3.0));
+    assert!(!of("Curve", 3.0) && !of("Line", 9.0));
+}
+
+#[test]
+fn an_empty_unit_of_a_radius_is_that_of_its_curve() {
+    let of = |units: &str| {
+        let radius = format!(r#"{{"name": "Radius", {units} "controlPointValues": [0.25, 0.5]}}"#);
+        ok(&curve(&format!(r#", "coordinateUnits": "cm", "measurements": [{radius}]"#))).lines[0]
+            .radius
+            .clone()
+    };
+    for (units, first) in [("", 0.25), (r#""units": "","#, 0.25), (r#""units": "mm","#, 0.025)] {
+        assert_eq!(of(units).unwrap()[0], first, "{units}");
+    }
+    assert_eq!(of(r#""units": ["mm", "UCUM", "millimeter"],"#).unwrap()[1], 0.05);
+}

@@ -86,6 +86,11 @@ fn swc_branches_share_their_ends_whatever_the_order_of_nodes() {
     assert_eq!(scaled.notes, read.notes);
     let scaled = ok(format!("# SCALE 0.5 0.5 2\n{tree}"), "a.swc");
     assert_eq!(scaled.notes[0], "the comment 'SCALE 0.5 0.5 2' was not applied");
+    assert!(message("1 1 0 0 0 2 0\n2 1 0 0 1 2 1\n", "a.swc").ends_with("write -1 as the parent of roots"));
+    let zero = ok("1 1 0 0 0 0 -1\n2 1 0 0 1 0 1\n", "a.swc");
+    assert!(zero.lines[0].radius.is_none() && zero.notes[0].contains("every radius is 0"));
+    let unnamed = ok(sample::npy(&[[1.5, 2.0, 3.0, 1.0], [1.5, 2.0, 4.0, 1.0]], 4, "<f8", false, 1), "a.npy");
+    assert_eq!(unnamed.notes, ["radius from the fourth column, which nothing names (1 everywhere)"]);
     assert_eq!(ok("1.0 1 0 0 0 2 -1.0\n2.0 1 0 0 1 2 1.0", "a.swc").lines.len(), 1);
 }
 
@@ -207,6 +212,24 @@ fn fiducials_are_one_line_in_their_space() {
     let old = "# columns = label,x,y,z,sel,visibility\nF,1,2,3,1,1\nF,1,2,4,1,1\n";
     let read = ok(old, "a.fcsv");
     assert_eq!((read.space, read.lines[0].points[1].z), (None, 4.0));
+}
+
+#[test]
+fn a_point_array_of_vtk_is_a_radius_only_by_its_name() {
+    let head = "# vtk DataFile Version 3.0\n-\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n0 0 0\n0 0 9\n\
+                LINES 1 3\n2 0 1\nPOINT_DATA 2\n";
+    let with = |arrays: &[(&str, &str)]| {
+        let of = |(name, values): &(&str, &str)| {
+            format!("SCALARS {name} double\nLOOKUP_TABLE default\n{values}\n")
+        };
+        ok(head.to_owned() + &arrays.iter().map(of).collect::<String>(), "a.vtk").lines[0].radius.clone()
+    };
+    assert_eq!(with(&[("GradientMagnitude", "3 4")]), None);
+    assert_eq!(with(&[("RadiusOfCurvature", "3 4")]), None);
+    assert_eq!(with(&[("Radius", "0 0")]), None, "no program knows a vessel of no size");
+    assert_eq!(with(&[("Radius", "0 4")]), Some(vec![0.0, 4.0]));
+    assert_eq!(with(&[("Diameter", "3 4")]), Some(vec![1.5, 2.0]));
+    assert_eq!(with(&[("MinDiameter", "3 4"), ("MeanRadius", "5 6")]), Some(vec![5.0, 6.0]));
 }
 
 #[test]

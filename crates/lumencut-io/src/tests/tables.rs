@@ -116,3 +116,75 @@ fn a_list_of_points_that_jumps_is_parted_where_no_column_tells_lines_apart() {
     assert_eq!(ok(&named).lines.len(), 1, "the column says that it is one line");
     assert_eq!(ok("0,0,0\n1,0,0\n200,0,0\n").lines.len(), 1, "too few points to tell");
 }
+
+#[test]
+fn a_line_whose_points_stand_further_apart_in_a_part_stays_one() {
+    let dense = (0..100).map(|i| f64::from(i) * 0.1);
+    let list = |further: &[f64]| -> String {
+        dense.clone().chain(further.iter().copied()).map(|x| format!("{x},0,0\n")).collect()
+    };
+    for further in [&[14.9, 19.9, 24.9][..], &[14.9], &[14.9, 14.9, 22.9, 27.0]] {
+        let read = ok(&list(further));
+        let last = read.lines[0].points.last().map(|p| p.x);
+        assert_eq!((read.lines.len(), last), (1, further.last().copied()));
+        assert!(read.notes.iter().any(|note| note.contains("were kept in their line")), "{:?}", read.notes);
+    }
+    let parted = ok(&list(&[50.0, 50.1, 50.2]));
+    assert_eq!(parted.lines.iter().map(|line| line.points.len()).collect::<Vec<_>>(), [100, 3]);
+    let repeated = ok(&list(&[9.9, 50.0, 50.0, 50.1, 50.2]));
+    assert_eq!(repeated.lines.iter().map(|line| line.points.len()).collect::<Vec<_>>(), [100, 3]);
+}
+
+#[test]
+fn only_a_column_that_names_a_radius_is_one() {
+    for other in ["gradient", "Gradient Magnitude", "radius_of_curvature", "CurvatureRadius", "radians"] {
+        let read = ok(&format!("x,y,z,{other}\n1.5,2,3,7\n1.5,2,4,7\n"));
+        assert_eq!(
+            (read.lines[0].radius.is_none(), read.notes),
+            (true, vec!["no radius in the file".into()])
+        );
+    }
+    let read = ok("x,y,z,r\n1.5,2,3,0\n1.5,2,4,0\n");
+    assert!(
+        read.lines[0].radius.is_none() && read.notes.iter().any(|note| note.contains("every radius is 0"))
+    );
+    let read = ok("x,y,z,r\n1.5,2,3,0\n1.5,2,4,1\n");
+    assert_eq!(read.lines[0].radius.as_deref(), Some(&[0.0, 1.0][..]));
+    assert!(message("x,y,z,X,Y,Z\n1,2,3,4,5,6\n").contains("more than one column x"));
+    assert_eq!(ok("R,A,S,r\n1.5,2,3,1\n1.5,2,4,1\n").lines[0].radius.as_deref(), Some(&[1.0, 1.0][..]));
+}
+
+#[test]
+fn what_numbers_without_names_may_be_is_noted() {
+    let notes = |content: &str| ok(content).notes.join("; ");
+    assert!(notes("1.5 2 3 4\n1.5 2 4 5\n").contains("radius from the fourth column, which nothing names"));
+    assert!(notes("1.5 2 3 1\n1.5 2 4 1\n").contains("names (1 everywhere)"));
+    assert!(notes("1 2 3\n1 2 4\n").contains("perhaps indices of voxels"));
+    assert_eq!(notes("x,y,z,r\n1,2,3,1\n1,2,4,1\n"), "radius from the column 'r'");
+}
+
+#[test]
+fn units_in_comments_are_taken_or_noted() {
+    let rows = "1.5 2 3\n1.5 2 4\n";
+    for stated in ["# units: cm", "#unit = cm", "# Units (cm)", "# UNITS cm."] {
+        let read = ok(&format!("{stated}\n{rows}"));
+        let taken = read.notes.iter().any(|note| note.contains("from the comment"));
+        assert_eq!((read.unit, taken), (Some(Unit::Centimetre), true), "{stated}");
+    }
+    for said in ["# all lengths in cm, from a model", "# unit cm or mm", "# step (cm)"] {
+        let read = ok(&format!("{said}\n{rows}"));
+        assert_eq!(read.unit, None, "{said}");
+        assert!(read.notes.iter().any(|note| note.contains("was not taken as the unit")), "{said}");
+    }
+    assert_eq!(ok(&format!("# x (cm) y (cm) z (cm)\n{rows}")).unit, Some(Unit::Centimetre));
+    assert!(message(&format!("# x y z (cm)\n{rows}")).contains("one unit for all three"));
+    assert_eq!(ok("# units: cm\nx (mm),y (mm),z (mm)\n1,2,3\n1,2,4\n").unit, Some(Unit::Millimetre));
+}
+
+#[test]
+fn the_first_row_of_a_spreadsheet_may_name_its_separator() {
+    for first in ["sep=;", "\"sep=;\"", "sep=;\r"] {
+        assert_eq!(ok(&format!("{first}\nx;y;z\n12,9013;-2;3,5\n4;5;6,25\n")).lines[0].points, ENDS);
+        assert_eq!(ok(&format!("{first}\n12,9013;-2;3,5\n4;5;6,25\n")).lines[0].points, ENDS);
+    }
+}
