@@ -27,8 +27,6 @@ _PATIENCE = 60.0
 _AHEAD = 2
 """Frames per process that are decoded before they are asked for."""
 _MOST = 4
-_PIPE = 1 << 20
-"""Bytes that a pipe holds where the system lets one ask for it: a slice in one go."""
 _START = "import sys; sys.path[:] = sys.argv[1:]; from lumencut.volume_files.dicom.worker import main; main()"
 """Modules come from where ours came from: never from the current folder, which may be a stranger's."""
 
