@@ -321,3 +321,16 @@ def test_shared_gantry_tilt():
     last = pydicom.dcmread(DATA / "dicom" / "ct-gantry-tilt" / "I360", stop_before_pixels=True)
     position = (report.world_from_index @ [0, 0, 15, 1])[:3]
     np.testing.assert_allclose(position, [float(value) for value in last.ImagePositionPatient], atol=1e-6)
+
+
+def test_the_stored_type_is_told_without_reading_voxels(tmp_path):
+    def floats(k, data):
+        del data.PixelData, data.BitsStored, data.HighBit, data.PixelRepresentation
+        data.BitsAllocated = 32
+        data.FloatPixelData = (coded()[k] / np.float32(8)).astype("<f4").tobytes()
+
+    folder = write_stack(tmp_path / "floats", coded(), AXIAL, floats)
+    assert inspect_volume(folder, values=False).dtype == np.float32
+    assert_maps(read_volume(folder), AXIAL, lambda i, j, k: (i + 10 * j + 100 * k) / 8)
+    folder = write_stack(tmp_path / "words", coded(dtype=np.uint16), AXIAL)
+    assert inspect_volume(folder, values=False).dtype == np.uint16

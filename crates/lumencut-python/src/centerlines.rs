@@ -51,14 +51,6 @@ impl CenterlineFile {
         self.lines.conventional_unit.unwrap_or(Unit::Millimetre).name()
     }
 
-    /// All points, shape (n, 3), in the file's space and unit.
-    #[getter]
-    fn points<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        let points: Vec<_> = self.lines.lines.iter().flat_map(|line| &line.points).collect();
-        let array = Array2::from_shape_fn((points.len(), 3), |(i, axis)| points[i][axis]);
-        PyArray2::from_owned_array(py, array)
-    }
-
     /// `(vessels, notes)`: the vessels that the lines form, each `(points (n, 3), radius (n,) or None, name or
     /// None)`, in mm in the file's space, where one unit of the file is `mm_per_unit`.
     fn vessels<'py>(&self, py: Python<'py>, mm_per_unit: f64) -> PyResult<(Vec<Vessel<'py>>, Vec<String>)> {

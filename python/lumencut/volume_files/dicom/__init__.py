@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from lumencut.volume_files.dicom.faults import of_phase
 from lumencut.volume_files.dicom.geometry import Stack, stacked
-from lumencut.volume_files.dicom.headers import Header, is_dicom
+from lumencut.volume_files.dicom.headers import Image, is_dicom
 from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, grouped, read_images
 from lumencut.volume_files.dicom.slices import counted, listed
 from lumencut.volume_files.dicom.sources import is_zip
@@ -44,7 +44,7 @@ def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
             slices = of_phase(str(path), slices, wanted.phase)
         stack = stacked(str(path), slices, notes, fill_gaps=wanted.fill_gaps)
         _note_oddities(stack, notes)
-        stored = _stored_type(stack.slices[0].image.header)
+        stored = _stored_type(stack.slices[0].image)
         details = _details(one, stack)
 
     def voxels(progress: Progress) -> npt.NDArray[Any]:
@@ -73,9 +73,10 @@ def _details(series: Series, stack: Stack) -> dict[str, str]:
     }
 
 
-def _stored_type(header: Header) -> np.dtype[Any]:
-    sign = "i" if header.get("PixelRepresentation") else "u"
-    return np.dtype(f"{sign}{int(header.BitsAllocated) // 8}")
+def _stored_type(image: Image) -> np.dtype[Any]:
+    signed = "i" if image.header.get("PixelRepresentation") else "u"
+    kind = signed if image.pixel_keyword == "PixelData" else "f"
+    return np.dtype(f"{kind}{int(image.header.BitsAllocated) // 8}")
 
 
 def _note_oddities(stack: Stack, notes: list[str]) -> None:

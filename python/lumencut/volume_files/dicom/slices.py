@@ -175,8 +175,8 @@ def missing_positions(images: Sequence[Image]) -> list[str]:
 
 def has_positions(image: Image) -> bool:
     """Tell whether any frame says where it lies; the count that a header states may be a lie."""
-    groups = image.header.get("PerFrameFunctionalGroupsSequence") or ()
-    frames = range(min(max(image.frame_count, 1), max(len(groups), 1)))
+    groups = len(image.frame_groups or ())
+    frames = range(min(max(image.frame_count, 1), max(groups, 1)))
     return any(frame_value(image, frame, "ImagePositionPatient") not in (None, "") for frame in frames)
 
 
