@@ -8,7 +8,7 @@ use crate::math::lanes::{ABSENT, FAN, PIXELS};
 use crate::math::nearest::lower_distance;
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
-use crate::stages::View;
+use crate::stages::Work;
 use crate::stages::depth::{CutSurface, Search, depth_by};
 use crate::stages::distance::{Measure, distance_by};
 
@@ -16,8 +16,8 @@ use crate::stages::distance::{Measure, distance_by};
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn distance(view: &View, finest: &Hierarchy, distance: &mut [f32]) -> Result<()> {
-    distance_by(view, distance, || EverySegment(finest))
+pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Result<()> {
+    distance_by(work, surface, distance, || EverySegment(surface.finest()))
 }
 
 struct EverySegment<'a>(&'a Hierarchy);
@@ -63,11 +63,11 @@ impl Search for EveryPiece<'_> {
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
 pub fn depth(
-    view: &View,
+    work: &Work,
     surface: &CutSurface,
     distance: &[f32],
     depth: &mut [f32],
     vessel: &mut [i32],
 ) -> Result<()> {
-    depth_by(view, surface, distance, depth, vessel, || EveryPiece(surface))
+    depth_by(work, surface, distance, depth, vessel, || EveryPiece(surface))
 }

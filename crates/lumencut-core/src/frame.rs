@@ -1,6 +1,7 @@
 //! What a rendering leaves behind, pixel by pixel, row 0 on top.
 
-use crate::camera::Camera;
+use crate::geometry::Geometry;
+use crate::stages::{Image, ImageSet};
 
 /// How long one stage took.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,15 +12,14 @@ pub struct Timing {
     pub milliseconds: f64,
 }
 
-/// The images of one view; every buffer has `width × height` entries in rows from the top.
+/// The images of one view; every buffer has `width × height` entries in rows from the top, or none where the view does
+/// not have the image.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// The view.
-    pub camera: Camera,
+    /// Where the pixels look, with the depth of the cut surface.
+    pub geometry: Geometry,
     /// RGBA.
     pub image: Vec<[u8; 4]>,
-    /// Depth of the cut surface (mm).
-    pub depth: Vec<f32>,
     /// Id of the vessel whose influence zone the pixel is in.
     pub vessel: Vec<i32>,
     /// Projected distance to the nearest centerline (mm).
@@ -33,17 +33,45 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame of `camera` with `pixels` pixels of depth, vessel and distance, still zero; the others have none yet.
-    pub(crate) fn empty(camera: Camera, pixels: usize) -> Self {
+    /// A frame that so far knows only where it looks.
+    pub fn of(geometry: Geometry) -> Self {
         Self {
-            camera,
+            geometry,
             image: Vec::new(),
-            depth: vec![0.0; pixels],
-            vessel: vec![0; pixels],
-            distance: vec![0.0; pixels],
+            vessel: Vec::new(),
+            distance: Vec::new(),
             value: Vec::new(),
             context: Vec::new(),
             timings: Vec::new(),
         }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.geometry.size()
+    }
+
+    /// Depth of the cut surface (mm); empty where there is none.
+    pub fn depth(&self) -> &[f32] {
+        self.geometry.depth()
+    }
+
+    /// The same frame with those of its images that are among `wanted`.
+    #[must_use]
+    pub fn keeping(mut self, wanted: ImageSet) -> Self {
+        fn keep<T>(pixels: &mut Vec<T>, is_wanted: bool) {
+            if !is_wanted {
+                *pixels = Vec::new();
+            }
+        }
+        keep(&mut self.image, wanted.has(Image::Picture));
+        keep(&mut self.vessel, wanted.has(Image::Vessel));
+        keep(&mut self.distance, wanted.has(Image::Distance));
+        keep(&mut self.value, wanted.has(Image::Value));
+        keep(&mut self.context, wanted.has(Image::Context));
+        if let Geometry::Orthographic { depth, .. } = &mut self.geometry {
+            keep(depth, wanted.has(Image::Depth));
+        }
+        self
     }
 }

@@ -1,215 +1,156 @@
 //! The method from end to end: the stages in the order of the paper's Fig. 4.
+//!
+//! `cut_surface` finds where the pixels look, `look` shows what is there. A reformation that finds its places in another
+//! way brings its own geometry and shares `look`.
+
+mod clock;
+mod images;
+mod pass;
+
+use std::sync::Arc;
 
 use rayon::prelude::*;
-use web_time::Instant;
 
+use self::clock::Clock;
+pub use self::images::Images;
+pub use self::pass::{CutSurfacePass, LookPass};
 use crate::camera::Camera;
-use crate::error::Result;
-use crate::frame::{Frame, Timing};
+use crate::error::{Error, ErrorKind, Result};
+use crate::frame::Frame;
+use crate::geometry::Geometry;
 use crate::math::lanes::Isa;
+use crate::math::levels::radius_scale;
 use crate::math::projection::{Level, ProjectedLevel};
-use crate::math::ray::{NONE, WHOLE};
+use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::Settings;
-use crate::stages::composite::{Layers, composite, layer};
-use crate::stages::context::{context, starts};
-use crate::stages::depth::{CutSurface, depth};
-use crate::stages::depth_filter::depth_filter;
-use crate::stages::distance::distance;
-use crate::stages::levels::levels;
-use crate::stages::silhouette::silhouette;
-use crate::stages::surface::surface;
-use crate::stages::{Stop, View};
-use crate::vessel_tree::VesselTree;
-use crate::volume::Volume;
+use crate::stages::depth::CutSurface;
+use crate::stages::{ImageSet, Stage, Work};
+use crate::stop::Stop;
 
-/// Renders views of one vessel tree. What does not depend on the view is made once; the buffers that hold the
-/// projected tree are kept from view to view.
+/// What is asked for: a view of a scene.
+#[derive(Clone, Copy)]
+pub struct Request<'a> {
+    /// The view.
+    pub camera: &'a Camera,
+    /// How it is made and shown.
+    pub settings: &'a Settings,
+    /// The images that the frame is to have, where the view has them.
+    pub images: ImageSet,
+    /// Whether to stop.
+    pub stop: Stop<'a>,
+}
+
+impl<'a> Request<'a> {
+    /// All images of a view, without a way to stop.
+    pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
+        Self { camera, settings, images: ImageSet::ALL, stop: &|| false }
+    }
+}
+
+/// Renders views on the CPU. It keeps the buffers that hold a projected tree from view to view; all else belongs to the
+/// scenes.
 #[derive(Debug)]
-pub struct Renderer {
-    tree: VesselTree,
-    levels: Vec<Level>,
+pub struct CpuRenderer {
+    levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
     isa: Isa,
 }
 
-impl Renderer {
-    /// A renderer of `tree`, with the kernels for the widest instruction set of this processor.
-    pub fn new(tree: VesselTree) -> Self {
-        Self { tree, levels: Vec::new(), projected: Vec::new(), isa: Isa::widest() }
+impl Default for CpuRenderer {
+    fn default() -> Self {
+        Self::new(Isa::widest())
+    }
+}
+
+impl CpuRenderer {
+    /// A renderer with the kernels for `isa`; the pictures are the same to the bit.
+    pub fn new(isa: Isa) -> Self {
+        Self { levels: Arc::default(), projected: Vec::new(), isa }
     }
 
-    /// The same renderer with the kernels for `isa`; the pictures are the same to the bit.
-    #[must_use]
-    pub fn with_isa(mut self, isa: Isa) -> Self {
-        self.isa = isa;
-        self
-    }
-
-    /// The tree.
-    pub fn tree(&self) -> &VesselTree {
-        &self.tree
-    }
-
-    /// The whole picture: cut surface, volume at the surface, silhouettes, context, window.
+    /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
+    /// alone.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Settings`] for a setting outside its range,
-    /// [`crate::error::ErrorKind::Interrupted`] once `stop` says so.
-    pub fn render(
-        &mut self,
-        volume: &Volume,
-        camera: &Camera,
-        settings: &Settings,
-        stop: Stop,
-    ) -> Result<Frame> {
-        let mut frame = self.cut_surface(camera, settings, stop)?;
-        let view = View { camera, isa: self.isa, stop };
-        let mut clock = Clock::start();
-        let pixels = frame.depth.len();
-        frame.value = vec![0.0; pixels];
-        surface(&view, volume, &frame.depth, settings.slab, &mut frame.value)?;
-        clock.lap("surface", &mut frame.timings);
-        let mut strength = Vec::new();
-        if settings.silhouettes {
-            strength.resize(pixels, 0.0);
-            silhouette(&view, &frame.depth, &frame.vessel, settings.silhouette_slope, &mut strength)?;
-            clock.lap("silhouette", &mut frame.timings);
+    /// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Volume`] for a scene without volume and tree,
+    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
+        request.settings.check()?;
+        let frame = match &scene.tree {
+            Some(tree) => self.cut_surface(tree, request)?,
+            None => Frame::of(Geometry::rays(*request.camera)),
+        };
+        match &scene.volume {
+            Some(volume) => self.look(volume, frame, request),
+            None if scene.tree.is_some() => Ok(frame.keeping(request.images)),
+            None => Err(nothing_to_show()),
         }
-        let start = settings.context.as_ref().map(|_| starts(&frame.value, &frame.depth, settings));
-        let behind = surroundings(&view, volume, settings, start.as_deref(), &mut frame, &mut clock)?;
-        let strength = settings.silhouettes.then_some(&strength[..]);
-        show(&view, settings, strength, behind.as_deref(), &mut frame)?;
-        clock.lap("composite", &mut frame.timings);
-        Ok(frame)
     }
 
-    /// The cut surface alone: depth, vessel and distance; `value` and `image` stay empty.
+    /// Where the pixels of a view look: depth, vessel and distance of the cut surface.
+    fn cut_surface(&mut self, tree: &LeveledTree, request: &Request) -> Result<Frame> {
+        let (mut clock, mut images) = (Clock::start(), Images::default());
+        self.prepare(tree, request.settings.levels);
+        clock.lap(Stage::Levels);
+        self.project(request.camera, request.settings);
+        clock.lap(Stage::Projection);
+        let pass = self.pass(request);
+        for stage in Stage::of_cut_surface(request.settings) {
+            pass.run(stage, &mut images)?;
+            clock.lap(stage);
+        }
+        Ok(images.into_cut_surface(*request.camera, clock.timings))
+    }
+
+    /// Shows the volume where a frame's geometry looks: values, silhouettes, context, picture. Frames of any method are
+    /// shown in this way; of the request only settings, images and the way to stop count.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
-    pub fn cut_surface(&mut self, camera: &Camera, settings: &Settings, stop: Stop) -> Result<Frame> {
+    /// As [`CpuRenderer::render`].
+    pub fn look(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
+        let &Request { settings, stop, .. } = request;
         settings.check()?;
-        let mut frame = Frame::empty(*camera, camera.size()[0] * camera.size()[1]);
-        let mut clock = Clock::start();
-        self.prepare(settings.levels);
-        clock.lap("levels", &mut frame.timings);
-        let view = View { camera, isa: self.isa, stop };
-        let cut_surface = self.project(camera, settings);
-        clock.lap("projection", &mut frame.timings);
-        let pixels = frame.distance.len();
-        distance(&view, cut_surface.finest(), &mut frame.distance)?;
-        clock.lap("distance", &mut frame.timings);
-        depth(&view, &cut_surface, &frame.distance, &mut frame.depth, &mut frame.vessel)?;
-        clock.lap("depth", &mut frame.timings);
-        if settings.depth_filter {
-            let mut smoothed = vec![0.0; pixels];
-            depth_filter(&view, &frame.depth, &mut smoothed)?;
-            frame.depth = smoothed;
-            clock.lap("depth_filter", &mut frame.timings);
+        let work = Work { size: frame.size(), isa: self.isa, stop };
+        let (mut clock, mut images) = (Clock::start(), Images::default());
+        let pass = LookPass { work, volume, settings, geometry: &frame.geometry, vessel: &frame.vessel };
+        for stage in Stage::of_look(settings, &frame.geometry, !frame.vessel.is_empty()) {
+            pass.run(stage, &mut images)?;
+            clock.lap(stage);
         }
-        Ok(frame)
+        Ok(images.into_frame(frame, clock.timings).keeping(request.images))
     }
 
-    /// Makes the levels of detail that are not there yet.
-    fn prepare(&mut self, count: usize) {
-        if self.levels.len() <= count {
-            self.levels = levels(&self.tree, count).par_iter().map(Level::new).collect();
-            self.projected = self.levels.iter().map(ProjectedLevel::new).collect();
+    /// Takes over the levels of a tree that is another one than in the view before, or shown with more levels.
+    pub fn prepare(&mut self, tree: &LeveledTree, coarsest: usize) {
+        let levels = tree.levels(coarsest);
+        if !Arc::ptr_eq(&self.levels, &levels) {
+            self.projected = levels.iter().map(ProjectedLevel::new).collect();
+            self.levels = levels;
         }
     }
 
-    /// The tree and its `count` levels of detail, finest first.
-    pub fn levels(&mut self, count: usize) -> &[Level] {
-        self.prepare(count);
-        &self.levels[..=count]
-    }
-
-    /// The first levels in the view of `camera`.
-    pub fn project(&mut self, camera: &Camera, settings: &Settings) -> CutSurface<'_> {
-        self.prepare(settings.levels);
-        let levels = &self.levels[..=settings.levels];
-        let projected = &mut self.projected[..=settings.levels];
+    /// Projects the levels into the view of `camera`, once they are prepared.
+    pub fn project(&mut self, camera: &Camera, settings: &Settings) {
+        let (levels, projected) = (&self.levels, &mut self.projected[..=settings.levels]);
         projected
             .par_iter_mut()
-            .zip(levels)
-            .for_each(|(projected, level)| projected.project(level, camera, settings.preserve_lumen));
-        CutSurface::new(levels, projected, camera, settings)
+            .zip(levels.par_iter())
+            .for_each(|(projected, level)| projected.project(level, camera, radius_scale(settings)));
+    }
+
+    /// What the stages of the cut surface read, once the levels are projected into the view.
+    pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
+        let &Request { camera, settings, stop, .. } = request;
+        let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
+        CutSurfacePass {
+            work: Work { size: camera.size(), isa: self.isa, stop },
+            surface: CutSurface::new(levels, projected, camera, settings),
+        }
     }
 }
 
-/// The context of a volume alone: every ray crosses all of it. Depth, vessel, distance and value stay empty; `isa` does
-/// not change the picture.
-///
-/// # Errors
-/// As [`Renderer::render`].
-pub fn context_alone(
-    volume: &Volume,
-    camera: &Camera,
-    settings: &Settings,
-    isa: Isa,
-    stop: Stop,
-) -> Result<Frame> {
-    settings.check()?;
-    let view = View { camera, isa, stop };
-    let pixels = camera.size()[0] * camera.size()[1];
-    let mut frame = Frame { value: vec![f32::NAN; pixels], ..Frame::empty(*camera, 0) };
-    let (start, mut clock) = (vec![WHOLE; pixels], Clock::start());
-    let behind = surroundings(&view, volume, settings, Some(&start), &mut frame, &mut clock)?;
-    show(&view, settings, None, behind.as_deref(), &mut frame)?;
-    clock.lap("composite", &mut frame.timings);
-    frame.value = Vec::new();
-    Ok(frame)
-}
-
-/// The context where `start` says that its rays start, and its own picture; nothing where no ray starts.
-fn surroundings(
-    view: &View,
-    volume: &Volume,
-    settings: &Settings,
-    start: Option<&[f32]>,
-    frame: &mut Frame,
-    clock: &mut Clock,
-) -> Result<Option<Vec<[f32; 4]>>> {
-    let (Some(settings), Some(start)) = (&settings.context, start) else { return Ok(None) };
-    frame.context = vec![[0; 4]; start.len()];
-    // Behind a cut surface that hides everything there is nothing.
-    let behind = if start.iter().any(|start| *start < NONE) {
-        let blocks = volume.blocks(view.stop)?;
-        clock.lap("blocks", &mut frame.timings);
-        let mut behind = vec![[0.0; 4]; start.len()];
-        context(view, volume, Some(blocks), settings, start, &mut behind)?;
-        layer(view, &behind, &mut frame.context)?;
-        Some(behind)
-    } else {
-        None
-    };
-    clock.lap("context", &mut frame.timings);
-    Ok(behind)
-}
-
-/// The picture of all layers.
-fn show(
-    view: &View,
-    settings: &Settings,
-    strength: Option<&[f32]>,
-    context: Option<&[[f32; 4]]>,
-    frame: &mut Frame,
-) -> Result<()> {
-    frame.image = vec![[0; 4]; frame.value.len()];
-    composite(view, &Layers { value: &frame.value, strength, context }, settings, &mut frame.image)
-}
-
-/// Measures the stages one after the other.
-struct Clock(Instant);
-
-impl Clock {
-    fn start() -> Self {
-        Self(Instant::now())
-    }
-
-    fn lap(&mut self, stage: &'static str, timings: &mut Vec<Timing>) {
-        let now = Instant::now();
-        timings.push(Timing { stage, milliseconds: (now - self.0).as_secs_f64() * 1e3 });
-        self.0 = now;
-    }
+/// An error for a scene of nothing.
+pub fn nothing_to_show() -> Error {
+    let found = "neither a volume nor vessels";
+    Error::new(ErrorKind::Volume, "scene of the renderer", found, "one of them or both")
 }

@@ -1,12 +1,8 @@
 //! Volumes: borrowed voxels of any integer or float type on any invertible affine grid.
 
-use std::sync::{Arc, OnceLock};
-
 use glam::{DAffine3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::blocks::Blocks;
-use crate::stages::Stop;
 
 /// A voxel type, widened when it is read.
 pub trait Voxel: Copy + Default + PartialOrd + Send + Sync + 'static {
@@ -160,18 +156,14 @@ macro_rules! with_voxels {
     };
 }
 
-/// The blocks of a volume once they are made, to be shared by volumes over the same voxels.
-pub type SharedBlocks = Arc<OnceLock<Blocks>>;
-
 /// A volume: voxels, the grid they lie on, and the grid's place in world space (LPS, mm).
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Volume<'a> {
     voxels: Voxels<'a>,
     size: [usize; 3],
     strides: [usize; 3],
     world_from_index: DAffine3,
     index_from_world: DAffine3,
-    blocks: SharedBlocks,
 }
 
 impl<'a> Volume<'a> {
@@ -215,35 +207,7 @@ impl<'a> Volume<'a> {
             );
         }
         let index_from_world = world_from_index.inverse();
-        Ok(Self {
-            voxels,
-            size,
-            strides,
-            world_from_index,
-            index_from_world,
-            blocks: SharedBlocks::default(),
-        })
-    }
-
-    /// The same volume with the blocks of another one over the same voxels, on the same grid, made or not.
-    #[must_use]
-    pub fn sharing(mut self, blocks: SharedBlocks) -> Self {
-        self.blocks = blocks;
-        self
-    }
-
-    /// The smallest and largest values of the volume's blocks, made at the first call.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`] once `stop` says so.
-    pub fn blocks(&self, stop: Stop) -> Result<&Blocks> {
-        if let Some(blocks) = self.blocks.get() {
-            return Ok(blocks);
-        }
-        // Made outside the lock: a thread of the pool that waited for its part could take up another view and wait
-        // for itself. Blocks that someone else made meanwhile are the same.
-        let blocks = Blocks::new(self, stop)?;
-        Ok(self.blocks.get_or_init(|| blocks))
+        Ok(Self { voxels, size, strides, world_from_index, index_from_world })
     }
 
     /// The voxels in their own type.

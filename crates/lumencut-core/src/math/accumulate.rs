@@ -1,6 +1,7 @@
 //! What rays make of their samples: one small accumulator for each kind of context.
 
 use super::blocks::{HUGE, Range};
+use super::context_parameters::ContextParameters;
 use super::lanes::{FAN, larger, largest, smaller, smallest};
 use super::thickness::of_thickness;
 use super::transfer::Colors;
@@ -35,10 +36,8 @@ pub trait Light {
 pub struct Palette {
     /// Colour and opacity.
     pub colors: Colors,
-    /// The intensities from 0 to 1.
-    pub window: Ramp,
-    /// γ, from −1 to 1.
-    pub gamma: f32,
+    /// Window and weights.
+    pub parameters: ContextParameters,
 }
 
 /// Gathers the samples of sixteen rays.
@@ -84,11 +83,11 @@ impl<'a> Accumulator<'a> for Blend<'a> {
     #[inline(always)]
     fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
         // What is transparent changes nothing before the first visible sample, which is brighter than all of it.
-        let most = palette.window.at(palette.colors.first_visible());
+        let most = palette.parameters.most;
         Self {
             palette,
-            push: 1.0 + smaller(palette.gamma, 0.0),
-            mix: larger(palette.gamma, 0.0),
+            push: palette.parameters.push,
+            mix: palette.parameters.mix,
             color: [[0.0; FAN]; 3],
             opacity: active.map(|active| if active { 0.0 } else { 1.0 }),
             most: active.map(|active| if active { most } else { 1.0 }),
@@ -100,7 +99,7 @@ impl<'a> Accumulator<'a> for Blend<'a> {
     fn ignores(&self, range: Range) -> bool {
         let unseen = smallest(&self.opacity) >= OPAQUE || self.palette.colors.is_transparent(range);
         unseen
-            && (self.push == 0.0 || self.palette.window.at(range.high) <= smallest(&self.most))
+            && (self.push == 0.0 || self.palette.parameters.window.at(range.high) <= smallest(&self.most))
             && (self.mix == 0.0 || self.brightest.ignores(range))
     }
 
@@ -110,7 +109,7 @@ impl<'a> Accumulator<'a> for Blend<'a> {
         let mut keep = [1.0; FAN];
         let mut any = 0;
         for l in 0..FAN {
-            let intensity = self.palette.window.at(samples.value[l]) * samples.present[l];
+            let intensity = self.palette.parameters.window.at(samples.value[l]) * samples.present[l];
             let push = larger(intensity - self.most[l], 0.0) * self.push;
             let seen = if self.opacity[l] < OPAQUE { samples.present[l] } else { 0.0 };
             let seen = if push > 0.0 { samples.present[l] } else { seen };
@@ -222,7 +221,7 @@ impl<'a> Accumulator<'a> for Darkest {
     #[inline(always)]
     fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
         let best = active.map(|active| if active { HUGE } else { -HUGE });
-        Self { window: palette.window, black: palette.window.zero(), active: *active, best }
+        Self { window: palette.parameters.window, black: palette.parameters.black, active: *active, best }
     }
 
     #[inline(always)]
@@ -267,7 +266,7 @@ pub struct Average {
 impl<'a> Accumulator<'a> for Average {
     #[inline(always)]
     fn new(palette: &'a Palette, _: &[bool; FAN]) -> Self {
-        Self { window: palette.window, sum: [0.0; FAN], count: [0.0; FAN] }
+        Self { window: palette.parameters.window, sum: [0.0; FAN], count: [0.0; FAN] }
     }
 
     #[inline(always)]

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::lanes::{larger, smaller};
-use crate::error::{Error, Result};
-use crate::stages::Stop;
+use crate::error::Result;
+use crate::stop::{Stop, go_on};
 use crate::volume::{Real, Volume, Voxel};
 use crate::with_voxels;
 
@@ -82,9 +82,7 @@ impl Blocks {
         .par_chunks_mut(size[0])
         .enumerate()
         .try_for_each(|(row, ranges)| {
-            if stop() {
-                return Err(Error::interrupted());
-            }
+            go_on(stop)?;
             row_of_blocks(voxels, volume, [row % size[1], row / size[1]], ranges);
             Ok(())
         }))?;

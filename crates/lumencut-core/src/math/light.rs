@@ -3,8 +3,8 @@
 use super::accumulate::Light;
 use super::lanes::FAN;
 use super::ray::IndexFromView;
-use super::sampling::{Path, Places, Sampler};
-use super::window::Window;
+use super::sampler::Sampler;
+use super::sampling::{Around, Places};
 
 /// The share of its colour that a surface keeps edge on, and what it gains towards the viewer.
 const AMBIENT: f32 = 0.4;
@@ -12,22 +12,11 @@ const DIFFUSE: f32 = 0.6;
 /// White mirrored straight towards the viewer; it falls off with the sixteenth power of the cosine.
 const SPECULAR: f32 = 0.2;
 
-/// Changes over two voxels that are half shaded, as a share of the context window: noise within a vessel stays below,
-/// the borders of vessels and bones are far above.
-const HALF_SHADED: f64 = 0.1;
-
 /// How strongly changes are shaded.
 #[derive(Clone, Copy, Debug)]
 pub struct Shading {
     /// The square of a change that is half shaded.
     pub noise: f32,
-}
-
-impl Shading {
-    /// The shading of a context with this window.
-    pub fn new(window: Window) -> Self {
-        Self { noise: ((HALF_SHADED * window.width) as f32).powi(2) }
-    }
 }
 
 /// A change within what can be squared; NaN stays.
@@ -62,7 +51,7 @@ impl Light for Headlight<'_> {
         // One voxel more room towards the first voxels, where there is one.
         let base = self.base.map(|b| (b - 1).max(0));
         let shift = [0, 1, 2].map(|a| (self.base[a] - base[a]) as f32);
-        let value = self.sampler.around(base, &Around { places: self.places, shift });
+        let value = self.sampler.around(base, &Around::new(self.places, shift));
         let to = self.index_from_view;
         let [x, y, z] = [to.x, to.y, to.z].map(|axis| axis.as_vec3().to_array());
         for l in 0..FAN {
@@ -80,26 +69,5 @@ impl Light for Headlight<'_> {
             shine[l] = surface * SPECULAR * sixteenth;
         }
         [lit, shine]
-    }
-}
-
-/// One voxel to both sides along each axis.
-#[derive(Clone, Copy, Debug)]
-pub struct Around {
-    places: Places,
-    shift: [f32; 3],
-}
-
-impl Path for Around {
-    #[inline(always)]
-    fn places(&self, n: usize) -> Places {
-        let mut places = self.places;
-        for a in 0..3 {
-            let shift = self.shift[a] + if n / 2 == a { [1.0, -1.0][n % 2] } else { 0.0 };
-            for l in 0..FAN {
-                places[a][l] += shift;
-            }
-        }
-        places
     }
 }

@@ -3,14 +3,17 @@
 pub mod accumulate;
 pub mod blocks;
 pub mod candidates;
+pub mod context_parameters;
 pub mod cost;
 pub mod hierarchy;
 pub mod lanes;
+pub mod levels;
 pub mod light;
 pub mod nearest;
 pub mod pieces;
 pub mod projection;
 pub mod ray;
+pub mod sampler;
 pub mod sampling;
 pub mod thickness;
 pub mod tile;

@@ -90,17 +90,16 @@ impl ProjectedLevel {
         Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
     }
 
-    /// Projects all slots of `level` into the view of `camera`; radii count only with `preserve_lumen`.
-    pub fn project(&mut self, level: &Level, camera: &Camera, preserve_lumen: bool) {
+    /// Projects all slots of `level` into the view of `camera`; radii are multiplied by `radius_scale`.
+    pub fn project(&mut self, level: &Level, camera: &Camera, radius_scale: f32) {
         for (projected, point) in self.projected.iter_mut().zip(&level.points) {
             projected.point = camera.view_from_world(*point).as_vec3().to_array();
         }
         for ends in level.first_slot.windows(2) {
             stand(&mut self.projected[ends[0] as usize..ends[1] as usize]);
         }
-        let scale = f32::from(u8::from(preserve_lumen));
         for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
-            self.place(level, place, *slot as usize, scale);
+            self.place(level, place, *slot as usize, radius_scale);
         }
         self.hierarchy.enclose();
     }

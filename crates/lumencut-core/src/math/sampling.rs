@@ -2,9 +2,7 @@
 
 use glam::DVec3;
 
-use super::lanes::{FAN, Isa, Kernel, dispatch, larger, smaller};
-use super::light::Around;
-use super::ray::{Line, STEPS};
+use super::lanes::{FAN, larger, smaller};
 use crate::volume::{Real, Volume, Voxel};
 
 /// The grid of a volume, ready to find the voxels around a continuous index.
@@ -25,56 +23,38 @@ pub struct Grid {
 /// millionth of a voxel.
 pub type Places = [[f32; FAN]; 3];
 
-/// A volume whose voxels may be of any type, on the instruction set that was chosen for it: so that the rays need not
-/// be compiled for every type of voxel.
-pub trait Sampler: Sync {
-    /// The volume at the samples of a segment of rays.
-    fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS];
-    /// The volume at the neighbours of sixteen places.
-    fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
-}
-
-/// Voxels of one type.
-#[derive(Clone, Copy, Debug)]
-pub struct TypedSampler<'a, T> {
-    /// Their grid.
-    pub grid: Grid,
-    /// The voxels.
-    pub voxels: &'a [T],
-    /// The instruction set.
-    pub isa: Isa,
-}
-
-impl<T: Voxel> Sampler for TypedSampler<'_, T> {
-    fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS] {
-        dispatch(self.isa, SamplePath { sampler: self, base, path: line })
-    }
-
-    fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6] {
-        dispatch(self.isa, SamplePath { sampler: self, base, path: neighbours })
-    }
-}
-
-/// [`Grid::sample`] as a kernel.
-struct SamplePath<'a, T, P, const N: usize> {
-    sampler: &'a TypedSampler<'a, T>,
-    base: [i32; 3],
-    path: &'a P,
-}
-
-impl<T: Voxel, P: Path, const N: usize> Kernel for SamplePath<'_, T, P, N> {
-    type Output = [[f32; FAN]; N];
-
-    #[inline(always)]
-    fn run(self) -> [[f32; FAN]; N] {
-        self.sampler.grid.sample(self.sampler.voxels, self.base, self.path)
-    }
-}
-
 /// Where to sample: sixteen places at each of some steps.
 pub trait Path {
     /// The places of step `n`, counted from a voxel before all of them.
     fn places(&self, n: usize) -> Places;
+}
+
+/// One voxel to both sides along each axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Around {
+    places: Places,
+    shift: [f32; 3],
+}
+
+impl Around {
+    /// Around places that are counted from a voxel `shift` voxels before theirs.
+    pub fn new(places: Places, shift: [f32; 3]) -> Self {
+        Self { places, shift }
+    }
+}
+
+impl Path for Around {
+    #[inline(always)]
+    fn places(&self, n: usize) -> Places {
+        let mut places = self.places;
+        for a in 0..3 {
+            let shift = self.shift[a] + if n / 2 == a { [1.0, -1.0][n % 2] } else { 0.0 };
+            for l in 0..FAN {
+                places[a][l] += shift;
+            }
+        }
+        places
+    }
 }
 
 impl Grid {

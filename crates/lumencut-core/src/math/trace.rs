@@ -5,11 +5,12 @@ use super::blocks::Blocks;
 use super::lanes::FAN;
 use super::light::{Headlight, Shading};
 use super::ray::{Packet, Rays, STEPS, Segment};
-use super::sampling::{Path, Sampler};
+use super::sampler::Sampler;
+use super::sampling::Path;
 
 /// What rays run through.
 #[derive(Clone, Copy)]
-pub struct Scene<'a> {
+pub struct Passage<'a> {
     /// The rays' geometry.
     pub rays: &'a Rays,
     /// The volume.
@@ -22,18 +23,18 @@ pub struct Scene<'a> {
 
 /// Sixteen rays and what they have gathered.
 #[derive(Clone, Debug)]
-pub struct Walker<A> {
-    packet: Packet,
+pub struct RayPacket<A> {
+    rays: Packet,
     gathered: A,
     /// The segments, sorted once, the most promising first; for accumulators of any order only.
     segments: Vec<Segment>,
 }
 
-impl<'a, A: Accumulator<'a>> Walker<A> {
+impl<'a, A: Accumulator<'a>> RayPacket<A> {
     /// Rays at their start.
     #[inline(always)]
-    pub fn new(packet: Packet, gathered: A) -> Self {
-        Self { packet, gathered, segments: Vec::new() }
+    pub fn new(rays: Packet, gathered: A) -> Self {
+        Self { rays, gathered, segments: Vec::new() }
     }
 
     /// The pixels.
@@ -46,38 +47,38 @@ impl<'a, A: Accumulator<'a>> Walker<A> {
 /// Lets rays side by side gather their samples. They walk abreast: what one of them fetches from memory its neighbours
 /// need next.
 #[inline(always)]
-pub fn trace<'a, A: Accumulator<'a>>(scene: &Scene, walkers: &mut [Walker<A>]) {
+pub fn trace<'a, A: Accumulator<'a>>(passage: &Passage, packets: &mut [RayPacket<A>]) {
     let mut longest = 0;
-    for walker in &mut *walkers {
-        longest = longest.max(walker.packet.longest);
+    for packet in &mut *packets {
+        longest = longest.max(packet.rays.longest);
         if A::ANY_ORDER {
             let mut first = 0;
-            while first < walker.packet.longest {
-                walker.segments.push(walker.packet.segment(&scene.rays.grid, scene.blocks, first));
+            while first < packet.rays.longest {
+                packet.segments.push(packet.rays.segment(&passage.rays.grid, passage.blocks, first));
                 first += STEPS as i32;
             }
-            walker
+            packet
                 .segments
                 .sort_unstable_by(|one, other| A::promise(other.range).total_cmp(&A::promise(one.range)));
         }
     }
     let mut first = 0;
     while first < longest {
-        for walker in &mut *walkers {
-            if first >= walker.packet.longest {
+        for packet in &mut *packets {
+            if first >= packet.rays.longest {
                 continue;
             }
             let segment = if A::ANY_ORDER {
-                walker.segments[first as usize / STEPS]
+                packet.segments[first as usize / STEPS]
             } else {
-                walker.packet.segment(&scene.rays.grid, scene.blocks, first)
+                packet.rays.segment(&passage.rays.grid, passage.blocks, first)
             };
-            if walker.gathered.ignores(segment.range) {
+            if packet.gathered.ignores(segment.range) {
                 continue;
             }
-            visit(scene, &walker.packet, &segment, &mut walker.gathered);
-            if walker.gathered.is_done() {
-                walker.packet.longest = 0;
+            visit(passage, &packet.rays, &segment, &mut packet.gathered);
+            if packet.gathered.is_done() {
+                packet.rays.longest = 0;
             }
         }
         first += STEPS as i32;
@@ -86,9 +87,9 @@ pub fn trace<'a, A: Accumulator<'a>>(scene: &Scene, walkers: &mut [Walker<A>]) {
 
 /// Takes the samples of one segment.
 #[inline(always)]
-fn visit<'a, A: Accumulator<'a>>(scene: &Scene, packet: &Packet, segment: &Segment, gathered: &mut A) {
+fn visit<'a, A: Accumulator<'a>>(passage: &Passage, packet: &Packet, segment: &Segment, gathered: &mut A) {
     let line = packet.line(segment);
-    let values = scene.sampler.along(segment.base, &line);
+    let values = passage.sampler.along(segment.base, &line);
     for n in 0..STEPS {
         let value = &values[n];
         let mut present = [0.0; FAN];
@@ -97,9 +98,9 @@ fn visit<'a, A: Accumulator<'a>>(scene: &Scene, packet: &Packet, segment: &Segme
             present[l] = if value[l].is_nan() { 0.0 } else { there };
         }
         let light = Headlight {
-            shading: scene.shading,
-            sampler: scene.sampler,
-            index_from_view: &scene.rays.index_from_view,
+            shading: passage.shading,
+            sampler: passage.sampler,
+            index_from_view: &passage.rays.index_from_view,
             base: segment.base,
             places: line.places(n),
         };

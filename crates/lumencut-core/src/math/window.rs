@@ -1,5 +1,7 @@
 //! The window (level, width) that maps intensities to grey, and the ramp that maps them to opacity.
 
+use bytemuck::{Pod, Zeroable};
+
 use super::lanes::{larger, smaller};
 
 /// Intensities shown from black to white: `level` ± `width` / 2.
@@ -21,7 +23,8 @@ pub struct Opacity {
 }
 
 /// Linear map of intensity to [0, 1], ready for one multiplication and one addition per pixel.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
 pub struct Ramp {
     /// What an intensity is multiplied by.
     pub scale: f32,
@@ -43,11 +46,6 @@ impl Ramp {
     /// Opacity of a ramp; opaque everywhere without one.
     pub fn opacity(opacity: Option<Opacity>) -> Self {
         opacity.map_or(Self { scale: 0.0, offset: 1.0 }, |o| Self::between(o.transparent, o.opaque))
-    }
-
-    /// What an intensity is multiplied by, and what is added then.
-    pub fn parts(&self) -> [f32; 2] {
-        [self.scale, self.offset]
     }
 
     /// The intensity at which the ramp begins to rise from 0.

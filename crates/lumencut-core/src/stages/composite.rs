@@ -1,8 +1,9 @@
 //! The picture: the cut surface with its silhouettes over the context over the background.
 
+use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
-use super::View;
+use super::{Image, Work};
 use crate::error::Result;
 use crate::math::accumulate::Rgba;
 use crate::math::lanes::{FAN, Kernel, dispatch, smaller};
@@ -20,26 +21,43 @@ pub struct Layers<'a> {
     pub context: Option<&'a [[f32; 4]]>,
 }
 
+/// The parameters of the stage: the colours of one picture, 0 to 1.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct CompositeParameters {
+    /// Where there is nothing to show.
+    pub background: [f32; 4],
+    /// Of the silhouettes; the last number is not used.
+    pub line: [f32; 4],
+    /// The values from black to white.
+    pub grey: Ramp,
+    /// The values from transparent to opaque.
+    pub opacity: Ramp,
+}
+
 /// Writes the RGBA picture, with straight alpha, of the layers over the background.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn composite(view: &View, layers: &Layers, settings: &Settings, image: &mut [[u8; 4]]) -> Result<()> {
-    let paint = Paint {
-        grey: Ramp::grey(settings.window),
-        opacity: Ramp::opacity(settings.opacity),
-        background: settings.background.map(|c| f32::from(c) / 255.0),
-        line: settings.silhouette_color.map(|c| f32::from(c) / 255.0),
-    };
-    let chunk = view.tile_row();
+pub fn composite(
+    work: &Work,
+    parameters: &CompositeParameters,
+    layers: &Layers,
+    image: &mut [[u8; 4]],
+) -> Result<()> {
+    work.expect_whole(Image::Picture, image);
+    work.expect_whole(Image::Value, layers.value);
+    layers.strength.iter().for_each(|strength| work.expect_whole(Image::Strength, strength));
+    layers.context.iter().for_each(|context| work.expect_whole(Image::Gathered, context));
+    let chunk = work.tile_row();
     let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
     let rows = image.par_chunks_mut(chunk).zip(layers.value.par_chunks(chunk));
     rows.enumerate().try_for_each(|(row, (image, value))| {
-        view.go_on()?;
+        work.go_on()?;
         let strength = layers.strength.map_or(&absent[..], |s| &s[row * chunk..][..value.len()]);
         let context = layers.context.map_or(&empty[..], |c| &c[row * chunk..][..value.len()]);
-        dispatch(view.isa, PaintRows { paint, value, strength, context, image });
+        dispatch(work.isa, PaintRows { paint: *parameters, value, strength, context, image });
         Ok(())
     })
 }
@@ -48,25 +66,30 @@ pub fn composite(view: &View, layers: &Layers, settings: &Settings, image: &mut 
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn layer(view: &View, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<()> {
-    let chunk = view.tile_row();
+pub fn layer(work: &Work, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<()> {
+    work.expect_whole(Image::Gathered, colors);
+    work.expect_whole(Image::Context, image);
+    let chunk = work.tile_row();
     image.par_chunks_mut(chunk).zip(colors.par_chunks(chunk)).try_for_each(|(image, colors)| {
-        view.go_on()?;
-        dispatch(view.isa, StraightRows { colors, image });
+        work.go_on()?;
+        dispatch(work.isa, StraightRows { colors, image });
         Ok(())
     })
 }
 
-/// The colours of one picture, 0 to 1.
-#[derive(Clone, Copy)]
-struct Paint {
-    grey: Ramp,
-    opacity: Ramp,
-    background: [f32; 4],
-    line: [f32; 3],
-}
+impl CompositeParameters {
+    /// The colours that `settings` say.
+    pub fn new(settings: &Settings) -> Self {
+        let [red, green, blue] = settings.silhouette_color;
+        let unit = |color: [u8; 4]| color.map(|c| f32::from(c) / 255.0);
+        Self {
+            background: unit(settings.background),
+            line: unit([red, green, blue, 0]),
+            grey: Ramp::grey(settings.window),
+            opacity: Ramp::opacity(settings.opacity),
+        }
+    }
 
-impl Paint {
     /// The surface, grey with the silhouette's colour over it, over the context over the background. Where there is no
     /// value there is no surface. Colours times opacity, and opacity.
     #[inline(always)]
@@ -134,7 +157,7 @@ fn byte(value: f32) -> u32 {
 }
 
 struct PaintRows<'a> {
-    paint: Paint,
+    paint: CompositeParameters,
     value: &'a [f32],
     strength: &'a [f32],
     context: &'a [[f32; 4]],

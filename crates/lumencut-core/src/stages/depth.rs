@@ -4,12 +4,13 @@
 
 use rayon::prelude::*;
 
-use super::View;
+use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch, places, smaller};
+use crate::math::levels::CutSurfaceParameters;
 use crate::math::pieces::Envelope;
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::tile::{Tile, gather, scatter};
@@ -20,6 +21,7 @@ use crate::settings::{MAX_LEVELS, Settings};
 pub struct CutSurface<'a> {
     levels: &'a [Level],
     projected: &'a [ProjectedLevel],
+    camera: &'a Camera,
     rule: Rule,
     lumen_first: bool,
     /// N / σ (levels² per mm): f² = this · D.
@@ -31,18 +33,24 @@ impl<'a> CutSurface<'a> {
     pub fn new(
         levels: &'a [Level],
         projected: &'a [ProjectedLevel],
-        camera: &Camera,
+        camera: &'a Camera,
         settings: &Settings,
     ) -> Self {
         let tree_reach = projected.iter().map(ProjectedLevel::reach).fold(0.0, f32::max);
-        let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
+        let parameters = CutSurfaceParameters::new(settings, camera, tree_reach);
         Self {
             levels,
             projected,
-            rule: Rule::new(settings, tree_reach, view_reach),
+            camera,
+            rule: parameters.rule(),
             lumen_first: settings.lumen_first,
-            selection: ((projected.len() - 1) as f64 / settings.level_distance) as f32,
+            selection: parameters.selection,
         }
+    }
+
+    /// The view.
+    pub fn camera(&self) -> &'a Camera {
+        self.camera
     }
 
     /// The finest level in projection.
@@ -58,7 +66,7 @@ impl<'a> CutSurface<'a> {
 }
 
 /// The two levels that each pixel of a tile blends, and the weights of their depths.
-struct Blend {
+struct LevelBlend {
     /// k0, as a number that compares exactly.
     fine: [f32; PIXELS],
     fine_weight: [f32; PIXELS],
@@ -66,7 +74,7 @@ struct Blend {
     coarse_weight: [f32; PIXELS],
 }
 
-impl Blend {
+impl LevelBlend {
     /// Level selection at distance D: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond.
     #[inline(always)]
     fn select(selection: f32, coarsest: usize, distance: &[f32; PIXELS]) -> Self {
@@ -117,12 +125,12 @@ pub(crate) trait Search {
 }
 
 /// By the walk through the hierarchy, seeded with the winners of the tile before.
-struct Walk<'a> {
+struct LowestKeySearch<'a> {
     surface: &'a CutSurface<'a>,
     seeds: [Seeds; MAX_LEVELS + 1],
 }
 
-impl Search for Walk<'_> {
+impl Search for LowestKeySearch<'_> {
     #[inline(always)]
     fn lowest<const LUMEN_FIRST: bool>(
         &mut self,
@@ -142,34 +150,37 @@ impl Search for Walk<'_> {
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
 pub fn depth(
-    view: &View,
+    work: &Work,
     surface: &CutSurface,
     distance: &[f32],
     depth: &mut [f32],
     vessel: &mut [i32],
 ) -> Result<()> {
     let seeds = [Seeds::default(); MAX_LEVELS + 1];
-    depth_by(view, surface, distance, depth, vessel, || Walk { surface, seeds })
+    depth_by(work, surface, distance, depth, vessel, || LowestKeySearch { surface, seeds })
 }
 
 /// [`depth`] with a search of its own for each row of tiles.
 pub(crate) fn depth_by<S: Search>(
-    view: &View,
+    work: &Work,
     surface: &CutSurface,
     distance: &[f32],
     depth: &mut [f32],
     vessel: &mut [i32],
     search: impl Fn() -> S + Sync,
 ) -> Result<()> {
-    let chunk = view.tile_row();
+    work.expect_whole(Image::Distance, distance);
+    work.expect_whole(Image::UnfilteredDepth, depth);
+    work.expect_whole(Image::Vessel, vessel);
+    let chunk = work.tile_row();
     let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(distance.par_chunks(chunk));
     rows.enumerate().try_for_each(|(row, ((depth, vessel), distance))| {
-        view.go_on()?;
-        let (row, search) = (DepthRow { view, surface, row, distance, depth, vessel }, search());
+        work.go_on()?;
+        let (row, search) = (DepthRow { surface, row, distance, depth, vessel }, search());
         if surface.lumen_first {
-            dispatch(view.isa, DepthKernel::<S, true> { row, search });
+            dispatch(work.isa, DepthKernel::<S, true> { row, search });
         } else {
-            dispatch(view.isa, DepthKernel::<S, false> { row, search });
+            dispatch(work.isa, DepthKernel::<S, false> { row, search });
         }
         Ok(())
     })
@@ -177,7 +188,6 @@ pub(crate) fn depth_by<S: Search>(
 
 /// One row of tiles.
 struct DepthRow<'a> {
-    view: &'a View<'a>,
     surface: &'a CutSurface<'a>,
     row: usize,
     distance: &'a [f32],
@@ -203,9 +213,10 @@ impl DepthRow<'_> {
     /// Fills the row, tile by tile.
     #[inline(always)]
     fn fill<const LUMEN_FIRST: bool>(self, search: &mut impl Search) {
-        let width = self.view.size()[0];
+        let camera = self.surface.camera;
+        let width = camera.size()[0];
         for column in (0..width).step_by(COLUMNS) {
-            let tile = Tile::new(self.view.camera, column, self.row * ROWS);
+            let tile = Tile::new(camera, column, self.row * ROWS);
             let distance = gather(self.distance, width, column);
             let (depth, vessel) = self.surface.blend::<LUMEN_FIRST>(&tile, &distance, search);
             scatter(&depth, self.depth, width, column);
@@ -223,7 +234,7 @@ impl CutSurface<'_> {
         distance: &[f32; PIXELS],
         search: &mut impl Search,
     ) -> ([f32; PIXELS], [i32; PIXELS]) {
-        let blend = Blend::select(self.selection, self.projected.len() - 1, distance);
+        let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
         let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
         // The slot that rules each pixel, in the level it belongs to: the one with the larger weight.
         let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);

@@ -1,33 +1,57 @@
 //! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that takes the steps of the pixel grid out of
 //! the cut surface (paper section 3.3.3).
 
+use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
-use super::View;
+use super::{Image, Work};
 use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch};
 
 /// Pixels to each side of the middle.
 const REACH: usize = 3;
 
-/// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
-pub fn weights() -> [f32; REACH + 1] {
-    let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
-    let bell: [f64; REACH + 1] = std::array::from_fn(|n| (-((n * n) as f64) / (2.0 * sigma * sigma)).exp());
-    let sum = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
-    bell.map(|w| (w / sum) as f32)
+/// The parameters of the stage.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct DepthFilterParameters {
+    /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
+    pub weights: [f32; REACH + 1],
+}
+
+impl DepthFilterParameters {
+    /// The Gaussian of the paper.
+    pub fn new() -> Self {
+        let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
+        let bell: [f64; REACH + 1] =
+            std::array::from_fn(|n| (-((n * n) as f64) / (2.0 * sigma * sigma)).exp());
+        let sum = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
+        Self { weights: bell.map(|w| (w / sum) as f32) }
+    }
+}
+
+impl Default for DepthFilterParameters {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 /// Writes the smoothed `image`, continued beyond its border by the border's own pixels.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn depth_filter(view: &View, image: &[f32], smoothed: &mut [f32]) -> Result<()> {
-    let weights = weights();
-    let width = view.size()[0];
-    smoothed.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
-        view.go_on()?;
-        dispatch(view.isa, FilterRows { image, width, first: row * ROWS, weights, smoothed });
+pub fn depth_filter(
+    work: &Work,
+    parameters: &DepthFilterParameters,
+    image: &[f32],
+    smoothed: &mut [f32],
+) -> Result<()> {
+    work.expect_whole(Image::UnfilteredDepth, image);
+    work.expect_whole(Image::Depth, smoothed);
+    let (weights, width) = (parameters.weights, work.size[0]);
+    smoothed.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
+        work.go_on()?;
+        dispatch(work.isa, FilterRows { image, width, first: row * ROWS, weights, smoothed });
         Ok(())
     })
 }

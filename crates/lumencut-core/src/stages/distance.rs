@@ -3,7 +3,8 @@
 
 use rayon::prelude::*;
 
-use super::View;
+use super::depth::CutSurface;
+use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::hierarchy::Hierarchy;
@@ -16,8 +17,11 @@ use crate::math::walk::smallest_distances;
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn distance(view: &View, finest: &Hierarchy, distance: &mut [f32]) -> Result<()> {
-    distance_by(view, distance, || Walk { finest, nearest: NearestPoint::unknown() })
+pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Result<()> {
+    distance_by(work, surface, distance, || NearestSearch {
+        finest: surface.finest(),
+        nearest: NearestPoint::unknown(),
+    })
 }
 
 /// How the distances of one tile are found.
@@ -27,12 +31,12 @@ pub(crate) trait Measure {
 }
 
 /// By the walk through the hierarchy, which begins at the point nearest to the tile before.
-struct Walk<'a> {
+struct NearestSearch<'a> {
     finest: &'a Hierarchy,
     nearest: NearestPoint,
 }
 
-impl Measure for Walk<'_> {
+impl Measure for NearestSearch<'_> {
     #[inline(always)]
     fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]) {
         smallest_distances(self.finest, tile, &mut self.nearest, squared);
@@ -41,13 +45,16 @@ impl Measure for Walk<'_> {
 
 /// [`distance`] with a measure of its own for each row of tiles.
 pub(crate) fn distance_by<M: Measure>(
-    view: &View,
+    work: &Work,
+    surface: &CutSurface,
     distance: &mut [f32],
     measure: impl Fn() -> M + Sync,
 ) -> Result<()> {
-    distance.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, pixels)| {
-        view.go_on()?;
-        dispatch(view.isa, DistanceRow { camera: view.camera, measure: measure(), row, pixels });
+    work.expect_whole(Image::Distance, distance);
+    let camera = surface.camera();
+    distance.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, pixels)| {
+        work.go_on()?;
+        dispatch(work.isa, DistanceRow { camera, measure: measure(), row, pixels });
         Ok(())
     })
 }

@@ -1,4 +1,4 @@
-//! The stages of the pipeline, one room each, in the order of the paper's Fig. 4.
+//! The stages of the pipeline, one room each, in the order of the paper's Fig. 4, and the one table of them.
 
 pub mod composite;
 pub mod context;
@@ -8,34 +8,34 @@ pub mod distance;
 pub mod levels;
 pub mod silhouette;
 pub mod surface;
+mod table;
 
-use crate::camera::Camera;
-use crate::error::{Error, Result};
+pub use table::{Image, ImageSet, Stage};
+
+use crate::error::Result;
 use crate::math::lanes::{Isa, ROWS};
-
-/// Asked between rows of tiles, from any thread, whether to stop.
-pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
+use crate::stop::{Stop, go_on};
 
 /// What every stage of one view shares.
 #[derive(Clone, Copy)]
-pub struct View<'a> {
-    /// The view.
-    pub camera: &'a Camera,
+pub struct Work<'a> {
+    /// The width and height of the view in pixels.
+    pub size: [usize; 2],
     /// The instruction set of the kernels; the result does not depend on it.
     pub isa: Isa,
     /// Whether to stop.
     pub stop: Stop<'a>,
 }
 
-impl View<'_> {
-    /// The width and height in pixels.
-    pub fn size(&self) -> [usize; 2] {
-        self.camera.size()
+impl Work<'_> {
+    /// The number of pixels.
+    pub fn pixels(&self) -> usize {
+        self.size[0] * self.size[1]
     }
 
     /// The pixels of one row of tiles.
     pub fn tile_row(&self) -> usize {
-        ROWS * self.camera.size()[0]
+        ROWS * self.size[0]
     }
 
     /// An error where the caller asks to stop.
@@ -43,6 +43,19 @@ impl View<'_> {
     /// # Errors
     /// [`crate::error::ErrorKind::Interrupted`].
     pub fn go_on(&self) -> Result<()> {
-        if (self.stop)() { Err(Error::interrupted()) } else { Ok(()) }
+        go_on(self.stop)
+    }
+
+    /// Every image of a view has one entry for each of its pixels.
+    ///
+    /// # Panics
+    /// Where the caller's buffers are not of this view: a mistake in the program, never in its input.
+    pub fn expect_whole<T>(&self, image: Image, pixels: &[T]) {
+        let [width, height] = self.size;
+        assert_eq!(
+            pixels.len(),
+            width * height,
+            "entries of the image {image:?} of {width} × {height} pixels"
+        );
     }
 }

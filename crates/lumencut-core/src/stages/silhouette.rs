@@ -1,40 +1,64 @@
 //! Silhouettes: lines where the cut surface leaps, strongest between influence zones (paper section
 //! 3.3.5).
 
+use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
-use super::View;
-use super::depth_filter::depth_filter;
+use super::depth_filter::{DepthFilterParameters, depth_filter};
+use super::{Image, Work};
+use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
+use crate::settings::Settings;
 
 /// How much a leap between the influence zones of two vessels counts beside one within a zone.
-const ZONE_BORDER: f32 = 4.0;
+pub const ZONE_BORDER: f32 = 4.0;
+/// Far beyond any slope squared.
+pub const STEEPEST: f32 = 1e12;
 
-/// Writes the strength of the silhouette, 0 to 1, at each pixel: the slope of the depth (Sobel, mm per mm, so
-/// that a smooth surface looks the same at every zoom), raised at borders of influence zones, smoothed, and mapped by
-/// s / (s + `half_slope`) after the square of both.
+/// The parameters of the stage.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct SilhouetteParameters {
+    /// From the sum of the Sobel weights to mm per mm.
+    pub per_slope: f32,
+    /// The square of the slope that has half the strength.
+    pub half: f32,
+}
+
+impl SilhouetteParameters {
+    /// The parameters of a view: a smooth surface looks the same at every zoom.
+    pub fn new(settings: &Settings, camera: &Camera) -> Self {
+        let slope = settings.silhouette_slope;
+        Self { per_slope: (1.0 / (8.0 * camera.pixel_spacing())) as f32, half: (slope * slope) as f32 }
+    }
+}
+
+/// Writes the strength of the silhouette, 0 to 1, at each pixel: the slope of the depth (Sobel, mm per mm), raised at
+/// borders of influence zones, smoothed, and mapped by s / (s + half) after the square of both.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
 pub fn silhouette(
-    view: &View,
+    work: &Work,
+    parameters: &SilhouetteParameters,
     depth: &[f32],
     vessel: &[i32],
-    half_slope: f64,
     strength: &mut [f32],
 ) -> Result<()> {
-    let width = view.size()[0];
-    let per_slope = (1.0 / (8.0 * view.camera.pixel_spacing())) as f32;
+    work.expect_whole(Image::Depth, depth);
+    work.expect_whole(Image::Vessel, vessel);
+    work.expect_whole(Image::Strength, strength);
+    let &SilhouetteParameters { per_slope, half } = parameters;
+    let (chunk, width) = (work.tile_row(), work.size[0]);
     let mut raised = vec![0.0; depth.len()];
-    raised.par_chunks_mut(view.tile_row()).enumerate().try_for_each(|(row, raised)| {
-        view.go_on()?;
-        dispatch(view.isa, SlopeRows { depth, vessel, width, first: row * ROWS, per_slope, raised });
+    raised.par_chunks_mut(chunk).enumerate().try_for_each(|(row, raised)| {
+        work.go_on()?;
+        dispatch(work.isa, SlopeRows { depth, vessel, width, first: row * ROWS, per_slope, raised });
         Ok(())
     })?;
-    depth_filter(view, &raised, strength)?;
-    let half = (half_slope * half_slope) as f32;
-    strength.par_chunks_mut(view.tile_row()).for_each(|slopes| dispatch(view.isa, Strength { slopes, half }));
+    depth_filter(work, &DepthFilterParameters::new(), &raised, strength)?;
+    strength.par_chunks_mut(chunk).for_each(|slopes| dispatch(work.isa, Strength { slopes, half }));
     Ok(())
 }
 
@@ -50,8 +74,7 @@ impl Kernel for Strength<'_> {
     #[inline(always)]
     fn run(self) {
         for s in self.slopes {
-            // Far beyond any slope, and its square is still finite.
-            let square = smaller(*s * *s, 1e12);
+            let square = smaller(*s * *s, STEEPEST);
             *s = square / (square + self.half);
         }
     }

@@ -1,0 +1,104 @@
+//! Where the pixels of a view look. What is shown there (`pipeline.rs`, `look`) does not ask which method found it.
+
+use glam::{DVec3, Vec3};
+
+use crate::camera::Camera;
+use crate::error::{Error, ErrorKind, Result};
+
+/// Where every pixel of a view looks in world space.
+#[derive(Clone, Debug)]
+pub enum Geometry {
+    /// Along the rays of an orthographic camera.
+    Orthographic {
+        /// The view.
+        camera: Camera,
+        /// The depth of the cut surface in each pixel (mm); empty where there is no cut surface, so that every ray crosses
+        /// the whole volume.
+        depth: Vec<f32>,
+    },
+    /// At a place of its own for every pixel.
+    Curved(Curved),
+}
+
+impl Geometry {
+    /// The rays of a camera without a cut surface.
+    pub fn rays(camera: Camera) -> Self {
+        Self::Orthographic { camera, depth: Vec::new() }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        match self {
+            Self::Orthographic { camera, .. } => camera.size(),
+            Self::Curved(curved) => curved.size,
+        }
+    }
+
+    /// The camera, where there is one.
+    pub fn camera(&self) -> Option<&Camera> {
+        match self {
+            Self::Orthographic { camera, .. } => Some(camera),
+            Self::Curved(_) => None,
+        }
+    }
+
+    /// The depth of the cut surface (mm); empty where there is no camera or no cut surface.
+    pub fn depth(&self) -> &[f32] {
+        match self {
+            Self::Orthographic { depth, .. } => depth,
+            Self::Curved(_) => &[],
+        }
+    }
+
+    /// Whether pixels have a place of their own: not so where every ray crosses the whole volume.
+    pub fn has_surface(&self) -> bool {
+        match self {
+            Self::Orthographic { depth, .. } => !depth.is_empty(),
+            Self::Curved(_) => true,
+        }
+    }
+}
+
+/// A place for every pixel of an image that no camera looks at, such as a vessel that is laid out straight.
+#[derive(Clone, Debug)]
+pub struct Curved {
+    size: [usize; 2],
+    position: Vec<DVec3>,
+    slab_direction: Vec<Vec3>,
+}
+
+impl Curved {
+    /// The world point of every pixel (mm, LPS), row by row from the top, and the unit vector along which a slab at this
+    /// pixel is thick. A point that is not finite shows nothing.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] where `size` has no pixels, or the points or directions are not one for each pixel.
+    pub fn new(size: [usize; 2], position: Vec<DVec3>, slab_direction: Vec<Vec3>) -> Result<Self> {
+        let pixels = size[0] * size[1];
+        if pixels == 0 || position.len() != pixels || slab_direction.len() != pixels {
+            let found = format!(
+                "{} points and {} directions for {size:?} pixels",
+                position.len(),
+                slab_direction.len()
+            );
+            let expected = "one point and one direction for each pixel, of which there is at least one";
+            return Err(Error::new(ErrorKind::Camera, "curved geometry", found, expected));
+        }
+        Ok(Self { size, position, slab_direction })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// The world point of each pixel (mm, LPS).
+    pub fn position(&self) -> &[DVec3] {
+        &self.position
+    }
+
+    /// The unit vector along which a slab at each pixel is thick.
+    pub fn slab_direction(&self) -> &[Vec3] {
+        &self.slab_direction
+    }
+}

@@ -1,0 +1,182 @@
+//! The parameters of the context, as the shaders read them.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::transfer::{Colors, MAX_POINTS};
+use super::window::Ramp;
+use crate::settings::{Context, ContextMode, Settings};
+
+/// The most rises and gaps between the control points of a transfer function.
+const MOST_RISES: usize = MAX_POINTS - 1;
+const MOST_GAPS: usize = MAX_POINTS / 2 + 1;
+/// The most sizes of blocks: the largest one holds a volume of any size.
+pub const MOST_BLOCK_LEVELS: usize = 16;
+
+/// Changes over two voxels that are half shaded, as a share of the context window: noise within a vessel stays below,
+/// the borders of vessels and bones are far above.
+const HALF_SHADED: f64 = 0.1;
+
+/// What becomes of the samples of a ray: which accumulator gathers them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gathering {
+    /// Colours and opacities: DVR, MIDA and what lies between them and MIP.
+    Blend,
+    /// The largest sample: MIP.
+    Brightest,
+    /// The smallest sample.
+    Darkest,
+    /// The mean.
+    Average,
+}
+
+impl Gathering {
+    /// What a mode gathers; a blend that is all maximum is the maximum alone.
+    pub fn of(mode: ContextMode) -> Self {
+        match mode {
+            ContextMode::Blend { gamma } if gamma < 1.0 => Self::Blend,
+            ContextMode::Blend { .. } => Self::Brightest,
+            ContextMode::Minimum => Self::Darkest,
+            ContextMode::Average => Self::Average,
+        }
+    }
+
+    /// The number by which the shaders know it.
+    pub const fn code(self) -> u32 {
+        self as u32
+    }
+}
+
+/// A rise of the transfer function: what is added to all before it.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct RiseParameters {
+    /// What it adds to the colour.
+    pub color: [f32; 3],
+    /// What it adds to the opacity.
+    pub opacity: f32,
+    /// The intensity at which it begins.
+    pub start: f32,
+    /// The share of it that one unit of intensity makes.
+    pub per_intensity: f32,
+    /// Fills the structure as the shaders' rules of layout want it.
+    pub padding: [f32; 2],
+}
+
+/// How the blocks of a volume lie in one buffer of a GPU, the smallest first; the CPU has them size by size.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+pub struct BlockPlaces {
+    /// The number of sizes.
+    pub level_count: u32,
+    /// By how much the smallest blocks there are larger than the volume's smallest: 2 to this power.
+    pub finest: u32,
+    /// Blocks along each axis and the place of the first one's range, size by size.
+    pub levels: [[u32; 4]; MOST_BLOCK_LEVELS],
+}
+
+/// What the rays of a context need to know besides the view and the volume's grid.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct ContextParameters {
+    /// The intensities from 0 to 1.
+    pub window: Ramp,
+    /// The opacity of the cut surface.
+    pub opacity: Ramp,
+    /// Parts of a ray per mm, at least.
+    pub per_step: f32,
+    /// How far behind a transparent cut surface rays start (mm).
+    pub behind: f32,
+    /// 1 + min(γ, 0): how far a brighter sample pushes back what was gathered before it.
+    pub push: f32,
+    /// max(γ, 0): the share of the maximum in the finished pixel.
+    pub mix: f32,
+    /// In the window, what is brighter than all that is transparent before the first visible sample.
+    pub most: f32,
+    /// The black end of the window.
+    pub black: f32,
+    /// The square of a change that is half shaded.
+    pub noise: f32,
+    /// The intensity from which on the colour stays the same.
+    pub last: f32,
+    /// The colour before the first rise of the transfer function.
+    pub first_color: [f32; 3],
+    /// The opacity before the first rise.
+    pub first_opacity: f32,
+    /// The number of rises.
+    pub rise_count: u32,
+    /// The number of gaps.
+    pub gap_count: u32,
+    /// How the blocks lie.
+    pub level_count: u32,
+    /// The size of the smallest blocks, as [`BlockPlaces`] says.
+    pub finest: u32,
+    /// The rises of the transfer function.
+    pub rises: [RiseParameters; MOST_RISES],
+    /// The ranges of intensity without opacity: from the first to the second number.
+    pub gaps: [[f32; 4]; MOST_GAPS],
+    /// Blocks along each axis and the place of the first one's range, size by size.
+    pub levels: [[u32; 4]; MOST_BLOCK_LEVELS],
+}
+
+impl ContextParameters {
+    /// The parameters of `context`, whose transfer function is `colors`, sampled at least every `step` mm.
+    pub fn new(
+        settings: &Settings,
+        context: &Context,
+        colors: &Colors,
+        step: f64,
+        blocks: &BlockPlaces,
+    ) -> Self {
+        let window = Ramp::grey(context.window);
+        let gamma = match context.mode {
+            ContextMode::Blend { gamma } => gamma as f32,
+            _ => 0.0,
+        };
+        let (first_color, first_opacity) = colors.first();
+        let mut parameters = Self {
+            window,
+            per_step: (1.0 / step) as f32,
+            push: 1.0 + gamma.min(0.0),
+            mix: gamma.max(0.0),
+            most: window.at(colors.first_visible()),
+            black: window.zero(),
+            noise: ((HALF_SHADED * context.window.width) as f32).powi(2),
+            last: colors.last(),
+            first_color,
+            first_opacity,
+            rise_count: colors.rises().len() as u32,
+            gap_count: colors.gaps().len() as u32,
+            level_count: blocks.level_count,
+            finest: blocks.finest,
+            levels: blocks.levels,
+            ..Self::zeroed()
+        };
+        let StartParameters { opacity, behind } = StartParameters::new(settings);
+        (parameters.opacity, parameters.behind) = (opacity, behind);
+        for (to, rise) in parameters.rises.iter_mut().zip(colors.rises()) {
+            let &super::transfer::Rise { color, opacity, start, per_intensity } = rise;
+            *to = RiseParameters { color, opacity, start, per_intensity, padding: [0.0; 2] };
+        }
+        for (to, gap) in parameters.gaps.iter_mut().zip(colors.gaps()) {
+            *to = [gap.low, gap.high, 0.0, 0.0];
+        }
+        parameters
+    }
+}
+
+/// What decides where rays start; it is a part of [`ContextParameters`].
+#[derive(Clone, Copy, Debug)]
+pub struct StartParameters {
+    /// The opacity of the cut surface.
+    pub opacity: Ramp,
+    /// How far behind a transparent cut surface rays start (mm): behind its slab.
+    pub behind: f32,
+}
+
+impl StartParameters {
+    /// The parameters of `settings`.
+    pub fn new(settings: &Settings) -> Self {
+        let behind = settings.slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
+        Self { opacity: Ramp::opacity(settings.opacity), behind }
+    }
+}

@@ -1,0 +1,52 @@
+//! A volume of any type of voxel, sampled by one code.
+
+use super::lanes::{FAN, Isa, Kernel, dispatch};
+use super::ray::{Line, STEPS};
+use super::sampling::{Around, Grid, Path};
+use crate::volume::Voxel;
+
+/// A volume whose voxels may be of any type, on the instruction set that was chosen for it: so that the rays need not
+/// be compiled for every type of voxel.
+pub trait Sampler: Sync {
+    /// The volume at the samples of a segment of rays.
+    fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS];
+    /// The volume at the neighbours of sixteen places.
+    fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
+}
+
+/// Voxels of one type.
+#[derive(Clone, Copy, Debug)]
+pub struct TypedSampler<'a, T> {
+    /// Their grid.
+    pub grid: Grid,
+    /// The voxels.
+    pub voxels: &'a [T],
+    /// The instruction set.
+    pub isa: Isa,
+}
+
+impl<T: Voxel> Sampler for TypedSampler<'_, T> {
+    fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS] {
+        dispatch(self.isa, SamplePath { sampler: self, base, path: line })
+    }
+
+    fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6] {
+        dispatch(self.isa, SamplePath { sampler: self, base, path: neighbours })
+    }
+}
+
+/// [`Grid::sample`] as a kernel.
+struct SamplePath<'a, T, P, const N: usize> {
+    sampler: &'a TypedSampler<'a, T>,
+    base: [i32; 3],
+    path: &'a P,
+}
+
+impl<T: Voxel, P: Path, const N: usize> Kernel for SamplePath<'_, T, P, N> {
+    type Output = [[f32; FAN]; N];
+
+    #[inline(always)]
+    fn run(self) -> [[f32; FAN]; N] {
+        self.sampler.grid.sample(self.sampler.voxels, self.base, self.path)
+    }
+}

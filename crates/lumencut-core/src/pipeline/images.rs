@@ -1,0 +1,36 @@
+//! The images of one view while it is made, on the CPU.
+
+use crate::camera::Camera;
+use crate::frame::{Frame, Timing};
+use crate::geometry::Geometry;
+
+/// The images by the names that the table of stages gives them; an image that is not there yet is empty.
+#[derive(Debug, Default)]
+#[allow(missing_docs)]
+pub struct Images {
+    pub distance: Vec<f32>,
+    pub unfiltered_depth: Vec<f32>,
+    pub depth: Vec<f32>,
+    pub vessel: Vec<i32>,
+    pub value: Vec<f32>,
+    pub strength: Vec<f32>,
+    pub start: Vec<f32>,
+    pub gathered: Vec<[f32; 4]>,
+    pub context: Vec<[u8; 4]>,
+    pub picture: Vec<[u8; 4]>,
+}
+
+impl Images {
+    /// A frame of the cut surface. Where no filter has run, the unfiltered depth is the depth.
+    pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
+        let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
+        let geometry = Geometry::Orthographic { camera, depth };
+        Frame { vessel: self.vessel, distance: self.distance, timings, ..Frame::of(geometry) }
+    }
+
+    /// `frame` with what is shown where it looks.
+    pub(super) fn into_frame(self, mut frame: Frame, timings: Vec<Timing>) -> Frame {
+        frame.timings.extend(timings);
+        Frame { value: self.value, context: self.context, image: self.picture, ..frame }
+    }
+}

@@ -1,0 +1,154 @@
+//! The stages of one view, each with the parameters and the images that it reads.
+
+use super::images::Images;
+use crate::error::Result;
+use crate::geometry::Geometry;
+use crate::math::context_parameters::StartParameters;
+use crate::math::ray::{NONE, WHOLE};
+use crate::scene::SharedVolume;
+use crate::settings::{Context, Settings};
+use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
+use crate::stages::context::{Surroundings, context, starts};
+use crate::stages::depth::{CutSurface, depth};
+use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
+use crate::stages::distance::distance;
+use crate::stages::silhouette::{SilhouetteParameters, silhouette};
+use crate::stages::surface::{SurfaceParameters, surface};
+use crate::stages::{Stage, Work};
+
+/// What the stages that find the cut surface share.
+pub struct CutSurfacePass<'a> {
+    /// Pixels, instruction set, and whether to stop.
+    pub work: Work<'a>,
+    /// The levels in the view.
+    pub surface: CutSurface<'a>,
+}
+
+impl CutSurfacePass<'_> {
+    /// Runs one of the stages that find the cut surface; others change nothing here.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`].
+    pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
+        let (work, pixels) = (&self.work, self.work.pixels());
+        match stage {
+            Stage::Distance => {
+                images.distance = vec![0.0; pixels];
+                distance(work, &self.surface, &mut images.distance)
+            }
+            Stage::Depth => {
+                images.unfiltered_depth = vec![0.0; pixels];
+                images.vessel = vec![0; pixels];
+                let (depths, vessels) = (&mut images.unfiltered_depth, &mut images.vessel);
+                depth(work, &self.surface, &images.distance, depths, vessels)
+            }
+            Stage::DepthFilter => {
+                images.depth = vec![0.0; pixels];
+                let parameters = DepthFilterParameters::new();
+                depth_filter(work, &parameters, &images.unfiltered_depth, &mut images.depth)?;
+                images.unfiltered_depth = Vec::new();
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What the stages that show the volume share.
+#[derive(Clone, Copy)]
+pub struct LookPass<'a> {
+    /// Pixels, instruction set, and whether to stop.
+    pub work: Work<'a>,
+    /// The volume.
+    pub volume: &'a SharedVolume<'a>,
+    /// How it is shown.
+    pub settings: &'a Settings,
+    /// Where the pixels look.
+    pub geometry: &'a Geometry,
+    /// The vessel of each pixel; empty where none is known.
+    pub vessel: &'a [i32],
+}
+
+impl LookPass<'_> {
+    /// Runs one of the stages that show the volume; others change nothing here.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Settings`] for a slab or a step that does not fit the volume,
+    /// [`crate::error::ErrorKind::Interrupted`].
+    pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
+        match (stage, &self.settings.context) {
+            (Stage::Surface, _) => self.surface(images),
+            (Stage::Silhouette, _) => self.silhouette(images),
+            (Stage::Blocks, _) => self.blocks(images),
+            (Stage::Context, Some(settings)) => self.context(settings, images),
+            (Stage::Composite, _) => self.composite(images),
+            _ => Ok(()),
+        }
+    }
+
+    fn surface(&self, images: &mut Images) -> Result<()> {
+        let parameters = SurfaceParameters::new(self.settings.slab, &self.volume.volume)?;
+        images.value = vec![0.0; self.work.pixels()];
+        surface(&self.work, self.geometry, &self.volume.volume, &parameters, &mut images.value)
+    }
+
+    fn silhouette(&self, images: &mut Images) -> Result<()> {
+        let Some(camera) = self.geometry.camera() else { return Ok(()) };
+        let parameters = SilhouetteParameters::new(self.settings, camera);
+        images.strength = vec![0.0; self.work.pixels()];
+        silhouette(&self.work, &parameters, self.geometry.depth(), self.vessel, &mut images.strength)
+    }
+
+    /// Where the rays start, and the volume's blocks, where any ray does.
+    fn blocks(&self, images: &mut Images) -> Result<()> {
+        self.starts(images);
+        if has_rays(&images.start) { self.volume.blocks(self.work.stop).map(drop) } else { Ok(()) }
+    }
+
+    /// Where the rays start: without a cut surface every one crosses the whole volume.
+    fn starts(&self, images: &mut Images) {
+        images.start = vec![WHOLE; self.work.pixels()];
+        if self.geometry.has_surface() {
+            let parameters = StartParameters::new(self.settings);
+            starts(&self.work, &parameters, &images.value, self.geometry.depth(), &mut images.start);
+        }
+    }
+
+    /// Behind a cut surface that hides everything there is nothing to gather.
+    fn context(&self, settings: &Context, images: &mut Images) -> Result<()> {
+        let Some(camera) = self.geometry.camera() else { return Ok(()) };
+        if images.start.is_empty() {
+            self.starts(images);
+        }
+        if !has_rays(&images.start) {
+            return Ok(());
+        }
+        let (volume, blocks) = (&self.volume.volume, Some(self.volume.blocks(self.work.stop)?));
+        images.gathered = vec![[0.0; 4]; self.work.pixels()];
+        let surroundings = Surroundings { camera, volume, blocks };
+        context(&self.work, &surroundings, self.settings, settings, &images.start, &mut images.gathered)
+    }
+
+    fn composite(&self, images: &mut Images) -> Result<()> {
+        let pixels = self.work.pixels();
+        if self.settings.context.is_some() && self.geometry.camera().is_some() {
+            images.context = vec![[0; 4]; pixels];
+            if !images.gathered.is_empty() {
+                layer(&self.work, &images.gathered, &mut images.context)?;
+            }
+        }
+        let nothing = vec![f32::NAN; if images.value.is_empty() { pixels } else { 0 }];
+        let layers = Layers {
+            value: if images.value.is_empty() { &nothing } else { &images.value },
+            strength: Some(&images.strength[..]).filter(|strength| !strength.is_empty()),
+            context: Some(&images.gathered[..]).filter(|gathered| !gathered.is_empty()),
+        };
+        images.picture = vec![[0; 4]; pixels];
+        composite(&self.work, &CompositeParameters::new(self.settings), &layers, &mut images.picture)
+    }
+}
+
+/// Whether any ray starts.
+fn has_rays(start: &[f32]) -> bool {
+    start.iter().any(|start| *start < NONE)
+}

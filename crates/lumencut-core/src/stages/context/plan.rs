@@ -1,0 +1,82 @@
+//! What the rays of a view need, prepared once.
+
+use crate::camera::Camera;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::accumulate::Palette;
+use crate::math::blocks::Blocks;
+use crate::math::context_parameters::{BlockPlaces, ContextParameters, Gathering};
+use crate::math::light::Shading;
+use crate::math::ray::{MOST_SAMPLES, Rays};
+use crate::math::transfer::Colors;
+use crate::settings::{Context, ContextMode, Settings};
+use crate::volume::Volume;
+
+/// What rays run through.
+#[derive(Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// The view.
+    pub camera: &'a Camera,
+    /// The volume.
+    pub volume: &'a Volume<'a>,
+    /// What can be skipped; `None` samples everything, with the same result.
+    pub blocks: Option<&'a Blocks>,
+}
+
+/// A number of four digits that is no smaller.
+fn rounded_up(number: f64) -> f64 {
+    let scale = 10f64.powf(3.0 - number.log10().floor());
+    (number * scale).ceil() / scale
+}
+
+/// The step where the settings name none. Along an axis of the volume a voxel's side meets every voxel's centre, which
+/// maximum, minimum and average want; colours and opacities that rise within a voxel want more.
+fn default_step(volume: &Volume, settings: &Context) -> f64 {
+    let blended = matches!(settings.mode, ContextMode::Blend { gamma } if gamma < 1.0);
+    volume.smallest_side() * if blended && !settings.preview { 0.5 } else { 1.0 }
+}
+
+/// The longest distance between samples (mm).
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for one so small that rays would have more than 65,536 samples.
+pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
+    let longest = volume.longest_way();
+    let step = settings.step.unwrap_or_else(|| default_step(volume, settings).max(longest / MOST_SAMPLES));
+    if longest > MOST_SAMPLES * step {
+        let found = format!("{step} mm for a volume {longest:.4} mm across");
+        let expected = format!("at least {} mm", rounded_up(longest / MOST_SAMPLES));
+        return Err(Error::new(ErrorKind::Settings, "context_step", found, expected));
+    }
+    Ok(step)
+}
+
+/// All that the rays of a view need, prepared once.
+pub(super) struct Plan<'a> {
+    pub volume: &'a Volume<'a>,
+    pub blocks: Option<&'a Blocks>,
+    pub rays: Rays,
+    pub gathering: Gathering,
+    pub palette: Palette,
+    pub shading: Option<Shading>,
+}
+
+impl<'a> Plan<'a> {
+    /// Prepares the rays of `context`, which is that of `settings`.
+    pub fn new(
+        &Surroundings { camera, volume, blocks }: &Surroundings<'a>,
+        settings: &Settings,
+        context: &Context,
+    ) -> Result<Self> {
+        let (step, colors) = (step(volume, context)?, Colors::new(&context.transfer));
+        // The CPU asks the blocks themselves where they lie.
+        let parameters = ContextParameters::new(settings, context, &colors, step, &BlockPlaces::default());
+        Ok(Self {
+            volume,
+            blocks,
+            rays: Rays::new(volume, camera, step),
+            gathering: Gathering::of(context.mode),
+            palette: Palette { colors, parameters },
+            shading: context.shading.then_some(Shading { noise: parameters.noise }),
+        })
+    }
+}

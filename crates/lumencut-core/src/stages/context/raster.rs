@@ -1,0 +1,57 @@
+//! Where the rays of the context run: one for every pixel, or one for every square of four pixels.
+
+use crate::camera::Camera;
+use crate::math::ray::{NONE, WHOLE};
+
+/// Where rays run: the pixels of the view, or squares of four of them.
+#[derive(Clone, Copy)]
+pub(super) struct Raster {
+    pub size: [usize; 2],
+    /// View x and y of the first ray, and from one to the next (mm).
+    pub first: [f64; 2],
+    pub next: [f64; 2],
+}
+
+impl Raster {
+    /// A ray for every pixel.
+    pub fn fine(camera: &Camera) -> Self {
+        let s = camera.pixel_spacing();
+        Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
+    }
+
+    /// A ray for every square of four pixels.
+    pub fn coarse(camera: &Camera) -> Self {
+        let fine = Self::fine(camera);
+        let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);
+        Self { size: fine.size.map(|n| n.div_ceil(2)), first, next: fine.next.map(|s| 2.0 * s) }
+    }
+}
+
+/// What a start in front of the volume counts as while the four of a square are compared: later than behind every cut
+/// surface, sooner than nowhere.
+pub const IN_FRONT: f32 = NONE / 2.0;
+
+/// The start of each square of four pixels: the nearest behind a cut surface, so that none of them shows what lies before
+/// its own; else in front of the volume, where one of them starts there.
+pub(super) fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
+    let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
+    let mut coarse = vec![NONE; columns * rows];
+    for (j, row) in start.chunks(width).enumerate() {
+        for (i, start) in row.iter().enumerate() {
+            let square = &mut coarse[j / 2 * columns + i / 2];
+            *square = square.min(if *start <= WHOLE { IN_FRONT } else { *start });
+        }
+    }
+    coarse.into_iter().map(|start| if (IN_FRONT..NONE).contains(&start) { WHOLE } else { start }).collect()
+}
+
+/// Gives each pixel that needs a ray what its square's ray found.
+pub(super) fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &mut [[f32; 4]]) {
+    let columns = width.div_ceil(2);
+    let rows = pixels.chunks_mut(width).zip(start.chunks(width));
+    for (j, (pixels, start)) in rows.enumerate() {
+        for (i, (pixel, start)) in pixels.iter_mut().zip(start).enumerate() {
+            *pixel = if *start >= NONE { [0.0; 4] } else { coarse[j / 2 * columns + i / 2] };
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Tiles of rays: the sixteen packets that are traced abreast.
+
+use rayon::prelude::*;
+
+use super::plan::Plan;
+use super::raster::Raster;
+use crate::error::Result;
+use crate::math::accumulate::{Accumulator, Average, Blend, Brightest, Darkest};
+use crate::math::context_parameters::Gathering;
+use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
+use crate::math::ray::{NONE, PACKET, Packet};
+use crate::math::sampler::{Sampler, TypedSampler};
+use crate::math::trace::{Passage, RayPacket, trace};
+use crate::stages::Work;
+use crate::with_voxels;
+
+/// The size of a tile of rays (pixels).
+const TILE: [usize; 2] = [32, ROWS];
+/// The packets side by side in a tile.
+const ACROSS: usize = TILE[0] / PACKET[0];
+
+/// Traces the rays of a raster.
+pub(super) fn trace_raster(
+    work: &Work,
+    plan: &Plan,
+    raster: &Raster,
+    start: &[f32],
+    pixels: &mut [[f32; 4]],
+) -> Result<()> {
+    let (grid, isa) = (plan.rays.grid, work.isa);
+    with_voxels!(plan.volume.voxels(), voxels => {
+        trace_tiles(work, plan, &TypedSampler { grid, voxels, isa }, raster, start, pixels)
+    })
+}
+
+/// Traces the rays of a raster, tile by tile.
+fn trace_tiles(
+    work: &Work,
+    plan: &Plan,
+    sampler: &dyn Sampler,
+    raster: &Raster,
+    start: &[f32],
+    pixels: &mut [[f32; 4]],
+) -> Result<()> {
+    let width = raster.size[0];
+    let rows = pixels.par_chunks_mut(ROWS * width).zip(start.par_chunks(ROWS * width));
+    rows.enumerate().try_for_each(|(row, (pixels, start))| {
+        for column in (0..width).step_by(TILE[0]) {
+            work.go_on()?;
+            let place = [column, row * ROWS];
+            let tile = Tile { plan, sampler, raster, place, start, pixels: &mut *pixels };
+            dispatch(work.isa, tile);
+        }
+        Ok(())
+    })
+}
+
+/// A tile of rays in the rows that it lies in.
+struct Tile<'a> {
+    plan: &'a Plan<'a>,
+    sampler: &'a dyn Sampler,
+    raster: &'a Raster,
+    /// The column and the row of its first ray.
+    place: [usize; 2],
+    start: &'a [f32],
+    pixels: &'a mut [[f32; 4]],
+}
+
+impl Kernel for Tile<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        match self.plan.gathering {
+            Gathering::Blend => self.gather::<Blend>(),
+            Gathering::Brightest => self.gather::<Brightest>(),
+            Gathering::Darkest => self.gather::<Darkest>(),
+            Gathering::Average => self.gather::<Average>(),
+        }
+    }
+}
+
+impl<'a> Tile<'a> {
+    /// Traces all rays of the tile.
+    #[inline(always)]
+    fn gather<A: Accumulator<'a>>(self) {
+        let plan = self.plan;
+        let mut packets: Vec<RayPacket<A>> = Vec::with_capacity(TILE[0] * TILE[1] / FAN);
+        for n in 0..TILE[0] * TILE[1] / FAN {
+            let packet = self.packet(n);
+            let active = packet.count.map(|count| count > 0);
+            packets.push(RayPacket::new(packet, A::new(&plan.palette, &active)));
+        }
+        let Plan { rays, blocks, shading, .. } = plan;
+        trace(&Passage { rays, sampler: self.sampler, blocks: *blocks, shading: *shading }, &mut packets);
+        for (n, packet) in packets.iter().enumerate() {
+            let gathered = packet.finish();
+            for l in 0..FAN {
+                if let Some(pixel) = self.pixel(n, l) {
+                    self.pixels[pixel] = gathered.map(|channel| channel[l]);
+                }
+            }
+        }
+    }
+
+    /// The column of a ray, and its row counted from the first of these rows.
+    #[inline(always)]
+    fn ray(&self, packet: usize, lane: usize) -> [usize; 2] {
+        let column = self.place[0] + packet % ACROSS * PACKET[0] + lane % PACKET[0];
+        [column, packet / ACROSS * PACKET[1] + lane / PACKET[0]]
+    }
+
+    /// Where a ray's pixel is in these rows; `None` beyond the image.
+    #[inline(always)]
+    fn pixel(&self, packet: usize, lane: usize) -> Option<usize> {
+        let ([i, j], width) = (self.ray(packet, lane), self.raster.size[0]);
+        (i < width && j * width < self.pixels.len()).then_some(j * width + i)
+    }
+
+    /// The rays of one packet; those beyond the image see nothing.
+    #[inline(always)]
+    fn packet(&self, n: usize) -> Packet {
+        let (mut x, mut y, mut start) = ([0.0; FAN], [0.0; FAN], [NONE; FAN]);
+        for l in 0..FAN {
+            let [i, j] = self.ray(n, l);
+            x[l] = self.raster.first[0] + i as f64 * self.raster.next[0];
+            y[l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
+            if let Some(pixel) = self.pixel(n, l) {
+                start[l] = self.start[pixel];
+            }
+        }
+        Packet::new(&self.plan.rays, &x, &y, &start)
+    }
+}

@@ -1,0 +1,188 @@
+//! The one table of the stages: their names, the images that they read and write, and which of them a view needs.
+//! Timings, computing single stages on the CPU in the place of the GPU, tests and benches all go by it.
+
+use crate::geometry::Geometry;
+use crate::settings::Settings;
+
+/// An image of a view: one number or one vector for each pixel, in rows from the top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Image {
+    /// Projected distance to the nearest centerline (mm), f32.
+    Distance,
+    /// Depth of the cut surface before the depth filter (mm), f32.
+    UnfilteredDepth,
+    /// Depth of the cut surface (mm), f32.
+    Depth,
+    /// Id of the vessel whose influence zone a pixel is in, i32.
+    Vessel,
+    /// The volume at the cut surface, f32; without a value outside the volume.
+    Value,
+    /// Strength of the silhouettes, 0 to 1, f32.
+    Strength,
+    /// Depth at which the ray of the context starts (mm), f32.
+    Start,
+    /// The context: colours times opacity, and opacity, four f32.
+    Gathered,
+    /// The context alone as RGBA with straight alpha, four bytes.
+    Context,
+    /// The picture as RGBA with straight alpha, four bytes.
+    Picture,
+}
+
+impl Image {
+    /// Every image.
+    pub const ALL: [Self; 10] = [
+        Self::Distance,
+        Self::UnfilteredDepth,
+        Self::Depth,
+        Self::Vessel,
+        Self::Value,
+        Self::Strength,
+        Self::Start,
+        Self::Gathered,
+        Self::Context,
+        Self::Picture,
+    ];
+}
+
+/// Some images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ImageSet(u16);
+
+impl ImageSet {
+    /// All that a frame can have.
+    pub const ALL: Self = Self::of(&[
+        Image::Distance,
+        Image::Depth,
+        Image::Vessel,
+        Image::Value,
+        Image::Context,
+        Image::Picture,
+    ]);
+
+    /// These images.
+    pub const fn of(images: &[Image]) -> Self {
+        let (mut bits, mut n) = (0, 0);
+        while n < images.len() {
+            bits |= 1 << images[n] as u16;
+            n += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether an image is one of them.
+    pub const fn has(self, image: Image) -> bool {
+        self.0 & 1 << image as u16 != 0
+    }
+}
+
+/// What a view is made of, step by step. The name of a stage is that of its file, its function, its shader, its entry
+/// in the timings and its heading in METHOD.md.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Levels of detail of the tree, made once per tree.
+    Levels,
+    /// The levels in the view.
+    Projection,
+    /// Distance to the nearest vessel.
+    Distance,
+    /// Depth and vessel of the cut surface.
+    Depth,
+    /// The Gaussian over the depth.
+    DepthFilter,
+    /// The volume at the cut surface.
+    Surface,
+    /// Lines where the cut surface leaps.
+    Silhouette,
+    /// Ranges of values of the volume, made once per volume.
+    Blocks,
+    /// Rays through the volume.
+    Context,
+    /// All of it in one picture.
+    Composite,
+}
+
+impl Stage {
+    /// Every stage, in the order in which they run.
+    pub const ALL: [Self; 10] = [
+        Self::Levels,
+        Self::Projection,
+        Self::Distance,
+        Self::Depth,
+        Self::DepthFilter,
+        Self::Surface,
+        Self::Silhouette,
+        Self::Blocks,
+        Self::Context,
+        Self::Composite,
+    ];
+
+    /// The name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Levels => "levels",
+            Self::Projection => "projection",
+            Self::Distance => "distance",
+            Self::Depth => "depth",
+            Self::DepthFilter => "depth_filter",
+            Self::Surface => "surface",
+            Self::Silhouette => "silhouette",
+            Self::Blocks => "blocks",
+            Self::Context => "context",
+            Self::Composite => "composite",
+        }
+    }
+
+    /// The stage of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|stage| stage.name() == name)
+    }
+
+    /// The images that it reads, where they are there.
+    pub const fn reads(self) -> &'static [Image] {
+        match self {
+            Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
+            Self::Depth => &[Image::Distance],
+            Self::DepthFilter => &[Image::UnfilteredDepth],
+            Self::Surface => &[Image::Depth],
+            Self::Silhouette => &[Image::Depth, Image::Vessel],
+            Self::Context => &[Image::Depth, Image::Value],
+            Self::Composite => &[Image::Value, Image::Strength, Image::Gathered],
+        }
+    }
+
+    /// The images that it writes, one after the other and for every pixel. A stage without images prepares for others.
+    pub const fn writes(self) -> &'static [Image] {
+        match self {
+            Self::Levels | Self::Projection | Self::Blocks => &[],
+            Self::Distance => &[Image::Distance],
+            Self::Depth => &[Image::UnfilteredDepth, Image::Vessel],
+            Self::DepthFilter => &[Image::Depth],
+            Self::Surface => &[Image::Value],
+            Self::Silhouette => &[Image::Strength],
+            Self::Context => &[Image::Start, Image::Gathered],
+            Self::Composite => &[Image::Context, Image::Picture],
+        }
+    }
+
+    /// The stages that find where a view cuts through the projected vessels, in their order.
+    pub fn of_cut_surface(settings: &Settings) -> impl Iterator<Item = Self> + use<> {
+        let filter = settings.depth_filter.then_some(Self::DepthFilter);
+        [Self::Distance, Self::Depth].into_iter().chain(filter)
+    }
+
+    /// The stages that show what is there, in their order. `has_zones` tells whether every pixel has a vessel.
+    pub fn of_look(
+        settings: &Settings,
+        geometry: &Geometry,
+        has_zones: bool,
+    ) -> impl Iterator<Item = Self> + use<> {
+        let surface = geometry.has_surface().then_some(Self::Surface);
+        let silhouette = (settings.silhouettes && has_zones).then_some(Self::Silhouette);
+        let context = (settings.context.is_some() && geometry.camera().is_some())
+            .then_some([Self::Blocks, Self::Context])
+            .into_iter()
+            .flatten();
+        surface.into_iter().chain(silhouette).chain(context).chain([Self::Composite])
+    }
+}
