@@ -56,6 +56,20 @@ impl Frame {
         self.geometry.depth()
     }
 
+    /// The images that it has.
+    pub fn images(&self) -> ImageSet {
+        let present = [
+            (Image::Picture, !self.image.is_empty()),
+            (Image::Depth, !self.depth().is_empty()),
+            (Image::Vessel, !self.vessel.is_empty()),
+            (Image::Distance, !self.distance.is_empty()),
+            (Image::Value, !self.value.is_empty()),
+            (Image::Context, !self.context.is_empty()),
+        ];
+        let there = present.into_iter().filter(|(_, is_there)| *is_there);
+        there.fold(ImageSet::of(&[]), |images, (image, _)| images.and(ImageSet::of(&[image])))
+    }
+
     /// The same frame with those of its images that are among `wanted`.
     #[must_use]
     pub fn keeping(mut self, wanted: ImageSet) -> Self {

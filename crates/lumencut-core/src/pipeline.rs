@@ -113,7 +113,7 @@ impl CpuRenderer {
         let work = Work { size: frame.size(), isa: self.isa, stop };
         let (mut clock, mut images) = (Clock::start(), Images::default());
         let pass = LookPass { work, volume, settings, geometry: &frame.geometry, vessel: &frame.vessel };
-        for stage in Stage::of_look(settings, &frame.geometry, !frame.vessel.is_empty()) {
+        for stage in pass.stages() {
             pass.run(stage, &mut images)?;
             clock.lap(stage);
         }

@@ -2,22 +2,18 @@
 
 use lumencut_core::error::Result;
 use lumencut_core::math::blocks::{Blocks, Range};
+use lumencut_core::math::context_parameters::BlockPlaces;
 use wgpu::Buffer;
 
 use crate::device::Device;
-
-/// The most levels of blocks: the coarsest holds a volume of any size.
-pub(crate) const MOST_LEVELS: usize = 16;
 
 /// The blocks of a volume, of all sizes in one buffer.
 #[derive(Debug)]
 pub(crate) struct DeviceBlocks {
     /// The smallest and the largest value of each.
     pub ranges: Buffer,
-    /// Blocks along each axis and where the first one's range is, level by level.
-    pub levels: Vec<[u32; 4]>,
-    /// How many times the side of the first level's blocks is that of the smallest there are: 2 to this power.
-    pub finest: u32,
+    /// Where they lie in it.
+    pub places: BlockPlaces,
 }
 
 impl DeviceBlocks {
@@ -30,15 +26,16 @@ impl DeviceBlocks {
         let all: Vec<_> = blocks.levels().collect();
         let finest = first_that_fits(&all, room as usize / size_of::<[f32; 2]>());
         let mut ranges: Vec<[f32; 2]> = Vec::with_capacity(length(&all[finest..]));
-        let mut levels = Vec::new();
-        for (size, level) in &all[finest..] {
+        let mut places = BlockPlaces { finest: finest as u32, ..BlockPlaces::default() };
+        for ((size, level), place) in all[finest..].iter().zip(&mut places.levels) {
             let [i, j, k] = size.map(|n| n as u32);
-            levels.push([i, j, k, ranges.len() as u32]);
+            *place = [i, j, k, ranges.len() as u32];
+            places.level_count += 1;
             ranges.extend(level.iter().map(|Range { low, high }| [*low, *high]));
         }
         let ranges = device.upload("blocks", &ranges);
         device.check()?;
-        Ok(Self { ranges, levels, finest: finest as u32 })
+        Ok(Self { ranges, places })
     }
 }
 

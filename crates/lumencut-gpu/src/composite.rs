@@ -2,9 +2,8 @@
 
 use std::sync::OnceLock;
 
-use bytemuck::{Pod, Zeroable};
-use lumencut_core::math::window::Ramp;
 use lumencut_core::settings::Settings;
+use lumencut_core::stages::composite::CompositeParameters;
 use wgpu::Buffer;
 
 use crate::depth_filter::GROUP;
@@ -14,33 +13,6 @@ use crate::stage::Stage;
 use crate::view::groups;
 
 const ROOM: &str = "stages/composite";
-
-/// `Paint` of `stages/composite.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub(crate) struct Paint {
-    /// Where there is nothing to show.
-    pub background: [f32; 4],
-    /// Of the silhouettes; the last number is not used.
-    pub line: [f32; 4],
-    /// The values from black to white.
-    pub grey: [f32; 2],
-    /// The values from transparent to opaque.
-    pub opacity: [f32; 2],
-}
-
-impl From<&Settings> for Paint {
-    fn from(settings: &Settings) -> Self {
-        let [red, green, blue] = settings.silhouette_color;
-        let unit = |color: [u8; 4]| color.map(|c| f32::from(c) / 255.0);
-        Self {
-            background: unit(settings.background),
-            line: unit([red, green, blue, 0]),
-            grey: Ramp::grey(settings.window).parts(),
-            opacity: Ramp::opacity(settings.opacity).parts(),
-        }
-    }
-}
 
 /// What a picture is made of, from the front to the back.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +31,7 @@ pub(crate) struct Composite {
     /// With or without each layer, compiled once needed.
     stages: [OnceLock<Stage>; 8],
     layer: OnceLock<Stage>,
-    paint: Buffer,
+    parameters: Buffer,
     /// Bound where a layer is not there, and never read: it is white, so that one would see it.
     nothing: Buffer,
 }
@@ -69,9 +41,14 @@ impl Composite {
         Self {
             stages: Default::default(),
             layer: OnceLock::new(),
-            paint: device.image("paint", 1, size_of::<Paint>()),
+            parameters: device.image("composite parameters", 1, size_of::<CompositeParameters>()),
             nothing: device.upload("nothing", &[1f32; 4]),
         }
+    }
+
+    /// Tells the shader of the settings.
+    pub fn write(&self, device: &Device, settings: &Settings) {
+        device.write(&self.parameters, &[CompositeParameters::new(settings)]);
     }
 
     /// Writes the picture, RGBA with straight alpha, of the layers over the background.
@@ -81,11 +58,9 @@ impl Composite {
         view: &Buffer,
         size: [usize; 2],
         layers: Layers,
-        settings: &Settings,
         image: &Buffer,
     ) {
         let device = recording.device;
-        device.write(&self.paint, &[Paint::from(settings)]);
         let Layers { value, strength, context } = layers;
         let there = [value, strength, context].map(|layer| f64::from(u8::from(layer.is_some())));
         let place = there.iter().fold(0, |place, there| 2 * place + *there as usize);
@@ -96,7 +71,7 @@ impl Composite {
         });
         let or_nothing = |layer: Option<_>| layer.unwrap_or(&self.nothing);
         let buffers =
-            [view, or_nothing(context), image, &self.paint, or_nothing(value), or_nothing(strength)];
+            [view, or_nothing(context), image, &self.parameters, or_nothing(value), or_nothing(strength)];
         recording.run(stage, &buffers.map(Buffer::as_entire_binding), groups(size, GROUP));
     }
 
@@ -106,12 +81,11 @@ impl Composite {
         recording: &mut Recording,
         view: &Buffer,
         size: [usize; 2],
-        context: &Buffer,
-        image: &Buffer,
+        [gathered, image]: [&Buffer; 2],
     ) {
         let device = recording.device;
         let stage = self.layer.get_or_init(|| Stage::entry(device, ROOM, "layer", &[]));
-        let buffers = [view, context, image].map(Buffer::as_entire_binding);
+        let buffers = [view, gathered, image].map(Buffer::as_entire_binding);
         recording.run(stage, &buffers, groups(size, GROUP));
     }
 }

@@ -1,7 +1,6 @@
 //! The depth filter on the GPU.
 
-use bytemuck::{Pod, Zeroable};
-use lumencut_core::stages::depth_filter::weights;
+use lumencut_core::stages::depth_filter::DepthFilterParameters;
 use wgpu::Buffer;
 
 use crate::device::Device;
@@ -9,38 +8,23 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// `Gaussian` of `stages/depth_filter.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub(crate) struct Gaussian {
-    /// From the middle outwards.
-    pub weights: [f32; 4],
-}
-
 /// A 7×7 Gaussian.
 #[derive(Debug)]
 pub(crate) struct DepthFilter {
     stage: Stage,
-    gaussian: Buffer,
+    parameters: Buffer,
 }
 
 impl DepthFilter {
     pub fn new(device: &Device) -> Self {
-        let gaussian = device.uniform::<Gaussian>("gaussian");
-        device.write(&gaussian, &[Gaussian { weights: weights() }]);
-        Self { stage: Stage::new(device, "stages/depth_filter", &[]), gaussian }
+        let parameters = device.uniform::<DepthFilterParameters>("depth_filter parameters");
+        device.write(&parameters, &[DepthFilterParameters::new()]);
+        Self { stage: Stage::new(device, "stages/depth_filter", &[]), parameters }
     }
 
-    /// Writes the smoothed `image`.
-    pub fn record(
-        &self,
-        recording: &mut Recording,
-        view: &Buffer,
-        size: [usize; 2],
-        image: &Buffer,
-        smoothed: &Buffer,
-    ) {
-        self.record_as(self.stage.name, recording, view, size, [image, smoothed]);
+    /// Writes the smoothed image.
+    pub fn record(&self, recording: &mut Recording, view: &Buffer, size: [usize; 2], from_to: [&Buffer; 2]) {
+        self.record_as(self.stage.name, recording, view, size, from_to);
     }
 
     /// The same as a part of the stage `name`, whose time it counts to.
@@ -52,7 +36,7 @@ impl DepthFilter {
         size: [usize; 2],
         [image, smoothed]: [&Buffer; 2],
     ) {
-        let buffers = [view, &self.gaussian, image, smoothed].map(Buffer::as_entire_binding);
+        let buffers = [view, &self.parameters, image, smoothed].map(Buffer::as_entire_binding);
         recording.run_as(name, &self.stage, &buffers, groups(size, GROUP));
     }
 }

@@ -1,28 +1,27 @@
 //! The images of a view on the GPU, one number or vector per pixel; they are kept while the size stays.
 
 use lumencut_core::error::Result;
+use lumencut_core::stages::Image;
 use wgpu::Buffer;
 
 use crate::device::Device;
 
-/// The images of a view.
+/// The images of a view by the names that the table of stages gives them.
 #[derive(Debug)]
 pub(crate) struct Images {
     pub size: [usize; 2],
     pub distance: Buffer,
-    /// The depth before the filter.
-    pub unfiltered: Buffer,
+    pub unfiltered_depth: Buffer,
     pub depth: Buffer,
     pub vessel: Buffer,
     pub value: Buffer,
     /// The slope that silhouettes are made of.
     pub raised: Buffer,
     pub strength: Buffer,
-    /// Colours times opacity, and opacity.
+    pub start: Buffer,
+    pub gathered: Buffer,
     pub context: Buffer,
-    /// The context and the picture, RGBA.
-    pub layer: Buffer,
-    pub image: Buffer,
+    pub picture: Buffer,
 }
 
 /// The bytes of a pixel in the largest image.
@@ -44,16 +43,33 @@ impl Images {
         Ok(Self {
             size,
             distance: number("distance"),
-            unfiltered: number("unfiltered depth"),
+            unfiltered_depth: number("unfiltered depth"),
             depth: number("depth"),
             vessel: number("vessel"),
             value: number("value"),
             raised: number("raised slope"),
             strength: number("strength"),
-            context: device.image("context", pixels, MOST_BYTES),
-            layer: number("context layer"),
-            image: number("image"),
+            start: number("start"),
+            gathered: device.image("gathered", pixels, MOST_BYTES),
+            context: number("context"),
+            picture: number("picture"),
         })
+    }
+
+    /// The buffer of an image. Where nothing filters the depth, it is the depth as it is found.
+    pub fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
+        match image {
+            Image::Distance => &self.distance,
+            Image::UnfilteredDepth if has_filter => &self.unfiltered_depth,
+            Image::UnfilteredDepth | Image::Depth => &self.depth,
+            Image::Vessel => &self.vessel,
+            Image::Value => &self.value,
+            Image::Strength => &self.strength,
+            Image::Start => &self.start,
+            Image::Gathered => &self.gathered,
+            Image::Context => &self.context,
+            Image::Picture => &self.picture,
+        }
     }
 
     /// The number of pixels.

@@ -1,121 +1,137 @@
 //! The stages as the CPU does them, with what the GPU made before: to find where a difference begins.
 
-use lumencut_core::error::Result;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::frame::Timing;
+use lumencut_core::geometry::Geometry;
+use lumencut_core::math::blocks::HUGE;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::math::ray::WHOLE;
-use lumencut_core::settings::Context;
-use lumencut_core::stages::View;
-use lumencut_core::stages::composite::{Layers, composite, layer};
-use lumencut_core::stages::context::{context, starts};
-use lumencut_core::stages::depth::depth;
-use lumencut_core::stages::depth_filter::depth_filter;
-use lumencut_core::stages::distance::distance;
-use lumencut_core::stages::silhouette::silhouette;
-use lumencut_core::stages::surface::surface;
-use lumencut_core::volume::Volume;
+use lumencut_core::pipeline::{CpuRenderer, Images, LookPass};
+use lumencut_core::stages::{Image, ImageSet, Stage, Work};
 use web_time::Instant;
 
-use crate::pass::{Pass, Tree, with_holes, without_holes};
+use crate::pass::{Pass, with_holes};
+use crate::recording::Results;
+use crate::stages::on_either;
 
-impl<'a> Pass<'a> {
-    fn on_view(&self) -> View<'a> {
-        View { camera: self.camera, isa: Isa::widest(), stop: self.stop }
+/// Which stages the CPU does, and what it keeps for them.
+#[derive(Debug, Default)]
+pub(crate) struct OnCpu {
+    stages: Vec<Stage>,
+    renderer: CpuRenderer,
+}
+
+impl OnCpu {
+    /// The stages of these names.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for a name that is none of [`on_either`].
+    pub fn named(names: &[String]) -> Result<Self> {
+        let stages = names.iter().map(|name| {
+            on_either().find(|stage| stage.name() == name.as_str()).ok_or_else(|| {
+                let known: Vec<_> = on_either().map(Stage::name).collect();
+                let expected = format!("names of {}", known.join(", "));
+                Error::new(ErrorKind::Settings, "stages of the CPU", format!("'{name}'"), expected)
+            })
+        });
+        Ok(Self { stages: stages.collect::<Result<_>>()?, ..Self::default() })
     }
 
-    pub(crate) async fn distance_on_cpu(&mut self) -> Result<()> {
-        let (view, start) = (self.on_view(), Instant::now());
-        let mut distances = vec![0.0; self.images.pixels()];
-        if let Some(Tree { core, .. }) = &mut self.tree {
-            let cut_surface = core.project(self.camera, self.settings);
-            distance(&view, cut_surface.finest(), &mut distances)?;
+    pub fn has(&self, stage: Stage) -> bool {
+        self.stages.contains(&stage)
+    }
+}
+
+impl Pass<'_> {
+    /// Does a stage on the CPU: reads its images from the GPU and writes what it makes back.
+    pub(crate) async fn run_on_cpu(&mut self, stage: Stage) -> Result<()> {
+        let read: Vec<_> = stage.reads().iter().copied().filter(|image| self.made.has(*image)).collect();
+        let results = self.finish(&read).await?;
+        let mut images = Images::default();
+        for (n, image) in read.into_iter().enumerate() {
+            put(&mut images, image, &results, n);
         }
-        self.device.write(&self.images.distance, &distances);
-        self.count("distance", start);
-        Ok(())
-    }
-
-    pub(crate) async fn depth_on_cpu(&mut self) -> Result<()> {
-        let distances = self.read(&self.images.distance).await?;
-        let (view, start) = (self.on_view(), Instant::now());
-        let (mut depths, mut vessels) = (vec![0.0; distances.len()], vec![0; distances.len()]);
-        if let Some(Tree { core, .. }) = &mut self.tree {
-            let cut_surface = core.project(self.camera, self.settings);
-            depth(&view, &cut_surface, &distances, &mut depths, &mut vessels)?;
-        }
-        self.device.write(self.raw_depth(), &depths);
-        self.device.write(&self.images.vessel, &vessels);
-        self.count("depth", start);
-        Ok(())
-    }
-
-    pub(crate) async fn depth_filter_on_cpu(&mut self) -> Result<()> {
-        let depths = self.read(&self.images.unfiltered).await?;
+        drop(results);
         let start = Instant::now();
-        let mut smoothed = vec![0.0; depths.len()];
-        depth_filter(&self.on_view(), &depths, &mut smoothed)?;
-        self.device.write(&self.images.depth, &smoothed);
-        self.count("depth_filter", start);
-        Ok(())
-    }
-
-    pub(crate) async fn surface_on_cpu(&mut self, volume: &Volume<'_>) -> Result<()> {
-        let depths = self.read(&self.images.depth).await?;
-        let start = Instant::now();
-        let mut values = vec![0.0; depths.len()];
-        surface(&self.on_view(), volume, &depths, self.settings.slab, &mut values)?;
-        self.device.write(&self.images.value, &without_holes(values));
-        self.count("surface", start);
-        Ok(())
-    }
-
-    pub(crate) async fn silhouette_on_cpu(&mut self) -> Result<()> {
-        let depths = self.read(&self.images.depth).await?;
-        let vessels = self.read(&self.images.vessel).await?;
-        let start = Instant::now();
-        let mut strength = vec![0.0; depths.len()];
-        silhouette(&self.on_view(), &depths, &vessels, self.settings.silhouette_slope, &mut strength)?;
-        self.device.write(&self.images.strength, &strength);
-        self.count("silhouette", start);
-        Ok(())
-    }
-
-    pub(crate) async fn context_on_cpu(&mut self, volume: &Volume<'_>, settings: &Context) -> Result<()> {
-        let pixels = self.images.pixels();
-        let start = if self.has_value() {
-            let values = with_holes(self.read(&self.images.value).await?);
-            let depths: Vec<f32> = self.read(&self.images.depth).await?;
-            starts(&values, &depths, self.settings)
+        if Stage::of_cut_surface(self.request.settings).any(|of_surface| of_surface == stage) {
+            self.find(stage, &mut images)?;
         } else {
-            vec![WHOLE; pixels]
-        };
-        let clock = Instant::now();
-        let mut colors = vec![[0f32; 4]; pixels];
-        context(&self.on_view(), volume, Some(volume.blocks(self.stop)?), settings, &start, &mut colors)?;
-        self.device.write(&self.images.context, &colors);
-        self.count("context", clock);
+            self.show(stage, &mut images)?;
+        }
+        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+        self.timings.push(Timing { stage: stage.name(), milliseconds });
+        for image in stage.writes() {
+            self.send(*image, &images);
+        }
         Ok(())
     }
 
-    pub(crate) async fn composite_on_cpu(&mut self) -> Result<()> {
-        let pixels = self.images.pixels();
-        let value = if self.has_value() {
-            with_holes(self.read(&self.images.value).await?)
-        } else {
-            vec![f32::NAN; pixels]
+    /// A stage that finds the cut surface.
+    fn find(&mut self, stage: Stage, images: &mut Images) -> Result<()> {
+        let (Some(tree), settings) = (&self.scene.tree, self.request.settings) else { return Ok(()) };
+        let renderer = &mut self.on_cpu.renderer;
+        renderer.prepare(tree, settings.levels);
+        renderer.project(self.request.camera, settings);
+        renderer.pass(self.request).run(stage, images)
+    }
+
+    /// A stage that shows the volume.
+    fn show(&self, stage: Stage, images: &mut Images) -> Result<()> {
+        let Some(volume) = &self.scene.volume else { return Ok(()) };
+        let geometry = match &self.geometry {
+            Geometry::Orthographic { camera, .. } => {
+                Geometry::Orthographic { camera: *camera, depth: std::mem::take(&mut images.depth) }
+            }
+            Geometry::Curved(curved) => Geometry::Curved(curved.clone()),
         };
-        let strength = if self.has_strength() { Some(self.read(&self.images.strength).await?) } else { None };
-        let behind: Option<Vec<[f32; 4]>> =
-            if self.has_context() { Some(self.read(&self.images.context).await?) } else { None };
-        let start = Instant::now();
-        let mut image = vec![[0u8; 4]; pixels];
-        if let Some(behind) = &behind {
-            layer(&self.on_view(), behind, &mut image)?;
-            self.device.write(&self.images.layer, &image);
+        let &Request { settings, stop, .. } = self.request;
+        let work = Work { size: self.images.size, isa: Isa::widest(), stop };
+        let vessel = std::mem::take(&mut images.vessel);
+        LookPass { work, volume, settings, geometry: &geometry, vessel: &vessel }.run(stage, images)?;
+        if stage == Stage::Context && images.gathered.is_empty() {
+            images.gathered = vec![[0.0; 4]; self.images.pixels()];
         }
-        let layers = Layers { value: &value, strength: strength.as_deref(), context: behind.as_deref() };
-        composite(&self.on_view(), &layers, self.settings, &mut image)?;
-        self.device.write(&self.images.image, &image);
-        self.count("composite", start);
         Ok(())
     }
+
+    /// Sends an image, where the CPU has made it.
+    fn send(&mut self, image: Image, images: &Images) {
+        let bytes: &[u8] = match image {
+            Image::Distance => bytemuck::cast_slice(&images.distance),
+            Image::UnfilteredDepth => bytemuck::cast_slice(&images.unfiltered_depth),
+            Image::Depth => bytemuck::cast_slice(&images.depth),
+            Image::Vessel => bytemuck::cast_slice(&images.vessel),
+            Image::Value => &without_holes(&images.value),
+            Image::Strength => bytemuck::cast_slice(&images.strength),
+            Image::Start => bytemuck::cast_slice(&images.start),
+            Image::Gathered => bytemuck::cast_slice(&images.gathered),
+            Image::Context => bytemuck::cast_slice(&images.context),
+            Image::Picture => bytemuck::cast_slice(&images.picture),
+        };
+        if !bytes.is_empty() {
+            self.device.write(self.buffer(image), bytes);
+            self.made = self.made.and(ImageSet::of(&[image]));
+        }
+    }
+}
+
+/// Takes an image that was read as the `n`th.
+fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
+    match image {
+        Image::Distance => images.distance = results.numbers(n),
+        Image::UnfilteredDepth => images.unfiltered_depth = results.numbers(n),
+        Image::Depth => images.depth = results.numbers(n),
+        Image::Vessel => images.vessel = results.numbers(n),
+        Image::Value => images.value = with_holes(results.numbers(n)),
+        Image::Strength => images.strength = results.numbers(n),
+        Image::Start => images.start = results.numbers(n),
+        Image::Gathered => images.gathered = results.numbers(n),
+        Image::Context => images.context = results.numbers(n),
+        Image::Picture => images.picture = results.numbers(n),
+    }
+}
+
+/// Values with HUGE for NaN, as shaders have them.
+fn without_holes(values: &[f32]) -> Vec<u8> {
+    let huge = values.iter().map(|value| if value.is_nan() { HUGE } else { *value });
+    huge.flat_map(f32::to_ne_bytes).collect()
 }

@@ -1,306 +1,231 @@
 //! One view: the stages in the order of the paper's Fig. 4, recorded for the GPU or done by the CPU in its place.
 
 use bytemuck::Pod;
-use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::frame::{Frame, Timing};
+use lumencut_core::geometry::Geometry;
 use lumencut_core::math::blocks::HUGE;
-use lumencut_core::pipeline;
-use lumencut_core::settings::Settings;
-use lumencut_core::stages::Stop;
-use lumencut_core::volume::Volume;
+use lumencut_core::pipeline::Request;
+use lumencut_core::scene::Scene;
+use lumencut_core::stages::{Image, ImageSet, Stage};
 use wgpu::Buffer;
 
 use crate::composite::Layers;
-use crate::context::CutSurfaceImages;
+use crate::context::ContextImages;
 use crate::device::Device;
 use crate::images::Images;
 use crate::levels::DeviceLevels;
-use crate::recording::Recording;
-use crate::silhouette;
-use crate::stages::{OnCpu, Stages};
-use crate::view::View;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::on_cpu::OnCpu;
+use crate::recording::{Recording, Results};
+use crate::silhouette::SilhouetteImages;
+use crate::stages::Stages;
+use crate::surface::SurfaceImages;
 use crate::volume::DeviceVolume;
-
-/// A tree on the CPU and on the GPU.
-pub(crate) struct Tree<'a> {
-    #[cfg_attr(target_arch = "wasm32", allow(dead_code))]
-    pub core: &'a mut pipeline::Renderer,
-    pub levels: &'a DeviceLevels,
-}
 
 /// One view under way.
 pub(crate) struct Pass<'a> {
     pub device: &'a Device,
     pub stages: &'a mut Stages,
-    #[cfg_attr(target_arch = "wasm32", allow(dead_code))]
-    pub on_cpu: &'a OnCpu,
-    pub tree: Option<Tree<'a>>,
-    pub volume: Option<&'a DeviceVolume>,
+    #[cfg(not(target_arch = "wasm32"))]
+    pub on_cpu: &'a mut OnCpu,
     pub images: &'a Images,
-    pub camera: &'a Camera,
-    pub settings: &'a Settings,
-    pub stop: Stop<'a>,
-    recording: Recording<'a>,
-    timings: Vec<Timing>,
-    /// What the frame is to have.
-    has_surface: bool,
-    has_value: bool,
-    has_context: bool,
-    has_image: bool,
+    /// What is shown, and what of it is on the GPU.
+    pub scene: &'a Scene<'a>,
+    pub levels: Option<&'a DeviceLevels>,
+    pub volume: Option<&'a DeviceVolume>,
+    /// Where the pixels look; the depth of a cut surface that the GPU makes is not in it, but among the images.
+    pub geometry: Geometry,
+    pub request: &'a Request<'a>,
+    pub recording: Recording<'a>,
+    pub timings: Vec<Timing>,
+    /// The images that the stages so far have made.
+    pub made: ImageSet,
 }
 
-impl<'a> Pass<'a> {
-    /// Tells the shaders of the view.
-    pub fn new(
-        device: &'a Device,
-        stages: &'a mut Stages,
-        on_cpu: &'a OnCpu,
-        (tree, volume, images): (Option<Tree<'a>>, Option<&'a DeviceVolume>, &'a Images),
-        (camera, settings, stop): (&'a Camera, &'a Settings, Stop<'a>),
-    ) -> Self {
-        device.write(&stages.view, &[View::new(camera)]);
-        Self {
-            device,
-            stages,
-            on_cpu,
-            tree,
-            volume,
-            images,
-            camera,
-            settings,
-            stop,
-            recording: Recording::new(device),
-            timings: Vec::new(),
-            has_surface: false,
-            has_value: false,
-            has_context: false,
-            has_image: false,
+impl Pass<'_> {
+    /// Finds where the pixels look: projection, distance, depth and its filter.
+    pub async fn cut_surface(&mut self) -> Result<()> {
+        self.projection();
+        for stage in Stage::of_cut_surface(self.request.settings) {
+            self.run(stage).await?;
+        }
+        self.made = self.made.and(ImageSet::of(&[Image::Depth]));
+        Ok(())
+    }
+
+    /// Shows what is there: values, silhouettes, context, picture.
+    pub async fn look(&mut self) -> Result<()> {
+        let stages: Vec<_> = match self.geometry {
+            Geometry::Orthographic { .. } => Stage::of_look(self.request.settings, self.made).collect(),
+            Geometry::Curved(_) => Stage::of_curved_look().collect(),
+        };
+        for stage in stages {
+            self.run(stage).await?;
+        }
+        Ok(())
+    }
+
+    /// Sends depth and vessels of a cut surface that was made elsewhere.
+    pub fn send_surface(&mut self, vessel: &[i32]) {
+        let depth = self.geometry.depth();
+        for (image, bytes) in [
+            (Image::Depth, bytemuck::cast_slice::<_, u8>(depth)),
+            (Image::Vessel, bytemuck::cast_slice(vessel)),
+        ] {
+            if !bytes.is_empty() {
+                self.device.write(self.buffer(image), bytes);
+                self.made = self.made.and(ImageSet::of(&[image]));
+            }
         }
     }
 
-    /// Levels, projection, distance, depth and its filter.
-    pub async fn cut_surface(&mut self) -> Result<()> {
-        self.has_surface = true;
-        self.projection();
-        self.distance().await?;
-        self.depth().await?;
-        if self.settings.depth_filter { self.depth_filter().await } else { Ok(()) }
+    /// Runs one stage, on the CPU where that is wanted.
+    async fn run(&mut self, stage: Stage) -> Result<()> {
+        #[cfg(not(target_arch = "wasm32"))]
+        if self.on_cpu.has(stage) {
+            return self.run_on_cpu(stage).await;
+        }
+        self.record(stage)?;
+        self.made = self.made.and(ImageSet::of(stage.writes()));
+        Ok(())
+    }
+
+    fn record(&mut self, stage: Stage) -> Result<()> {
+        match stage {
+            Stage::Distance => self.distance(),
+            Stage::Depth => self.depth(),
+            Stage::DepthFilter => self.depth_filter(),
+            Stage::Surface => return self.surface(),
+            Stage::Silhouette => self.silhouette(),
+            Stage::Context => return self.context(),
+            Stage::Composite => self.composite(),
+            // Made by the CPU, sent before the view, or recorded with what they prepare.
+            Stage::Levels | Stage::Projection | Stage::Blocks => {}
+        }
+        Ok(())
     }
 
     fn projection(&mut self) {
-        if let Some(Tree { levels, .. }) = &self.tree {
-            let stages = &mut self.stages.cut_surface;
-            stages.look(self.device, levels, self.camera, self.settings);
-            stages.project(&mut self.recording, &self.stages.view, levels, self.settings.levels);
-        }
+        let Some(levels) = self.levels else { return };
+        let stages = &mut self.stages.cut_surface;
+        stages.look(self.device, levels, self.request);
+        stages.project(&mut self.recording, &self.stages.view, levels, self.request.settings.levels);
     }
 
-    async fn distance(&mut self) -> Result<()> {
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.on_cpu.has("distance") {
-            return self.distance_on_cpu().await;
-        }
-        if let Some(Tree { levels, .. }) = &self.tree {
-            let (view, Images { size, distance, .. }) = (&self.stages.view, self.images);
-            self.stages.cut_surface.distance(&mut self.recording, view, levels, *size, distance);
-        }
-        Ok(())
+    fn distance(&mut self) {
+        let Some(levels) = self.levels else { return };
+        let Stages { view, cut_surface, .. } = &*self.stages;
+        cut_surface.distance(&mut self.recording, view, levels, self.images);
     }
 
-    async fn depth(&mut self) -> Result<()> {
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.on_cpu.has("depth") {
-            return self.depth_on_cpu().await;
-        }
-        let result = self.raw_depth();
-        if let Some(Tree { levels, .. }) = &self.tree {
-            let (view, Images { size, distance, vessel, .. }) = (&self.stages.view, self.images);
-            let (lumen_first, images) = (self.settings.lumen_first, [distance, result, vessel]);
-            self.stages.cut_surface.depth(&mut self.recording, view, levels, lumen_first, images, *size);
-        }
-        Ok(())
+    fn depth(&mut self) {
+        let Some(levels) = self.levels else { return };
+        let depth = self.buffer(Image::UnfilteredDepth);
+        let (lumen_first, Stages { view, cut_surface, .. }) =
+            (self.request.settings.lumen_first, &*self.stages);
+        cut_surface.depth(&mut self.recording, view, levels, lumen_first, self.images, depth);
     }
 
-    /// Where the depth stage writes: into the depth itself where nothing filters it.
-    pub fn raw_depth(&self) -> &'a Buffer {
-        if self.settings.depth_filter { &self.images.unfiltered } else { &self.images.depth }
+    fn depth_filter(&mut self) {
+        let (Stages { view, depth_filter, .. }, images) = (&*self.stages, self.images);
+        let [from, to] = [&images.unfiltered_depth, &images.depth];
+        depth_filter.record(&mut self.recording, view, images.size, [from, to]);
     }
 
-    async fn depth_filter(&mut self) -> Result<()> {
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.on_cpu.has("depth_filter") {
-            return self.depth_filter_on_cpu().await;
-        }
-        let (view, Images { size, unfiltered, depth, .. }) = (&self.stages.view, self.images);
-        self.stages.depth_filter.record(&mut self.recording, view, *size, unfiltered, depth);
-        Ok(())
+    fn surface(&mut self) -> Result<()> {
+        let (Some(on_device), Some(shared)) = (self.volume, &self.scene.volume) else { return Ok(()) };
+        self.stages.place(self.device, on_device, &shared.volume, &self.geometry);
+        let Images { size, depth, value, .. } = self.images;
+        let images = SurfaceImages { size: *size, geometry: &self.geometry, depth, value };
+        let Stages { view, grid, surface, .. } = &mut *self.stages;
+        let slab = self.request.settings.slab;
+        surface.record(&mut self.recording, [view, grid], (on_device, &shared.volume), slab, images)
     }
 
-    /// The volume at the cut surface.
-    pub async fn surface(&mut self, volume: &Volume<'_>) -> Result<()> {
-        self.has_value = true;
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.on_cpu.has("surface") {
-            return self.surface_on_cpu(volume).await;
-        }
-        let Some(on_device) = self.volume else { return Ok(()) };
-        on_device.place(self.device, volume, self.camera);
-        let (view, Images { size, depth, value, .. }) = (&self.stages.view, self.images);
-        let volumes = (on_device, volume);
-        self.stages.surface.record(
-            &mut self.recording,
-            (view, *size),
-            volumes,
-            self.settings.slab,
-            depth,
-            value,
-        )
-    }
-
-    /// The strength of the silhouettes, where they are wanted.
-    pub async fn silhouette(&mut self) -> Result<()> {
-        if !self.settings.silhouettes {
-            return Ok(());
-        }
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.on_cpu.has("silhouette") {
-            return self.silhouette_on_cpu().await;
-        }
-        let Images { depth, vessel, raised, strength, .. } = self.images;
+    fn silhouette(&mut self) {
+        let Geometry::Orthographic { camera, .. } = &self.geometry else { return };
+        let Images { depth, vessel, raised, strength, size, .. } = self.images;
         let Stages { view, depth_filter, silhouette, .. } = &*self.stages;
-        let images = silhouette::Images { depth, vessel, raised, strength };
-        let slope = self.settings.silhouette_slope;
-        silhouette.record(&mut self.recording, depth_filter, view, self.camera, slope, images);
+        silhouette.write(self.device, self.request.settings, camera);
+        let images = SilhouetteImages { size: *size, depth, vessel, raised, strength };
+        silhouette.record(&mut self.recording, depth_filter, view, images);
+    }
+
+    fn context(&mut self) -> Result<()> {
+        let (Some(on_device), Some(shared)) = (self.volume, &self.scene.volume) else { return Ok(()) };
+        self.stages.place(self.device, on_device, &shared.volume, &self.geometry);
+        let blocks = on_device.blocks(self.device, shared, self.request.stop)?;
+        let Images { size, depth, value, start, gathered, .. } = self.images;
+        let has_surface = self.made.has(Image::Value);
+        let images = ContextImages { size: *size, has_surface, depth, value, start, gathered };
+        let Stages { view, grid, context, .. } = &mut *self.stages;
+        context.write(self.device, self.request.settings, &shared.volume, blocks)?;
+        context.record(&mut self.recording, [view, grid], (on_device, blocks), self.request.settings, images);
         Ok(())
     }
 
-    /// The context behind the cut surface, or all of it where there is none, where it is wanted.
-    pub async fn context(&mut self, volume: &Volume<'_>) -> Result<()> {
-        let Some(settings) = &self.settings.context else { return Ok(()) };
-        self.has_context = true;
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.on_cpu.has("context") {
-            return self.context_on_cpu(volume, settings).await;
-        }
-        let Some((on_device, blocks)) = self.volume.and_then(|v| Some((v, v.blocks()?))) else {
-            return Ok(());
-        };
-        on_device.place(self.device, volume, self.camera);
-        let Images { size, depth, value, context, .. } = self.images;
-        let cut_surface = self.has_value.then_some(CutSurfaceImages { value, depth });
-        let Stages { view, context: stage, .. } = &mut *self.stages;
-        let volumes = (on_device, blocks, volume);
-        let settings = (self.settings, settings);
-        stage.record(&mut self.recording, (view, *size), volumes, settings, cut_surface, context)
-    }
-
-    /// The picture of all layers, and the context's own.
-    pub async fn composite(&mut self) -> Result<()> {
-        self.has_image = true;
-        #[cfg(not(target_arch = "wasm32"))]
-        if self.on_cpu.has("composite") {
-            return self.composite_on_cpu().await;
-        }
-        let Images { size, value, strength, context, layer, image, .. } = self.images;
-        let Stages { view, composite, .. } = &*self.stages;
+    fn composite(&mut self) {
+        let made = |image| self.made.has(image).then(|| self.buffer(image));
         let layers = Layers {
-            value: self.has_value.then_some(value),
-            strength: self.has_strength().then_some(strength),
-            context: self.has_context.then_some(context),
+            value: made(Image::Value),
+            strength: made(Image::Strength),
+            context: made(Image::Gathered),
         };
-        if self.has_context {
-            composite.record_layer(&mut self.recording, view, *size, context, layer);
+        let Images { size, context, picture, .. } = self.images;
+        let Stages { view, composite, .. } = &*self.stages;
+        composite.write(self.device, self.request.settings);
+        if let Some(gathered) = layers.context {
+            composite.record_layer(&mut self.recording, view, *size, [gathered, context]);
         }
-        composite.record(&mut self.recording, view, *size, layers, self.settings, image);
-        Ok(())
+        composite.record(&mut self.recording, view, *size, layers, picture);
     }
 
-    /// Whether there are silhouettes.
-    pub fn has_strength(&self) -> bool {
-        self.has_value && self.settings.silhouettes
+    /// The buffer of an image.
+    pub fn buffer(&self, image: Image) -> &Buffer {
+        self.images.buffer(image, self.request.settings.depth_filter)
     }
 
-    /// Whether there is a cut surface with values.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn has_value(&self) -> bool {
-        self.has_value
-    }
-
-    /// Whether there is a context.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn has_context(&self) -> bool {
-        self.has_context
-    }
-
-    /// Runs what is recorded, and reads the images of the frame.
+    /// Runs what is recorded, and reads the images that are asked for.
     pub async fn frame(mut self) -> Result<Frame> {
-        let Images { distance, depth, vessel, value, layer, image, .. } = self.images;
-        let (surface, bytes) = (self.has_surface, 4 * self.images.pixels() as u64);
-        let wanted = [
-            (distance, surface),
-            (depth, surface),
-            (vessel, surface),
-            (value, self.has_value),
-            (layer, self.has_context),
-            (image, self.has_image),
-        ];
-        for (image, _) in wanted.iter().filter(|(_, wanted)| *wanted) {
-            self.recording.read(image, bytes);
+        if !self.made.has(Image::Gathered) {
+            self.made = self.made.without(Image::Context);
         }
-        let results = self.recording.finish(self.stop).await?;
-        self.timings.extend(results.timings);
-        let mut read = results.bytes.into_iter();
-        let [distance, depth, vessel, value, layer, image] =
-            wanted.map(|(_, wanted)| if wanted { read.next().unwrap_or_default() } else { Vec::new() });
-        Ok(Frame {
-            camera: *self.camera,
-            image: numbers(&image),
-            depth: numbers(&depth),
-            vessel: numbers(&vessel),
-            distance: numbers(&distance),
-            value: with_holes(numbers(&value)),
-            context: numbers(&layer),
-            timings: self.timings,
-        })
+        let asked = |image: &Image| self.request.images.has(*image) && self.made.has(*image);
+        let wanted: Vec<_> = Image::ALL.into_iter().filter(asked).collect();
+        let results = self.finish(&wanted).await?;
+        let mut frame = Frame { timings: self.timings, ..Frame::of(self.geometry) };
+        for (n, image) in wanted.into_iter().enumerate() {
+            match (image, &mut frame.geometry) {
+                (Image::Distance, _) => frame.distance = results.numbers(n),
+                (Image::Depth, Geometry::Orthographic { depth, .. }) => *depth = results.numbers(n),
+                (Image::Vessel, _) => frame.vessel = results.numbers(n),
+                (Image::Value, _) => frame.value = with_holes(results.numbers(n)),
+                (Image::Context, _) => frame.context = results.numbers(n),
+                (Image::Picture, _) => frame.image = results.numbers(n),
+                _ => {}
+            }
+        }
+        Ok(frame)
     }
 
-    /// Runs what is recorded so far, and reads an image of `T` per pixel.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub async fn read<T: Pod>(&mut self, image: &Buffer) -> Result<Vec<T>> {
+    /// Runs what is recorded so far, and asks for images.
+    pub async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
-        recording.read(image, (self.images.pixels() * size_of::<T>()) as u64);
-        let results = recording.finish(self.stop).await?;
-        self.timings.extend(results.timings);
-        Ok(results.bytes.first().map_or_else(Vec::new, |bytes| numbers(bytes)))
+        for image in wanted {
+            let bytes = if *image == Image::Gathered { 16 } else { 4 };
+            recording.read(self.buffer(*image), bytes * self.images.pixels() as u64);
+        }
+        let mut results = recording.finish(self.request.stop).await?;
+        self.timings.append(&mut results.timings);
+        Ok(results)
     }
-
-    /// Counts the time of a stage that the CPU did.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn count(&mut self, stage: &'static str, start: web_time::Instant) {
-        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-        self.timings.push(Timing { stage, milliseconds });
-    }
-}
-
-/// The numbers in some bytes.
-fn numbers<T: Pod>(bytes: &[u8]) -> Vec<T> {
-    bytemuck::pod_collect_to_vec(bytes)
 }
 
 /// Values with NaN for HUGE, as the frame has them.
 pub(crate) fn with_holes(mut values: Vec<f32>) -> Vec<f32> {
     for value in &mut values {
         *value = if *value >= HUGE { f32::NAN } else { *value };
-    }
-    values
-}
-
-/// Values with HUGE for NaN, as shaders have them.
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) fn without_holes(mut values: Vec<f32>) -> Vec<f32> {
-    for value in &mut values {
-        *value = if value.is_nan() { HUGE } else { *value };
     }
     values
 }

@@ -1,11 +1,12 @@
 //! A list of named stages that the GPU runs at once, how long each took, and what is read back.
 
+use bytemuck::Pod;
 use futures_channel::oneshot::Receiver;
 #[cfg(not(target_arch = "wasm32"))]
 use lumencut_core::error::Error;
 use lumencut_core::error::Result;
 use lumencut_core::frame::Timing;
-use lumencut_core::stages::Stop;
+use lumencut_core::stop::Stop;
 use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, MapMode};
 
 use crate::device::Device;
@@ -23,12 +24,28 @@ pub(crate) struct Recording<'a> {
     reads: Vec<(Buffer, u64)>,
 }
 
-/// What a recording left behind.
+/// What a recording left behind: the bytes of each buffer that was asked for, still where the GPU wrote them.
 pub(crate) struct Results {
     /// The milliseconds of each stage, where the GPU has a clock.
     pub timings: Vec<Timing>,
-    /// The bytes of each buffer that was asked for, in that order.
-    pub bytes: Vec<Vec<u8>>,
+    staging: Buffer,
+    view: Option<wgpu::BufferView>,
+    places: Vec<std::ops::Range<usize>>,
+}
+
+impl Results {
+    /// The numbers of the buffer that was asked for as the `n`th.
+    pub fn numbers<T: Pod>(&self, n: usize) -> Vec<T> {
+        self.view.as_ref().map_or_else(Vec::new, |all| bytemuck::pod_collect_to_vec(&all[self.places[n].clone()]))
+    }
+}
+
+impl Drop for Results {
+    fn drop(&mut self) {
+        // What is mapped must not be looked at any more when it is unmapped.
+        self.view = None;
+        self.staging.unmap();
+    }
 }
 
 impl<'a> Recording<'a> {
@@ -93,25 +110,22 @@ impl<'a> Recording<'a> {
         }
         let total = self.reads.iter().map(|(_, bytes)| bytes.next_multiple_of(8)).sum::<u64>().max(8);
         let staging = self.device.buffer("read back", total, BufferUsages::COPY_DST | BufferUsages::MAP_READ);
-        let mut offset = 0;
+        let (mut offset, mut places) = (0, Vec::with_capacity(self.reads.len()));
         for (buffer, bytes) in &self.reads {
             self.encoder.copy_buffer_to_buffer(buffer, 0, &staging, offset, Some(*bytes));
+            places.push(offset as usize..(offset + bytes) as usize);
             offset += bytes.next_multiple_of(8);
         }
         self.device.queue.submit([self.encoder.finish()]);
-        let all = self.device.map(&staging, stop).await?;
-        let mut offset = 0;
-        let mut bytes: Vec<Vec<u8>> = Vec::with_capacity(self.reads.len());
-        for (_, length) in &self.reads {
-            bytes.push(all[offset..offset + *length as usize].to_vec());
-            offset += length.next_multiple_of(8) as usize;
-        }
-        drop(all);
-        staging.unmap();
+        let view = Some(self.device.map(&staging, stop).await?);
+        let mut results = Results { timings: Vec::new(), staging, view, places };
         self.device.check()?;
-        let ticks = if self.clock.is_some() { bytes.pop().unwrap_or_default() } else { Vec::new() };
-        let period = f64::from(self.device.queue.get_timestamp_period()) * 1e-6;
-        Ok(Results { timings: timings(&self.names, &bytemuck::pod_collect_to_vec(&ticks), period), bytes })
+        if self.clock.is_some() {
+            let ticks = results.numbers(self.reads.len() - 1);
+            let period = f64::from(self.device.queue.get_timestamp_period()) * 1e-6;
+            results.timings = timings(&self.names, &ticks, period);
+        }
+        Ok(results)
     }
 }
 

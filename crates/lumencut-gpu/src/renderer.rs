@@ -2,47 +2,66 @@
 
 use std::sync::Arc;
 
-use lumencut_core::camera::Camera;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::Result;
 use lumencut_core::frame::Frame;
-use lumencut_core::pipeline;
-use lumencut_core::settings::Settings;
-use lumencut_core::stages::Stop;
-use lumencut_core::vessel_tree::VesselTree;
-use lumencut_core::volume::Volume;
+use lumencut_core::geometry::Geometry;
+use lumencut_core::math::projection::Level;
+use lumencut_core::pipeline::{Request, nothing_to_show};
+use lumencut_core::scene::{Scene, SharedVolume};
+use lumencut_core::stages::ImageSet;
 
 use crate::device::Device;
 use crate::images::Images;
 use crate::levels::DeviceLevels;
-use crate::pass::{Pass, Tree};
-use crate::stages::OnCpu;
 #[cfg(not(target_arch = "wasm32"))]
-use crate::stages::STAGES;
+use crate::on_cpu::OnCpu;
+use crate::pass::Pass;
+use crate::recording::Recording;
 use crate::stages::Stages;
+use crate::view::ViewParameters;
 use crate::volume::DeviceVolume;
+use crate::volumes::Volumes;
 
-/// Renders views of one volume and one vessel tree, or of a volume alone, as [`pipeline::Renderer`] does on the CPU.
-/// The volume goes to the GPU with its first view: every view is of the same volume.
+/// Renders views of scenes as [`lumencut_core::pipeline::CpuRenderer`] does on the CPU. Volumes and trees are sent to the
+/// GPU when they are first shown; the last ones that were shown stay there.
 #[derive(Debug)]
-pub struct Renderer {
+pub struct GpuRenderer {
     device: Arc<Device>,
+    volumes: Arc<Volumes>,
     stages: Stages,
+    #[cfg(not(target_arch = "wasm32"))]
     on_cpu: OnCpu,
-    tree: Option<pipeline::Renderer>,
-    levels: Option<DeviceLevels>,
-    volume: Option<DeviceVolume>,
+    tree: Option<DeviceTree>,
+    volume: Option<Arc<DeviceVolume>>,
     images: Option<Images>,
 }
 
-impl Renderer {
-    /// A renderer of `tree`, or of a volume alone.
-    pub fn new(device: Arc<Device>, tree: Option<VesselTree>) -> Self {
+/// The tree that was shown last.
+#[derive(Debug)]
+struct DeviceTree {
+    levels: Arc<Vec<Level>>,
+    on_device: DeviceLevels,
+}
+
+impl GpuRenderer {
+    /// A renderer on a GPU.
+    pub fn new(device: Arc<Device>) -> Self {
+        Self::with_volumes(device, Arc::default())
+    }
+
+    /// Another renderer on the same GPU. A volume that both show is on the GPU once.
+    pub fn beside(&self) -> Self {
+        Self::with_volumes(Arc::clone(&self.device), Arc::clone(&self.volumes))
+    }
+
+    fn with_volumes(device: Arc<Device>, volumes: Arc<Volumes>) -> Self {
         Self {
             stages: Stages::new(&device),
             device,
+            volumes,
+            #[cfg(not(target_arch = "wasm32"))]
             on_cpu: OnCpu::default(),
-            tree: tree.map(pipeline::Renderer::new),
-            levels: None,
+            tree: None,
             volume: None,
             images: None,
         }
@@ -53,115 +72,105 @@ impl Renderer {
         &self.device
     }
 
-    /// Lets the CPU do some of [`STAGES`] from now on, each with what the GPU made before it.
+    /// Lets the CPU do some stages from now on, each with what the GPU made before it.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a name that is none of them.
+    /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is none of [`crate::stages::on_either`].
     #[cfg(not(target_arch = "wasm32"))]
-    pub fn force_to_cpu(&mut self, stages: Vec<String>) -> Result<()> {
-        if let Some(unknown) = stages.iter().find(|name| !STAGES.contains(&name.as_str())) {
-            let expected = format!("names of {}", STAGES.join(", "));
-            return Err(Error::new(
-                ErrorKind::Settings,
-                "stages of the CPU",
-                format!("'{unknown}'"),
-                expected,
-            ));
-        }
-        self.on_cpu = OnCpu(stages);
+    pub fn force_to_cpu(&mut self, names: &[String]) -> Result<()> {
+        self.on_cpu = OnCpu::named(names)?;
         Ok(())
     }
 
-    /// The whole picture: cut surface, volume at the surface, silhouettes, context, window; without a tree the context
+    /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
     /// alone.
     ///
     /// # Errors
-    /// As [`pipeline::Renderer::render`], and [`ErrorKind::Device`] where the GPU has no room or fails.
-    pub async fn render(
-        &mut self,
-        volume: &Volume<'_>,
-        camera: &Camera,
-        settings: &Settings,
-        stop: Stop<'_>,
-    ) -> Result<Frame> {
-        settings.check()?;
-        self.prepare_volume(volume, settings, stop)?;
-        let is_tree = self.tree.is_some();
-        let mut pass = self.pass(camera, settings, stop)?;
-        if is_tree {
-            pass.cut_surface().await?;
-            pass.surface(volume).await?;
-            pass.silhouette().await?;
+    /// As [`lumencut_core::pipeline::CpuRenderer::render`], and [`lumencut_core::error::ErrorKind::Device`] where the GPU has no room or fails.
+    pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
+        request.settings.check()?;
+        if scene.volume.is_none() && scene.tree.is_none() {
+            return Err(nothing_to_show());
         }
-        pass.context(volume).await?;
-        pass.composite().await?;
+        let mut pass = self.pass(scene, Geometry::rays(*request.camera), request)?;
+        if scene.tree.is_some() {
+            pass.cut_surface().await?;
+        }
+        if scene.volume.is_some() {
+            pass.look().await?;
+        }
         pass.frame().await
     }
 
-    /// The cut surface alone: depth, vessel and distance; `value` and `image` stay empty.
+    /// Shows the volume where a frame's geometry looks, as [`lumencut_core::pipeline::CpuRenderer::look`] does.
     ///
     /// # Errors
-    /// As [`Renderer::render`], and [`ErrorKind::VesselTree`] without a tree.
-    pub async fn cut_surface(
+    /// As [`GpuRenderer::render`].
+    pub async fn look(
         &mut self,
-        camera: &Camera,
-        settings: &Settings,
-        stop: Stop<'_>,
+        volume: &SharedVolume<'_>,
+        frame: Frame,
+        request: &Request<'_>,
     ) -> Result<Frame> {
-        settings.check()?;
-        if self.tree.is_none() {
-            return Err(Error::new(
-                ErrorKind::VesselTree,
-                "tree of the renderer",
-                "none",
-                "a tree to cut along",
-            ));
-        }
-        let mut pass = self.pass(camera, settings, stop)?;
-        pass.cut_surface().await?;
-        pass.frame().await
+        request.settings.check()?;
+        let scene = Scene { volume: Some(volume.clone()), tree: None };
+        let Frame { geometry, vessel, distance, timings, .. } = frame;
+        let mut pass = self.pass(&scene, geometry, request)?;
+        pass.send_surface(&vessel);
+        pass.look().await?;
+        let mut shown = pass.frame().await?;
+        shown.timings.splice(..0, timings);
+        Ok(Frame { vessel, distance, ..shown }.keeping(request.images))
     }
 
-    /// Sends the volume, and its blocks where they are needed, unless that has been done.
-    fn prepare_volume(&mut self, volume: &Volume, settings: &Settings, stop: Stop) -> Result<()> {
-        if self.volume.is_none() {
-            self.volume = Some(DeviceVolume::new(&self.device, volume, stop)?);
-        }
-        match (&mut self.volume, &settings.context) {
-            (Some(on_device), Some(_)) => on_device.prepare_blocks(&self.device, volume, stop),
-            _ => Ok(()),
-        }
-    }
-
-    /// The start of a view.
+    /// The start of a view: what it reads is on the GPU.
     fn pass<'a>(
         &'a mut self,
-        camera: &'a Camera,
-        settings: &'a Settings,
-        stop: Stop<'a>,
+        scene: &'a Scene<'a>,
+        geometry: Geometry,
+        request: &'a Request<'a>,
     ) -> Result<Pass<'a>> {
-        let device = &self.device;
-        let tree = match &mut self.tree {
-            None => None,
-            Some(core) => {
-                if self.levels.as_ref().is_none_or(|levels| levels.coarsest < settings.levels) {
-                    self.levels = Some(DeviceLevels::new(device, core.levels(settings.levels))?);
-                }
-                self.levels.as_ref().map(|levels| Tree { core, levels })
-            }
-        };
+        self.prepare(scene, request)?;
+        let size = geometry.size();
         let images = match self.images.take() {
-            Some(images) if images.size == camera.size() => images,
-            _ => Images::new(device, camera.size())?,
+            Some(images) if images.size == size => images,
+            _ => Images::new(&self.device, size)?,
         };
-        let images = self.images.insert(images);
-        let volume = self.volume.as_ref();
-        Ok(Pass::new(
-            device,
-            &mut self.stages,
-            &self.on_cpu,
-            (tree, volume, images),
-            (camera, settings, stop),
-        ))
+        let levels = self.tree.as_ref().map(|tree| &tree.on_device);
+        self.device.write(&self.stages.view, &[ViewParameters::of(&geometry)]);
+        Ok(Pass {
+            device: &self.device,
+            stages: &mut self.stages,
+            #[cfg(not(target_arch = "wasm32"))]
+            on_cpu: &mut self.on_cpu,
+            images: self.images.insert(images),
+            scene,
+            levels: levels.filter(|_| scene.tree.is_some()),
+            volume: self.volume.as_deref().filter(|_| scene.volume.is_some()),
+            geometry,
+            request,
+            recording: Recording::new(&self.device),
+            timings: Vec::new(),
+            made: ImageSet::of(&[]),
+        })
+    }
+
+    /// Sends what the scene has and the GPU has not.
+    fn prepare(&mut self, scene: &Scene, request: &Request) -> Result<()> {
+        if let Some(shared) = &scene.volume {
+            let volume = self.volumes.kept(&self.device, shared, request.stop)?;
+            if request.settings.context.is_some() {
+                volume.blocks(&self.device, shared, request.stop)?;
+            }
+            self.volume = Some(volume);
+        }
+        if let Some(tree) = &scene.tree {
+            let levels = tree.levels(request.settings.levels);
+            if self.tree.as_ref().is_none_or(|kept| !Arc::ptr_eq(&kept.levels, &levels)) {
+                let on_device = DeviceLevels::new(&self.device, &levels)?;
+                self.tree = Some(DeviceTree { levels, on_device });
+            }
+        }
+        Ok(())
     }
 }

@@ -1,7 +1,8 @@
 //! Silhouettes on the GPU.
 
-use bytemuck::{Pod, Zeroable};
 use lumencut_core::camera::Camera;
+use lumencut_core::settings::Settings;
+use lumencut_core::stages::silhouette::SilhouetteParameters;
 use wgpu::Buffer;
 
 use crate::depth_filter::{DepthFilter, GROUP};
@@ -10,27 +11,19 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// `Slope` of `stages/silhouette.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub(crate) struct Slope {
-    /// From the sum of the Sobel weights to mm per mm.
-    pub per_slope: f32,
-    /// The square of the slope that has half the strength.
-    pub half: f32,
-}
-
 /// The slope of the depth, filtered, as the strength of a line.
 #[derive(Debug)]
 pub(crate) struct Silhouette {
     raise: Stage,
     strength: Stage,
-    slope: Buffer,
+    parameters: Buffer,
 }
 
 /// The images of silhouettes, four bytes per pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Images<'a> {
+pub(crate) struct SilhouetteImages<'a> {
+    /// Width and height.
+    pub size: [usize; 2],
     /// Depth of the cut surface (mm).
     pub depth: &'a Buffer,
     /// The vessel of each pixel.
@@ -47,28 +40,29 @@ impl Silhouette {
         Self {
             raise: Stage::new(device, ROOM, &[]),
             strength: Stage::entry(device, ROOM, "strength", &[]),
-            slope: device.uniform::<Slope>("slope"),
+            parameters: device.uniform::<SilhouetteParameters>("silhouette parameters"),
         }
     }
 
-    /// Writes the strength of the silhouettes, as half of which `half_slope` counts.
+    /// Tells the shaders of a view.
+    pub fn write(&self, device: &Device, settings: &Settings, camera: &Camera) {
+        device.write(&self.parameters, &[SilhouetteParameters::new(settings, camera)]);
+    }
+
+    /// Writes the strength of the silhouettes.
     pub fn record(
         &self,
         recording: &mut Recording,
         filter: &DepthFilter,
         view: &Buffer,
-        camera: &Camera,
-        half_slope: f64,
-        images: Images,
+        images: SilhouetteImages,
     ) {
-        let per_slope = (1.0 / (8.0 * camera.pixel_spacing())) as f32;
-        recording.device.write(&self.slope, &[Slope { per_slope, half: (half_slope * half_slope) as f32 }]);
-        let across = groups(camera.size(), GROUP);
-        let Images { depth, vessel, raised, strength } = images;
-        let buffers = [view, &self.slope, raised, depth, vessel].map(Buffer::as_entire_binding);
+        let SilhouetteImages { size, depth, vessel, raised, strength } = images;
+        let across = groups(size, GROUP);
+        let buffers = [view, &self.parameters, raised, depth, vessel].map(Buffer::as_entire_binding);
         recording.run(&self.raise, &buffers, across);
-        filter.record_as(self.raise.name, recording, view, camera.size(), [raised, strength]);
-        let buffers = [view, &self.slope, strength].map(Buffer::as_entire_binding);
+        filter.record_as(self.raise.name, recording, view, size, [raised, strength]);
+        let buffers = [view, &self.parameters, strength].map(Buffer::as_entire_binding);
         recording.run(&self.strength, &buffers, across);
     }
 }

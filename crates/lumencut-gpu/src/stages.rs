@@ -1,5 +1,8 @@
 //! All stages, compiled, and what they read of a view.
 
+use lumencut_core::geometry::Geometry;
+use lumencut_core::stages::Stage;
+use lumencut_core::volume::Volume;
 use wgpu::Buffer;
 
 use crate::composite::Composite;
@@ -9,12 +12,15 @@ use crate::depth_filter::DepthFilter;
 use crate::device::Device;
 use crate::silhouette::Silhouette;
 use crate::surface::Surface;
-use crate::view::View;
+use crate::view::ViewParameters;
+use crate::volume::{DeviceVolume, GridParameters};
 
 /// The stages in the order of the pipeline. Those whose shaders depend on the settings are compiled once needed.
 #[derive(Debug)]
 pub(crate) struct Stages {
     pub view: Buffer,
+    /// The grid of the volume in the view.
+    pub grid: Buffer,
     pub cut_surface: CutSurfaceStages,
     pub depth_filter: DepthFilter,
     pub surface: Surface,
@@ -27,7 +33,8 @@ impl Stages {
     /// The stages on a GPU.
     pub fn new(device: &Device) -> Self {
         Self {
-            view: device.uniform::<View>("view"),
+            view: device.uniform::<ViewParameters>("view"),
+            grid: device.uniform::<GridParameters>("grid"),
             cut_surface: CutSurfaceStages::new(device),
             depth_filter: DepthFilter::new(device),
             surface: Surface::new(device),
@@ -36,21 +43,15 @@ impl Stages {
             composite: Composite::new(device),
         }
     }
+
+    /// Tells the shaders where a volume lies in the view. A curved geometry has no view: its pixels lie in the volume.
+    pub fn place(&self, device: &Device, on_device: &DeviceVolume, volume: &Volume, geometry: &Geometry) {
+        device.write(&self.grid, &[on_device.grid(volume, geometry.camera())]);
+    }
 }
 
-/// The stages that the CPU can do in place of the GPU, to find where a difference begins. In a browser it does none:
-/// its kernels would be most of what is loaded.
-pub const STAGES: [&str; 7] =
-    ["distance", "depth", "depth_filter", "surface", "silhouette", "context", "composite"];
-
-/// Which stages the CPU does.
-#[cfg_attr(target_arch = "wasm32", allow(dead_code))]
-#[derive(Clone, Debug, Default)]
-pub(crate) struct OnCpu(pub Vec<String>);
-
-#[cfg(not(target_arch = "wasm32"))]
-impl OnCpu {
-    pub fn has(&self, stage: &str) -> bool {
-        self.0.iter().any(|name| name == stage)
-    }
+/// The stages that the CPU can do in place of the GPU, to find where a difference begins: those that write images. In a
+/// browser it does none: its kernels would be most of what is loaded.
+pub fn on_either() -> impl Iterator<Item = Stage> {
+    Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty())
 }

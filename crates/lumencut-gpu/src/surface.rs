@@ -1,9 +1,11 @@
 //! The surface on the GPU.
 
 use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
 use lumencut_core::error::Result;
-use lumencut_core::settings::{Slab as SlabSettings, SlabMode};
-use lumencut_core::stages::surface::parts;
+use lumencut_core::geometry::{Curved, Geometry};
+use lumencut_core::settings::Slab;
+use lumencut_core::stages::surface::SurfaceParameters;
 use lumencut_core::volume::Volume;
 use wgpu::{BindingResource, Buffer};
 
@@ -13,71 +15,108 @@ use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::DeviceVolume;
 
-/// `Slab` of `stages/surface.wgsl`.
+/// `CurvedPlace` of `stages/surface.wgsl`: where a pixel of a curved geometry lies in the volume.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub(crate) struct Slab {
-    pub part: f32,
-    pub beside: u32,
-    pub mode: u32,
-    pub unused: u32,
+pub(crate) struct CurvedPlace {
+    /// Whole numbers of its continuous index.
+    pub whole: [f32; 4],
+    /// What is to be added to them.
+    pub part: [f32; 4],
+    /// Index per mm along the direction in which a slab is thick.
+    pub per_mm: [f32; 4],
 }
 
-impl Slab {
-    fn new(slab: Option<SlabSettings>, volume: &Volume) -> Result<Self> {
-        let (part, beside) = parts(slab, volume)?;
-        let mode = match slab.map(|slab| slab.mode) {
-            Some(SlabMode::Max) => 1,
-            Some(SlabMode::Min) => 2,
-            _ => 0,
+impl CurvedPlace {
+    /// An index outside every volume.
+    const NOWHERE: Self = Self { whole: [-1e6, -1e6, -1e6, 0.0], part: [0.0; 4], per_mm: [0.0; 4] };
+
+    /// The places of all pixels.
+    fn of(curved: &Curved, volume: &Volume) -> Vec<Self> {
+        let to = volume.index_from_world();
+        let place = |(point, direction): (&DVec3, &glam::Vec3)| {
+            let index = to.transform_point3(*point);
+            let per_mm = to.transform_vector3(direction.as_dvec3());
+            // Beyond this no volume reaches, and a whole number still has all its digits.
+            if !index.is_finite() || !per_mm.is_finite() || index.abs().max_element() >= 1e6 {
+                return Self::NOWHERE;
+            }
+            let four = |v: DVec3| v.as_vec3().extend(0.0).to_array();
+            Self { whole: four(index.floor()), part: four(index - index.floor()), per_mm: four(per_mm) }
         };
-        Ok(Self { part: part as f32, beside: beside as u32, mode, unused: 0 })
+        curved.position().iter().zip(curved.slab_direction()).map(place).collect()
     }
 }
 
-/// The stage, for whole numbers and for floats, and its settings.
+/// The images of the surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceImages<'a> {
+    /// Width and height.
+    pub size: [usize; 2],
+    /// Where the pixels look.
+    pub geometry: &'a Geometry,
+    /// Where a camera looks: the depth of the cut surface (mm).
+    pub depth: &'a Buffer,
+    /// The result.
+    pub value: &'a Buffer,
+}
+
+/// The stage, for whole numbers and for floats, at depths and at places of their own; and its parameters.
 #[derive(Debug)]
 pub(crate) struct Surface {
-    stages: [Option<Stage>; 2],
-    slab: Buffer,
+    stages: [[Option<Stage>; 2]; 2],
+    parameters: Buffer,
+    /// Bound where pixels have no places of their own, and never read.
+    nowhere: Buffer,
 }
 
 impl Surface {
     /// Nothing compiled yet.
     pub fn new(device: &Device) -> Self {
-        Self { stages: [None, None], slab: device.uniform::<Slab>("slab") }
+        Self {
+            stages: Default::default(),
+            parameters: device.uniform::<SurfaceParameters>("surface parameters"),
+            nowhere: device.upload("nowhere", &[CurvedPlace::NOWHERE]),
+        }
     }
 
-    /// Writes the volume's value at the depth of each of a view's `size` pixels, HUGE outside the volume. `on_device` is
-    /// `volume`, placed in that view.
+    /// Writes the volume's value where each pixel looks, HUGE outside the volume. `on_device` is `volume`, placed in that
+    /// view.
     ///
     /// # Errors
     /// As the stage of the CPU.
-    #[allow(clippy::too_many_arguments)]
     pub fn record(
         &mut self,
         recording: &mut Recording,
-        (view, size): (&Buffer, [usize; 2]),
+        [view, grid]: [&Buffer; 2],
         (on_device, volume): (&DeviceVolume, &Volume),
-        slab: Option<SlabSettings>,
-        depth: &Buffer,
-        value: &Buffer,
+        slab: Option<Slab>,
+        images: SurfaceImages,
     ) -> Result<()> {
         let device = recording.device;
-        device.write(&self.slab, &[Slab::new(slab, volume)?]);
+        device.write(&self.parameters, &[SurfaceParameters::new(slab, volume)?]);
+        let (sent, is_curved) = match images.geometry {
+            Geometry::Curved(curved) => {
+                (Some(device.upload("curved places", &CurvedPlace::of(curved, volume))), true)
+            }
+            Geometry::Orthographic { .. } => (None, false),
+        };
+        let places = sent.as_ref().unwrap_or(&self.nowhere);
         let is_float = on_device.is_float();
-        let stage = self.stages[usize::from(is_float)].get_or_insert_with(|| {
-            Stage::new(device, "stages/surface", &[("FLOAT_VOXELS", f64::from(u8::from(is_float)))])
+        let stage = self.stages[usize::from(is_curved)][usize::from(is_float)].get_or_insert_with(|| {
+            let constants = [("FLOAT_VOXELS", is_float), ("CURVED", is_curved)];
+            Stage::new(device, "stages/surface", &constants.map(|(name, is)| (name, f64::from(u8::from(is)))))
         });
         let resources = [
             view.as_entire_binding(),
-            on_device.grid.as_entire_binding(),
+            self.parameters.as_entire_binding(),
+            grid.as_entire_binding(),
             BindingResource::TextureView(&on_device.voxels),
-            self.slab.as_entire_binding(),
-            depth.as_entire_binding(),
-            value.as_entire_binding(),
+            images.depth.as_entire_binding(),
+            images.value.as_entire_binding(),
+            places.as_entire_binding(),
         ];
-        recording.run(stage, &resources, groups(size, [8, 8]));
+        recording.run(stage, &resources, groups(images.size, [8, 8]));
         Ok(())
     }
 }

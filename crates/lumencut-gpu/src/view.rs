@@ -3,14 +3,15 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use lumencut_core::camera::Camera;
+use lumencut_core::geometry::Geometry;
 use wgpu::{Buffer, BufferUsages};
 
 use crate::device::Device;
 
-/// `View` of `math/view.wgsl`.
+/// `ViewParameters` of `math/view.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub struct View {
+pub struct ViewParameters {
     /// Pixels along x and y.
     pub size: [u32; 2],
     /// The side of a pixel (mm): twelve digits, and the rest.
@@ -39,11 +40,19 @@ impl Axis {
     }
 }
 
-impl View {
+impl ViewParameters {
     /// The view of `camera`.
     pub fn new(camera: &Camera) -> Self {
         let axes = [camera.right(), camera.up(), camera.direction()].map(Axis::new);
         Self { size: camera.size().map(|n| n as u32), spacing: split(camera.pixel_spacing(), 12), axes }
+    }
+
+    /// The view that a geometry belongs to; of a curved one only the size means anything.
+    pub fn of(geometry: &Geometry) -> Self {
+        match geometry.camera() {
+            Some(camera) => Self::new(camera),
+            None => Self { size: geometry.size().map(|n| n as u32), ..Self::zeroed() },
+        }
     }
 }
 

@@ -1,16 +1,19 @@
-//! A volume on the GPU: its voxels as a texture of whole numbers, its grid, and its blocks.
+//! A volume on the GPU: its voxels as a texture of whole numbers, its blocks, and its grid in a view.
+
+use std::sync::OnceLock;
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use lumencut_core::camera::Camera;
-use lumencut_core::error::{Error, Result};
+use lumencut_core::error::Result;
 use lumencut_core::math::blocks::HUGE;
 use lumencut_core::math::ray::{IndexFromView, PARALLEL};
-use lumencut_core::stages::Stop;
+use lumencut_core::scene::SharedVolume;
+use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Real, Volume, Voxel, Voxels};
 use lumencut_core::with_voxels;
 use rayon::prelude::*;
-use wgpu::{Buffer, Extent3d, Origin3d, Texture, TextureFormat, TextureView};
+use wgpu::{Extent3d, Origin3d, Texture, TextureFormat, TextureView};
 
 use crate::blocks::DeviceBlocks;
 use crate::device::Device;
@@ -23,10 +26,10 @@ const SLAB_BYTES: usize = 64 << 20;
 /// The digits of an `f32`, and those of each factor of a product that is to be exact.
 const DIGITS: i32 = 24;
 
-/// `Grid` of `math/sampling.wgsl`.
+/// `GridParameters` of `math/sampling.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-pub(crate) struct Grid {
+pub(crate) struct GridParameters {
     pub last: [f32; 3],
     pub shift: f32,
     pub low: [i32; 3],
@@ -47,7 +50,7 @@ pub(crate) struct Grid {
     pub up: [f32; 4],
 }
 
-impl Grid {
+impl GridParameters {
     /// The grid of `volume` in the view of `camera`, its voxels stored `shift` lower than they are.
     pub fn new(volume: &Volume, camera: &Camera, shift: f32) -> Self {
         let to = IndexFromView::new(volume, camera);
@@ -67,13 +70,9 @@ impl Grid {
         let z = to.z.to_array().map(|z| split(z, DIGITS / 2));
         let per_voxel = to.z.to_array().map(|z| if z.abs() < PARALLEL { 0.0 } else { (1.0 / z) as f32 });
         Self {
-            last: last.map(|n| n as f32),
-            shift,
-            low: volume.size().map(|n| n.saturating_sub(2) as i32),
             depth: depth as f32,
             unit: unit as f32,
             per_unit: (1.0 / unit) as f32,
-            unused: [0.0; 2],
             origin,
             origin_rest,
             x,
@@ -85,6 +84,17 @@ impl Grid {
             per_voxel: four(per_voxel),
             right: four(to.x.as_vec3().to_array()),
             up: four(to.y.as_vec3().to_array()),
+            ..Self::without_view(volume, shift)
+        }
+    }
+
+    /// The grid of `volume` alone, for places that are indices already.
+    pub fn without_view(volume: &Volume, shift: f32) -> Self {
+        Self {
+            last: volume.size().map(|n| (n - 1) as f32),
+            shift,
+            low: volume.size().map(|n| n.saturating_sub(2) as i32),
+            ..Self::zeroed()
         }
     }
 }
@@ -134,16 +144,14 @@ impl Texel {
     }
 }
 
-/// A volume that stays on the GPU.
+/// A volume that stays on the GPU, for all renderers of its scenes.
 #[derive(Debug)]
 pub(crate) struct DeviceVolume {
     texel: Texel,
     shift: f32,
     /// The voxels.
     pub voxels: TextureView,
-    /// The grid in the view that it was last placed in.
-    pub grid: Buffer,
-    blocks: Option<DeviceBlocks>,
+    blocks: OnceLock<DeviceBlocks>,
 }
 
 impl DeviceVolume {
@@ -177,7 +185,7 @@ impl DeviceVolume {
             _ => 0.0,
         };
         let voxels = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Ok(Self { texel, shift, voxels, grid: device.uniform::<Grid>("grid"), blocks: None })
+        Ok(Self { texel, shift, voxels, blocks: OnceLock::new() })
     }
 
     /// Whether the stages have to read floats.
@@ -185,25 +193,24 @@ impl DeviceVolume {
         self.texel == Texel::Float
     }
 
-    /// Places the volume in a view, for the next stages that run.
-    pub fn place(&self, device: &Device, volume: &Volume, camera: &Camera) {
-        device.write(&self.grid, &[Grid::new(volume, camera, self.shift)]);
+    /// The grid of `volume`, which is this one, in the view of `camera`, or by itself.
+    pub fn grid(&self, volume: &Volume, camera: Option<&Camera>) -> GridParameters {
+        camera.map_or_else(
+            || GridParameters::without_view(volume, self.shift),
+            |camera| GridParameters::new(volume, camera, self.shift),
+        )
     }
 
-    /// Makes the blocks and sends them, where that has not been done yet.
+    /// The blocks of `shared`, which is this volume, made and sent at the first call.
     ///
     /// # Errors
     /// As [`DeviceVolume::new`].
-    pub fn prepare_blocks(&mut self, device: &Device, volume: &Volume, stop: Stop) -> Result<()> {
-        if self.blocks.is_none() {
-            self.blocks = Some(DeviceBlocks::new(device, volume.blocks(stop)?)?);
+    pub fn blocks(&self, device: &Device, shared: &SharedVolume, stop: Stop) -> Result<&DeviceBlocks> {
+        if let Some(blocks) = self.blocks.get() {
+            return Ok(blocks);
         }
-        Ok(())
-    }
-
-    /// The blocks, once they are prepared.
-    pub fn blocks(&self) -> Option<&DeviceBlocks> {
-        self.blocks.as_ref()
+        let blocks = DeviceBlocks::new(device, shared.blocks(stop)?)?;
+        Ok(self.blocks.get_or_init(|| blocks))
     }
 }
 
@@ -219,9 +226,7 @@ fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop:
     let slices = (SLAB_BYTES / slice).clamp(1, nk);
     let mut bytes = vec![0u8; slices * slice];
     for first in (0..nk).step_by(slices) {
-        if stop() {
-            return Err(Error::interrupted());
-        }
+        go_on(stop)?;
         let count = slices.min(nk - first);
         let bytes = &mut bytes[..count * slice];
         match volume.voxels() {

@@ -1,7 +1,6 @@
 //! The one table of the stages: their names, the images that they read and write, and which of them a view needs.
 //! Timings, computing single stages on the CPU in the place of the GPU, tests and benches all go by it.
 
-use crate::geometry::Geometry;
 use crate::settings::Settings;
 
 /// An image of a view: one number or one vector for each pixel, in rows from the top.
@@ -68,6 +67,12 @@ impl ImageSet {
             n += 1;
         }
         Self(bits)
+    }
+
+    /// These and those.
+    #[must_use]
+    pub const fn and(self, others: Self) -> Self {
+        Self(self.0 | others.0)
     }
 
     /// Whether an image is one of them.
@@ -171,18 +176,17 @@ impl Stage {
         [Self::Distance, Self::Depth].into_iter().chain(filter)
     }
 
-    /// The stages that show what is there, in their order. `has_zones` tells whether every pixel has a vessel.
-    pub fn of_look(
-        settings: &Settings,
-        geometry: &Geometry,
-        has_zones: bool,
-    ) -> impl Iterator<Item = Self> + use<> {
-        let surface = geometry.has_surface().then_some(Self::Surface);
-        let silhouette = (settings.silhouettes && has_zones).then_some(Self::Silhouette);
-        let context = (settings.context.is_some() && geometry.camera().is_some())
-            .then_some([Self::Blocks, Self::Context])
-            .into_iter()
-            .flatten();
-        surface.into_iter().chain(silhouette).chain(context).chain([Self::Composite])
+    /// The stages that show what is where a camera's rays meet the cut surface, in their order. `made` are the images that
+    /// are there: without a depth the context alone is shown, without vessels there are no silhouettes.
+    pub fn of_look(settings: &Settings, made: ImageSet) -> impl Iterator<Item = Self> + use<> {
+        let surface = made.has(Image::Depth).then_some(Self::Surface);
+        let silhouette = (settings.silhouettes && made.has(Image::Vessel)).then_some(Self::Silhouette);
+        let context = settings.context.as_ref().map(|_| [Self::Blocks, Self::Context]);
+        surface.into_iter().chain(silhouette).chain(context.into_iter().flatten()).chain([Self::Composite])
+    }
+
+    /// The stages that show what is at the places of a curved geometry, which no camera looks at, in their order.
+    pub fn of_curved_look() -> impl Iterator<Item = Self> {
+        [Self::Surface, Self::Composite].into_iter()
     }
 }

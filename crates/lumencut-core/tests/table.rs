@@ -1,0 +1,73 @@
+//! The table of stages is that of the shaders, of the order in which they run, and of the images that they need.
+#![allow(clippy::unwrap_used)]
+
+use lumencut_core::camera::Camera;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::settings::Settings;
+use lumencut_core::shaders::SHADERS;
+use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
+use lumencut_core::stages::{Image, ImageSet, Stage, Work};
+use lumencut_scenes::views::front;
+
+/// The stages of a whole picture.
+fn whole(settings: &Settings) -> Vec<Stage> {
+    let surface = Stage::of_cut_surface(settings);
+    surface.chain(Stage::of_look(settings, ImageSet::of(&[Image::Depth, Image::Vessel]))).collect()
+}
+
+#[test]
+fn every_stage_that_writes_images_has_a_shader_of_its_name() {
+    for stage in Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty()) {
+        let room = format!("stages/{}", stage.name());
+        assert!(SHADERS.iter().any(|shader| shader.room == room), "no shader {room}");
+    }
+    let of_stages = SHADERS.iter().filter_map(|shader| shader.room.strip_prefix("stages/"));
+    for name in of_stages {
+        assert!(Stage::named(name).is_some(), "no stage {name}");
+    }
+}
+
+#[test]
+fn names_are_unique() {
+    for stage in Stage::ALL {
+        assert_eq!(Stage::named(stage.name()), Some(stage));
+    }
+    assert_eq!(Stage::named("walk"), None);
+}
+
+#[test]
+fn stages_run_in_the_order_of_the_table() {
+    for settings in [Settings::default(), Settings { depth_filter: false, context: None, ..Settings::default() }] {
+        let places = whole(&settings).into_iter().map(|stage| Stage::ALL.iter().position(|s| *s == stage).unwrap());
+        assert!(places.is_sorted());
+    }
+}
+
+#[test]
+fn every_image_is_written_before_it_is_read() {
+    let mut made = ImageSet::of(&[]);
+    for stage in whole(&Settings::default()) {
+        for image in stage.reads() {
+            assert!(made.has(*image), "{stage:?} reads {image:?} before it is there");
+        }
+        made = made.and(ImageSet::of(stage.writes()));
+    }
+    assert!(Image::ALL.into_iter().all(|image| made.has(image)));
+}
+
+#[test]
+fn what_is_not_wanted_is_not_run() {
+    let settings =
+        Settings { depth_filter: false, silhouettes: false, context: None, ..Settings::default() };
+    assert_eq!(whole(&settings), [Stage::Distance, Stage::Depth, Stage::Surface, Stage::Composite]);
+    let alone: Vec<_> = Stage::of_look(&Settings::default(), ImageSet::of(&[])).collect();
+    assert_eq!(alone, [Stage::Blocks, Stage::Context, Stage::Composite]);
+}
+
+#[test]
+#[should_panic(expected = "entries of the image UnfilteredDepth of 4 × 3 pixels")]
+fn images_of_another_size_are_refused() {
+    let camera: Camera = front([4, 3], 1.0);
+    let work = Work { size: camera.size(), isa: Isa::Baseline, stop: &|| false };
+    let _ = depth_filter(&work, &DepthFilterParameters::new(), &[0.0; 11], &mut [0.0; 12]);
+}
