@@ -8,7 +8,6 @@ pub mod camera;
 pub mod error;
 pub mod frame;
 pub mod math;
-pub mod phantom;
 pub mod pipeline;
 pub mod settings;
 pub mod shaders;
