@@ -21,7 +21,9 @@ from xml.etree import ElementTree as ET
 
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
-PORTABLE = ("--package", "lumencut-core", "--package", "lumencut-io", "--package", "lumencut-gpu")
+PORTABLE = tuple(
+    word for part in ("core", "phantom", "io", "gpu") for word in ("--package", f"lumencut-{part}")
+)
 SCRIPTS = ("scripts/check.py", "scripts/fuzz.py", "scripts/toolchain.py", "scripts/wasm_size.py")
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""

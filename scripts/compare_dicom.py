@@ -1,8 +1,7 @@
-"""How Lumencut and other readers of DICOM fare with series of known truth: a table for the README.
+"""How Lumencut and other readers of DICOM fare with series of known truth: the table of `docs/dicom.md`.
 
 Prints the table; `--cases` prints every case instead, `--update` writes the table between the marks of a
-document,
-`--check` tells whether the column of Lumencut there is what it does now (needs no other reader).
+document, `--check` tells whether the column of Lumencut there is what it does now (needs no other reader).
 """
 
 from __future__ import annotations

@@ -99,9 +99,9 @@ def test_cells():
     assert compare_dicom.cell([wrong, right, wrong]) == "1 right, 2 **WRONG, silently** (up to 3 mm off)"
 
 
-def test_readme_has_the_table():
-    readme = (compare_dicom.ROOT / "README.md").read_text("utf-8")
-    written = compare_dicom.column(compare_dicom.between(readme)[1])
+def test_the_document_has_the_table():
+    document = (compare_dicom.ROOT / "docs/dicom.md").read_text("utf-8")
+    written = compare_dicom.column(compare_dicom.between(document)[1])
     groups = dict.fromkeys(case.group for case in compare_dicom.CASES)
     assert [name.split(" (")[0] for name in written] == list(groups)
     assert compare_dicom.WRONG not in "".join(written.values()), "Lumencut must not read wrongly unsaid"

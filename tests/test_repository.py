@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import itertools
 import json
 import re
 import subprocess
@@ -15,6 +16,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import lumencut
+from import_graph import circle, import_graph
 from lumencut import errors
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -294,3 +296,35 @@ def test_importing_is_light():
     modules = imported_by(every_name)
     assert "numpy" in modules
     assert modules & HEAVY == set()
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    graph = import_graph(ROOT / "python/lumencut")
+    assert len(graph) > 40
+    assert {"lumencut._files", "lumencut.vessel_tree"} <= graph["lumencut.centerlines"]
+    assert " imports ".join(circle(graph)) == ""
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("import house.second", "import os, house.first"),
+        ("from house import second", "from house.first import door"),
+        ("from .second import window", "def late():\n    from . import first"),
+        ("import house.second", "if TYPE_CHECKING:\n    from house.first import Door"),
+        ("from house.second import window", "from house import door"),
+    ],
+)
+def test_circles_of_imports_are_found(tmp_path, first, second):
+    house = tmp_path / "house"
+    house.mkdir()
+    (house / "__init__.py").write_text("from house.first import door")
+    (house / "first.py").write_text(first)
+    (house / "second.py").write_text("import os")
+    assert circle(import_graph(house)) == []
+    (house / "second.py").write_text(second)
+    graph = import_graph(house)
+    found = circle(graph)
+    assert {"house.first", "house.second"} <= set(found)
+    assert found[0] == found[-1]
+    assert all(target in graph[module] for module, target in itertools.pairwise(found))

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from lumencut.volume_files.dicom import SeriesReport
+from lumencut.series_report import SeriesReport
 
 
 class LumencutError(Exception):

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut.errors import SettingsError
 
@@ -31,10 +32,8 @@ class TransferFunction:
     points: tuple[ControlPoint, ...]
 
     def __post_init__(self) -> None:
-        from lumencut.settings import Settings
-
         object.__setattr__(self, "points", _checked(self.points))
-        Settings(context_transfer=self)  # The ranges are known to the settings.
+        _lumencut.check_transfer_function(self.points)
 
 
 def _checked(points: Any) -> tuple[ControlPoint, ...]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut._checks import number
 from lumencut.errors import SettingsError, VesselTreeError, VolumeError
 
@@ -32,11 +33,9 @@ class Window:
     width: float
 
     def __post_init__(self) -> None:
-        from lumencut.settings import Settings
-
         for name in ("level", "width"):
             object.__setattr__(self, name, number(SettingsError, f"window {name}", getattr(self, name)))
-        Settings(window=self)  # The ranges are known to the settings.
+        _lumencut.check_window(self.level, self.width)
 
     @classmethod
     def from_data(cls, volume: Volume, tree: VesselTree | None = None) -> Window:
@@ -124,11 +123,9 @@ class Opacity:
     opaque: float
 
     def __post_init__(self) -> None:
-        from lumencut.settings import Settings
-
         for name in ("transparent", "opaque"):
             object.__setattr__(self, name, number(SettingsError, f"opacity {name}", getattr(self, name)))
-        Settings(opacity=self)
+        _lumencut.check_opacity(self.transparent, self.opaque)
 
 
 def _spread(volume: Volume) -> npt.NDArray[np.float64]:

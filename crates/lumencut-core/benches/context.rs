@@ -2,11 +2,6 @@
 //!
 //! `cargo bench -p lumencut-core --bench context`
 
-mod common;
-
-use std::time::Instant;
-
-use common::{fitted, head, row, time};
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
@@ -14,12 +9,15 @@ use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch, larger};
 use lumencut_core::math::ray::WHOLE;
 use lumencut_core::math::sampling::{Grid, Path, Places};
 use lumencut_core::math::transfer::Preset;
-use lumencut_core::phantom::{Phantom, aorta, cervical, runoff};
 use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::{Context, ContextMode, Settings};
-use lumencut_core::stages::View;
 use lumencut_core::stages::context::context;
 use lumencut_core::volume::{Real, Volume, Voxel, Voxels};
+use lumencut_phantom::Phantom;
+use lumencut_scenes::timing::{head, once, row, time};
+use lumencut_scenes::views::{fitted, on_cpu};
+use lumencut_scenes::volumes::volume;
+use lumencut_scenes::workloads::WORKLOADS;
 
 /// The side of the sampler's volume (voxels), and the rays and samples along each.
 const SIDE: usize = 256;
@@ -138,18 +136,17 @@ fn sampler<T: Voxel>(name: &str, voxels: &[T], volume: &Volume) {
     }
 }
 
-fn samplers() -> Result<()> {
+fn samplers() {
     let numbers = || (0..SIDE * SIDE * SIDE).map(|n| (n * 7919 % 3001) as i16 - 1000);
     head(
         "Trilinear samples (millions per second, one thread)",
         &["voxels", "rays", "set", "lanes", "scalar", "ratio"],
     );
-    let volume = |voxels| Volume::new(voxels, [SIDE; 3], [1, SIDE, SIDE * SIDE], DAffine3::IDENTITY);
+    let cube = |voxels| volume(voxels, [SIDE; 3], DAffine3::IDENTITY);
     let integers: Vec<i16> = numbers().collect();
-    sampler("int16", &integers, &volume(Voxels::I16(&integers))?);
+    sampler("int16", &integers, &cube(Voxels::I16(&integers)));
     let floats: Vec<f32> = numbers().map(f32::from).collect();
-    sampler("float32", &floats, &volume(Voxels::F32(&floats))?);
-    Ok(())
+    sampler("float32", &floats, &cube(Voxels::F32(&floats)));
 }
 
 /// The modes, by their names.
@@ -172,7 +169,7 @@ fn modes() -> Vec<(&'static str, Context)> {
 
 /// The milliseconds of one mode, every ray through the whole volume.
 fn whole(volume: &Volume, camera: &Camera, settings: &Context, skip: bool, runs: usize) -> Result<f64> {
-    let view = View { camera, isa: Isa::widest(), stop: &|| false };
+    let view = on_cpu(camera);
     let start = vec![WHOLE; 512 * 512];
     let mut pixels = vec![[0.0; 4]; 512 * 512];
     let blocks = if skip { Some(volume.blocks(view.stop)?) } else { None };
@@ -181,18 +178,14 @@ fn whole(volume: &Volume, camera: &Camera, settings: &Context, skip: bool, runs:
     result.map(|()| times.median)
 }
 
-/// Makes a workload from a seed and a scale.
-type Maker = fn(u64, f64) -> Result<Phantom>;
-
 /// Every mode from two directions, and the whole picture.
 fn workload(name: &str, phantom: &Phantom) -> Result<()> {
     let volume = phantom.volume()?;
-    let start = Instant::now();
-    volume.blocks(&|| false)?;
-    let made = start.elapsed().as_secs_f64() * 1e3;
+    let (made, blocks) = once(|| volume.blocks(&|| false).map(drop));
+    blocks?;
     row([name, "", "the blocks, once", &*format!("{made:.1}"), "", ""]);
     for (direction, toward) in [("front", DVec3::Y), ("oblique", DVec3::new(-0.6, 0.7, 0.4))] {
-        let camera = fitted(&phantom.tree, toward);
+        let camera = fitted(&phantom.tree, toward, 512);
         for (mode, settings) in modes() {
             let fast = whole(&volume, &camera, &settings, true, 5)?;
             let slow = whole(&volume, &camera, &settings, false, 1)?;
@@ -214,13 +207,12 @@ fn workload(name: &str, phantom: &Phantom) -> Result<()> {
 }
 
 fn main() -> Result<()> {
-    samplers()?;
+    samplers();
     head(
         "Context, 512 × 512 pixels; but for whole frames every ray through the whole volume",
         &["workload", "direction", "mode", "ms", "ms without blocks", "ratio"],
     );
-    let makers: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
-    for (name, make) in makers {
+    for (name, make) in WORKLOADS {
         workload(name, &make(0, 1.0)?)?;
     }
     Ok(())

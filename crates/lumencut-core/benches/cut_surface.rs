@@ -2,15 +2,11 @@
 //!
 //! `cargo bench -p lumencut-core --bench cut_surface`
 
-mod common;
-
-use common::{Times, fitted, head, row, time};
 use glam::DVec3;
 use lumencut_core::brute_force;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::View;
@@ -18,6 +14,10 @@ use lumencut_core::stages::depth::depth;
 use lumencut_core::stages::distance::distance;
 use lumencut_core::stages::levels::levels;
 use lumencut_core::vessel_tree::VesselTree;
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::timing::{Times, head, row, time};
+use lumencut_scenes::trees::finer;
+use lumencut_scenes::views::fitted;
 
 /// Buffers of one view.
 struct Buffers {
@@ -69,7 +69,7 @@ fn by_brute_force(
 
 /// Hierarchy against brute force, for some instruction sets and both rules.
 fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) {
-    let camera = fitted(tree, DVec3::new(0.1, 1.0, 0.2));
+    let camera = fitted(tree, DVec3::new(0.1, 1.0, 0.2), 512);
     for (rule, lumen_first) in [("cost", false), ("lumen first", true)] {
         let settings = Settings { lumen_first, ..Settings::default() };
         for &isa in sets {
@@ -101,7 +101,7 @@ fn over_directions(name: &str, tree: &VesselTree) {
             let z = 1.0 - (f64::from(n) + 0.5) / 25.0;
             let (sin, cos) = (golden * f64::from(n)).sin_cos();
             let direction = DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z);
-            let camera = fitted(tree, direction);
+            let camera = fitted(tree, direction, 512);
             cut_surface(&mut renderer, Isa::widest(), &camera, &Settings::default(), 5).0.minimum
         })
         .collect();
@@ -112,7 +112,7 @@ fn over_directions(name: &str, tree: &VesselTree) {
 
 fn main() -> Result<()> {
     let small = random_tree(7, 31, 160, 1.5, 150.0)?;
-    let resampled = levels_finer(&small)?;
+    let resampled = finer(&small);
     let many = random_tree(7, 124, 160, 1.5, 150.0)?;
     head(
         "Cut surface, 512 × 512, all levels (ms)",
@@ -129,22 +129,4 @@ fn main() -> Result<()> {
     head("Levels of detail (ms)", &["points", "median"]);
     row(["20000".to_owned(), format!("{:.2}", made.median)]);
     Ok(())
-}
-
-/// The same vessels with every segment cut into four.
-fn levels_finer(tree: &VesselTree) -> Result<VesselTree> {
-    let finer = tree.vessels().iter().map(|v| {
-        let count = (v.points().len() - 1) * 4;
-        let between = |n: usize| {
-            let (i, t) = ((n / 4).min(v.points().len() - 2), n as f64 / 4.0);
-            let t = t - i as f64;
-            (
-                v.points()[i].lerp(v.points()[i + 1], t),
-                v.radius_or_zero(i) * (1.0 - t) + v.radius_or_zero(i + 1) * t,
-            )
-        };
-        let (points, radii) = (0..=count).map(between).unzip();
-        lumencut_core::vessel_tree::Vessel::new(points, Some(radii))
-    });
-    VesselTree::new(finer.collect::<Result<_>>()?)
 }

@@ -9,7 +9,6 @@ pub mod error;
 pub mod frame;
 pub mod geometry;
 pub mod math;
-pub mod phantom;
 pub mod pipeline;
 pub mod scene;
 pub mod settings;

@@ -2,12 +2,9 @@
 //! voxels lie in memory.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::view;
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::ErrorKind;
 use lumencut_core::math::blocks::Blocks;
@@ -20,44 +17,15 @@ use lumencut_core::settings::{Context, ContextMode, Settings};
 use lumencut_core::stages::View;
 use lumencut_core::stages::context::context;
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::settings::{WINDOW, gaps};
+use lumencut_scenes::views::{on_cpu, view};
+use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
 
 const SIZE: [usize; 3] = [41, 37, 29];
-const WINDOW: Window = Window { level: 300.0, width: 900.0 };
 
-/// A bright ball and a bright rod in noise, between 0 and 1000.
-fn scene() -> Vec<i16> {
-    let value = |n: usize| {
-        let [i, j, k] = [n % SIZE[0], n / SIZE[0] % SIZE[1], n / (SIZE[0] * SIZE[1])].map(|c| c as f64);
-        let noise = (n * 7919 % 61) as i16;
-        let ball = (i - 14.0).hypot(j - 20.0).hypot(k - 12.0) < 7.0;
-        let rod = (i - 30.0).hypot(k - 20.0) < 2.5;
-        if rod {
-            900 + noise
-        } else if ball {
-            350 + noise
-        } else {
-            noise
-        }
-    };
-    (0..SIZE.iter().product()).map(value).collect()
-}
-
-fn sheared() -> DAffine3 {
-    let columns =
-        DMat3::from_cols(DVec3::new(0.8, 0.1, 0.0), DVec3::new(0.2, -0.7, 0.1), DVec3::new(0.3, 0.2, 1.9));
-    let middle = columns * DVec3::new(20.0, 18.0, 14.0);
-    DAffine3::from_mat3_translation(columns, -middle)
-}
-
-fn volume(voxels: Voxels<'_>) -> Volume<'_> {
-    Volume::new(voxels, SIZE, [1, SIZE[0], SIZE[0] * SIZE[1]], sheared()).unwrap()
-}
-
-/// Visible between 20 and 40 and from 320 on, clear between.
-fn gaps() -> TransferFunction {
-    let point = |(intensity, opacity)| ControlPoint { intensity, color: [250, 120, 30], opacity };
-    let points = [(20.0, 0.0), (30.0, 0.05), (40.0, 0.0), (320.0, 0.0), (320.0, 0.2), (950.0, 1.0)];
-    TransferFunction { points: points.map(point).to_vec() }
+/// The volume of these voxels on a sheared grid.
+fn placed(voxels: Voxels<'_>) -> Volume<'_> {
+    volume(voxels, SIZE, sheared(SIZE))
 }
 
 fn contexts() -> Vec<Context> {
@@ -126,23 +94,23 @@ fn assert_skipping_changes_nothing(volume: &Volume, what: &str) {
 
 #[test]
 fn skipping_changes_no_bit() {
-    let integers = scene();
-    assert_skipping_changes_nothing(&volume(Voxels::I16(&integers)), "int16");
+    let integers = ball_and_rod(SIZE);
+    assert_skipping_changes_nothing(&placed(Voxels::I16(&integers)), "int16");
     let bytes: Vec<u8> = integers.iter().map(|v| (v / 4) as u8).collect();
-    assert_skipping_changes_nothing(&volume(Voxels::U8(&bytes)), "uint8");
+    assert_skipping_changes_nothing(&placed(Voxels::U8(&bytes)), "uint8");
     let doubles: Vec<f64> = integers.iter().map(|v| f64::from(*v) / 3.0).collect();
-    assert_skipping_changes_nothing(&volume(Voxels::F64(&doubles)), "float64");
+    assert_skipping_changes_nothing(&placed(Voxels::F64(&doubles)), "float64");
 }
 
 #[test]
 fn skipping_changes_no_bit_beside_voxels_without_a_number() {
-    let mut floats: Vec<f32> = scene().into_iter().map(f32::from).collect();
+    let mut floats: Vec<f32> = ball_and_rod(SIZE).into_iter().map(f32::from).collect();
     let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, -1e30];
     for n in (0..floats.len()).step_by(977) {
         floats[n] = odd[n % odd.len()];
     }
     floats[..2000].fill(f32::NAN);
-    assert_skipping_changes_nothing(&volume(Voxels::F32(&floats)), "float32");
+    assert_skipping_changes_nothing(&placed(Voxels::F32(&floats)), "float32");
 }
 
 #[test]
@@ -154,7 +122,7 @@ fn a_falling_step_at_a_value_that_blocks_hold_alone_is_seen() {
         };
         let context = Context { mode: ContextMode::Blend { gamma: -1.0 }, transfer, ..Context::default() };
         let voxels = vec![at as i16; SIZE.iter().product()];
-        let volume = volume(Voxels::I16(&voxels));
+        let volume = placed(Voxels::I16(&voxels));
         let blocks = volume.blocks(&|| false).unwrap();
         let camera = &cameras()[0];
         let seen = traced(&volume, camera, Isa::widest(), &context, Some(blocks));
@@ -182,8 +150,7 @@ fn a_preview_shows_nothing_before_the_cut_surface() {
         ..Context::default()
     };
     let mut pixels = vec![[0.0; 4]; 72];
-    let view = View { camera: &camera, isa: Isa::widest(), stop: &|| false };
-    context(&view, &volume, None, &settings, &start, &mut pixels).unwrap();
+    context(&on_cpu(&camera), &volume, None, &settings, &start, &mut pixels).unwrap();
     for (p, pixel) in pixels.iter().enumerate() {
         let white = p % 9 < 4;
         assert_eq!(pixel[0] > 0.5, white, "pixel {p}: white where the ray starts in front, {pixel:?}");
@@ -193,8 +160,8 @@ fn a_preview_shows_nothing_before_the_cut_surface() {
 
 #[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
-    let voxels = scene();
-    let volume = volume(Voxels::I16(&voxels));
+    let voxels = ball_and_rod(SIZE);
+    let volume = placed(Voxels::I16(&voxels));
     let blocks = volume.blocks(&|| false).unwrap();
     for camera in &cameras()[1..3] {
         for settings in contexts() {
@@ -211,15 +178,15 @@ fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
 
 #[test]
 fn the_order_of_voxels_in_memory_changes_no_bit() {
-    let voxels = scene();
+    let voxels = ball_and_rod(SIZE);
     let [ni, nj, nk] = SIZE;
     let mut turned = vec![0; voxels.len()];
     let strides = [nj * nk, nk, 1];
     for (n, voxel) in voxels.iter().enumerate() {
         turned[n % ni * strides[0] + n / ni % nj * strides[1] + n / (ni * nj)] = *voxel;
     }
-    let turned = Volume::new(Voxels::I16(&turned), SIZE, strides, sheared()).unwrap();
-    let straight = volume(Voxels::I16(&voxels));
+    let turned = Volume::new(Voxels::I16(&turned), SIZE, strides, sheared(SIZE)).unwrap();
+    let straight = placed(Voxels::I16(&voxels));
     for settings in contexts() {
         let trace = |volume: &Volume| {
             let blocks = volume.blocks(&|| false).unwrap();
@@ -258,13 +225,13 @@ fn voxels_more_than_32_bits_apart_are_found() {
 
 #[test]
 fn a_context_stops_when_asked() {
-    let voxels = scene();
+    let voxels = ball_and_rod(SIZE);
     let camera = view([0.0, 1.0, 0.0], [256, 256], 0.2);
     // Before the blocks, and between tiles of rays.
     for patience in [0, 100] {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
-        let volume = volume(Voxels::I16(&voxels));
+        let volume = placed(Voxels::I16(&voxels));
         let error = context_alone(&volume, &camera, &Settings::default(), Isa::widest(), &stop).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Interrupted);
     }

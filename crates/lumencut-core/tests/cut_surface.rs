@@ -1,46 +1,45 @@
 //! The cut surface on scenes whose answer is known in closed form, and its invariants.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{at, by_hierarchy, pixel, plain, tree, trefoil, vessel, view};
 use glam::{DQuat, DVec3};
 use lumencut_core::camera::Camera;
-use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_scenes::brute_force::by_hierarchy;
+use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::settings::unfiltered;
+use lumencut_scenes::tolerances::{CLOSED_FORM, LUMEN, REORDERED_DEPTH, REORDERED_VESSEL, SYMMETRIC, TURNED};
+use lumencut_scenes::trees::{tree, trefoil, vessel};
+use lumencut_scenes::views::{at, front, pixel, view};
 
-/// From the front: view x = world x, view y = world z, depth = world y.
-fn front(size: [usize; 2], pixel_spacing: f64) -> Camera {
-    view([0.0, 1.0, 0.0], size, pixel_spacing)
-}
-
-fn near(found: f32, expected: f64, tolerance: f64) {
-    assert!((f64::from(found) - expected).abs() <= tolerance, "found {found}, expected {expected}");
+fn near(found: f32, expected: f64) {
+    let apart = (f64::from(found) - expected).abs();
+    assert!(apart <= f64::from(CLOSED_FORM.apart), "found {found}, expected {expected}");
 }
 
 #[test]
 fn a_slanted_tube_is_cut_along_its_foot_points() {
     let tree = tree(vec![vessel(&[[-30., -12., 0.], [30., 12., 0.]], 4.0)]);
-    let frame = by_hierarchy(&tree, &front([100, 80], 1.0), &plain());
+    let frame = by_hierarchy(&tree, &front([100, 80], 1.0), &unfiltered());
     for (x, y) in [(-29.5, 0.5), (0.5, 30.5), (12.5, -20.5), (29.5, 39.5)] {
-        near(at(&frame, &frame.depth, x, y), x * 0.4, 1e-4);
-        near(at(&frame, &frame.distance, x, y), y.abs(), 1e-4);
+        near(at(&frame, &frame.depth, x, y), x * 0.4);
+        near(at(&frame, &frame.distance, x, y), y.abs());
     }
     // Before the first and beyond the last point: the half-planes keep the depth of the ends.
-    near(at(&frame, &frame.depth, -40.5, 9.5), -12.0, 1e-4);
-    near(at(&frame, &frame.depth, 45.5, -3.5), 12.0, 1e-4);
-    near(at(&frame, &frame.distance, 45.5, -3.5), 15.5f64.hypot(3.5), 1e-4);
+    near(at(&frame, &frame.depth, -40.5, 9.5), -12.0);
+    near(at(&frame, &frame.depth, 45.5, -3.5), 12.0);
+    near(at(&frame, &frame.distance, 45.5, -3.5), 15.5f64.hypot(3.5));
 }
 
 #[test]
 fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     let corner = vessel(&[[-40., 0., 0.], [0., 10., 0.], [0., 50., 40.]], 0.0);
-    let settings = Settings { levels: 0, ..plain() };
+    let settings = Settings { levels: 0, ..unfiltered() };
     let frame = by_hierarchy(&tree(vec![corner]), &front([120, 120], 1.0), &settings);
     // Outside the bend every pixel belongs to the corner point.
     for (x, y) in [(5.5, -5.5), (30.5, -0.5), (0.5, -30.5)] {
-        near(at(&frame, &frame.depth, x, y), 10.0, 1e-4);
+        near(at(&frame, &frame.depth, x, y), 10.0);
     }
     // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·… decides the cost.
     let (x, y) = (-4.5, 10.5);
@@ -48,14 +47,14 @@ fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     let second = (10.0 + y, -x);
     let cost = |(z, d): (f64, f64)| z + 10.0 * d;
     let expected = if cost(first) < cost(second) { first.0 } else { second.0 };
-    near(at(&frame, &frame.depth, x, y), expected, 1e-4);
+    near(at(&frame, &frame.depth, x, y), expected);
 }
 
 #[test]
 fn between_two_tubes_the_border_lies_where_their_costs_meet() {
     let front_tube = vessel(&[[-50., 0., 15.], [50., 0., 15.]], 3.0);
     let back_tube = vessel(&[[-50., 40., -15.], [50., 40., -15.]], 5.0);
-    let frame = by_hierarchy(&tree(vec![back_tube, front_tube]), &front([16, 600], 0.1), &plain());
+    let frame = by_hierarchy(&tree(vec![back_tube, front_tube]), &front([16, 600], 0.1), &unfiltered());
     // 0 + 10·((15 − y) − 3) = 40 + 10·((y + 15) − 5)  ⇒  y = −1.
     for y in [-14.95, -4.95, -1.05] {
         assert_eq!(frame.vessel[pixel(&frame, 0.05, y)], 0, "at y = {y}");
@@ -71,9 +70,9 @@ fn lumen_first_shows_the_lumen_that_a_near_surrounding_hides() {
     let far_tube = vessel(&[[-50., 200., 0.], [50., 200., 0.]], 4.0);
     let scene = tree(vec![near_tube, far_tube]);
     let camera = front([16, 400], 0.1);
-    let hidden = by_hierarchy(&scene, &camera, &plain());
+    let hidden = by_hierarchy(&scene, &camera, &unfiltered());
     assert_eq!(hidden.vessel[pixel(&hidden, 0.05, 0.05)], 0);
-    let margin = Settings { lumen_first: true, lumen_margin: 1.0, ..plain() };
+    let margin = Settings { lumen_first: true, lumen_margin: 1.0, ..unfiltered() };
     let shown = by_hierarchy(&scene, &camera, &margin);
     for (y, id) in [(0.05, 1), (3.95, 1), (4.95, 1), (5.05, 0), (-4.95, 1), (8.05, 0)] {
         assert_eq!(shown.vessel[pixel(&shown, 0.05, y)], id, "at y = {y}");
@@ -84,32 +83,32 @@ fn lumen_first_shows_the_lumen_that_a_near_surrounding_hides() {
 fn a_vessel_that_dives_along_the_view_goes_on_behind() {
     // Right at depth 0, then 60 mm straight into depth, then up.
     let diving = vessel(&[[-40., 0., 0.], [0., 0., 0.], [0., 30., 0.], [0., 60., 0.], [0., 60., 40.]], 2.0);
-    let settings = Settings { levels: 0, ..plain() };
+    let settings = Settings { levels: 0, ..unfiltered() };
     let frame = by_hierarchy(&tree(vec![diving]), &front([120, 120], 1.0), &settings);
-    near(at(&frame, &frame.depth, -20.5, 0.5), 0.0, 1e-4);
-    near(at(&frame, &frame.depth, 10.5, -10.5), 0.0, 1e-4);
+    near(at(&frame, &frame.depth, -20.5, 0.5), 0.0);
+    near(at(&frame, &frame.depth, 10.5, -10.5), 0.0);
     // Above the dive: half-plane at depth 0, distance 25 − 2, against the far stripe at depth 60, distance 0.
-    near(at(&frame, &frame.depth, 0.5, 25.5), 60.0, 1e-4);
+    near(at(&frame, &frame.depth, 0.5, 25.5), 60.0);
 }
 
 #[test]
 fn a_vessel_along_the_view_shows_its_nearest_point_everywhere() {
     let axis = vessel(&[[3., 20., 4.], [3., -35., 4.], [3., 50., 4.]], 2.0);
-    let settings = Settings { levels: 0, ..plain() };
+    let settings = Settings { levels: 0, ..unfiltered() };
     let frame = by_hierarchy(&tree(vec![axis]), &front([40, 40], 2.0), &settings);
     assert!(frame.depth.iter().all(|z| *z == -35.0));
-    near(at(&frame, &frame.distance, 3.0, 15.0), 11.0, 1e-4);
+    near(at(&frame, &frame.distance, 3.0, 15.0), 11.0);
 }
 
 #[test]
 fn a_run_at_an_end_gives_a_plane_through_the_end_point() {
     let late = vessel(&[[-30., 0., 0.], [0., 0., 0.], [0., 25., 0.]], 0.0);
-    let settings = Settings { levels: 0, cost_weight: 1.0, ..plain() };
+    let settings = Settings { levels: 0, cost_weight: 1.0, ..unfiltered() };
     let frame = by_hierarchy(&tree(vec![late]), &front([80, 80], 1.0), &settings);
-    near(at(&frame, &frame.depth, -10.5, 0.5), 0.0, 1e-4);
-    near(at(&frame, &frame.depth, 20.5, 0.5), 25.0, 1e-4);
+    near(at(&frame, &frame.depth, -10.5, 0.5), 0.0);
+    near(at(&frame, &frame.depth, 20.5, 0.5), 25.0);
     // The plane covers all: where it is nearer by cost than the stripe, it wins there too.
-    near(at(&frame, &frame.depth, -0.5, 39.5), 0.0, 1e-4);
+    near(at(&frame, &frame.depth, -0.5, 39.5), 0.0);
 }
 
 #[test]
@@ -119,10 +118,9 @@ fn the_trefoil_is_threefold_symmetric() {
     let turn = DQuat::from_axis_angle(DVec3::Y, std::f64::consts::TAU / 3.0);
     let turned = Camera::new(DVec3::ZERO, DVec3::Y, turn * DVec3::Z, [160, 160], 1.0).unwrap();
     // Level 0 alone: coarser levels start at the vessel's ends, which break the symmetry.
-    let settings = Settings { levels: 0, ..plain() };
+    let settings = Settings { levels: 0, ..unfiltered() };
     let (a, b) = (by_hierarchy(&knot, &camera, &settings), by_hierarchy(&knot, &turned, &settings));
-    let differ = a.depth.iter().zip(&b.depth).filter(|(a, b)| (*a - *b).abs() > 1e-2).count();
-    assert!(differ < a.depth.len() / 100, "{differ} of {} pixels differ", a.depth.len());
+    SYMMETRIC.assert_same(&a.depth, &b.depth, "depths");
     let spread = a.depth.iter().fold(0f32, |s, z| s.max(z.abs()));
     assert!(spread > 15.0, "the knot is flat: {spread}");
 }
@@ -136,8 +134,9 @@ fn a_hidden_vessel_changes_nothing() {
     };
     let both = shown.vessels().iter().cloned().chain(shown.vessels().iter().map(behind)).collect();
     let camera = front([90, 90], 1.3);
-    let (a, b) = (by_hierarchy(&shown, &camera, &plain()), by_hierarchy(&tree(both), &camera, &plain()));
-    assert_eq!(common::differences(&a, &b), 0);
+    let (a, b) =
+        (by_hierarchy(&shown, &camera, &unfiltered()), by_hierarchy(&tree(both), &camera, &unfiltered()));
+    assert_eq!(different_pixels(&a, &b), 0);
 }
 
 #[test]
@@ -145,16 +144,13 @@ fn the_order_of_the_vessels_does_not_matter() {
     let scene = random_tree(22, 9, 40, 2.0, 50.0).unwrap();
     let reversed = tree(scene.vessels().iter().rev().cloned().collect());
     let camera = view([0.4, 1.0, -0.2], [90, 90], 1.3);
-    for settings in [plain(), Settings { lumen_first: true, ..plain() }] {
+    for settings in [unfiltered(), Settings { lumen_first: true, ..unfiltered() }] {
         let (a, b) = (by_hierarchy(&scene, &camera, &settings), by_hierarchy(&reversed, &camera, &settings));
         let last = scene.vessels().len() as i32 - 1;
         // Vessels that share an end point tie around it; elsewhere nothing differs.
-        let differ = (0..a.depth.len()).filter(|p| a.depth[*p] != b.depth[*p]).count();
+        REORDERED_DEPTH.assert_same(&a.depth, &b.depth, "depths");
         let ids = (0..a.depth.len()).filter(|p| a.vessel[*p] != last - b.vessel[*p]).count();
-        assert!(
-            differ <= a.depth.len() / 200 && ids <= a.depth.len() / 20,
-            "{differ} depths, {ids} ids differ"
-        );
+        assert!(REORDERED_VESSEL.allows(ids, a.depth.len()), "{ids} ids differ");
         assert_eq!(a.distance, b.distance);
     }
 }
@@ -171,10 +167,9 @@ fn turning_scene_and_camera_together_changes_nothing() {
     let camera = view([0.4, 1.0, -0.2], [90, 90], 1.3);
     let turned_camera =
         Camera::new(DVec3::ZERO, turn * camera.direction(), turn * camera.up(), [90, 90], 1.3).unwrap();
-    let a = by_hierarchy(&scene, &camera, &plain());
-    let b = by_hierarchy(&turned_scene, &turned_camera, &plain());
-    let differ = a.depth.iter().zip(&b.depth).filter(|(a, b)| (*a - *b).abs() > 1e-2).count();
-    assert!(differ <= a.depth.len() / 500, "{differ} pixels differ");
+    let a = by_hierarchy(&scene, &camera, &unfiltered());
+    let b = by_hierarchy(&turned_scene, &turned_camera, &unfiltered());
+    TURNED.assert_same(&a.depth, &b.depth, "depths");
 }
 
 /// The nearest lumen at view (x, y): the smallest depth among the pieces that cover it with d ≤ r.
@@ -210,7 +205,7 @@ fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> f64 {
 fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
     let scene = random_tree(24, 10, 50, 2.0, 50.0).unwrap();
     let camera = view([1.0, 0.3, 0.2], [80, 80], 1.4);
-    let settings = Settings { levels: 0, ..plain() };
+    let settings = Settings { levels: 0, ..unfiltered() };
     let cost = by_hierarchy(&scene, &camera, &settings);
     let first = by_hierarchy(&scene, &camera, &Settings { lumen_first: true, ..settings });
     let (mut lumens, mut behind, mut other) = (0, 0, 0);
@@ -219,8 +214,9 @@ fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
         let nearest = nearest_lumen(&scene, &camera, x, y);
         if nearest < f64::MAX {
             lumens += 1;
-            behind += usize::from(f64::from(cost.depth[p]) > nearest + 1e-3);
-            other += usize::from((f64::from(first.depth[p]) - nearest).abs() > 1e-3);
+            let apart = |depth: f32| f64::from(depth) - nearest;
+            behind += usize::from(apart(cost.depth[p]) > f64::from(LUMEN.apart));
+            other += usize::from(apart(first.depth[p]).abs() > f64::from(LUMEN.apart));
         }
     }
     assert!(lumens > 500, "only {lumens} pixels show lumen");

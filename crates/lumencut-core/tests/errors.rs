@@ -1,8 +1,6 @@
 //! Bad input is refused by name, and every kind of error that this crate raises can be met.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
 use std::collections::HashSet;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -13,6 +11,8 @@ use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::trees::trefoil;
+use lumencut_scenes::views::front;
 
 fn vessel_errors() -> Vec<Error> {
     let two = vec![DVec3::ZERO, DVec3::X];
@@ -108,8 +108,8 @@ const OF_THE_GPU: [ErrorKind; 1] = [ErrorKind::Device];
 
 #[test]
 fn every_kind_of_error_can_be_met() {
-    let scene = common::trefoil(30);
-    let camera = common::view([0.0, 1.0, 0.0], [9, 9], 1.0);
+    let scene = trefoil(30);
+    let camera = front([9, 9], 1.0);
     let stopped = Renderer::new(scene).cut_surface(&camera, &Settings::default(), &|| true).unwrap_err();
     let all = [vessel_errors(), camera_errors(), volume_errors(), settings_errors(), vec![stopped]].concat();
     let met: HashSet<_> = all.iter().map(|e| e.kind).collect();

@@ -1,12 +1,15 @@
 //! The hierarchy finds exactly what trying every piece finds.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{by_brute_force, by_hierarchy, differences, plain, tree, trefoil, vessel, view};
-use lumencut_core::phantom::random_tree::{Random, random_tree};
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;
+use lumencut_scenes::brute_force::{by_brute_force, by_hierarchy};
+use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::random::Random;
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::settings::unfiltered;
+use lumencut_scenes::trees::{tree, trefoil, vessel};
+use lumencut_scenes::views::view;
 
 /// Eight directions: along axes, oblique, and so close to an axis that segments are nearly collinear.
 const DIRECTIONS: [[f64; 3]; 8] = [
@@ -23,11 +26,11 @@ const DIRECTIONS: [[f64; 3]; 8] = [
 /// Both visibility rules, with and without lumen, few and many levels, a mild and a strong weight.
 fn rules() -> Vec<Settings> {
     vec![
-        plain(),
-        Settings { lumen_first: true, lumen_margin: 1.5, ..plain() },
-        Settings { preserve_lumen: false, levels: 3, ..plain() },
-        Settings { levels: 0, cost_weight: 100.0, ..plain() },
-        Settings { lumen_first: true, levels: 15, level_distance: 2.0, cost_weight: 0.0, ..plain() },
+        unfiltered(),
+        Settings { lumen_first: true, lumen_margin: 1.5, ..unfiltered() },
+        Settings { preserve_lumen: false, levels: 3, ..unfiltered() },
+        Settings { levels: 0, cost_weight: 100.0, ..unfiltered() },
+        Settings { lumen_first: true, levels: 15, level_distance: 2.0, cost_weight: 0.0, ..unfiltered() },
     ]
 }
 
@@ -35,7 +38,7 @@ fn assert_equal(tree: &VesselTree, size: [usize; 2], pixel_spacing: f64) {
     for direction in DIRECTIONS {
         let camera = view(direction, size, pixel_spacing);
         for settings in rules() {
-            let differ = differences(
+            let differ = different_pixels(
                 &by_hierarchy(tree, &camera, &settings),
                 &by_brute_force(tree, &camera, &settings),
             );
@@ -70,7 +73,7 @@ fn where_vessels_coincide_the_first_one_wins() {
     let vessels: Vec<_> = twice.vessels().iter().chain(twice.vessels()).cloned().collect();
     let tree = tree(vessels);
     assert_equal(&tree, [64, 64], 2.0);
-    let frame = by_hierarchy(&tree, &view([1.0, 1.0, 1.0], [64, 64], 2.0), &plain());
+    let frame = by_hierarchy(&tree, &view([1.0, 1.0, 1.0], [64, 64], 2.0), &unfiltered());
     assert!(frame.vessel.iter().all(|id| (0..4).contains(id)));
 }
 
@@ -91,8 +94,8 @@ fn at_any_scale_and_far_from_the_origin() {
             let points: Vec<[f64; 3]> = v.points().iter().map(|p| (*p * scale + shift).to_array()).collect();
             vessel(&points, 2.0 * scale)
         };
-        let tree = random_tree(7, 8, 40, 2.0, 50.0).unwrap();
-        let tree = common::tree(tree.vessels().iter().map(moved).collect());
+        let tree_of_mm = random_tree(7, 8, 40, 2.0, 50.0).unwrap();
+        let tree = tree(tree_of_mm.vessels().iter().map(moved).collect());
         for settings in rules() {
             let camera = lumencut_core::camera::Camera::new(
                 shift,
@@ -103,7 +106,7 @@ fn at_any_scale_and_far_from_the_origin() {
             )
             .unwrap();
             let hierarchy = by_hierarchy(&tree, &camera, &settings);
-            assert_eq!(differences(&hierarchy, &by_brute_force(&tree, &camera, &settings)), 0);
+            assert_eq!(different_pixels(&hierarchy, &by_brute_force(&tree, &camera, &settings)), 0);
         }
     }
 }
@@ -114,7 +117,7 @@ fn on_ten_thousand_vessels() {
     let camera = view([1.0, 0.2, 0.1], [96, 96], 2.2);
     for settings in &rules()[..2] {
         let hierarchy = by_hierarchy(&tree, &camera, settings);
-        assert_eq!(differences(&hierarchy, &by_brute_force(&tree, &camera, settings)), 0);
+        assert_eq!(different_pixels(&hierarchy, &by_brute_force(&tree, &camera, settings)), 0);
     }
 }
 
@@ -133,8 +136,8 @@ fn on_pixels_finer_than_the_rounding_of_the_nearest_point() {
     for (size, pixel_spacing) in [([3072, 3072], 200.0 / 3072.0), ([8192, 256], 0.02), ([256, 8192], 0.02)] {
         let camera = view([0.0, 1.0, 0.0], size, pixel_spacing);
         let (hierarchy, brute) =
-            (by_hierarchy(&coil(), &camera, &plain()), by_brute_force(&coil(), &camera, &plain()));
-        assert_eq!(differences(&hierarchy, &brute), 0, "{size:?}");
+            (by_hierarchy(&coil(), &camera, &unfiltered()), by_brute_force(&coil(), &camera, &unfiltered()));
+        assert_eq!(different_pixels(&hierarchy, &brute), 0, "{size:?}");
     }
 }
 
@@ -143,6 +146,6 @@ fn at_the_coarsest_pixels_a_camera_may_have() {
     let camera = view([0.0, 1.0, 0.0], [32_768, 16], 1e4);
     for settings in &rules()[..2] {
         let hierarchy = by_hierarchy(&coil(), &camera, settings);
-        assert_eq!(differences(&hierarchy, &by_brute_force(&coil(), &camera, settings)), 0);
+        assert_eq!(different_pixels(&hierarchy, &by_brute_force(&coil(), &camera, settings)), 0);
     }
 }

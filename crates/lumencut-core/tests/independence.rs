@@ -2,20 +2,19 @@
 //! size of the tree or the volume for a further view.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{differences, view};
 use glam::{DAffine3, DVec3};
 use lumencut_core::error::ErrorKind;
 use lumencut_core::frame::Frame;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::views::view;
 
 fn scene() -> (VesselTree, Vec<i16>, DAffine3) {
     let voxels = (0..50usize.pow(3)).map(|n| (n * 7919 % 2000) as i16 - 500).collect();
@@ -31,7 +30,7 @@ fn render(isa: Isa) -> Frame {
 }
 
 fn assert_same(a: &Frame, b: &Frame, what: &str) {
-    assert_eq!(differences(a, b), 0, "{what}");
+    assert_eq!(different_pixels(a, b), 0, "{what}");
     assert_eq!(a.image, b.image, "{what}");
     assert!(a.value.iter().zip(&b.value).all(|(a, b)| a.to_bits() == b.to_bits()), "{what}");
 }
@@ -61,7 +60,7 @@ fn a_second_view_of_a_used_renderer_is_the_view_of_a_new_one() {
     used.cut_surface(&first, &Settings { levels: 9, ..Settings::default() }, &|| false).unwrap();
     let again = used.cut_surface(&second, &Settings::default(), &|| false).unwrap();
     let fresh = Renderer::new(tree).cut_surface(&second, &Settings::default(), &|| false).unwrap();
-    assert_eq!(differences(&again, &fresh), 0);
+    assert_eq!(different_pixels(&again, &fresh), 0);
 }
 
 #[test]
@@ -75,5 +74,5 @@ fn a_rendering_stops_when_asked_and_the_renderer_goes_on() {
     let error = renderer.cut_surface(&camera, &Settings::default(), &stop).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Interrupted);
     let again = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
-    assert_eq!(differences(&whole, &again), 0);
+    assert_eq!(different_pixels(&whole, &again), 0);
 }

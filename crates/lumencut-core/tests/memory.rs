@@ -2,17 +2,16 @@
 //! allocates nothing of the size of the tree or the volume.
 #![allow(clippy::unwrap_used, unsafe_code)]
 
-mod common;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::view;
 use glam::DAffine3;
-use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::Settings;
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::trees::trefoil;
+use lumencut_scenes::views::view;
 
 /// Counts the bytes in use, their peak, and all bytes ever asked for.
 struct Counting;
@@ -47,7 +46,7 @@ fn memory_stays_within_its_bounds() {
     let volume = Volume::new(Voxels::I16(&voxels), [200; 3], [1, 200, 40_000], affine).unwrap();
     let (large, small) = (view([0.3, 1.0, 0.2], [256, 256], 0.8), view([1.0, 0.0, 0.1], [32, 32], 6.0));
     // The threads of the pool start once per process.
-    Renderer::new(common::trefoil(9)).cut_surface(&small, &Settings::default(), &|| false).unwrap();
+    Renderer::new(trefoil(9)).cut_surface(&small, &Settings::default(), &|| false).unwrap();
 
     let before = LIVE.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);

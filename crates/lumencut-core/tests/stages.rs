@@ -1,28 +1,21 @@
 //! Levels, filter, surface, silhouettes and window, each against its closed form.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{tree, trefoil, vessel, view};
 use glam::{DAffine3, DMat3, DVec3};
-use lumencut_core::camera::Camera;
 use lumencut_core::error::ErrorKind;
-use lumencut_core::math::lanes::Isa;
 use lumencut_core::math::window::{Opacity, Window};
-use lumencut_core::phantom::random_tree::random_tree;
 use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::{Settings, Slab, SlabMode};
-use lumencut_core::stages::View;
 use lumencut_core::stages::composite::{Layers, composite};
 use lumencut_core::stages::depth_filter::depth_filter;
 use lumencut_core::stages::levels::levels;
 use lumencut_core::stages::silhouette::silhouette;
 use lumencut_core::stages::surface::surface;
 use lumencut_core::volume::{Volume, Voxels};
-
-fn whole(camera: &Camera) -> View<'_> {
-    View { camera, isa: Isa::widest(), stop: &|| false }
-}
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::tolerances::{CONSTANT, VALUE, WEIGHT};
+use lumencut_scenes::trees::{tree, trefoil, vessel};
+use lumencut_scenes::views::{on_cpu, pixel, view};
 
 #[test]
 fn levels_halve_the_points_and_keep_the_ends() {
@@ -70,14 +63,17 @@ fn the_depth_filter_is_the_gaussian() {
     let mut impulse = vec![0.0; 21 * 19];
     impulse[9 * 21 + 10] = 1.0;
     let mut smoothed = vec![-1.0; 21 * 19];
-    depth_filter(&whole(&camera), &impulse, &mut smoothed).unwrap();
+    depth_filter(&on_cpu(&camera), &impulse, &mut smoothed).unwrap();
     let variance = 8.0 * 2f64.ln() / std::f64::consts::PI.powi(2);
     let bell = |n: i32| (-f64::from(n * n) / (2.0 * variance)).exp();
     let total: f64 = (-3..=3).map(bell).sum::<f64>().powi(2);
     for (j, i) in (-4i32..=4).flat_map(|j| (-4i32..=4).map(move |i| (j, i))) {
         let expected = if i.abs().max(j.abs()) > 3 { 0.0 } else { bell(i) * bell(j) / total };
         let found = smoothed[((9 + j) * 21 + 10 + i) as usize];
-        assert!((f64::from(found) - expected).abs() < 1e-6, "at {i}, {j}: {found}, {expected}");
+        assert!(
+            (f64::from(found) - expected).abs() < f64::from(WEIGHT.apart),
+            "at {i}, {j}: {found}, {expected}"
+        );
     }
 }
 
@@ -86,8 +82,8 @@ fn the_depth_filter_keeps_constants_to_the_border() {
     for size in [[1, 1], [2, 9], [40, 3]] {
         let camera = view([0.0, 1.0, 0.0], size, 1.0);
         let mut out = vec![0.0; size[0] * size[1]];
-        depth_filter(&whole(&camera), &vec![7.5; size[0] * size[1]], &mut out).unwrap();
-        assert!(out.iter().all(|z| (z - 7.5).abs() < 1e-5), "{size:?}");
+        depth_filter(&on_cpu(&camera), &vec![7.5; size[0] * size[1]], &mut out).unwrap();
+        assert!(out.iter().all(|z| CONSTANT.is_same(*z, 7.5)), "{size:?}");
     }
 }
 
@@ -106,7 +102,7 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
     let camera = view([0.5, 1.0, -0.3], [64, 64], 0.5);
     let depth: Vec<f32> = (0..64 * 64).map(|p| (p % 13) as f32 - 6.0).collect();
     let mut value = vec![0.0; depth.len()];
-    let view = whole(&camera);
+    let view = on_cpu(&camera);
     surface(&view, &volume, &depth, None, &mut value).unwrap();
     let (mut inside, mut outside) = (0, 0);
     for p in 0..depth.len() {
@@ -119,7 +115,11 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
         } else {
             // Within half a voxel of the border the outermost voxels go on.
             let expected = index.clamp(DVec3::ZERO, last).dot(DVec3::new(1.0, 10.0, 100.0));
-            assert!((f64::from(value[p]) - expected).abs() < 1e-3, "{} {expected}", value[p]);
+            assert!(
+                (f64::from(value[p]) - expected).abs() < f64::from(VALUE.apart),
+                "{} {expected}",
+                value[p]
+            );
             inside += 1;
         }
     }
@@ -130,7 +130,7 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
 fn every_voxel_type_and_memory_order_reads_the_same() {
     let (voxels, affine) = linear_volume();
     let camera = view([0.0, 1.0, 0.0], [40, 40], 0.6);
-    let view = whole(&camera);
+    let view = on_cpu(&camera);
     let read = |voxels: Voxels, strides: [usize; 3]| {
         let volume = Volume::new(voxels, [9, 8, 7], strides, affine).unwrap();
         let mut value = vec![0.0; 1600];
@@ -145,7 +145,7 @@ fn every_voxel_type_and_memory_order_reads_the_same() {
             // Wider types compute in f64: equal up to the last digits of f32.
             for (a, b) in found.iter().zip(&expected) {
                 let (a, b) = (f32::from_bits(*a), f32::from_bits(*b));
-                assert!((a.is_nan() && b.is_nan()) || (a - b).abs() < 1e-3, stringify!($name));
+                assert!((a.is_nan() && b.is_nan()) || VALUE.is_same(a, b), stringify!($name));
             }
         })*};
     }
@@ -165,7 +165,7 @@ fn silhouettes_mark_leaps_and_nothing_else() {
     let zones: Vec<i32> = (0..2400).map(|p| i32::from(p % 60 >= 30)).collect();
     let strength = |depth: &[f32], vessel: &[i32]| {
         let mut out = vec![-1.0; 2400];
-        silhouette(&whole(&camera), depth, vessel, 24.0, &mut out).unwrap();
+        silhouette(&on_cpu(&camera), depth, vessel, 24.0, &mut out).unwrap();
         out
     };
     assert!(strength(&slope, &[0; 2400]).iter().all(|s| *s < 0.01), "a slope of 1 is no silhouette");
@@ -188,7 +188,7 @@ fn the_picture_follows_window_opacity_and_background() {
         ..Settings::default()
     };
     let mut image = vec![[0; 4]; 5];
-    let view = whole(&camera);
+    let view = on_cpu(&camera);
     let value = [f32::NAN, 300.0, 100.0, 50.0, -50.0];
     let layers = Layers { value: &value, strength: Some(&[0.0, 0.0, 1.0, 0.0, 1.0]), context: None };
     composite(&view, &layers, &settings, &mut image).unwrap();
@@ -215,7 +215,7 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
     let camera = view([0.0, 1.0, 0.0], [64, 64], 1.0);
     let frame = Renderer::new(tube).render(&volume, &camera, &settings, &|| false).unwrap();
     for (x, y, expected) in [(0.5, 0.5, 255), (10.5, 3.5, 255), (0.5, 8.5, 0), (-12.5, -9.5, 0)] {
-        assert_eq!(frame.image[common::pixel(&frame, x, y)][0], expected, "at {x}, {y}");
+        assert_eq!(frame.image[pixel(&frame, x, y)][0], expected, "at {x}, {y}");
     }
     let names: Vec<_> = frame.timings.iter().map(|t| t.stage).collect();
     let stages = [
@@ -242,7 +242,7 @@ fn a_slab_of_too_many_voxels_is_refused_and_one_beyond_the_volume_is_not() {
         let volume = Volume::new(Voxels::I16(&voxels), [2; 3], [1, 2, 4], affine).unwrap();
         let slab = Some(Slab { thickness, mode: SlabMode::Mean });
         let mut value = vec![0.0; 6];
-        surface(&whole(&camera), &volume, &[0.0; 6], slab, &mut value).map(|()| value)
+        surface(&on_cpu(&camera), &volume, &[0.0; 6], slab, &mut value).map(|()| value)
     };
     let error = thick(1e-6, 1000.0).unwrap_err();
     assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "slab thickness"));

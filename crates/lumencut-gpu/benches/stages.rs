@@ -2,42 +2,23 @@
 //!
 //! `cargo bench -p lumencut-gpu --bench stages`; with `-- --quick` fewer and smaller pictures, for slow adapters.
 
-use std::collections::BTreeMap;
 use std::error::Error;
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::DVec3;
-use lumencut_core::camera::Camera;
-use lumencut_core::frame::Frame;
-use lumencut_core::phantom::random_tree::random_tree;
-use lumencut_core::phantom::{Phantom, aorta, cervical, runoff};
 use lumencut_core::pipeline;
 use lumencut_core::settings::Settings;
-use lumencut_core::vessel_tree::VesselTree;
 use lumencut_gpu::adapter::Choice;
 use lumencut_gpu::device::Device;
 use lumencut_gpu::renderer::Renderer;
+use lumencut_phantom::Phantom;
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::timing::{StageTimes, head, row, stage_medians};
+use lumencut_scenes::views::fitted;
+use lumencut_scenes::workloads::{PAPER_FRAMES, PAPER_STAGES, PaperStage, WORKLOADS};
 
 /// Any error, in words.
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
-/// Makes a workload from a seed and a scale.
-type Maker = fn(u64, f64) -> lumencut_core::error::Result<Phantom>;
-/// The medians of what frames took (ms), by the stage.
-type Times = BTreeMap<&'static str, f64>;
-
-/// Stage of ours and the paper's milliseconds for Fig. 1, 7 and 8 at 512 × 512 (GeForce GTX 680).
-const STAGES: [(&str, [f64; 3]); 7] = [
-    ("projection", [0.0; 3]),
-    ("distance", [97.8, 272.6, 133.0]),
-    ("depth", [13.5, 105.6, 39.0]),
-    ("depth_filter", [1.7; 3]),
-    ("surface", [0.9, 1.0, 1.1]),
-    ("silhouette", [7.6, 7.7, 7.7]),
-    ("composite", [0.0; 3]),
-];
-/// The paper's whole frames, with MIDA behind.
-const PAPER_FRAMES: [f64; 3] = [218.0, 659.0, 314.0];
 
 /// How much is measured.
 #[derive(Clone, Copy)]
@@ -46,66 +27,27 @@ struct Effort {
     sides: [usize; 2],
 }
 
-/// The view along `direction` in which `tree` just fits.
-fn fitted(tree: &VesselTree, direction: DVec3, side: usize) -> Result<Camera> {
-    let (low, high) = tree.bounds();
-    let spacing = (high - low).length() / 1.2 / side as f64;
-    Ok(Camera::new((low + high) * 0.5, direction, DVec3::Z, [side, side], spacing)?)
-}
-
-/// The medians of `frames` frames after a first one, which compiles, uploads and warms the caches.
-fn medians(
-    frames: usize,
-    mut render: impl FnMut() -> lumencut_core::error::Result<Frame>,
-) -> Result<(Times, Frame)> {
-    let mut last = render()?;
-    let mut all: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
-    for _ in 0..frames {
-        let start = Instant::now();
-        last = render()?;
-        all.entry("frame").or_default().push(start.elapsed().as_secs_f64() * 1e3);
-        let mut of_frame = Times::new();
-        last.timings.iter().for_each(|t| *of_frame.entry(t.stage).or_default() += t.milliseconds);
-        of_frame.into_iter().for_each(|(stage, time)| all.entry(stage).or_default().push(time));
-    }
-    let median = |mut times: Vec<f64>| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    };
-    Ok((all.into_iter().map(|(stage, times)| (stage, median(times))).collect(), last))
-}
-
 /// The stages of one workload without and with context, on the GPU and on the CPU.
 struct Measured {
-    gpu: Times,
-    cpu: Times,
-    gpu_mida: Times,
-    cpu_mida: Times,
+    gpu: StageTimes,
+    cpu: StageTimes,
+    gpu_mida: StageTimes,
+    cpu_mida: StageTimes,
 }
 
 fn measure(device: &Arc<Device>, phantom: &Phantom, side: usize, frames: usize) -> Result<Measured> {
-    let (volume, camera) = (phantom.volume()?, fitted(&phantom.tree, DVec3::Y, side)?);
+    let (volume, camera) = (phantom.volume()?, fitted(&phantom.tree, DVec3::Y, side));
     let mut gpu = Renderer::new(Arc::clone(device), Some(phantom.tree.clone()));
     let mut cpu = pipeline::Renderer::new(phantom.tree.clone());
     let plain = Settings { context: None, ..Settings::default() };
     let mida = Settings::default();
     let mut on_gpu = |settings: &Settings| {
-        medians(frames, || pollster::block_on(gpu.render(&volume, &camera, settings, &|| false)))
+        stage_medians(frames, || pollster::block_on(gpu.render(&volume, &camera, settings, &|| false)))
     };
-    let (gpu, gpu_mida) = (on_gpu(&plain)?.0, on_gpu(&mida)?.0);
+    let (gpu, gpu_mida) = (on_gpu(&plain)?, on_gpu(&mida)?);
     let mut on_cpu =
-        |settings: &Settings| medians(frames, || cpu.render(&volume, &camera, settings, &|| false));
-    Ok(Measured { gpu, gpu_mida, cpu: on_cpu(&plain)?.0, cpu_mida: on_cpu(&mida)?.0 })
-}
-
-/// One row of a Markdown table.
-fn row(cells: &[String]) {
-    println!("| {} |", cells.join(" | "));
-}
-
-/// The head of a Markdown table.
-fn head(title: &str, cells: &[&str]) {
-    println!("\n{title}\n\n| {} |\n|{}", cells.join(" | "), " --- |".repeat(cells.len()));
+        |settings: &Settings| stage_medians(frames, || cpu.render(&volume, &camera, settings, &|| false));
+    Ok(Measured { gpu, gpu_mida, cpu: on_cpu(&plain)?, cpu_mida: on_cpu(&mida)? })
 }
 
 /// Milliseconds, where they were measured.
@@ -125,12 +67,12 @@ fn table(side: usize, names: &[&str], all: &[Measured]) {
             // The paper's pictures have 512 × 512 pixels.
             cells.push(if paper > 0.0 && side == 512 { paper.to_string() } else { String::new() });
         }
-        row(&cells);
+        row(cells);
     };
-    for (stage, paper) in STAGES {
-        print(stage, &|m| [m.gpu.get(stage).copied(), m.cpu.get(stage).copied()], paper);
+    for PaperStage { stage, milliseconds, .. } in PAPER_STAGES {
+        print(stage, &|m| [m.gpu.get(stage).copied(), m.cpu.get(stage).copied()], milliseconds);
     }
-    let of = |gpu: &Times, cpu: &Times, key| [gpu.get(key).copied(), cpu.get(key).copied()];
+    let of = |gpu: &StageTimes, cpu: &StageTimes, key| [gpu.get(key).copied(), cpu.get(key).copied()];
     print("frame without context", &|m| of(&m.gpu, &m.cpu, "frame"), [0.0; 3]);
     print("context, MIDA", &|m| of(&m.gpu_mida, &m.cpu_mida, "context"), [0.0; 3]);
     print("frame with MIDA", &|m| of(&m.gpu_mida, &m.cpu_mida, "frame"), PAPER_FRAMES);
@@ -144,14 +86,14 @@ fn cut_surface(device: &Arc<Device>, effort: Effort) -> Result<()> {
     let mut gpu = Renderer::new(Arc::clone(device), Some(tree.clone()));
     let mut cpu = pipeline::Renderer::new(tree.clone());
     for side in effort.sides {
-        let camera = fitted(&tree, DVec3::new(0.1, 1.0, 0.2), side)?;
+        let camera = fitted(&tree, DVec3::new(0.1, 1.0, 0.2), side);
         for (rule, lumen_first) in [("cost", false), ("lumen first", true)] {
             let settings = Settings { lumen_first, depth_filter: false, ..Settings::default() };
-            let (on_gpu, _) = medians(effort.frames, || {
+            let on_gpu = stage_medians(effort.frames, || {
                 pollster::block_on(gpu.cut_surface(&camera, &settings, &|| false))
             })?;
-            let (on_cpu, _) = medians(effort.frames, || cpu.cut_surface(&camera, &settings, &|| false))?;
-            let stages = |times: &Times| -> f64 {
+            let on_cpu = stage_medians(effort.frames, || cpu.cut_surface(&camera, &settings, &|| false))?;
+            let stages = |times: &StageTimes| -> f64 {
                 times.iter().filter(|(stage, _)| **stage != "frame").map(|(_, time)| time).sum()
             };
             let (on_gpu_clock, on_cpu_clock) = (stages(&on_gpu), stages(&on_cpu));
@@ -160,7 +102,7 @@ fn cut_surface(device: &Arc<Device>, effort: Effort) -> Result<()> {
             } else {
                 "no clock".to_owned()
             };
-            row(&[
+            row([
                 side.to_string(),
                 rule.to_owned(),
                 format!("{on_gpu_clock:.2}"),
@@ -188,16 +130,15 @@ fn main() -> Result<()> {
     }
     println!("CPU: {} threads; medians of {} frames", std::thread::available_parallelism()?, effort.frames);
     cut_surface(&device, effort)?;
-    let makers: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
     let mut measured = [Vec::new(), Vec::new()];
-    for (_, make) in makers {
+    for (_, make) in WORKLOADS {
         // One volume after the other: the largest takes 684 MB on both sides.
         let phantom = make(0, if quick { 0.5 } else { 1.0 })?;
         for (side, measured) in effort.sides.into_iter().zip(&mut measured) {
             measured.push(measure(&device, &phantom, side, effort.frames)?);
         }
     }
-    let names = makers.map(|(name, _)| name);
+    let names = WORKLOADS.map(|(name, _)| name);
     if quick {
         println!(
             "\nThe workloads have half their size along each side: the paper's figures are of whole ones."

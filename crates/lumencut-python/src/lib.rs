@@ -11,6 +11,7 @@ mod device;
 mod errors;
 mod phantom;
 mod pool;
+mod ranges;
 mod renderer;
 mod tree;
 mod volume;
@@ -25,6 +26,9 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(arguments::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(arguments::check_settings, module)?)?;
+    module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;
+    module.add_function(wrap_pyfunction!(ranges::check_opacity, module)?)?;
+    module.add_function(wrap_pyfunction!(ranges::check_transfer_function, module)?)?;
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;

@@ -1,7 +1,7 @@
 //! Phantoms for Python: the voxels move into numpy, the truth becomes plain dictionaries.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
-use lumencut_core::phantom::{self, Phantom, Plaque, PlaqueKind, Stenosis};
+use lumencut_phantom::{Phantom, Plaque, PlaqueKind, Stenosis};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -25,17 +25,17 @@ pub fn make_phantom<'py>(
 
 fn make(name: &str, percent: f64, seed: u64, scale: f64) -> Result<Phantom> {
     match name {
-        "straight_tube" => phantom::straight_tube(),
-        "helix" => phantom::helix(),
-        "y_junction" => phantom::y_junction(),
-        "crossing" => phantom::crossing(),
-        "trefoil" => phantom::trefoil(),
-        "collinear_run" => phantom::collinear_run(),
-        "stenosis" => phantom::stenosis(percent),
-        "calcified_wall" => phantom::calcified_wall(),
-        "aorta" => phantom::aorta(seed, scale),
-        "runoff" => phantom::runoff(seed, scale),
-        "cervical" => phantom::cervical(seed, scale),
+        "straight_tube" => lumencut_phantom::straight_tube(),
+        "helix" => lumencut_phantom::helix(),
+        "y_junction" => lumencut_phantom::y_junction(),
+        "crossing" => lumencut_phantom::crossing(),
+        "trefoil" => lumencut_phantom::trefoil(),
+        "collinear_run" => lumencut_phantom::collinear_run(),
+        "stenosis" => lumencut_phantom::stenosis(percent),
+        "calcified_wall" => lumencut_phantom::calcified_wall(),
+        "aorta" => lumencut_phantom::aorta(seed, scale),
+        "runoff" => lumencut_phantom::runoff(seed, scale),
+        "cervical" => lumencut_phantom::cervical(seed, scale),
         _ => Err(Error::new(
             ErrorKind::Settings,
             "name of the phantom",

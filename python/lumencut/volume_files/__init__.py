@@ -13,9 +13,9 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError
+from lumencut.series_report import SeriesReport
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom import (
-    SeriesReport,
     Wanted,
     is_dicom,
     is_zip,

@@ -3,8 +3,11 @@
 use lumencut_core::math::window::{Opacity, Window};
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::composite::{self, layer};
+use lumencut_scenes::random::Random;
+use lumencut_scenes::tolerances::{BYTE, OTHER_BYTE};
+use lumencut_scenes::views::{front, on_cpu};
 
-use super::{Random, SIZES, camera, device, finish, on_cpu, on_gpu, without_holes};
+use super::{SIZES, device, finish, on_gpu, without_holes};
 use crate::composite::{Composite, Layers};
 use crate::device::Device;
 use crate::recording::Recording;
@@ -45,16 +48,16 @@ impl Tally {
     fn add(&mut self, found: &[u8], expected: &[[u8; 4]], what: &str) {
         assert_eq!(found.len(), expected.as_flattened().len(), "{what}");
         for (n, (found, expected)) in found.iter().zip(expected.as_flattened()).enumerate() {
-            let apart = found.abs_diff(*expected);
-            assert!(apart <= 1, "{what}, byte {n}: {found}, {expected} on the CPU");
-            self.apart += usize::from(apart);
+            let [a, b] = [*found, *expected].map(f32::from);
+            assert!(BYTE.is_same(a, b), "{what}, byte {n}: {found}, {expected} on the CPU");
+            self.apart += usize::from(!OTHER_BYTE.is_same(a, b));
         }
         self.bytes += found.len();
     }
 
     fn check(&self) {
         println!("{} of {} bytes are 1 apart", self.apart, self.bytes);
-        assert!(self.bytes > 100_000 && (self.apart as f64) < 1e-3 * self.bytes as f64);
+        assert!(self.bytes > 100_000 && OTHER_BYTE.allows(self.apart, self.bytes));
     }
 }
 
@@ -90,7 +93,7 @@ fn on_the_gpu(
     let layers = Layers { value: value.as_ref(), strength: strength.as_ref(), context: context.as_ref() };
     let image = device.image("image", pixels, 4);
     let mut recording = Recording::new(device);
-    let view = on_gpu(device, &camera(size, 0.5));
+    let view = on_gpu(device, &front(size, 0.5));
     composite.record(&mut recording, &view, size, layers, settings, &image);
     recording.read(&image, 4 * pixels as u64);
     finish(recording).bytes.remove(0)
@@ -103,7 +106,7 @@ fn pictures_are_those_of_the_cpu() {
     let mut tally = Tally::default();
     for size in SIZES {
         let pixels = size[0] * size[1];
-        let camera = camera(size, 0.5);
+        let camera = front(size, 0.5);
         let scene = Scene::new(pixels, 11);
         for settings in settings() {
             for layers in 0..4 {
@@ -128,7 +131,7 @@ fn a_context_alone_is_that_of_the_cpu() {
     let mut tally = Tally::default();
     for size in SIZES {
         let pixels = size[0] * size[1];
-        let camera = camera(size, 0.5);
+        let camera = front(size, 0.5);
         let context = Scene::new(pixels, 12).context;
         for settings in settings() {
             let mut expected = vec![[9; 4]; pixels];
@@ -149,7 +152,7 @@ fn the_layer_is_that_of_the_cpu() {
     let mut tally = Tally::default();
     for size in SIZES {
         let pixels = size[0] * size[1];
-        let camera = camera(size, 0.5);
+        let camera = front(size, 0.5);
         let context = Scene::new(pixels, 13).context;
         let mut expected = vec![[9; 4]; pixels];
         layer(&on_cpu(&camera), &context, &mut expected).unwrap();
@@ -167,7 +170,7 @@ fn halves_become_the_even_byte() {
     let Some(device) = device() else { return };
     // Opaque: 255 times the colour is a half exactly, where a float holds it.
     let context: Vec<[f32; 4]> = (0..=510).map(|n| [n as f32 / 510.0, 0.0, 0.0, 1.0]).collect();
-    let camera = camera([511, 1], 1.0);
+    let camera = front([511, 1], 1.0);
     let mut expected = vec![[9; 4]; 511];
     layer(&on_cpu(&camera), &context, &mut expected).unwrap();
     let (colors, image) = (device.upload("context", &context), device.image("image", 511, 4));

@@ -1,6 +1,9 @@
 //! The GPU that the other tests run on.
 
-use super::{Random, camera, device, finish, on_gpu};
+use lumencut_scenes::random::Random;
+use lumencut_scenes::views::front;
+
+use super::{device, finish, on_gpu};
 use crate::adapter::{Choice, Description, choose};
 use crate::depth_filter::DepthFilter;
 use crate::recording::Recording;
@@ -34,7 +37,7 @@ fn software_runs_only_where_it_is_asked_for() {
 #[test]
 fn the_passes_of_a_stage_in_a_row_count_together() {
     let Some(device) = device() else { return };
-    let camera = camera([33, 20], 0.5);
+    let camera = front([33, 20], 0.5);
     let (view, filter) = (on_gpu(device, &camera), DepthFilter::new(device));
     let image = device.upload("image", &Random::new(1).image(660, 0.0, 1.0));
     let smoothed = device.image("smoothed", 660, 4);

@@ -6,12 +6,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use lumencut_core::camera::MAX_PIXELS;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::frame::Frame;
-use lumencut_core::phantom::Phantom;
-use lumencut_core::phantom::straight_tube;
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::Stop;
+use lumencut_phantom::{Phantom, straight_tube};
+use lumencut_scenes::views::front;
 
-use super::frames::front;
 use super::shared;
 use crate::adapter::Choice;
 use crate::device::Device;

@@ -8,29 +8,18 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::frame::Frame;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::math::window::Opacity;
-use lumencut_core::phantom::Phantom;
-use lumencut_core::phantom::{collinear_run, trefoil, y_junction};
 use lumencut_core::pipeline::{self, context_alone};
 use lumencut_core::settings::{Context, Settings, Slab, SlabMode};
+use lumencut_phantom::{Phantom, collinear_run, trefoil, y_junction};
+use lumencut_scenes::compare::assert_equal;
+use lumencut_scenes::tolerances::{CONTEXT_OF_FRAME, DISTANCE};
+use lumencut_scenes::views::{front, view};
 
-use super::compare::assert_equal;
 use super::shared;
 use crate::renderer::Renderer;
 use crate::stages::STAGES;
 
-/// How far apart distances may lie (mm).
-const DISTANCE: f32 = 1e-4;
 const SIZE: [usize; 2] = [96, 80];
-
-/// The view of the origin along `direction`.
-pub(super) fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
-    Camera::new(DVec3::ZERO, DVec3::from_array(direction), DVec3::Z, size, pixel_spacing).unwrap()
-}
-
-/// From the front, where the runs of [`collinear_run`] lie along the view.
-pub(super) fn front(size: [usize; 2], pixel_spacing: f64) -> Camera {
-    view([0.0, 1.0, 0.0], size, pixel_spacing)
-}
 
 fn with(change: impl Fn(&mut Settings)) -> Settings {
     let mut settings = Settings::default();
@@ -109,14 +98,17 @@ impl Scene {
 /// Refuses frames that differ by more than rounding in the picture, the cut surface, its distance or the context.
 fn assert_same(gpu: &Frame, cpu: &Frame) {
     assert_equal(gpu, cpu);
-    assert_eq!((gpu.value.len(), gpu.distance.len()), (cpu.value.len(), cpu.distance.len()));
-    let distances = gpu.distance.iter().zip(&cpu.distance).map(|(a, b)| (a - b).abs());
-    let farthest = distances.fold(0.0, f32::max);
-    assert!(farthest <= DISTANCE, "distances are {farthest} mm apart");
+    assert_eq!(gpu.value.len(), cpu.value.len());
+    DISTANCE.assert_same(&gpu.distance, &cpu.distance, "distances");
     assert_eq!(gpu.context.len(), cpu.context.len());
-    let apart = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|c| a[c].abs_diff(b[c]) > 4);
+    let is_same = |a: u8, b: u8| CONTEXT_OF_FRAME.is_same(f32::from(a), f32::from(b));
+    let apart = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|c| !is_same(a[c], b[c]));
     let leaps = gpu.context.iter().zip(&cpu.context).filter(|pair| apart(*pair)).count();
-    assert!(leaps * 1000 <= gpu.context.len(), "{leaps} of {} pixels of context", gpu.context.len());
+    assert!(
+        CONTEXT_OF_FRAME.allows(leaps, gpu.context.len()),
+        "{leaps} of {} pixels of context",
+        gpu.context.len()
+    );
 }
 
 fn with_all_settings(phantom: Phantom, camera: &Camera) {

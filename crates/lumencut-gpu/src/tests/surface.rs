@@ -3,22 +3,20 @@
 
 use glam::DAffine3;
 use lumencut_core::camera::Camera;
-use lumencut_core::math::lanes::Isa;
-use lumencut_core::phantom;
+use lumencut_core::math::blocks::HUGE;
 use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::{Settings, Slab, SlabMode};
-use lumencut_core::stages::View;
 use lumencut_core::stages::surface::surface;
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_phantom::trefoil;
+use lumencut_scenes::tolerances::SURFACE;
+use lumencut_scenes::views::{on_cpu, view_beside_voxels};
+use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
 
 use super::device;
-use super::scenes::{Placed, ball_and_rod, camera, finish, sheared, volume};
+use super::placed::{Placed, finish};
 use crate::recording::Recording;
 use crate::surface::Surface;
-use lumencut_core::math::blocks::HUGE;
-
-/// How far values may lie apart, as a share of the difference between a volume's extremes.
-const TOLERANCE: f32 = 1e-5;
 
 const SLABS: [Option<Slab>; 5] = [
     None,
@@ -64,8 +62,7 @@ fn compare(
     let mut most = 0.0f32;
     for &slab in slabs {
         let mut expected = vec![0.0; depth.len()];
-        let view = View { camera, isa: Isa::widest(), stop: &|| false };
-        surface(&view, volume, depth, slab, &mut expected).unwrap();
+        surface(&on_cpu(camera), volume, depth, slab, &mut expected).unwrap();
         let found = on_gpu(&placed, slab, depth);
         let mut elsewhere = 0;
         for (found, expected) in found.iter().zip(&expected) {
@@ -77,19 +74,19 @@ fn compare(
             }
         }
         assert!(
-            elsewhere * 2000 <= depth.len(),
+            SURFACE.allows(elsewhere, depth.len()),
             "{what}, {slab:?}: {elsewhere} pixels are outside on one only"
         );
-        assert!(most <= TOLERANCE, "{what}, {slab:?}: {most} of the contrast");
+        assert!(most <= SURFACE.apart, "{what}, {slab:?}: {most} of the contrast");
     }
 }
 
 fn views() -> Vec<Camera> {
     vec![
-        camera([0.0, 1.0, 0.0], [257, 257], 0.2),
-        camera([0.5, -0.6, 0.4], [33, 20], 1.3),
-        camera([0.0, 0.0, -1.0], [1, 17], 2.1),
-        camera([-1.0, 0.2, 0.1], [64, 49], 0.9),
+        view_beside_voxels([0.0, 1.0, 0.0], [257, 257], 0.2),
+        view_beside_voxels([0.5, -0.6, 0.4], [33, 20], 1.3),
+        view_beside_voxels([0.0, 0.0, -1.0], [1, 17], 2.1),
+        view_beside_voxels([-1.0, 0.2, 0.1], [64, 49], 0.9),
     ]
 }
 
@@ -151,15 +148,15 @@ fn a_long_volume_keeps_its_places() {
     let middle = DAffine3::from_translation(-glam::DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);
     let volume = volume(Voxels::I16(&voxels), SIZE, DAffine3::from_scale(glam::DVec3::splat(0.7)) * middle);
     for direction in [[0.02, 0.03, 1.0], [0.3, 1.0, -0.4], [0.0, 1.0, 0.0]] {
-        let camera = camera(direction, [1031, 1200], 0.8);
+        let camera = view_beside_voxels(direction, [1031, 1200], 0.8);
         compare(&volume, &camera, &[None], &depths(&camera, &volume), 10.0, "places");
     }
 }
 
 #[test]
 fn a_cut_surface_is_that_of_the_cpu() {
-    let phantom = phantom::trefoil().unwrap();
-    let camera = camera([0.3, 1.0, -0.2], [257, 257], 0.4);
+    let phantom = trefoil().unwrap();
+    let camera = view_beside_voxels([0.3, 1.0, -0.2], [257, 257], 0.4);
     let mut renderer = Renderer::new(phantom.tree.clone());
     let frame = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
     compare(&phantom.volume().unwrap(), &camera, &SLABS, &frame.depth, 500.0, "trefoil");

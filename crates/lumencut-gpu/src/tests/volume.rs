@@ -4,9 +4,11 @@
 use glam::DAffine3;
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::Voxels;
+use lumencut_scenes::views::view_beside_voxels;
+use lumencut_scenes::volumes::{sheared, volume};
 
 use super::device;
-use super::scenes::{Placed, camera, sheared, volume};
+use super::placed::Placed;
 use crate::blocks::first_that_fits;
 use crate::volume::DeviceVolume;
 
@@ -33,7 +35,7 @@ fn sending_stops_when_asked() {
 #[test]
 fn blocks_that_do_not_fit_begin_with_larger_ones() {
     let Some(device) = device() else { return };
-    let camera = camera([0.0, 1.0, 0.0], [1, 1], 1.0);
+    let camera = view_beside_voxels([0.0, 1.0, 0.0], [1, 1], 1.0);
     let voxels = vec![7i8; 40 * 30 * 20];
     let volume = volume(Voxels::I8(&voxels), [40, 30, 20], sheared([40, 30, 20]));
     let mut placed = Placed::new(device, &volume, &camera);

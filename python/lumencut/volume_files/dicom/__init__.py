@@ -12,17 +12,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._wording import counted, listed
+from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.faults import of_phase
 from lumencut.volume_files.dicom.geometry import Stack, stacked
 from lumencut.volume_files.dicom.headers import Image, is_dicom
-from lumencut.volume_files.dicom.series import Series, SeriesReport, chosen, grouped, read_images
-from lumencut.volume_files.dicom.slices import counted, listed
+from lumencut.volume_files.dicom.series import Series, chosen, grouped, read_images
 from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing, shown
 from lumencut.volume_files.rescale import is_integral
 
-__all__ = ["SeriesReport", "Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom"]
+__all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom"]
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._wording import counted, listed
 from lumencut.errors import FormatError
-from lumencut.volume_files.dicom.slices import Slice, counted, listed
+from lumencut.volume_files.dicom.slices import Slice
 from lumencut.volume_files.opened import shown
 
 _ONE_PLACE = 0.01

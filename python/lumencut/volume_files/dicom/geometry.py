@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._wording import listed
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.faults import refuse_duplicates, refuse_gaps, refuse_interleaved
-from lumencut.volume_files.dicom.slices import Slice, listed
+from lumencut.volume_files.dicom.slices import Slice
 
 _COSINE, _RELATIVE, _MILLIMETRE, _OF_STEP = 1e-3, 1e-3, 0.01, 0.01
 _HOLE = 1.5

@@ -10,15 +10,15 @@ from pathlib import Path
 
 import numpy as np
 
+from lumencut._wording import counted, listed
 from lumencut.errors import FormatError, SeriesError
+from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.geometry import stacked
 from lumencut.volume_files.dicom.headers import Header, Image, read_header
 from lumencut.volume_files.dicom.slices import (
     Slice,
-    counted,
     has_positions,
     is_localizer,
-    listed,
     missing_positions,
     require_grey,
     slices_of,
@@ -30,48 +30,6 @@ _MODALITIES = ("CT", "MR", "XA")
 """Of which a stack can be an angiography volume."""
 _FEWEST_SLICES = 3
 _DIRECTORY = "Media Storage Directory"
-
-
-@dataclass(frozen=True)
-class SeriesReport:
-    """One DICOM series of a folder.
-
-    Attributes
-    ----------
-    number, uid, description, modality : str
-        As the series states them; empty where it does not.
-    images : int
-        How many images (frames) it has.
-    size : tuple of 3 int, or None
-        Number of voxels along i, j, k; None where its images form no stack.
-    spacing : tuple of 3 float, or None
-        Distance between neighbouring voxels along i, j, k (mm).
-    can_be_volume : bool
-        Whether it may be an angiography volume: a stack of grey CT, MR or 3D XA slices.
-    trouble : str
-        Why its images form no volume, or no such volume; empty otherwise.
-    """
-
-    number: str
-    uid: str
-    description: str
-    modality: str
-    images: int
-    size: tuple[int, int, int] | None
-    spacing: tuple[float, float, float] | None
-    can_be_volume: bool
-    trouble: str
-
-    def __str__(self) -> str:
-        parts = [self.description or "no description", self.modality or "no modality"]
-        if self.size and self.spacing:
-            parts.append(" × ".join(map(str, self.size)))
-            parts.append(" × ".join(f"{step:.4g}" for step in self.spacing) + " mm")
-        else:
-            parts.append(counted(self.images, "image"))
-        parts.append(f"UID {self.uid or 'not stated'}")
-        tail = f": {self.trouble}" if self.trouble else ""
-        return f"number {self.number or 'not stated'} ({', '.join(parts)}{tail})"
 
 
 @dataclass(frozen=True, eq=False)

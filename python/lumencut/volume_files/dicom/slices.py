@@ -16,7 +16,6 @@ from lumencut.volume_files.dicom.headers import Image
 
 _COSINE = 1e-3
 """Directions may be this far (per cosine, and in length) from orthogonal unit vectors."""
-_MENTIONED = 4
 _COLOURS = (
     *("PALETTE COLOR", "RGB", "HSV", "ARGB", "CMYK", "XYB"),
     *("YBR_FULL", "YBR_FULL_422", "YBR_PARTIAL_422", "YBR_PARTIAL_420", "YBR_ICT", "YBR_RCT"),
@@ -214,14 +213,3 @@ def _numbers(image: Image, frame: int, keyword: str, count: int) -> npt.NDArray[
         found = f"no {keyword}" if stated in (None, "") else f"{odd} in {keyword}"
         raise FormatError(str(image.source), found, f"{count} finite numbers")
     return values
-
-
-def counted(count: int, what: str) -> str:
-    """A count and what is counted, in the plural where there are several."""
-    return f"{count} {what}{'' if count == 1 else 's'}"
-
-
-def listed(names: Sequence[str]) -> str:
-    """Give the first few names and how many more there are."""
-    tail = f" and {len(names) - _MENTIONED} more" if len(names) > _MENTIONED else ""
-    return ", ".join(names[:_MENTIONED]) + tail

@@ -1,0 +1,182 @@
+//! Scenes made from formulas, with the truth beside them.
+//!
+//! Small phantoms have answers in closed form: [`straight_tube`], [`helix`], [`y_junction`], [`crossing`],
+//! [`trefoil`], [`collinear_run`], [`stenosis`], [`calcified_wall`]. Three workloads have the sizes of the
+//! paper's Table 2: [`aorta`], [`runoff`], [`cervical`]; their anatomy is drawn from way points and simple
+//! solids, and looks enough like CT to be read like one.
+//!
+//! In every phantom the lumen has 350 HU, the vessel wall 60 HU, soft plaque 40 HU, calcifications
+//! 1000 HU; edges are ramps one voxel wide whose middle lies on the true surface. A lumen is the union of
+//! its vessel's segments, each a rod whose radius runs linearly from one point's to the next one's, with
+//! round ends.
+
+mod anatomy;
+mod curve;
+mod lesion;
+mod network;
+mod paint;
+pub mod random;
+mod shape;
+mod small;
+mod tissue;
+mod workload;
+
+use glam::DAffine3;
+use lumencut_core::error::Result;
+use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_core::volume::{Volume, Voxels};
+
+pub use lesion::{Plaque, PlaqueKind, Stenosis};
+pub use small::{
+    calcified_wall, collinear_run, crossing, helix, stenosis, straight_tube, trefoil, y_junction,
+};
+pub use workload::{aorta, cervical, runoff};
+
+/// A volume and its vessel tree, with everything known about them.
+#[derive(Clone, Debug)]
+pub struct Phantom {
+    /// What it is called, the same as the function that makes it.
+    pub name: &'static str,
+    /// The voxels (HU), i fastest, then j, then k.
+    pub voxels: Vec<i16>,
+    /// Number of voxels along (i, j, k).
+    pub size: [usize; 3],
+    /// World position (mm, LPS) of a continuous index.
+    pub world_from_index: DAffine3,
+    /// The vessels with the true radius of their lumen (mm).
+    pub tree: VesselTree,
+    /// The name of each vessel.
+    pub vessel_names: Vec<String>,
+    /// The radius of each vessel's healthy lumen (mm), point by point.
+    pub reference_radius: Vec<Vec<f64>>,
+    /// Every narrowing of a lumen.
+    pub stenoses: Vec<Stenosis>,
+    /// Every plaque.
+    pub plaques: Vec<Plaque>,
+}
+
+impl Phantom {
+    /// The phantom's volume.
+    ///
+    /// # Errors
+    /// None for a phantom as it was made; [`lumencut_core::error::ErrorKind::Volume`] where its fields were
+    /// changed to contradict each other.
+    pub fn volume(&self) -> Result<Volume<'_>> {
+        let [ni, nj, _] = self.size;
+        Volume::new(Voxels::I16(&self.voxels), self.size, [1, ni, ni * nj], self.world_from_index)
+    }
+
+    /// Paints the scene and puts the truth beside it.
+    fn of(
+        name: &'static str,
+        grid: &paint::Grid,
+        scene: &paint::Scene,
+        vasculature: network::Vasculature,
+    ) -> Result<Self> {
+        let voxels = paint::paint(grid, scene, &vasculature);
+        let vessel_names = vasculature.vessels.iter().map(|v| v.name.clone()).collect();
+        let reference_radius = vasculature.vessels.iter().map(|v| v.reference.clone()).collect();
+        let vessel = |v: network::KnownVessel| Vessel::new(v.points, Some(v.lumen));
+        let vessels = vasculature.vessels.into_iter().map(vessel).collect::<Result<Vec<_>>>()?;
+        Ok(Self {
+            name,
+            voxels,
+            size: grid.size,
+            world_from_index: grid.world_from_index(),
+            tree: VesselTree::new(vessels)?,
+            vessel_names,
+            reference_radius,
+            stenoses: vasculature.stenoses,
+            plaques: vasculature.plaques,
+        })
+    }
+}
+
+/// How thick a phantom draws the wall of a vessel whose healthy lumen has radius `reference` (mm).
+pub fn wall_thickness(reference: f64) -> f64 {
+    0.5 + 0.08 * reference
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use lumencut_core::error::ErrorKind;
+
+    use super::*;
+
+    type Workload = fn(u64, f64) -> Result<Phantom>;
+
+    const WORKLOADS: [(Workload, usize); 3] = [(aorta, 800), (runoff, 2200), (cervical, 1100)];
+
+    /// The voxel nearest to a world point.
+    fn hu(phantom: &Phantom, x: f64, y: f64, z: f64) -> i16 {
+        let index = phantom.world_from_index.inverse().transform_point3(DVec3::new(x, y, z)).round();
+        let [i, j, k] = index.to_array().map(|n| n as usize);
+        phantom.voxels[(k * phantom.size[1] + j) * phantom.size[0] + i]
+    }
+
+    #[test]
+    fn lumen_and_fat_have_their_values() {
+        let tube = straight_tube().unwrap();
+        assert_eq!(hu(&tube, 0.0, 0.0, 0.0), 350);
+        assert_eq!(hu(&tube, 3.5, 0.0, 12.0), 350);
+        assert_eq!(hu(&tube, 6.0, 0.0, 12.0), -100);
+        tube.volume().unwrap();
+    }
+
+    #[test]
+    fn soft_plaque_fills_a_stenosis() {
+        let tube = stenosis(70.0).unwrap();
+        assert_eq!(hu(&tube, 0.5, 0.0, 0.0), 350);
+        assert_eq!(hu(&tube, 2.5, 0.0, 0.0), 40);
+        assert_eq!(hu(&tube, 2.5, 0.0, 20.0), 350);
+        assert_eq!(tube.stenoses[0].percent, 70.0);
+    }
+
+    #[test]
+    fn calcium_lies_on_its_side_of_the_wall() {
+        let tube = calcified_wall().unwrap();
+        assert_eq!(hu(&tube, 5.0, 0.0, 0.0), 1000);
+        assert!(hu(&tube, -5.0, 0.0, 0.0) < 100);
+        assert!(tube.plaques[0].position.distance(DVec3::X * 5.0) < 1e-9);
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_no_voxel() {
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| cervical(4, 0.06).unwrap().voxels)
+        };
+        assert!(with(1) == with(3));
+    }
+
+    #[test]
+    fn the_seed_changes_voxels_and_vessels() {
+        let [a, b] = [1, 2].map(|seed| aorta(seed, 0.05).unwrap());
+        assert!(a.voxels != b.voxels);
+        assert!(a.tree != b.tree);
+    }
+
+    #[test]
+    fn workloads_have_their_segments_inside_their_volume() {
+        for (make, segments) in WORKLOADS {
+            let phantom = make(0, 0.04).unwrap();
+            let count = phantom.tree.segment_count();
+            assert!(count.abs_diff(segments) * 100 <= 3 * segments, "{}: {count}", phantom.name);
+            let corners = phantom.volume().unwrap().corners();
+            let (low, high) = phantom.tree.bounds();
+            assert!(low.cmpge(corners[0]).all() && high.cmple(corners[7]).all(), "{}", phantom.name);
+            assert!(phantom.voxels.iter().all(|v| (-1024..=3071).contains(v)));
+        }
+    }
+
+    #[test]
+    fn arguments_outside_their_range_are_named() {
+        for scale in [0.0, -1.0, 2.1, f64::NAN] {
+            assert_eq!(aorta(0, scale).unwrap_err().kind, ErrorKind::Settings);
+        }
+        for percent in [-0.1, 100.0, f64::NAN] {
+            assert_eq!(stenosis(percent).unwrap_err().subject, "percent");
+        }
+    }
+}

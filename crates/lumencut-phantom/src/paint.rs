@@ -1,0 +1,248 @@
+//! Solids and vessels into voxels, slice by slice, each slice on its own thread.
+
+use glam::{DAffine3, DVec3, Vec2, Vec3};
+use rayon::prelude::*;
+
+use crate::lesion::Rod;
+use crate::network::{KnownVessel, Vasculature};
+use crate::random::{hash, normal};
+use crate::shape::{Cut, distance_to_line};
+use crate::tissue::{AIR, CALCIUM, FAT, LUMEN, Patterns, SOFT_PLAQUE, Solid, VESSEL_WALL, mix};
+use crate::wall_thickness;
+
+/// An axis-aligned grid in world space.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid {
+    pub(crate) size: [usize; 3],
+    pub(crate) spacing: DVec3,
+    /// Centre of the first voxel (mm, LPS).
+    pub(crate) origin: DVec3,
+}
+
+impl Grid {
+    pub(crate) fn world_from_index(&self) -> DAffine3 {
+        DAffine3::from_scale_rotation_translation(self.spacing, glam::DQuat::IDENTITY, self.origin)
+    }
+
+    fn slice_length(&self) -> usize {
+        self.size[0] * self.size[1]
+    }
+}
+
+/// Everything that a volume shows.
+pub(crate) struct Scene {
+    /// Painted in this order, the later over the earlier.
+    pub(crate) solids: Vec<Solid>,
+    /// What surrounds the solids (HU).
+    pub(crate) background: f32,
+    pub(crate) seed: u64,
+    /// Standard deviation of the noise (HU).
+    pub(crate) noise: f32,
+}
+
+/// Signed distances of one pixel to lumen, healthy lumen, outer wall and calcium (mm, negative inside).
+type Layers = [f32; 4];
+
+/// A tapered line that sets some of the layers of the pixels around it.
+struct Stroke {
+    ends: [Vec3; 2],
+    /// Radius of each layer at each end.
+    radius: [Layers; 2],
+}
+
+/// Farther than anything reaches.
+const FAR: f32 = 1e6;
+
+/// Two shapes of one solid flow into each other within this distance (mm).
+const SOFT_UNION: f32 = 3.0;
+
+/// Paints the scene; the outcome depends on nothing but the arguments.
+pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature) -> Vec<i16> {
+    let strokes = strokes(vasculature);
+    let painter = Painter::new(grid, scene, &strokes);
+    let mut voxels = vec![0i16; grid.slice_length() * grid.size[2]];
+    voxels.par_chunks_mut(grid.slice_length()).enumerate().for_each_init(
+        || Scratch::new(grid.slice_length()),
+        |scratch, (k, slice)| painter.paint_slice(k, slice, scratch),
+    );
+    voxels
+}
+
+/// The buffers of one thread.
+struct Scratch {
+    hu: Vec<f32>,
+    distance: Vec<f32>,
+    layers: Vec<Layers>,
+}
+
+impl Scratch {
+    fn new(length: usize) -> Self {
+        Self { hu: vec![0.0; length], distance: vec![FAR; length], layers: vec![[FAR; 4]; length] }
+    }
+}
+
+struct Painter<'a> {
+    grid: &'a Grid,
+    scene: &'a Scene,
+    strokes: &'a [Stroke],
+    /// The strokes that reach each slice.
+    by_slice: Vec<Vec<u32>>,
+    /// Width of the soft edge that stands for the partial volume of a voxel (mm).
+    edge: f32,
+}
+
+impl<'a> Painter<'a> {
+    fn new(grid: &'a Grid, scene: &'a Scene, strokes: &'a [Stroke]) -> Self {
+        let edge = grid.spacing.element_product().cbrt() as f32;
+        let mut by_slice = vec![Vec::new(); grid.size[2]];
+        for (n, stroke) in strokes.iter().enumerate() {
+            let (low, high) = stroke.bounds(edge);
+            let slice = |z: f32| (f64::from(z) - grid.origin.z) / grid.spacing.z;
+            let first = slice(low.z).ceil().max(0.0) as usize;
+            let end = (slice(high.z).floor() + 1.0).clamp(0.0, grid.size[2] as f64) as usize;
+            for slice in by_slice.iter_mut().take(end).skip(first) {
+                slice.push(n as u32);
+            }
+        }
+        Self { grid, scene, strokes, by_slice, edge }
+    }
+
+    fn paint_slice(&self, k: usize, slice: &mut [i16], scratch: &mut Scratch) {
+        let z = (self.grid.origin.z + self.grid.spacing.z * k as f64) as f32;
+        let patterns = Patterns::new(self.scene.seed, z, self.place(0, 0), {
+            self.place(self.grid.size[0] - 1, self.grid.size[1] - 1)
+        });
+        scratch.hu.fill(self.scene.background);
+        for solid in &self.scene.solids {
+            self.paint_solid(solid, z, &patterns, scratch);
+        }
+        self.paint_vessels(k, z, scratch);
+        self.write(k, slice, &scratch.hu);
+    }
+
+    /// World x, y of the pixel (i, j) (mm).
+    #[inline(always)]
+    fn place(&self, i: usize, j: usize) -> Vec2 {
+        let Grid { origin, spacing, .. } = self.grid;
+        Vec2::new((origin.x + spacing.x * i as f64) as f32, (origin.y + spacing.y * j as f64) as f32)
+    }
+
+    /// Runs `visit` with (pixel, world place) over the pixels of a rectangle (mm).
+    #[inline(always)]
+    fn each_pixel(&self, [low, high]: [Vec2; 2], z: f32, mut visit: impl FnMut(usize, Vec3)) {
+        let range = |axis: usize| {
+            let index = |mm: f32| (f64::from(mm) - self.grid.origin[axis]) / self.grid.spacing[axis];
+            let end = (index(high[axis]).floor() + 1.0).clamp(0.0, self.grid.size[axis] as f64) as usize;
+            (index(low[axis]).ceil().max(0.0) as usize).min(end)..end
+        };
+        let columns = range(0);
+        for j in range(1) {
+            for i in columns.clone() {
+                visit(j * self.grid.size[0] + i, self.place(i, j).extend(z));
+            }
+        }
+    }
+
+    fn paint_solid(&self, solid: &Solid, z: f32, patterns: &Patterns, scratch: &mut Scratch) {
+        let reach = self.edge - solid.inset.min(0.0);
+        let cuts: Vec<(Cut<'_>, [Vec2; 2])> = solid.shapes.iter().filter_map(|s| s.cut(z, reach)).collect();
+        for (cut, rectangle) in &cuts {
+            self.each_pixel(*rectangle, z, |n, p| {
+                let known = scratch.distance[n];
+                scratch.distance[n] = soft_minimum(known, cut.distance(p));
+            });
+        }
+        for (_, rectangle) in &cuts {
+            self.each_pixel(*rectangle, z, |n, p| {
+                // A pixel in several rectangles is painted once, because its distance is used up.
+                let distance = std::mem::replace(&mut scratch.distance[n], FAR) + solid.inset;
+                let cover = self.cover(distance);
+                if cover > 0.0 {
+                    let hu = solid.tissue.hu(distance, p.x, p.y, patterns);
+                    scratch.hu[n] = mix(scratch.hu[n], hu, cover);
+                }
+            });
+        }
+    }
+
+    /// The share of a voxel inside a surface at signed distance `distance`.
+    #[inline(always)]
+    fn cover(&self, distance: f32) -> f32 {
+        (0.5 - distance / self.edge).clamp(0.0, 1.0)
+    }
+
+    fn paint_vessels(&self, k: usize, z: f32, scratch: &mut Scratch) {
+        let mine = || self.by_slice[k].iter().map(|n| &self.strokes[*n as usize]);
+        let rectangle = |stroke: &Stroke| {
+            let (low, high) = stroke.bounds(self.edge);
+            [low.truncate(), high.truncate()]
+        };
+        for stroke in mine() {
+            self.each_pixel(rectangle(stroke), z, |n, p| stroke.draw(p, &mut scratch.layers[n]));
+        }
+        for stroke in mine() {
+            self.each_pixel(rectangle(stroke), z, |n, _| {
+                let [lumen, healthy, outer, calcium] = std::mem::replace(&mut scratch.layers[n], [FAR; 4]);
+                let layers =
+                    [(outer, VESSEL_WALL), (healthy, SOFT_PLAQUE), (lumen, LUMEN), (calcium, CALCIUM)];
+                for (distance, hu) in layers {
+                    scratch.hu[n] = mix(scratch.hu[n], hu, self.cover(distance));
+                }
+            });
+        }
+    }
+
+    /// Adds the noise and rounds.
+    fn write(&self, k: usize, slice: &mut [i16], hu: &[f32]) {
+        let seed = hash(self.scene.seed, 0xC0_FFEE + k as u64);
+        for (n, (voxel, hu)) in slice.iter_mut().zip(hu).enumerate() {
+            // Scanners show less noise where nothing absorbs.
+            let noise = if *hu < 5.0 * FAT { 0.6 * self.scene.noise } else { self.scene.noise };
+            let noisy = hu + noise * normal(seed, n as u64);
+            *voxel = noisy.round().clamp(AIR - 24.0, 3071.0) as i16;
+        }
+    }
+}
+
+impl Stroke {
+    /// The box that holds everything up to `reach` mm outside the stroke.
+    fn bounds(&self, reach: f32) -> (Vec3, Vec3) {
+        let radius = self.radius.as_flattened().iter().copied().fold(0.0, f32::max) + reach;
+        let [a, b] = self.ends;
+        (a.min(b) - radius, a.max(b) + radius)
+    }
+
+    #[inline(always)]
+    fn draw(&self, p: Vec3, layers: &mut Layers) {
+        let (d, t) = distance_to_line(p, self.ends[0], self.ends[1]);
+        for (n, layer) in layers.iter_mut().enumerate() {
+            *layer = layer.min(d - mix(self.radius[0][n], self.radius[1][n], t));
+        }
+    }
+}
+
+/// The smaller of two distances, rounded where they are nearly equal.
+#[inline(always)]
+fn soft_minimum(a: f32, b: f32) -> f32 {
+    let overlap = (SOFT_UNION - (a - b).abs()).max(0.0) / SOFT_UNION;
+    a.min(b) - 0.25 * SOFT_UNION * overlap * overlap
+}
+
+/// One stroke per segment of every vessel, and one per rod of calcium.
+fn strokes(vasculature: &Vasculature) -> Vec<Stroke> {
+    let segment = |vessel: &KnownVessel, i: usize| {
+        let layers = |i: usize| {
+            let [lumen, healthy] = [vessel.lumen[i], vessel.reference[i]];
+            [lumen as f32, healthy as f32, (healthy + wall_thickness(healthy)) as f32, -FAR]
+        };
+        let ends = [vessel.points[i], vessel.points[i + 1]].map(|p| p.as_vec3());
+        Stroke { ends, radius: [layers(i), layers(i + 1)] }
+    };
+    let vessels = &vasculature.vessels;
+    let segments = vessels.iter().flat_map(|v| (0..v.points.len() - 1).map(move |i| segment(v, i)));
+    let rod = |rod: &Rod| Stroke {
+        ends: rod.ends.map(|p| p.as_vec3()),
+        radius: rod.radius.map(|r| [-FAR, -FAR, -FAR, r as f32]),
+    };
+    segments.chain(vasculature.calcium.iter().map(rod)).collect()
+}

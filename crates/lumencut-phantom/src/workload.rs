@@ -1,0 +1,103 @@
+//! The three workloads: how large they are, what they show and how they are painted.
+
+use glam::DVec3;
+use lumencut_core::error::{Error, ErrorKind, Result};
+
+use crate::Phantom;
+use crate::anatomy::{self, Anatomy};
+use crate::paint::{Grid, Scene};
+
+/// The noise of the workloads (standard deviation, HU).
+const NOISE: f32 = 14.0;
+
+/// What a workload looks like at scale 1.
+struct Workload {
+    name: &'static str,
+    size: [usize; 3],
+    /// Voxel spacing (mm).
+    spacing: DVec3,
+    /// Lowest corner of the first voxel (mm, LPS).
+    corner: DVec3,
+    segments: usize,
+    anatomy: fn(u64, usize) -> Anatomy,
+}
+
+/// Abdominal aorta with coeliac, mesenteric, renal and iliac arteries: 512×512×256 voxels of
+/// 0.75×0.75×1 mm, about 800 segments.
+///
+/// `seed` varies the bends of the vessels, the calcifications and the noise. `scale` multiplies the number
+/// of voxels along each axis; the field of view and the vessel tree stay the same.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for a scale outside [0.02, 2].
+pub fn aorta(seed: u64, scale: f64) -> Result<Phantom> {
+    let workload = Workload {
+        name: "aorta",
+        size: [512, 512, 256],
+        spacing: DVec3::new(0.75, 0.75, 1.0),
+        corner: DVec3::new(-192.0, -192.0, -128.0),
+        segments: 800,
+        anatomy: anatomy::abdomen,
+    };
+    workload.make(seed, scale)
+}
+
+/// Arteries of the lower extremities, from the abdominal aorta to the feet, with a femoro-femoral
+/// cross-over bypass around an occlusive left iliac stenosis: 512×512×1305 voxels of 0.75×0.75×1 mm, about
+/// 2,200 segments. The bypass closes a cycle in the vessel tree.
+///
+/// `seed` and `scale` as for [`aorta`].
+///
+/// # Errors
+/// As for [`aorta`].
+pub fn runoff(seed: u64, scale: f64) -> Result<Phantom> {
+    let workload = Workload {
+        name: "runoff",
+        size: [512, 512, 1305],
+        spacing: DVec3::new(0.75, 0.75, 1.0),
+        corner: DVec3::new(-192.0, -192.0, -1135.0),
+        segments: 2200,
+        anatomy: anatomy::lower_extremities,
+    };
+    workload.make(seed, scale)
+}
+
+/// Cervical arteries from the aortic arch to the circle of Willis: 512×512×575 voxels of 0.75×0.75×0.7 mm,
+/// about 1,100 segments. Both vertebral arteries meet in the basilar artery.
+///
+/// `seed` and `scale` as for [`aorta`].
+///
+/// # Errors
+/// As for [`aorta`].
+pub fn cervical(seed: u64, scale: f64) -> Result<Phantom> {
+    let workload = Workload {
+        name: "cervical",
+        size: [512, 512, 575],
+        spacing: DVec3::new(0.75, 0.75, 0.7),
+        corner: DVec3::new(-192.0, -192.0, -75.0),
+        segments: 1100,
+        anatomy: anatomy::neck,
+    };
+    workload.make(seed, scale)
+}
+
+impl Workload {
+    fn make(&self, seed: u64, scale: f64) -> Result<Phantom> {
+        let grid = self.grid(scale)?;
+        let Anatomy { vasculature, solids, background } = (self.anatomy)(seed, self.segments);
+        let scene = Scene { solids, background, seed, noise: NOISE };
+        Phantom::of(self.name, &grid, &scene, vasculature)
+    }
+
+    /// The same field of view in `scale` times as many voxels along each axis.
+    fn grid(&self, scale: f64) -> Result<Grid> {
+        if !(0.02..=2.0).contains(&scale) {
+            let found = format!("{scale}");
+            return Err(Error::new(ErrorKind::Settings, "scale", found, "between 0.02 and 2"));
+        }
+        let size = self.size.map(|n| (n as f64 * scale).round().max(1.0) as usize);
+        let count = |size: [usize; 3]| DVec3::from_array(size.map(|n| n as f64));
+        let spacing = self.spacing * count(self.size) / count(size);
+        Ok(Grid { size, spacing, origin: self.corner + spacing / 2.0 })
+    }
+}

@@ -1,0 +1,206 @@
+//! Whether two whole frames are the same picture but for rounding.
+
+use lumencut_core::frame::Frame;
+
+use crate::tolerances::{COLOR, COLOR_LEAP, DEPTH, MOST_TOGETHER, NEIGHBOURHOOD};
+
+/// What differs between two frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Differences {
+    /// The share of pixels whose depths are further apart than [`DEPTH`] says.
+    pub depths: f64,
+    /// The largest difference in any of the four channels.
+    pub largest_color: u8,
+    /// The share of pixels with a channel further apart than [`COLOR`] says.
+    pub colors: f64,
+    /// The share of pixels with a channel further apart than [`COLOR_LEAP`] says.
+    pub leaps: f64,
+    /// The number of pixels whose vessels differ.
+    pub vessels: usize,
+    /// The share of pixels whose vessels differ.
+    pub vessel_share: f64,
+    /// The most pixels in a neighbourhood of 8 × 8 whose depth or colour is another.
+    pub together: usize,
+}
+
+/// The images of both have the same number of pixels, all of the view or none, and are not the same memory.
+fn check<T>(name: &str, a: &[T], b: &[T], pixels: usize) {
+    assert_eq!(a.len(), b.len(), "{name}: different sizes");
+    assert!(a.is_empty() || a.len() == pixels, "{name}: {} of {pixels} pixels", a.len());
+    assert!(a.is_empty() || a.as_ptr() != b.as_ptr(), "{name}: compared with itself");
+}
+
+/// What differs between two frames of one view.
+///
+/// # Panics
+/// For frames of different shapes, for one frame twice, and for nothing to compare.
+pub fn compare(a: &Frame, b: &Frame) -> Differences {
+    let [width, height] = a.camera.size();
+    let pixels = width * height;
+    assert_eq!([width, height], b.camera.size(), "different views");
+    check("image", &a.image, &b.image, pixels);
+    check("depth", &a.depth, &b.depth, pixels);
+    check("vessel", &a.vessel, &b.vessel, pixels);
+    assert!(!a.image.is_empty() || !a.depth.is_empty(), "nothing to compare");
+    let mut found = Differences::default();
+    let mut neighbourhoods = vec![0; width.div_ceil(NEIGHBOURHOOD) * height.div_ceil(NEIGHBOURHOOD)];
+    let [mut depths, mut colors, mut leaps] = [0; 3];
+    for p in 0..pixels {
+        let other_depth = !a.depth.is_empty() && !DEPTH.is_same(a.depth[p], b.depth[p]);
+        let channel = |c: usize| a.image[p][c].abs_diff(b.image[p][c]);
+        let color = if a.image.is_empty() { 0 } else { (0..4).map(channel).max().unwrap_or(0) };
+        found.largest_color = found.largest_color.max(color);
+        found.vessels += usize::from(!a.vessel.is_empty() && a.vessel[p] != b.vessel[p]);
+        depths += usize::from(other_depth);
+        let (is_other, leaps_far) = (f32::from(color) > COLOR.apart, f32::from(color) > COLOR_LEAP.apart);
+        colors += usize::from(is_other);
+        leaps += usize::from(leaps_far);
+        let place = p / width / NEIGHBOURHOOD * width.div_ceil(NEIGHBOURHOOD) + p % width / NEIGHBOURHOOD;
+        neighbourhoods[place] += usize::from(other_depth || leaps_far);
+    }
+    [found.depths, found.colors, found.leaps, found.vessel_share] =
+        [depths, colors, leaps, found.vessels].map(|n| n as f64 / pixels as f64);
+    found.together = neighbourhoods.into_iter().max().unwrap_or(0);
+    found
+}
+
+/// Refuses frames that differ by more than rounding.
+///
+/// # Panics
+/// As [`compare`], and for what differs.
+pub fn assert_equal(a: &Frame, b: &Frame) {
+    let found = compare(a, b);
+    assert!(found.depths <= DEPTH.share, "depths: {found:?}");
+    assert!(found.vessel_share <= DEPTH.share, "vessels: {found:?}");
+    assert!(found.colors <= COLOR.share, "colours: {found:?}");
+    assert!(found.leaps <= COLOR_LEAP.share, "colours far apart: {found:?}");
+    assert!(found.together <= MOST_TOGETHER, "one place: {found:?}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::views::front;
+
+    /// A frame of `size` with something in every image.
+    fn frame(size: [usize; 2]) -> Frame {
+        let camera = front(size, 0.5);
+        let at = |p: usize| (p % size[0], p / size[0]);
+        let grey = |(i, j): (usize, usize)| ((i * 5 + j * 3) % 251) as u8;
+        let pixels = 0..size[0] * size[1];
+        Frame {
+            camera,
+            image: pixels.clone().map(|p| [grey(at(p)), 9, 200, 255]).collect(),
+            depth: pixels.clone().map(|p| at(p).0 as f32 * 0.3 - 20.0).collect(),
+            vessel: pixels.map(|p| i32::from(at(p).1 > 30)).collect(),
+            distance: Vec::new(),
+            value: Vec::new(),
+            context: Vec::new(),
+            timings: Vec::new(),
+        }
+    }
+
+    /// Whether two frames are told apart, and with which words.
+    fn refused(a: &Frame, b: &Frame) -> Option<String> {
+        let result = std::panic::catch_unwind(|| assert_equal(a, b));
+        result.err().map(|words| {
+            words.downcast_ref::<String>().cloned().unwrap_or_else(|| {
+                words.downcast_ref::<&str>().map(|words| (*words).to_owned()).unwrap_or_default()
+            })
+        })
+    }
+
+    /// A frame, and the same with a change that has to be refused with `words`.
+    fn refuses(words: &str, size: [usize; 2], change: impl Fn(&mut Frame)) {
+        let (a, mut b) = (frame(size), frame(size));
+        assert_eq!(refused(&a, &b), None, "before the change");
+        change(&mut b);
+        for found in [refused(&a, &b), refused(&b, &a)] {
+            assert!(found.as_ref().is_some_and(|found| found.contains(words)), "{words}: {found:?}");
+        }
+    }
+
+    const SIZE: [usize; 2] = [200, 160];
+
+    #[test]
+    fn rounding_is_no_difference() {
+        let (a, mut b) = (frame(SIZE), frame(SIZE));
+        b.image.iter_mut().for_each(|color| *color = color.map(|c| c.saturating_add(1)));
+        b.depth.iter_mut().for_each(|depth| *depth += 5e-4);
+        // Few pixels on their own: 16 colours, 3 of them far apart, and 32 depths of 32,000 pixels.
+        (0..13).for_each(|n| b.image[n * 2001][2] -= 4);
+        (0..3).for_each(|n| b.image[n * 9001 + 50][2] = 0);
+        (0..32).for_each(|n| b.depth[n * 999] += 7.0);
+        assert_equal(&a, &b);
+        let found = compare(&a, &b);
+        assert_eq!((found.largest_color, found.vessels), (200, 0));
+        assert_eq!((found.depths, found.colors, found.leaps), (32.0 / 32e3, 16.0 / 32e3, 3.0 / 32e3));
+    }
+
+    #[test]
+    fn a_change_the_size_of_a_vessel_is_seen() {
+        let block = |b: &mut Frame, [wide, high]: [usize; 2], width: usize| {
+            for p in (0..high).flat_map(|j| (0..wide).map(move |i| (j + 72) * width + i + 96)) {
+                b.image[p][0] ^= 64;
+            }
+        };
+        refuses("colours: ", SIZE, |b| block(b, [40, 6], 200));
+        // In a large picture the same vessel is a share that would be allowed.
+        refuses("one place", [1000, 1000], |b| block(b, [10, 6], 1000));
+        refuses("one place", [1000, 1000], |b| {
+            (0..6)
+                .flat_map(|j| (0..10).map(move |i| (j + 72) * 1000 + i + 96))
+                .for_each(|p| b.depth[p] += 1.0);
+        });
+    }
+
+    #[test]
+    fn a_change_of_alpha_alone_is_seen() {
+        refuses("colours: ", SIZE, |b| b.image.iter_mut().for_each(|color| color[3] = 252));
+    }
+
+    #[test]
+    fn a_shifted_picture_is_seen() {
+        refuses("colours: ", SIZE, |b| b.image.rotate_right(1));
+        refuses("depths: ", SIZE, |b| b.depth.rotate_right(1));
+    }
+
+    #[test]
+    fn other_vessels_are_seen() {
+        refuses("vessels: ", SIZE, |b| b.vessel.iter_mut().take(33).for_each(|id| *id += 1));
+    }
+
+    #[test]
+    fn colours_too_many_and_too_far_apart_are_seen() {
+        refuses("colours: ", SIZE, |b| (0..17).for_each(|n| b.image[n * 1800][2] -= 2));
+        refuses("colours far apart: ", SIZE, |b| (0..4).for_each(|n| b.image[n * 1800][2] -= 5));
+    }
+
+    #[test]
+    fn depths_of_a_few_pixels_more_are_seen() {
+        refuses("depths: ", SIZE, |b| (0..33).for_each(|n| b.depth[n * 900] += 2e-3));
+        refuses("depths: ", SIZE, |b| (0..33).for_each(|n| b.depth[n * 900] = f32::NAN));
+    }
+
+    #[test]
+    fn missing_and_misshapen_images_are_refused() {
+        refuses("image: different sizes", SIZE, |b| b.image.clear());
+        refuses("depth: different sizes", SIZE, |b| b.depth.clear());
+        refuses("different views", SIZE, |b| *b = frame([160, 200]));
+        let mut nothing = frame(SIZE);
+        (nothing.image, nothing.depth, nothing.vessel) = (Vec::new(), Vec::new(), Vec::new());
+        assert!(
+            refused(&nothing, &nothing.clone()).is_some_and(|words| words.contains("nothing to compare"))
+        );
+        let (mut a, mut b) = (frame(SIZE), frame(SIZE));
+        a.image.truncate(200);
+        b.image.truncate(200);
+        assert!(refused(&a, &b).is_some_and(|words| words.contains("image: 200 of 32000 pixels")));
+    }
+
+    #[test]
+    fn an_image_is_not_compared_with_itself() {
+        let a = frame(SIZE);
+        assert!(refused(&a, &a).is_some_and(|words| words.contains("compared with itself")));
+    }
+}

@@ -1,0 +1,21 @@
+//! Settings that several tests share.
+
+use lumencut_core::math::transfer::{ControlPoint, TransferFunction};
+use lumencut_core::math::window::Window;
+use lumencut_core::settings::Settings;
+
+/// The context window of [`crate::volumes::ball_and_rod`].
+pub const WINDOW: Window = Window { level: 300.0, width: 900.0 };
+
+/// Settings whose depth is the winner's own: no filter.
+pub fn unfiltered() -> Settings {
+    Settings { depth_filter: false, ..Settings::default() }
+}
+
+/// A transfer function that is visible between 20 and 40 and from 320 on, clear between: blocks of voxels can be skipped
+/// below and between what is seen.
+pub fn gaps() -> TransferFunction {
+    let point = |(intensity, opacity)| ControlPoint { intensity, color: [250, 120, 30], opacity };
+    let points = [(20.0, 0.0), (30.0, 0.05), (40.0, 0.0), (320.0, 0.0), (320.0, 0.2), (950.0, 1.0)];
+    TransferFunction { points: points.map(point).to_vec() }
+}

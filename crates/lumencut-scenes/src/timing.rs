@@ -1,0 +1,68 @@
+//! Timing for the benches: medians and minima of repeated runs, printed as Markdown tables.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use lumencut_core::error::Result;
+use lumencut_core::frame::Frame;
+
+/// What repeated runs took (ms).
+#[derive(Clone, Copy, Debug)]
+pub struct Times {
+    /// The median of the runs.
+    pub median: f64,
+    /// The fastest of the runs.
+    pub minimum: f64,
+}
+
+/// The medians of what frames took (ms), by the stage; "frame" is the whole frame as its caller waits for it.
+pub type StageTimes = BTreeMap<&'static str, f64>;
+
+/// What `work` took (ms), and what it gave.
+pub fn once<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let start = Instant::now();
+    let result = work();
+    (start.elapsed().as_secs_f64() * 1e3, result)
+}
+
+/// Runs `work` once to warm up and then `runs` times.
+pub fn time(runs: usize, mut work: impl FnMut()) -> Times {
+    work();
+    let mut times: Vec<f64> = (0..runs).map(|_| once(&mut work).0).collect();
+    times.sort_by(f64::total_cmp);
+    Times { median: times[runs / 2], minimum: times[0] }
+}
+
+/// The medians of `frames` frames after a first one, which compiles, uploads and warms the caches.
+///
+/// # Errors
+/// The first one of `render`.
+pub fn stage_medians(frames: usize, mut render: impl FnMut() -> Result<Frame>) -> Result<StageTimes> {
+    render()?;
+    let mut all: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
+    for _ in 0..frames {
+        let (milliseconds, frame) = once(&mut render);
+        let mut of_frame = StageTimes::from([("frame", milliseconds)]);
+        // A stage may run several times in a frame: its times add up.
+        frame?.timings.iter().for_each(|t| *of_frame.entry(t.stage).or_default() += t.milliseconds);
+        of_frame.into_iter().for_each(|(stage, time)| all.entry(stage).or_default().push(time));
+    }
+    let median = |mut times: Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    Ok(all.into_iter().map(|(stage, times)| (stage, median(times))).collect())
+}
+
+/// One row of a Markdown table.
+pub fn row<S: AsRef<str>>(cells: impl IntoIterator<Item = S>) {
+    let cells: Vec<_> = cells.into_iter().map(|c| c.as_ref().to_owned()).collect();
+    println!("| {} |", cells.join(" | "));
+}
+
+/// The head of a Markdown table.
+pub fn head(title: &str, cells: &[&str]) {
+    println!("\n{title}\n");
+    row(cells);
+    row(cells.iter().map(|_| "---"));
+}

@@ -1,0 +1,40 @@
+//! The three scenes of clinical size, beside what the paper measured on its own (Table 2: Fig. 1, 7 and 8 at 512 × 512
+//! pixels, GeForce GTX 680).
+
+use lumencut_core::error::Result;
+use lumencut_phantom::{Phantom, aorta, cervical, runoff};
+
+/// Makes a workload from a seed and a scale.
+pub type Maker = fn(u64, f64) -> Result<Phantom>;
+
+/// The workloads by their names, in the order of the paper's figures.
+pub const WORKLOADS: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
+
+/// A stage and what the paper says of it.
+#[derive(Clone, Copy, Debug)]
+pub struct PaperStage {
+    /// What it is called here.
+    pub stage: &'static str,
+    /// What it is called in the paper; empty where the paper has no such stage.
+    pub papers_name: &'static str,
+    /// The paper's milliseconds for each workload; 0 where it has none.
+    pub milliseconds: [f64; 3],
+}
+
+/// The stages of a frame without context.
+pub const PAPER_STAGES: [PaperStage; 7] = [
+    paper_stage("projection", "", [0.0; 3]),
+    paper_stage("distance", "LOD estimation", [97.8, 272.6, 133.0]),
+    paper_stage("depth", "depth", [13.5, 105.6, 39.0]),
+    paper_stage("depth_filter", "depth filter", [1.7; 3]),
+    paper_stage("surface", "surface", [0.9, 1.0, 1.1]),
+    paper_stage("silhouette", "silhouettes", [7.6, 7.7, 7.7]),
+    paper_stage("composite", "", [0.0; 3]),
+];
+
+/// The paper's whole frames, with MIDA behind (ms).
+pub const PAPER_FRAMES: [f64; 3] = [218.0, 659.0, 314.0];
+
+const fn paper_stage(stage: &'static str, papers_name: &'static str, milliseconds: [f64; 3]) -> PaperStage {
+    PaperStage { stage, papers_name, milliseconds }
+}

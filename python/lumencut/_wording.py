@@ -1,0 +1,19 @@
+"""Counts and lists of names as messages tell them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+#: How many names of a list are told.
+_MENTIONED = 4
+
+
+def counted(count: int, what: str) -> str:
+    """A count and what is counted, in the plural where there are several."""
+    return f"{count} {what}{'' if count == 1 else 's'}"
+
+
+def listed(names: Sequence[str]) -> str:
+    """Give the first few names and how many more there are."""
+    tail = f" and {len(names) - _MENTIONED} more" if len(names) > _MENTIONED else ""
+    return ", ".join(names[:_MENTIONED]) + tail
