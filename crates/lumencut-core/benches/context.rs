@@ -9,9 +9,10 @@ use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch, larger};
 use lumencut_core::math::ray::WHOLE;
 use lumencut_core::math::sampling::{Grid, Path, Places};
 use lumencut_core::math::transfer::Preset;
-use lumencut_core::pipeline::Renderer;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::{Scene, SharedVolume, VolumeKey};
 use lumencut_core::settings::{Context, ContextMode, Settings};
-use lumencut_core::stages::context::context;
+use lumencut_core::stages::context::{Surroundings, context};
 use lumencut_core::volume::{Real, Volume, Voxel, Voxels};
 use lumencut_phantom::Phantom;
 use lumencut_scenes::timing::{head, once, row, time};
@@ -168,37 +169,40 @@ fn modes() -> Vec<(&'static str, Context)> {
 }
 
 /// The milliseconds of one mode, every ray through the whole volume.
-fn whole(volume: &Volume, camera: &Camera, settings: &Context, skip: bool, runs: usize) -> Result<f64> {
-    let view = on_cpu(camera);
+fn whole(shared: &SharedVolume, camera: &Camera, settings: &Context, skip: bool, runs: usize) -> Result<f64> {
+    let work = on_cpu(camera);
     let start = vec![WHOLE; 512 * 512];
     let mut pixels = vec![[0.0; 4]; 512 * 512];
-    let blocks = if skip { Some(volume.blocks(view.stop)?) } else { None };
+    let blocks = if skip { Some(shared.blocks(work.stop)?) } else { None };
+    let surroundings = Surroundings { camera, volume: &shared.volume, blocks };
+    let all = Settings::default();
     let mut result = Ok(());
-    let times = time(runs, || result = context(&view, volume, blocks, settings, &start, &mut pixels));
+    let times = time(runs, || result = context(&work, &surroundings, &all, settings, &start, &mut pixels));
     result.map(|()| times.median)
 }
 
 /// Every mode from two directions, and the whole picture.
 fn workload(name: &str, phantom: &Phantom) -> Result<()> {
-    let volume = phantom.volume()?;
-    let (made, blocks) = once(|| volume.blocks(&|| false).map(drop));
+    let scene = Scene::new(phantom.volume()?, phantom.tree.clone());
+    let shared = SharedVolume::new(phantom.volume()?, VolumeKey::default());
+    let (made, blocks) = once(|| shared.blocks(&|| false).map(drop));
     blocks?;
     row([name, "", "the blocks, once", &*format!("{made:.1}"), "", ""]);
     for (direction, toward) in [("front", DVec3::Y), ("oblique", DVec3::new(-0.6, 0.7, 0.4))] {
         let camera = fitted(&phantom.tree, toward, 512);
         for (mode, settings) in modes() {
-            let fast = whole(&volume, &camera, &settings, true, 5)?;
-            let slow = whole(&volume, &camera, &settings, false, 1)?;
+            let fast = whole(&shared, &camera, &settings, true, 5)?;
+            let slow = whole(&shared, &camera, &settings, false, 1)?;
             let cells = [fast, slow, slow / fast].map(|c| format!("{c:.1}"));
             row([name, direction, mode, &cells[0], &cells[1], &cells[2]]);
         }
-        let mut renderer = Renderer::new(phantom.tree.clone());
+        let mut renderer = CpuRenderer::default();
         for (what, preview) in [("whole frame, mida", false), ("whole frame, mida, preview", true)] {
             let context = Some(Context { preview, ..Context::default() });
             let settings = Settings { context, ..Settings::default() };
             let mut result = Ok(());
-            let frame =
-                time(9, || result = renderer.render(&volume, &camera, &settings, &|| false).map(drop));
+            let request = Request::new(&camera, &settings);
+            let frame = time(9, || result = renderer.render(&scene, &request).map(drop));
             result?;
             row([name, direction, what, &*format!("{:.1}", frame.median), "", ""]);
         }

@@ -7,9 +7,9 @@ use lumencut_core::brute_force;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::pipeline::Renderer;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::LeveledTree;
 use lumencut_core::settings::Settings;
-use lumencut_core::stages::View;
 use lumencut_core::stages::depth::depth;
 use lumencut_core::stages::distance::distance;
 use lumencut_core::stages::levels::levels;
@@ -32,36 +32,32 @@ fn buffers() -> Buffers {
 
 /// Renders the cut surface `runs` times.
 fn cut_surface(
-    renderer: &mut Renderer,
-    isa: Isa,
+    renderer: &mut CpuRenderer,
     camera: &Camera,
     settings: &Settings,
     runs: usize,
 ) -> (Times, Buffers) {
     let mut b = buffers();
-    let view = View { camera, isa, stop: &|| false };
+    let request = Request::new(camera, settings);
     let times = time(runs, || {
-        let surface = renderer.project(camera, settings);
-        let done = distance(&view, surface.finest(), &mut b.distance)
-            .and_then(|()| depth(&view, &surface, &b.distance, &mut b.depth, &mut b.vessel));
+        renderer.project(camera, settings);
+        let pass = renderer.pass(&request);
+        let done = distance(&pass.work, &pass.surface, &mut b.distance)
+            .and_then(|()| depth(&pass.work, &pass.surface, &b.distance, &mut b.depth, &mut b.vessel));
         done.expect("nobody asks to stop");
     });
     (times, b)
 }
 
 /// The same by brute force.
-fn by_brute_force(
-    renderer: &mut Renderer,
-    isa: Isa,
-    camera: &Camera,
-    settings: &Settings,
-) -> (Times, Buffers) {
+fn by_brute_force(renderer: &CpuRenderer, camera: &Camera, settings: &Settings) -> (Times, Buffers) {
     let mut b = buffers();
-    let view = View { camera, isa, stop: &|| false };
-    let surface = renderer.project(camera, settings);
+    let request = Request::new(camera, settings);
+    let pass = renderer.pass(&request);
     let times = time(3, || {
-        let done = brute_force::distance(&view, surface.finest(), &mut b.distance)
-            .and_then(|()| brute_force::depth(&view, &surface, &b.distance, &mut b.depth, &mut b.vessel));
+        let done = brute_force::distance(&pass.work, &pass.surface, &mut b.distance).and_then(|()| {
+            brute_force::depth(&pass.work, &pass.surface, &b.distance, &mut b.depth, &mut b.vessel)
+        });
         done.expect("nobody asks to stop");
     });
     (times, b)
@@ -73,9 +69,10 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) {
     for (rule, lumen_first) in [("cost", false), ("lumen first", true)] {
         let settings = Settings { lumen_first, ..Settings::default() };
         for &isa in sets {
-            let mut renderer = Renderer::new(tree.clone()).with_isa(isa);
-            let (fast, a) = cut_surface(&mut renderer, isa, &camera, &settings, 31);
-            let (slow, b) = by_brute_force(&mut renderer, isa, &camera, &settings);
+            let mut renderer = CpuRenderer::new(isa);
+            renderer.prepare(&LeveledTree::new(tree.clone()), settings.levels);
+            let (fast, a) = cut_surface(&mut renderer, &camera, &settings, 31);
+            let (slow, b) = by_brute_force(&renderer, &camera, &settings);
             let same = a.depth == b.depth && a.vessel == b.vessel && a.distance == b.distance;
             row([
                 name.to_owned(),
@@ -94,7 +91,8 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) {
 
 /// The slowest of many directions against the median one.
 fn over_directions(name: &str, tree: &VesselTree) {
-    let mut renderer = Renderer::new(tree.clone());
+    let (mut renderer, settings) = (CpuRenderer::default(), Settings::default());
+    renderer.prepare(&LeveledTree::new(tree.clone()), settings.levels);
     let golden = 2.399_963;
     let mut times: Vec<f64> = (0..50)
         .map(|n| {
@@ -102,7 +100,7 @@ fn over_directions(name: &str, tree: &VesselTree) {
             let (sin, cos) = (golden * f64::from(n)).sin_cos();
             let direction = DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z);
             let camera = fitted(tree, direction, 512);
-            cut_surface(&mut renderer, Isa::widest(), &camera, &Settings::default(), 5).0.minimum
+            cut_surface(&mut renderer, &camera, &settings, 5).0.minimum
         })
         .collect();
     times.sort_by(f64::total_cmp);

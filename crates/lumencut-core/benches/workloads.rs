@@ -4,7 +4,8 @@
 
 use glam::DVec3;
 use lumencut_core::error::Result;
-use lumencut_core::pipeline::Renderer;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_phantom::Phantom;
 use lumencut_scenes::timing::{StageTimes, head, once, row, stage_medians};
@@ -13,11 +14,11 @@ use lumencut_scenes::workloads::{PAPER_STAGES, PaperStage, WORKLOADS};
 
 /// The median milliseconds of each stage of 31 views from the front.
 fn stages(phantom: &Phantom) -> Result<StageTimes> {
-    let volume = phantom.volume()?;
+    let scene = Scene::new(phantom.volume()?, phantom.tree.clone());
     let camera = fitted(&phantom.tree, DVec3::Y, 512);
-    let mut renderer = Renderer::new(phantom.tree.clone());
+    let mut renderer = CpuRenderer::default();
     let settings = Settings { context: None, ..Settings::default() };
-    stage_medians(31, || renderer.render(&volume, &camera, &settings, &|| false))
+    stage_medians(31, || renderer.render(&scene, &Request::new(&camera, &settings)))
 }
 
 fn main() -> Result<()> {

@@ -12,11 +12,11 @@ use lumencut_core::math::lanes::Isa;
 use lumencut_core::math::ray::{NONE, WHOLE};
 use lumencut_core::math::transfer::{ControlPoint, Preset, TransferFunction};
 use lumencut_core::math::window::Window;
-use lumencut_core::pipeline::context_alone;
 use lumencut_core::settings::{Context, ContextMode, Settings};
-use lumencut_core::stages::View;
-use lumencut_core::stages::context::context;
+use lumencut_core::stages::Work;
+use lumencut_core::stages::context::{Surroundings, context};
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::pictures::context_alone;
 use lumencut_scenes::settings::{WINDOW, gaps};
 use lumencut_scenes::views::{on_cpu, view};
 use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
@@ -71,8 +71,9 @@ fn traced(
 ) -> Vec<[u32; 4]> {
     let start = starts(camera);
     let mut pixels = vec![[-1.0f32; 4]; start.len()];
-    let view = View { camera, isa, stop: &|| false };
-    context(&view, volume, blocks, settings, &start, &mut pixels).unwrap();
+    let work = Work { size: camera.size(), isa, stop: &|| false };
+    let surroundings = Surroundings { camera, volume, blocks };
+    context(&work, &surroundings, &Settings::default(), settings, &start, &mut pixels).unwrap();
     assert!(
         pixels.iter().flatten().all(|c| (0.0..=1.001).contains(c)),
         "colours and opacities lie between 0 and 1"
@@ -81,11 +82,11 @@ fn traced(
 }
 
 fn assert_skipping_changes_nothing(volume: &Volume, what: &str) {
-    let blocks = volume.blocks(&|| false).unwrap();
+    let blocks = Blocks::new(volume, &|| false).unwrap();
     for camera in cameras() {
         for settings in contexts() {
             let whole = traced(volume, &camera, Isa::widest(), &settings, None);
-            let skipped = traced(volume, &camera, Isa::widest(), &settings, Some(blocks));
+            let skipped = traced(volume, &camera, Isa::widest(), &settings, Some(&blocks));
             assert!(whole.iter().flatten().any(|c| *c != 0), "{what}: something is seen");
             assert!(whole == skipped, "{what}: {:?} in a view along {}", settings.mode, camera.direction());
         }
@@ -123,9 +124,9 @@ fn a_falling_step_at_a_value_that_blocks_hold_alone_is_seen() {
         let context = Context { mode: ContextMode::Blend { gamma: -1.0 }, transfer, ..Context::default() };
         let voxels = vec![at as i16; SIZE.iter().product()];
         let volume = placed(Voxels::I16(&voxels));
-        let blocks = volume.blocks(&|| false).unwrap();
+        let blocks = Blocks::new(&volume, &|| false).unwrap();
         let camera = &cameras()[0];
-        let seen = traced(&volume, camera, Isa::widest(), &context, Some(blocks));
+        let seen = traced(&volume, camera, Isa::widest(), &context, Some(&blocks));
         assert!(seen == traced(&volume, camera, Isa::widest(), &context, None), "at {at}");
         assert!(
             seen.iter().any(|pixel| f32::from_bits(pixel[3]) > 0.99),
@@ -150,7 +151,8 @@ fn a_preview_shows_nothing_before_the_cut_surface() {
         ..Context::default()
     };
     let mut pixels = vec![[0.0; 4]; 72];
-    context(&on_cpu(&camera), &volume, None, &settings, &start, &mut pixels).unwrap();
+    let surroundings = Surroundings { camera: &camera, volume: &volume, blocks: None };
+    context(&on_cpu(&camera), &surroundings, &Settings::default(), &settings, &start, &mut pixels).unwrap();
     for (p, pixel) in pixels.iter().enumerate() {
         let white = p % 9 < 4;
         assert_eq!(pixel[0] > 0.5, white, "pixel {p}: white where the ray starts in front, {pixel:?}");
@@ -162,10 +164,10 @@ fn a_preview_shows_nothing_before_the_cut_surface() {
 fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
     let voxels = ball_and_rod(SIZE);
     let volume = placed(Voxels::I16(&voxels));
-    let blocks = volume.blocks(&|| false).unwrap();
+    let blocks = Blocks::new(&volume, &|| false).unwrap();
     for camera in &cameras()[1..3] {
         for settings in contexts() {
-            let trace = |isa| traced(&volume, camera, isa, &settings, Some(blocks));
+            let trace = |isa| traced(&volume, camera, isa, &settings, Some(&blocks));
             let widest = trace(Isa::widest());
             for isa in Isa::available() {
                 assert!(trace(isa) == widest, "{isa:?}, {:?}", settings.mode);
@@ -189,8 +191,8 @@ fn the_order_of_voxels_in_memory_changes_no_bit() {
     let straight = placed(Voxels::I16(&voxels));
     for settings in contexts() {
         let trace = |volume: &Volume| {
-            let blocks = volume.blocks(&|| false).unwrap();
-            traced(volume, &cameras()[1], Isa::widest(), &settings, Some(blocks))
+            let blocks = Blocks::new(volume, &|| false).unwrap();
+            traced(volume, &cameras()[1], Isa::widest(), &settings, Some(&blocks))
         };
         assert!(trace(&turned) == trace(&straight), "{:?}", settings.mode);
     }
@@ -214,9 +216,8 @@ fn voxels_more_than_32_bits_apart_are_found() {
         let context =
             Context { mode: ContextMode::Blend { gamma }, transfer: transfer.clone(), ..Context::default() };
         let settings = Settings { context: Some(context), ..Settings::default() };
-        let draw =
-            |volume| context_alone(volume, &camera, &settings, Isa::widest(), &|| false).unwrap().image;
-        let (found, expected) = (draw(&sparse), draw(&dense));
+        let draw = |volume| context_alone(volume, &camera, &settings, &|| false).unwrap().image;
+        let (found, expected) = (draw(sparse), draw(dense));
         let difference = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).map(|c| a[c].abs_diff(b[c])).max().unwrap();
         assert!(found.iter().zip(&expected).all(|pair| difference(pair) <= 1));
         assert!(expected.iter().any(|pixel| pixel[0] > 20));
@@ -232,7 +233,7 @@ fn a_context_stops_when_asked() {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
         let volume = placed(Voxels::I16(&voxels));
-        let error = context_alone(&volume, &camera, &Settings::default(), Isa::widest(), &stop).unwrap_err();
+        let error = context_alone(volume, &camera, &Settings::default(), &stop).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Interrupted);
     }
 }
@@ -246,7 +247,7 @@ fn a_step_too_small_for_the_volume_is_refused_and_the_default_never_is() {
         let settings =
             Settings { context: Some(Context { step, ..Context::default() }), ..Settings::default() };
         let camera = view([0.0, 1.0, 0.0], [3, 3], 1.0);
-        context_alone(&volume, &camera, &settings, Isa::widest(), &|| false)
+        context_alone(volume, &camera, &settings, &|| false)
     };
     let error = draw(Some(0.01)).unwrap_err();
     assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "context_step"));

@@ -23,12 +23,12 @@ fn a_slanted_tube_is_cut_along_its_foot_points() {
     let tree = tree(vec![vessel(&[[-30., -12., 0.], [30., 12., 0.]], 4.0)]);
     let frame = by_hierarchy(&tree, &front([100, 80], 1.0), &unfiltered());
     for (x, y) in [(-29.5, 0.5), (0.5, 30.5), (12.5, -20.5), (29.5, 39.5)] {
-        near(at(&frame, &frame.depth, x, y), x * 0.4);
+        near(at(&frame, frame.depth(), x, y), x * 0.4);
         near(at(&frame, &frame.distance, x, y), y.abs());
     }
     // Before the first and beyond the last point: the half-planes keep the depth of the ends.
-    near(at(&frame, &frame.depth, -40.5, 9.5), -12.0);
-    near(at(&frame, &frame.depth, 45.5, -3.5), 12.0);
+    near(at(&frame, frame.depth(), -40.5, 9.5), -12.0);
+    near(at(&frame, frame.depth(), 45.5, -3.5), 12.0);
     near(at(&frame, &frame.distance, 45.5, -3.5), 15.5f64.hypot(3.5));
 }
 
@@ -39,7 +39,7 @@ fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     let frame = by_hierarchy(&tree(vec![corner]), &front([120, 120], 1.0), &settings);
     // Outside the bend every pixel belongs to the corner point.
     for (x, y) in [(5.5, -5.5), (30.5, -0.5), (0.5, -30.5)] {
-        near(at(&frame, &frame.depth, x, y), 10.0);
+        near(at(&frame, frame.depth(), x, y), 10.0);
     }
     // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·… decides the cost.
     let (x, y) = (-4.5, 10.5);
@@ -47,7 +47,7 @@ fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     let second = (10.0 + y, -x);
     let cost = |(z, d): (f64, f64)| z + 10.0 * d;
     let expected = if cost(first) < cost(second) { first.0 } else { second.0 };
-    near(at(&frame, &frame.depth, x, y), expected);
+    near(at(&frame, frame.depth(), x, y), expected);
 }
 
 #[test]
@@ -85,10 +85,10 @@ fn a_vessel_that_dives_along_the_view_goes_on_behind() {
     let diving = vessel(&[[-40., 0., 0.], [0., 0., 0.], [0., 30., 0.], [0., 60., 0.], [0., 60., 40.]], 2.0);
     let settings = Settings { levels: 0, ..unfiltered() };
     let frame = by_hierarchy(&tree(vec![diving]), &front([120, 120], 1.0), &settings);
-    near(at(&frame, &frame.depth, -20.5, 0.5), 0.0);
-    near(at(&frame, &frame.depth, 10.5, -10.5), 0.0);
+    near(at(&frame, frame.depth(), -20.5, 0.5), 0.0);
+    near(at(&frame, frame.depth(), 10.5, -10.5), 0.0);
     // Above the dive: half-plane at depth 0, distance 25 − 2, against the far stripe at depth 60, distance 0.
-    near(at(&frame, &frame.depth, 0.5, 25.5), 60.0);
+    near(at(&frame, frame.depth(), 0.5, 25.5), 60.0);
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn a_vessel_along_the_view_shows_its_nearest_point_everywhere() {
     let axis = vessel(&[[3., 20., 4.], [3., -35., 4.], [3., 50., 4.]], 2.0);
     let settings = Settings { levels: 0, ..unfiltered() };
     let frame = by_hierarchy(&tree(vec![axis]), &front([40, 40], 2.0), &settings);
-    assert!(frame.depth.iter().all(|z| *z == -35.0));
+    assert!(frame.depth().iter().all(|z| *z == -35.0));
     near(at(&frame, &frame.distance, 3.0, 15.0), 11.0);
 }
 
@@ -105,10 +105,10 @@ fn a_run_at_an_end_gives_a_plane_through_the_end_point() {
     let late = vessel(&[[-30., 0., 0.], [0., 0., 0.], [0., 25., 0.]], 0.0);
     let settings = Settings { levels: 0, cost_weight: 1.0, ..unfiltered() };
     let frame = by_hierarchy(&tree(vec![late]), &front([80, 80], 1.0), &settings);
-    near(at(&frame, &frame.depth, -10.5, 0.5), 0.0);
-    near(at(&frame, &frame.depth, 20.5, 0.5), 25.0);
+    near(at(&frame, frame.depth(), -10.5, 0.5), 0.0);
+    near(at(&frame, frame.depth(), 20.5, 0.5), 25.0);
     // The plane covers all: where it is nearer by cost than the stripe, it wins there too.
-    near(at(&frame, &frame.depth, -0.5, 39.5), 0.0);
+    near(at(&frame, frame.depth(), -0.5, 39.5), 0.0);
 }
 
 #[test]
@@ -120,8 +120,8 @@ fn the_trefoil_is_threefold_symmetric() {
     // Level 0 alone: coarser levels start at the vessel's ends, which break the symmetry.
     let settings = Settings { levels: 0, ..unfiltered() };
     let (a, b) = (by_hierarchy(&knot, &camera, &settings), by_hierarchy(&knot, &turned, &settings));
-    SYMMETRIC.assert_same(&a.depth, &b.depth, "depths");
-    let spread = a.depth.iter().fold(0f32, |s, z| s.max(z.abs()));
+    SYMMETRIC.assert_same(a.depth(), b.depth(), "depths");
+    let spread = a.depth().iter().fold(0f32, |s, z| s.max(z.abs()));
     assert!(spread > 15.0, "the knot is flat: {spread}");
 }
 
@@ -148,9 +148,9 @@ fn the_order_of_the_vessels_does_not_matter() {
         let (a, b) = (by_hierarchy(&scene, &camera, &settings), by_hierarchy(&reversed, &camera, &settings));
         let last = scene.vessels().len() as i32 - 1;
         // Vessels that share an end point tie around it; elsewhere nothing differs.
-        REORDERED_DEPTH.assert_same(&a.depth, &b.depth, "depths");
-        let ids = (0..a.depth.len()).filter(|p| a.vessel[*p] != last - b.vessel[*p]).count();
-        assert!(REORDERED_VESSEL.allows(ids, a.depth.len()), "{ids} ids differ");
+        REORDERED_DEPTH.assert_same(a.depth(), b.depth(), "depths");
+        let ids = (0..a.depth().len()).filter(|p| a.vessel[*p] != last - b.vessel[*p]).count();
+        assert!(REORDERED_VESSEL.allows(ids, a.depth().len()), "{ids} ids differ");
         assert_eq!(a.distance, b.distance);
     }
 }
@@ -169,7 +169,7 @@ fn turning_scene_and_camera_together_changes_nothing() {
         Camera::new(DVec3::ZERO, turn * camera.direction(), turn * camera.up(), [90, 90], 1.3).unwrap();
     let a = by_hierarchy(&scene, &camera, &unfiltered());
     let b = by_hierarchy(&turned_scene, &turned_camera, &unfiltered());
-    TURNED.assert_same(&a.depth, &b.depth, "depths");
+    TURNED.assert_same(a.depth(), b.depth(), "depths");
 }
 
 /// The nearest lumen at view (x, y): the smallest depth among the pieces that cover it with d ≤ r.
@@ -209,14 +209,14 @@ fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
     let cost = by_hierarchy(&scene, &camera, &settings);
     let first = by_hierarchy(&scene, &camera, &Settings { lumen_first: true, ..settings });
     let (mut lumens, mut behind, mut other) = (0, 0, 0);
-    for p in 0..cost.depth.len() {
+    for p in 0..cost.depth().len() {
         let (x, y) = (camera.view_x(p % 80), camera.view_y(p / 80));
         let nearest = nearest_lumen(&scene, &camera, x, y);
         if nearest < f64::MAX {
             lumens += 1;
             let apart = |depth: f32| f64::from(depth) - nearest;
-            behind += usize::from(apart(cost.depth[p]) > f64::from(LUMEN.apart));
-            other += usize::from(apart(first.depth[p]).abs() > f64::from(LUMEN.apart));
+            behind += usize::from(apart(cost.depth()[p]) > f64::from(LUMEN.apart));
+            other += usize::from(apart(first.depth()[p]).abs() > f64::from(LUMEN.apart));
         }
     }
     assert!(lumens > 500, "only {lumens} pixels show lumen");

@@ -7,10 +7,11 @@ use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::math::window::Window;
-use lumencut_core::pipeline::Renderer;
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::pictures::render;
 use lumencut_scenes::trees::trefoil;
 use lumencut_scenes::views::front;
 
@@ -110,7 +111,8 @@ const OF_THE_GPU: [ErrorKind; 1] = [ErrorKind::Device];
 fn every_kind_of_error_can_be_met() {
     let scene = trefoil(30);
     let camera = front([9, 9], 1.0);
-    let stopped = Renderer::new(scene).cut_surface(&camera, &Settings::default(), &|| true).unwrap_err();
+    let stopped =
+        render(&Scene::default().with_tree(scene), &camera, &Settings::default(), &|| true).unwrap_err();
     let all = [vessel_errors(), camera_errors(), volume_errors(), settings_errors(), vec![stopped]].concat();
     let met: HashSet<_> = all.iter().map(|e| e.kind).collect();
     assert_eq!(met, ErrorKind::ALL.into_iter().filter(|kind| !OF_THE_GPU.contains(kind)).collect());

@@ -8,7 +8,8 @@ use glam::{DAffine3, DVec3};
 use lumencut_core::error::ErrorKind;
 use lumencut_core::frame::Frame;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::pipeline::Renderer;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::{Volume, Voxels};
@@ -26,7 +27,8 @@ fn render(isa: Isa) -> Frame {
     let (tree, voxels, affine) = scene();
     let volume = Volume::new(Voxels::I16(&voxels), [50; 3], [1, 50, 2500], affine).unwrap();
     let camera = view([1.0, 0.4, -0.3], [150, 101], 1.1);
-    Renderer::new(tree).with_isa(isa).render(&volume, &camera, &Settings::default(), &|| false).unwrap()
+    let (scene, settings) = (Scene::new(volume, tree), Settings::default());
+    CpuRenderer::new(isa).render(&scene, &Request::new(&camera, &settings)).unwrap()
 }
 
 fn assert_same(a: &Frame, b: &Frame, what: &str) {
@@ -56,10 +58,13 @@ fn every_number_of_threads_gives_the_same_bits() {
 fn a_second_view_of_a_used_renderer_is_the_view_of_a_new_one() {
     let (tree, ..) = scene();
     let (first, second) = (view([0.0, 1.0, 0.0], [70, 70], 2.0), view([1.0, 0.0, 0.0], [40, 90], 1.0));
-    let mut used = Renderer::new(tree.clone());
-    used.cut_surface(&first, &Settings { levels: 9, ..Settings::default() }, &|| false).unwrap();
-    let again = used.cut_surface(&second, &Settings::default(), &|| false).unwrap();
-    let fresh = Renderer::new(tree).cut_surface(&second, &Settings::default(), &|| false).unwrap();
+    let (used_scene, fresh_scene) =
+        (Scene::default().with_tree(tree.clone()), Scene::default().with_tree(tree));
+    let (nine, settings) = (Settings { levels: 9, ..Settings::default() }, Settings::default());
+    let mut used = CpuRenderer::default();
+    used.render(&used_scene, &Request::new(&first, &nine)).unwrap();
+    let again = used.render(&used_scene, &Request::new(&second, &settings)).unwrap();
+    let fresh = CpuRenderer::default().render(&fresh_scene, &Request::new(&second, &settings)).unwrap();
     assert_eq!(different_pixels(&again, &fresh), 0);
 }
 
@@ -67,12 +72,13 @@ fn a_second_view_of_a_used_renderer_is_the_view_of_a_new_one() {
 fn a_rendering_stops_when_asked_and_the_renderer_goes_on() {
     let (tree, ..) = scene();
     let camera = view([0.0, 1.0, 0.0], [256, 256], 0.7);
-    let mut renderer = Renderer::new(tree);
-    let whole = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
+    let (scene, settings) = (Scene::default().with_tree(tree), Settings::default());
+    let (mut renderer, patient) = (CpuRenderer::default(), Request::new(&camera, &settings));
+    let whole = renderer.render(&scene, &patient).unwrap();
     let asked = AtomicUsize::new(0);
     let stop = || asked.fetch_add(1, Ordering::Relaxed) >= 40;
-    let error = renderer.cut_surface(&camera, &Settings::default(), &stop).unwrap_err();
+    let error = renderer.render(&scene, &Request { stop: &stop, ..patient }).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Interrupted);
-    let again = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
+    let again = renderer.render(&scene, &patient).unwrap();
     assert_eq!(different_pixels(&whole, &again), 0);
 }

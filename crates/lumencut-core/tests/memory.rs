@@ -6,7 +6,8 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DAffine3;
-use lumencut_core::pipeline::Renderer;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_scenes::random_tree::random_tree;
@@ -46,20 +47,23 @@ fn memory_stays_within_its_bounds() {
     let volume = Volume::new(Voxels::I16(&voxels), [200; 3], [1, 200, 40_000], affine).unwrap();
     let (large, small) = (view([0.3, 1.0, 0.2], [256, 256], 0.8), view([1.0, 0.0, 0.1], [32, 32], 6.0));
     // The threads of the pool start once per process.
-    Renderer::new(trefoil(9)).cut_surface(&small, &Settings::default(), &|| false).unwrap();
+    let settings = Settings::default();
+    let warm = Scene::default().with_tree(trefoil(9));
+    CpuRenderer::default().render(&warm, &Request::new(&small, &settings)).unwrap();
 
     let before = LIVE.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);
-    let mut renderer = Renderer::new(random_tree(41, 400, 200, 1.0, 100.0).unwrap());
-    let segments = renderer.tree().segment_count();
-    let frame = renderer.render(&volume, &large, &Settings::default(), &|| false).unwrap();
+    let tree = random_tree(41, 400, 200, 1.0, 100.0).unwrap();
+    let segments = tree.segment_count();
+    let (mut renderer, scene) = (CpuRenderer::default(), Scene::new(volume, tree));
+    let frame = renderer.render(&scene, &Request::new(&large, &settings)).unwrap();
     let peak = PEAK.load(Ordering::Relaxed) - before;
     let allowed = 64 * 256 * 256 + 400 * segments;
     assert!(peak <= allowed, "{peak} bytes at the peak for {segments} segments, {allowed} allowed");
     drop(frame);
 
     let before = TOTAL.load(Ordering::Relaxed);
-    renderer.render(&volume, &small, &Settings::default(), &|| false).unwrap();
+    renderer.render(&scene, &Request::new(&small, &settings)).unwrap();
     let further = TOTAL.load(Ordering::Relaxed) - before;
     assert!(further < 64 * 32 * 32 + 150_000, "{further} bytes for a further view of {segments} segments");
 }

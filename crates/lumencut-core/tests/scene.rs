@@ -105,7 +105,8 @@ fn looking_again_shows_the_same() {
 fn a_frame_has_the_images_that_are_asked_for() {
     let (phantom, camera, settings) = (y_junction().unwrap(), front(SIZE, 1.5), Settings::default());
     let whole = shown(&scene(&phantom), &camera, &settings);
-    for asked in [&[][..], &[Image::Picture], &[Image::Depth, Image::Value], &[Image::Vessel, Image::Context]] {
+    for asked in [&[][..], &[Image::Picture], &[Image::Depth, Image::Value], &[Image::Vessel, Image::Context]]
+    {
         let request = Request { images: ImageSet::of(asked), ..Request::new(&camera, &settings) };
         let frame = CpuRenderer::default().render(&scene(&phantom), &request).unwrap();
         assert_eq!(frame.images(), ImageSet::of(asked));
@@ -129,7 +130,9 @@ fn as_curved(frame: &Frame) -> Geometry {
         camera.world_from_view(DVec3::new(x, y, f64::from(frame.depth()[p])))
     };
     let directions = vec![camera.direction().as_vec3(); width * height];
-    Geometry::Curved(Curved::new([width, height], (0..width * height).map(place).collect(), directions).unwrap())
+    Geometry::Curved(
+        Curved::new([width, height], (0..width * height).map(place).collect(), directions).unwrap(),
+    )
 }
 
 #[test]
@@ -151,7 +154,8 @@ fn places_of_their_own_show_the_values_that_a_camera_shows_there() {
         let orthographic = shown(&scene, &camera, &settings);
         let request = Request::new(&camera, &settings);
         let volume = scene.volume.as_ref().unwrap();
-        let curved = CpuRenderer::default().look(volume, Frame::of(as_curved(&orthographic)), &request).unwrap();
+        let curved =
+            CpuRenderer::default().look(volume, Frame::of(as_curved(&orthographic)), &request).unwrap();
         assert_eq!(curved.images(), ImageSet::of(&[Image::Picture, Image::Value]));
         let mut seen = 0;
         for (a, b) in curved.value.iter().zip(&orthographic.value) {
@@ -168,14 +172,21 @@ fn places_of_their_own_show_the_values_that_a_camera_shows_there() {
 fn places_that_are_nowhere_show_nothing() {
     let voxels = [100i16; 8];
     let volume =
-        Volume::new(lumencut_core::volume::Voxels::I16(&voxels), [2; 3], [1, 2, 4], DAffine3::IDENTITY).unwrap();
+        Volume::new(lumencut_core::volume::Voxels::I16(&voxels), [2; 3], [1, 2, 4], DAffine3::IDENTITY)
+            .unwrap();
     let shared = SharedVolume::new(volume, VolumeKey::default());
     let inside = DVec3::splat(0.5);
-    let points = vec![inside, DVec3::new(f64::NAN, 0.5, 0.5), DVec3::new(0.5, f64::INFINITY, 0.5), DVec3::splat(1e300)];
+    let points = vec![
+        inside,
+        DVec3::new(f64::NAN, 0.5, 0.5),
+        DVec3::new(0.5, f64::INFINITY, 0.5),
+        DVec3::splat(1e300),
+    ];
     let geometry = Curved::new([2, 2], points, vec![glam::Vec3::Z; 4]).unwrap();
     let (camera, settings) = (front([2, 2], 1.0), Settings::default());
     let request = Request::new(&camera, &settings);
-    let frame = CpuRenderer::default().look(&shared, Frame::of(Geometry::Curved(geometry)), &request).unwrap();
+    let frame =
+        CpuRenderer::default().look(&shared, Frame::of(Geometry::Curved(geometry)), &request).unwrap();
     assert_eq!(frame.value[0], 100.0);
     assert!(frame.value[1..].iter().all(|value| value.is_nan()));
 }

@@ -2,16 +2,19 @@
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DMat3, DVec3};
-use lumencut_core::error::ErrorKind;
+use lumencut_core::camera::Camera;
+use lumencut_core::error::{ErrorKind, Result};
+use lumencut_core::geometry::Geometry;
 use lumencut_core::math::window::{Opacity, Window};
-use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::{Settings, Slab, SlabMode};
-use lumencut_core::stages::composite::{Layers, composite};
-use lumencut_core::stages::depth_filter::depth_filter;
+use lumencut_core::stages::Stage;
+use lumencut_core::stages::composite::{CompositeParameters, Layers, composite};
+use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use lumencut_core::stages::levels::levels;
-use lumencut_core::stages::silhouette::silhouette;
-use lumencut_core::stages::surface::surface;
+use lumencut_core::stages::silhouette::{SilhouetteParameters, silhouette};
+use lumencut_core::stages::surface::{SurfaceParameters, surface};
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::pictures::picture;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::tolerances::{CONSTANT, VALUE, WEIGHT};
 use lumencut_scenes::trees::{tree, trefoil, vessel};
@@ -63,7 +66,7 @@ fn the_depth_filter_is_the_gaussian() {
     let mut impulse = vec![0.0; 21 * 19];
     impulse[9 * 21 + 10] = 1.0;
     let mut smoothed = vec![-1.0; 21 * 19];
-    depth_filter(&on_cpu(&camera), &impulse, &mut smoothed).unwrap();
+    depth_filter(&on_cpu(&camera), &DepthFilterParameters::new(), &impulse, &mut smoothed).unwrap();
     let variance = 8.0 * 2f64.ln() / std::f64::consts::PI.powi(2);
     let bell = |n: i32| (-f64::from(n * n) / (2.0 * variance)).exp();
     let total: f64 = (-3..=3).map(bell).sum::<f64>().powi(2);
@@ -82,9 +85,18 @@ fn the_depth_filter_keeps_constants_to_the_border() {
     for size in [[1, 1], [2, 9], [40, 3]] {
         let camera = view([0.0, 1.0, 0.0], size, 1.0);
         let mut out = vec![0.0; size[0] * size[1]];
-        depth_filter(&on_cpu(&camera), &vec![7.5; size[0] * size[1]], &mut out).unwrap();
+        let flat = vec![7.5; size[0] * size[1]];
+        depth_filter(&on_cpu(&camera), &DepthFilterParameters::new(), &flat, &mut out).unwrap();
         assert!(out.iter().all(|z| CONSTANT.is_same(*z, 7.5)), "{size:?}");
     }
+}
+
+/// The volume at the depths of a view.
+fn sampled(volume: &Volume, camera: &Camera, depth: Vec<f32>, slab: Option<Slab>) -> Result<Vec<f32>> {
+    let mut value = vec![0.0; depth.len()];
+    let geometry = Geometry::Orthographic { camera: *camera, depth };
+    surface(&on_cpu(camera), &geometry, volume, &SurfaceParameters::new(slab, volume)?, &mut value)?;
+    Ok(value)
 }
 
 /// A volume whose voxel (i, j, k) is i + 10 j + 100 k, on a sheared, left-handed grid.
@@ -101,9 +113,7 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
     let volume = Volume::new(Voxels::I16(&voxels), [9, 8, 7], [1, 9, 72], affine).unwrap();
     let camera = view([0.5, 1.0, -0.3], [64, 64], 0.5);
     let depth: Vec<f32> = (0..64 * 64).map(|p| (p % 13) as f32 - 6.0).collect();
-    let mut value = vec![0.0; depth.len()];
-    let view = on_cpu(&camera);
-    surface(&view, &volume, &depth, None, &mut value).unwrap();
+    let value = sampled(&volume, &camera, depth.clone(), None).unwrap();
     let (mut inside, mut outside) = (0, 0);
     for p in 0..depth.len() {
         let at = DVec3::new(camera.view_x(p % 64), camera.view_y(p / 64), f64::from(depth[p]));
@@ -130,11 +140,9 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
 fn every_voxel_type_and_memory_order_reads_the_same() {
     let (voxels, affine) = linear_volume();
     let camera = view([0.0, 1.0, 0.0], [40, 40], 0.6);
-    let view = on_cpu(&camera);
     let read = |voxels: Voxels, strides: [usize; 3]| {
         let volume = Volume::new(voxels, [9, 8, 7], strides, affine).unwrap();
-        let mut value = vec![0.0; 1600];
-        surface(&view, &volume, &[0.5; 1600], None, &mut value).unwrap();
+        let value = sampled(&volume, &camera, vec![0.5; 1600], None).unwrap();
         value.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
     };
     let expected = read(Voxels::I16(&voxels), [1, 9, 72]);
@@ -163,9 +171,11 @@ fn silhouettes_mark_leaps_and_nothing_else() {
     let slope: Vec<f32> = (0..2400).map(|p| (p % 60) as f32 * 0.5).collect();
     let leap: Vec<f32> = (0..2400).map(|p| if p % 60 < 30 { 0.0 } else { 40.0 }).collect();
     let zones: Vec<i32> = (0..2400).map(|p| i32::from(p % 60 >= 30)).collect();
+    let parameters =
+        SilhouetteParameters::new(&Settings { silhouette_slope: 24.0, ..Settings::default() }, &camera);
     let strength = |depth: &[f32], vessel: &[i32]| {
         let mut out = vec![-1.0; 2400];
-        silhouette(&on_cpu(&camera), depth, vessel, 24.0, &mut out).unwrap();
+        silhouette(&on_cpu(&camera), &parameters, depth, vessel, &mut out).unwrap();
         out
     };
     assert!(strength(&slope, &[0; 2400]).iter().all(|s| *s < 0.01), "a slope of 1 is no silhouette");
@@ -191,7 +201,7 @@ fn the_picture_follows_window_opacity_and_background() {
     let view = on_cpu(&camera);
     let value = [f32::NAN, 300.0, 100.0, 50.0, -50.0];
     let layers = Layers { value: &value, strength: Some(&[0.0, 0.0, 1.0, 0.0, 1.0]), context: None };
-    composite(&view, &layers, &settings, &mut image).unwrap();
+    composite(&view, &CompositeParameters::new(&settings), &layers, &mut image).unwrap();
     assert_eq!(image[0], [10, 20, 30, 255], "outside the volume: background");
     assert_eq!(image[1], [255, 255, 255, 255], "above the window: white");
     assert_eq!(image[2], [255, 220, 0, 255], "a full silhouette: its colour");
@@ -213,24 +223,12 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
     let tube = tree(vec![vessel(&[[-19.0, 0.0, 0.0], [0.0, 0.0, 0.0], [19.0, 0.0, 0.0]], 5.0)]);
     let settings = Settings { window: Window { level: 100.0, width: 400.0 }, ..Settings::default() };
     let camera = view([0.0, 1.0, 0.0], [64, 64], 1.0);
-    let frame = Renderer::new(tube).render(&volume, &camera, &settings, &|| false).unwrap();
+    let frame = picture(volume, &tube, &camera, &settings);
     for (x, y, expected) in [(0.5, 0.5, 255), (10.5, 3.5, 255), (0.5, 8.5, 0), (-12.5, -9.5, 0)] {
         assert_eq!(frame.image[pixel(&frame, x, y)][0], expected, "at {x}, {y}");
     }
     let names: Vec<_> = frame.timings.iter().map(|t| t.stage).collect();
-    let stages = [
-        "levels",
-        "projection",
-        "distance",
-        "depth",
-        "depth_filter",
-        "surface",
-        "silhouette",
-        "blocks",
-        "context",
-        "composite",
-    ];
-    assert_eq!(names, stages);
+    assert_eq!(names, Stage::ALL.map(Stage::name));
 }
 
 #[test]
@@ -241,8 +239,7 @@ fn a_slab_of_too_many_voxels_is_refused_and_one_beyond_the_volume_is_not() {
         let affine = DAffine3::from_scale(DVec3::splat(side));
         let volume = Volume::new(Voxels::I16(&voxels), [2; 3], [1, 2, 4], affine).unwrap();
         let slab = Some(Slab { thickness, mode: SlabMode::Mean });
-        let mut value = vec![0.0; 6];
-        surface(&on_cpu(&camera), &volume, &[0.0; 6], slab, &mut value).map(|()| value)
+        sampled(&volume, &camera, vec![0.0; 6], slab)
     };
     let error = thick(1e-6, 1000.0).unwrap_err();
     assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "slab thickness"));

@@ -37,8 +37,11 @@ fn names_are_unique() {
 
 #[test]
 fn stages_run_in_the_order_of_the_table() {
-    for settings in [Settings::default(), Settings { depth_filter: false, context: None, ..Settings::default() }] {
-        let places = whole(&settings).into_iter().map(|stage| Stage::ALL.iter().position(|s| *s == stage).unwrap());
+    for settings in
+        [Settings::default(), Settings { depth_filter: false, context: None, ..Settings::default() }]
+    {
+        let places =
+            whole(&settings).into_iter().map(|stage| Stage::ALL.iter().position(|s| *s == stage).unwrap());
         assert!(places.is_sorted());
     }
 }
@@ -57,8 +60,7 @@ fn every_image_is_written_before_it_is_read() {
 
 #[test]
 fn what_is_not_wanted_is_not_run() {
-    let settings =
-        Settings { depth_filter: false, silhouettes: false, context: None, ..Settings::default() };
+    let settings = Settings { depth_filter: false, silhouettes: false, context: None, ..Settings::default() };
     assert_eq!(whole(&settings), [Stage::Distance, Stage::Depth, Stage::Surface, Stage::Composite]);
     let alone: Vec<_> = Stage::of_look(&Settings::default(), ImageSet::of(&[])).collect();
     assert_eq!(alone, [Stage::Blocks, Stage::Context, Stage::Composite]);

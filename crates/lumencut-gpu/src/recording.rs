@@ -36,7 +36,9 @@ pub(crate) struct Results {
 impl Results {
     /// The numbers of the buffer that was asked for as the `n`th.
     pub fn numbers<T: Pod>(&self, n: usize) -> Vec<T> {
-        self.view.as_ref().map_or_else(Vec::new, |all| bytemuck::pod_collect_to_vec(&all[self.places[n].clone()]))
+        self.view
+            .as_ref()
+            .map_or_else(Vec::new, |all| bytemuck::pod_collect_to_vec(&all[self.places[n].clone()]))
     }
 }
 

@@ -3,28 +3,43 @@
 use lumencut_core::brute_force;
 use lumencut_core::camera::Camera;
 use lumencut_core::frame::Frame;
-use lumencut_core::pipeline::Renderer;
+use lumencut_core::geometry::Geometry;
+use lumencut_core::math::lanes::Isa;
+use lumencut_core::pipeline::{CpuRenderer, Images, Request};
+use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::Settings;
+use lumencut_core::stages::Stage;
 use lumencut_core::vessel_tree::VesselTree;
-
-use crate::views::on_cpu;
 
 /// Depth, vessel and distance through the hierarchy.
 pub fn by_hierarchy(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Frame {
-    Renderer::new(tree.clone()).cut_surface(camera, settings, &|| false).unwrap()
+    let scene = Scene::default().with_tree(tree.clone());
+    CpuRenderer::default().render(&scene, &Request::new(camera, settings)).unwrap()
 }
 
 /// Depth, vessel and distance against every piece.
 pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Frame {
-    let mut renderer = Renderer::new(tree.clone());
-    let mut frame = by_hierarchy(tree, camera, settings);
-    let surface = renderer.project(camera, settings);
-    let view = on_cpu(camera);
-    // What the hierarchy found is no longer there: a pixel that brute force leaves out is seen.
-    frame.distance.fill(-1.0);
-    frame.depth.fill(-1.0);
-    frame.vessel.fill(-1);
-    brute_force::distance(&view, surface.finest(), &mut frame.distance).unwrap();
-    brute_force::depth(&view, &surface, &frame.distance, &mut frame.depth, &mut frame.vessel).unwrap();
-    frame
+    let (renderer, request) =
+        (projected(tree, camera, settings, Isa::widest()), Request::new(camera, settings));
+    let pass = renderer.pass(&request);
+    let pixels = pass.work.pixels();
+    // A pixel that brute force leaves out is seen.
+    let (mut distance, mut depth, mut vessel) = (vec![-1.0; pixels], vec![-1.0; pixels], vec![-1; pixels]);
+    brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
+    brute_force::depth(&pass.work, &pass.surface, &distance, &mut depth, &mut vessel).unwrap();
+    let mut images = Images { unfiltered_depth: depth, ..Images::default() };
+    if settings.depth_filter {
+        pass.run(Stage::DepthFilter, &mut images).unwrap();
+        images.unfiltered_depth = images.depth;
+    }
+    let geometry = Geometry::Orthographic { camera: *camera, depth: images.unfiltered_depth };
+    Frame { vessel, distance, ..Frame::of(geometry) }
+}
+
+/// A renderer that has projected a tree into a view: its stages can run one by one.
+pub fn projected(tree: &VesselTree, camera: &Camera, settings: &Settings, isa: Isa) -> CpuRenderer {
+    let mut renderer = CpuRenderer::new(isa);
+    renderer.prepare(&LeveledTree::new(tree.clone()), settings.levels);
+    renderer.project(camera, settings);
+    renderer
 }

@@ -35,18 +35,18 @@ fn check<T>(name: &str, a: &[T], b: &[T], pixels: usize) {
 /// # Panics
 /// For frames of different shapes, for one frame twice, and for nothing to compare.
 pub fn compare(a: &Frame, b: &Frame) -> Differences {
-    let [width, height] = a.camera.size();
+    let [width, height] = a.size();
     let pixels = width * height;
-    assert_eq!([width, height], b.camera.size(), "different views");
+    assert_eq!([width, height], b.size(), "different views");
     check("image", &a.image, &b.image, pixels);
-    check("depth", &a.depth, &b.depth, pixels);
+    check("depth", a.depth(), b.depth(), pixels);
     check("vessel", &a.vessel, &b.vessel, pixels);
-    assert!(!a.image.is_empty() || !a.depth.is_empty(), "nothing to compare");
+    assert!(!a.image.is_empty() || !a.depth().is_empty(), "nothing to compare");
     let mut found = Differences::default();
     let mut neighbourhoods = vec![0; width.div_ceil(NEIGHBOURHOOD) * height.div_ceil(NEIGHBOURHOOD)];
     let [mut depths, mut colors, mut leaps] = [0; 3];
     for p in 0..pixels {
-        let other_depth = !a.depth.is_empty() && !DEPTH.is_same(a.depth[p], b.depth[p]);
+        let other_depth = !a.depth().is_empty() && !DEPTH.is_same(a.depth()[p], b.depth()[p]);
         let channel = |c: usize| a.image[p][c].abs_diff(b.image[p][c]);
         let color = if a.image.is_empty() { 0 } else { (0..4).map(channel).max().unwrap_or(0) };
         found.largest_color = found.largest_color.max(color);
@@ -79,7 +79,11 @@ pub fn assert_equal(a: &Frame, b: &Frame) {
 
 #[cfg(test)]
 mod tests {
+    use lumencut_core::geometry::Geometry;
+    use lumencut_core::stages::{Image, ImageSet};
+
     use super::*;
+    use crate::pictures::depth_of;
     use crate::views::front;
 
     /// A frame of `size` with something in every image.
@@ -89,14 +93,12 @@ mod tests {
         let grey = |(i, j): (usize, usize)| ((i * 5 + j * 3) % 251) as u8;
         let pixels = 0..size[0] * size[1];
         Frame {
-            camera,
             image: pixels.clone().map(|p| [grey(at(p)), 9, 200, 255]).collect(),
-            depth: pixels.clone().map(|p| at(p).0 as f32 * 0.3 - 20.0).collect(),
-            vessel: pixels.map(|p| i32::from(at(p).1 > 30)).collect(),
-            distance: Vec::new(),
-            value: Vec::new(),
-            context: Vec::new(),
-            timings: Vec::new(),
+            vessel: pixels.clone().map(|p| i32::from(at(p).1 > 30)).collect(),
+            ..Frame::of(Geometry::Orthographic {
+                camera,
+                depth: pixels.map(|p| at(p).0 as f32 * 0.3 - 20.0).collect(),
+            })
         }
     }
 
@@ -126,11 +128,11 @@ mod tests {
     fn rounding_is_no_difference() {
         let (a, mut b) = (frame(SIZE), frame(SIZE));
         b.image.iter_mut().for_each(|color| *color = color.map(|c| c.saturating_add(1)));
-        b.depth.iter_mut().for_each(|depth| *depth += 5e-4);
+        depth_of(&mut b).iter_mut().for_each(|depth| *depth += 5e-4);
         // Few pixels on their own: 16 colours, 3 of them far apart, and 32 depths of 32,000 pixels.
         (0..13).for_each(|n| b.image[n * 2001][2] -= 4);
         (0..3).for_each(|n| b.image[n * 9001 + 50][2] = 0);
-        (0..32).for_each(|n| b.depth[n * 999] += 7.0);
+        (0..32).for_each(|n| depth_of(&mut b)[n * 999] += 7.0);
         assert_equal(&a, &b);
         let found = compare(&a, &b);
         assert_eq!((found.largest_color, found.vessels), (200, 0));
@@ -150,7 +152,7 @@ mod tests {
         refuses("one place", [1000, 1000], |b| {
             (0..6)
                 .flat_map(|j| (0..10).map(move |i| (j + 72) * 1000 + i + 96))
-                .for_each(|p| b.depth[p] += 1.0);
+                .for_each(|p| depth_of(b)[p] += 1.0);
         });
     }
 
@@ -162,7 +164,7 @@ mod tests {
     #[test]
     fn a_shifted_picture_is_seen() {
         refuses("colours: ", SIZE, |b| b.image.rotate_right(1));
-        refuses("depths: ", SIZE, |b| b.depth.rotate_right(1));
+        refuses("depths: ", SIZE, |b| depth_of(b).rotate_right(1));
     }
 
     #[test]
@@ -178,17 +180,19 @@ mod tests {
 
     #[test]
     fn depths_of_a_few_pixels_more_are_seen() {
-        refuses("depths: ", SIZE, |b| (0..33).for_each(|n| b.depth[n * 900] += 2e-3));
-        refuses("depths: ", SIZE, |b| (0..33).for_each(|n| b.depth[n * 900] = f32::NAN));
+        refuses("depths: ", SIZE, |b| (0..33).for_each(|n| depth_of(b)[n * 900] += 2e-3));
+        refuses("depths: ", SIZE, |b| (0..33).for_each(|n| depth_of(b)[n * 900] = f32::NAN));
     }
 
     #[test]
     fn missing_and_misshapen_images_are_refused() {
         refuses("image: different sizes", SIZE, |b| b.image.clear());
-        refuses("depth: different sizes", SIZE, |b| b.depth.clear());
+        refuses("depth: different sizes", SIZE, |b| {
+            *b = b.clone().keeping(ImageSet::of(&[Image::Picture, Image::Vessel]))
+        });
         refuses("different views", SIZE, |b| *b = frame([160, 200]));
         let mut nothing = frame(SIZE);
-        (nothing.image, nothing.depth, nothing.vessel) = (Vec::new(), Vec::new(), Vec::new());
+        nothing = nothing.keeping(ImageSet::of(&[]));
         assert!(
             refused(&nothing, &nothing.clone()).is_some_and(|words| words.contains("nothing to compare"))
         );

@@ -4,7 +4,7 @@ use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::frame::Frame;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::stages::View;
+use lumencut_core::stages::Work;
 use lumencut_core::vessel_tree::VesselTree;
 
 /// The view of `center` along `direction`: z is up, or y where the view goes along z.
@@ -38,13 +38,14 @@ pub fn fitted(tree: &VesselTree, direction: DVec3, side: usize) -> Camera {
 }
 
 /// What the stages of the CPU are given for a camera: the widest instruction set, and no request to stop.
-pub fn on_cpu(camera: &Camera) -> View<'_> {
-    View { camera, isa: Isa::widest(), stop: &|| false }
+pub fn on_cpu(camera: &Camera) -> Work<'static> {
+    Work { size: camera.size(), isa: Isa::widest(), stop: &|| false }
 }
 
 /// The pixel whose centre is nearest to view (x, y).
 pub fn pixel(frame: &Frame, x: f64, y: f64) -> usize {
-    let ([width, height], s) = (frame.camera.size(), frame.camera.pixel_spacing());
+    let [width, height] = frame.size();
+    let s = frame.geometry.camera().unwrap().pixel_spacing();
     let i = (x / s + width as f64 / 2.0 - 0.5).round() as usize;
     let j = (height as f64 / 2.0 - 0.5 - y / s).round() as usize;
     j * width + i
