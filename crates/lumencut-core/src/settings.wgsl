@@ -6,7 +6,7 @@ struct Rise {
     opacity: f32,
     start: f32,
     per_intensity: f32,
-    unused: vec2f,
+    padding: vec2f,
 }
 
 struct Context {
@@ -44,4 +44,4 @@ struct Context {
     levels: array<vec4u, 16>,
 }
 
-@group(0) @binding(3) var<uniform> settings: Context;
+@group(0) @binding(1) var<uniform> settings: Context;

@@ -3,12 +3,13 @@
 use bytemuck::{Pod, Zeroable};
 use lumencut_core::error::Result;
 use lumencut_core::math::light::Shading;
+use lumencut_core::math::ray::WHOLE;
 use lumencut_core::math::transfer::Colors;
 use lumencut_core::math::window::Ramp;
 use lumencut_core::settings::{Context as ContextSettings, ContextMode, Settings};
 use lumencut_core::stages::context::step;
 use lumencut_core::volume::Volume;
-use wgpu::{BindingResource, Buffer, BufferUsages};
+use wgpu::{BindingResource, Buffer};
 
 use crate::blocks::{DeviceBlocks, MOST_LEVELS};
 use crate::device::Device;
@@ -16,6 +17,8 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::DeviceVolume;
+
+const ROOM: &str = "stages/context";
 
 /// The most rises and gaps between the control points of a transfer function.
 const MOST_RISES: usize = 63;
@@ -29,7 +32,7 @@ pub(crate) struct Rise {
     pub opacity: f32,
     pub start: f32,
     pub per_intensity: f32,
-    pub unused: [f32; 2],
+    pub padding: [f32; 2],
 }
 
 /// `Context` of `settings.wgsl`.
@@ -97,7 +100,7 @@ impl Context {
                 opacity: rise.opacity,
                 start: rise.start,
                 per_intensity: rise.per_intensity,
-                unused: [0.0; 2],
+                padding: [0.0; 2],
             };
         }
         for (to, gap) in uniform.gaps.iter_mut().zip(colors.gaps()) {
@@ -115,11 +118,10 @@ struct Permutation {
     mode: u8,
     is_shaded: bool,
     is_preview: bool,
-    is_alone: bool,
 }
 
 impl Permutation {
-    fn of(context: &ContextSettings, is_float: bool, is_alone: bool) -> Self {
+    fn of(context: &ContextSettings, is_float: bool) -> Self {
         let mode = match context.mode {
             ContextMode::Blend { gamma } if gamma < 1.0 => 0,
             ContextMode::Blend { .. } => 1,
@@ -127,7 +129,7 @@ impl Permutation {
             ContextMode::Average => 3,
         };
         let is_shaded = context.shading && mode == 0;
-        Self { is_float, mode, is_shaded, is_preview: context.preview, is_alone }
+        Self { is_float, mode, is_shaded, is_preview: context.preview }
     }
 
     fn compile(self, device: &Device) -> Stage {
@@ -137,20 +139,19 @@ impl Permutation {
             ("MODE", f64::from(self.mode)),
             ("SHADED", number(self.is_shaded)),
             ("PREVIEW", number(self.is_preview)),
-            ("ALONE", number(self.is_alone)),
         ];
-        Stage::new(device, "stages/context", &constants)
+        Stage::new(device, ROOM, &constants)
     }
 }
 
 /// The stage, for all that it was asked for so far, and its settings.
 #[derive(Debug)]
 pub(crate) struct ContextStage {
+    starts: Stage,
     stages: Vec<(Permutation, Stage)>,
     settings: Buffer,
     /// The settings as the shader was last told.
     told: Vec<u8>,
-    nothing: Buffer,
 }
 
 /// The images of a cut surface.
@@ -163,15 +164,19 @@ pub(crate) struct CutSurfaceImages<'a> {
 }
 
 impl ContextStage {
-    /// Nothing compiled yet.
+    /// No rays compiled yet.
     pub fn new(device: &Device) -> Self {
-        let usage = BufferUsages::STORAGE;
         let settings = device.uniform::<Context>("context settings");
-        Self { stages: Vec::new(), settings, told: Vec::new(), nothing: device.buffer("nothing", 16, usage) }
+        Self {
+            starts: Stage::entry(device, ROOM, "starts", &[]),
+            stages: Vec::new(),
+            settings,
+            told: Vec::new(),
+        }
     }
 
-    /// Writes what the rays of a view of `size` pixels gather, colours times opacity, and opacity. Without a cut surface
-    /// every ray crosses the whole volume. `on_device` is `volume`, placed in that view.
+    /// Writes where the rays of a view of `size` pixels start, and what they gather: colours times opacity, and opacity.
+    /// Without a cut surface every ray crosses the whole volume. `on_device` is `volume`, placed in that view.
     ///
     /// # Errors
     /// As the stage of the CPU.
@@ -183,7 +188,7 @@ impl ContextStage {
         (on_device, blocks, volume): (&DeviceVolume, &DeviceBlocks, &Volume),
         (settings, context): (&Settings, &ContextSettings),
         cut_surface: Option<CutSurfaceImages>,
-        pixels: &Buffer,
+        [start, pixels]: [&Buffer; 2],
     ) -> Result<()> {
         let device = recording.device;
         let uniform = Context::new(volume, settings, context, blocks)?;
@@ -191,23 +196,26 @@ impl ContextStage {
             device.write(&self.settings, &[uniform]);
             self.told = bytemuck::bytes_of(&uniform).to_vec();
         }
-        let permutation = Permutation::of(context, on_device.is_float(), cut_surface.is_none());
+        let permutation = Permutation::of(context, on_device.is_float());
         if !self.stages.iter().any(|(known, _)| *known == permutation) {
             self.stages.push((permutation, permutation.compile(device)));
         }
         let Some((_, stage)) = self.stages.iter().find(|(known, _)| *known == permutation) else {
             return Ok(());
         };
-        let nothing = CutSurfaceImages { value: &self.nothing, depth: &self.nothing };
-        let CutSurfaceImages { value, depth } = cut_surface.unwrap_or(nothing);
+        if let Some(CutSurfaceImages { value, depth }) = cut_surface {
+            let buffers = [view, &self.settings, value, depth, start].map(Buffer::as_entire_binding);
+            recording.run(&self.starts, &buffers, groups(size, [8, 8]));
+        } else {
+            device.write(start, &vec![WHOLE; size[0] * size[1]]);
+        }
         let resources = [
             view.as_entire_binding(),
+            self.settings.as_entire_binding(),
             on_device.grid.as_entire_binding(),
             BindingResource::TextureView(&on_device.voxels),
-            self.settings.as_entire_binding(),
             blocks.ranges.as_entire_binding(),
-            value.as_entire_binding(),
-            depth.as_entire_binding(),
+            start.as_entire_binding(),
             pixels.as_entire_binding(),
         ];
         let side = if context.preview { 16 } else { 8 };

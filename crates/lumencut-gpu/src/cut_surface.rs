@@ -12,12 +12,14 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// The quads side by side and the rows of a thread's tile. Software has fewer threads and pays more for what each reads.
-const HARDWARE_TILE: [usize; 2] = [1, 4];
-const SOFTWARE_TILE: [usize; 2] = [1, 4];
-/// The pixels of a quad, and the tiles of a group across and down, as `math/tile.wgsl` has them.
-const QUAD: usize = 4;
-const TILES: [usize; 2] = [4, 16];
+/// The quads side by side and the rows of a thread's tile.
+pub(crate) const TILE: [usize; 2] = [1, 4];
+/// The pixels of a quad, the tiles of a group of threads, and how many of them lie side by side.
+pub(crate) const QUAD: usize = 4;
+pub(crate) const TILES: usize = 64;
+pub(crate) const TILES_ACROSS: usize = 4;
+/// The threads of a group that projects points.
+pub(crate) const POINT_THREADS: u32 = 64;
 /// The most groups along one side of a dispatch.
 const MOST_GROUPS: u32 = 65_535;
 
@@ -25,6 +27,7 @@ const MOST_GROUPS: u32 = 65_535;
 #[derive(Debug)]
 pub(crate) struct CutSurfaceStages {
     projection: Stage,
+    bundle: Stage,
     enclose: Stage,
     distance: Stage,
     /// Without and with *lumen first*.
@@ -39,17 +42,18 @@ pub(crate) struct CutSurfaceStages {
 impl CutSurfaceStages {
     /// Compiles the stages.
     pub fn new(device: &Device) -> Self {
-        let [across, rows] = if device.description().is_software { SOFTWARE_TILE } else { HARDWARE_TILE };
+        let [across, rows] = TILE;
         let tile = [("ACROSS", across as f64), ("ROWS", rows as f64)];
         let depth = |lumen_first| {
             Stage::new(device, "stages/depth", &[tile[0], tile[1], ("LUMEN_FIRST", lumen_first)])
         };
         Self {
             projection: Stage::new(device, "math/projection", &[]),
+            bundle: Stage::entry(device, "math/projection", "bundle", &[]).with_first_binding(2),
             enclose: Stage::entry(device, "math/projection", "enclose", &[]).with_first_binding(1),
             distance: Stage::new(device, "stages/distance", &tile),
             depth: [depth(0.0), depth(1.0)],
-            group: [across * QUAD * TILES[0], rows * TILES[1]],
+            group: [across * QUAD * TILES_ACROSS, rows * TILES / TILES_ACROSS],
             told: None,
             cut_surface: device.uniform::<CutSurface>("cut surface"),
         }
@@ -65,16 +69,14 @@ impl CutSurfaceStages {
         self.told = Some(cut_surface.levels);
     }
 
-    /// Projects the levels that are needed.
+    /// Projects the levels that are needed: their points, then what stands at each, then the boxes around them.
     pub fn project(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, coarsest: usize) {
-        let all = [view, &self.cut_surface, &levels.spans, &levels.points, &levels.slots];
+        let all = [view, &self.cut_surface, &levels.next_points, &levels.points, &levels.projected];
+        let points = levels.point_count(coarsest).div_ceil(POINT_THREADS);
+        recording.run(&self.projection, &all.map(Buffer::as_entire_binding), in_rows(points));
+        let all = [&levels.spans, &levels.points, &levels.projected, &levels.slots];
         let spans = levels.span_count(coarsest);
-        let across = spans.min(MOST_GROUPS);
-        recording.run(
-            &self.projection,
-            &all.map(Buffer::as_entire_binding),
-            [across, spans.div_ceil(across)],
-        );
+        recording.run(&self.bundle, &all.map(Buffer::as_entire_binding), in_rows(spans));
         let all = [&self.cut_surface, &levels.slots, &levels.boxes];
         recording.run(&self.enclose, &all.map(Buffer::as_entire_binding), [coarsest as u32 + 1, 1]);
     }
@@ -107,4 +109,10 @@ impl CutSurfaceStages {
         let stage = &self.depth[usize::from(lumen_first)];
         recording.run(stage, &all.map(Buffer::as_entire_binding), groups(size, self.group));
     }
+}
+
+/// The size of a dispatch of at least `groups` groups, in rows no longer than one allows.
+fn in_rows(groups: u32) -> [u32; 2] {
+    let across = groups.min(MOST_GROUPS);
+    [across, groups.div_ceil(across)]
 }

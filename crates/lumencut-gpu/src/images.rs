@@ -18,6 +18,8 @@ pub(crate) struct Images {
     /// The slope that silhouettes are made of.
     pub raised: Buffer,
     pub strength: Buffer,
+    /// Where the rays of the context start.
+    pub start: Buffer,
     /// Colours times opacity, and opacity.
     pub context: Buffer,
     /// The context and the picture, RGBA.
@@ -50,6 +52,7 @@ impl Images {
             value: number("value"),
             raised: number("raised slope"),
             strength: number("strength"),
+            start: number("start of the rays"),
             context: device.image("context", pixels, MOST_BYTES),
             layer: number("context layer"),
             image: number("image"),

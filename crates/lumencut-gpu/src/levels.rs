@@ -17,7 +17,7 @@ use crate::view::{AXIS_UNIT, power_above, split_at};
 /// The most heights of boxes that the shaders know: 2³² slots have eight.
 const MAX_HEIGHTS: usize = 8;
 
-/// `Level` of `math/levels.wgsl`.
+/// `LevelPlace` of `math/levels.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct LevelPlace {
@@ -87,6 +87,17 @@ pub struct Span {
     pub level: u32,
 }
 
+/// `Projected` of `math/projection.wgsl`: a point in projection, written and read on the GPU alone.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs)]
+pub struct Projected {
+    pub point: [f32; 3],
+    pub radius: f32,
+    pub edge: [f32; 2],
+    pub padding: [f32; 2],
+}
+
 /// `Slot` of `math/pieces.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
@@ -103,7 +114,7 @@ pub struct Slot {
     pub radius: f32,
     pub radius_change: f32,
     pub slot: u32,
-    pub room: u32,
+    pub padding: u32,
 }
 
 impl Slot {
@@ -120,11 +131,11 @@ impl Slot {
         radius: 0.0,
         radius_change: 0.0,
         slot: NO_SLOT,
-        room: 0,
+        padding: 0,
     };
 }
 
-/// `Box` of `math/hierarchy.wgsl`.
+/// `NodeBox` of `math/hierarchy.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
@@ -133,12 +144,12 @@ pub struct NodeBox {
     pub high: [f32; 2],
     pub z: f32,
     pub radius: f32,
-    pub room: [f32; 2],
+    pub padding: [f32; 2],
 }
 
 impl NodeBox {
     /// A node with nothing inside.
-    const EMPTY: Self = Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, room: [0.0; 2] };
+    const EMPTY: Self = Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, padding: [0.0; 2] };
 }
 
 /// A tree's levels on the GPU.
@@ -146,8 +157,9 @@ impl NodeBox {
 pub(crate) struct DeviceLevels {
     /// The number of levels beyond the finest.
     pub coarsest: usize,
-    /// The spans of each level and those before it.
+    /// The spans and the points of each level and those before it.
     spans_up_to: Vec<u32>,
+    points_up_to: Vec<u32>,
     places: [LevelPlace; MAX_LEVELS + 1],
     /// What points are counted from (mm, LPS), and the largest distance of a point from it.
     origin: DVec3,
@@ -155,6 +167,8 @@ pub(crate) struct DeviceLevels {
     unit: f64,
     pub spans: Buffer,
     pub points: Buffer,
+    pub next_points: Buffer,
+    pub projected: Buffer,
     pub slots: Buffer,
     pub boxes: Buffer,
     pub vessel_of_slot: Buffer,
@@ -185,12 +199,15 @@ impl DeviceLevels {
         Ok(Self {
             coarsest: levels.len() - 1,
             spans_up_to: all.spans_up_to,
+            points_up_to: all.points_up_to,
             places: all.places,
             origin,
             reach,
             unit,
             spans: device.upload("spans", &all.spans),
             points: device.upload("points", &all.points),
+            next_points: device.upload("next points", &all.next_points),
+            projected: device.image("projected points", slots, size_of::<Projected>()),
             slots: device.upload("slots", &vec![Slot::EMPTY; all.bundles * FAN]),
             boxes: device.upload("boxes", &vec![NodeBox::EMPTY; all.boxes]),
             vessel_of_slot: device.upload("vessels", &all.vessel_of_slot),
@@ -200,6 +217,11 @@ impl DeviceLevels {
     /// The vessels of the first levels, each counted once per level.
     pub fn span_count(&self, coarsest: usize) -> u32 {
         self.spans_up_to[coarsest]
+    }
+
+    /// The points of the first levels.
+    pub fn point_count(&self, coarsest: usize) -> u32 {
+        self.points_up_to[coarsest]
     }
 
     /// What the shaders need to know of a view of the tree.
@@ -236,9 +258,11 @@ fn middle(points: &[DVec3]) -> DVec3 {
 #[derive(Default)]
 struct Arrays {
     spans_up_to: Vec<u32>,
+    points_up_to: Vec<u32>,
     places: [LevelPlace; MAX_LEVELS + 1],
     spans: Vec<Span>,
     points: Vec<Point>,
+    next_points: Vec<u32>,
     vessel_of_slot: Vec<i32>,
     bundles: usize,
     boxes: usize,
@@ -259,6 +283,10 @@ impl Arrays {
         let span =
             |ends: &[u32]| Span { first: first_slot + ends[0], end: first_slot + ends[1], level: first_slot };
         self.spans.extend(level.first_slot.windows(2).map(span));
+        for ends in level.first_slot.windows(2) {
+            let [first, last] = [ends[0], ends[1] - 1].map(|slot| first_slot + slot);
+            self.next_points.extend((first..=last).map(|point| (point + 1).min(last)));
+        }
         self.vessel_of_slot.extend(&level.vessel_of_slot);
         let mut place = LevelPlace {
             first_slot,
@@ -273,6 +301,7 @@ impl Arrays {
         }
         self.places[self.spans_up_to.len()] = place;
         self.spans_up_to.push(self.spans.len() as u32);
+        self.points_up_to.push(self.points.len() as u32);
         self.bundles += level.bundle_count();
     }
 }

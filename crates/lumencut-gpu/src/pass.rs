@@ -187,12 +187,13 @@ impl<'a> Pass<'a> {
             return Ok(());
         };
         on_device.place(self.device, volume, self.camera);
-        let Images { size, depth, value, context, .. } = self.images;
+        let Images { size, depth, value, start, context, .. } = self.images;
         let cut_surface = self.has_value.then_some(CutSurfaceImages { value, depth });
         let Stages { view, context: stage, .. } = &mut *self.stages;
         let volumes = (on_device, blocks, volume);
         let settings = (self.settings, settings);
-        stage.record(&mut self.recording, (view, *size), volumes, settings, cut_surface, context)
+        let images = [start, context];
+        stage.record(&mut self.recording, (view, *size), volumes, settings, cut_surface, images)
     }
 
     /// The picture of all layers, and the context's own.

@@ -20,7 +20,7 @@ pub(crate) struct Slab {
     pub part: f32,
     pub beside: u32,
     pub mode: u32,
-    pub unused: u32,
+    pub padding: u32,
 }
 
 impl Slab {
@@ -31,7 +31,7 @@ impl Slab {
             Some(SlabMode::Min) => 2,
             _ => 0,
         };
-        Ok(Self { part: part as f32, beside: beside as u32, mode, unused: 0 })
+        Ok(Self { part: part as f32, beside: beside as u32, mode, padding: 0 })
     }
 }
 
@@ -71,9 +71,9 @@ impl Surface {
         });
         let resources = [
             view.as_entire_binding(),
+            self.slab.as_entire_binding(),
             on_device.grid.as_entire_binding(),
             BindingResource::TextureView(&on_device.voxels),
-            self.slab.as_entire_binding(),
             depth.as_entire_binding(),
             value.as_entire_binding(),
         ];

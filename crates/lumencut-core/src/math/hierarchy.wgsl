@@ -11,7 +11,7 @@ struct NodeBox {
     high: vec2f,
     z: f32,
     radius: f32,
-    room: vec2f,
+    padding: vec2f,
 }
 
 @group(0) @binding(2) var<storage, read> slots: array<Slot>;

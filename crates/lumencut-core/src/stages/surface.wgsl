@@ -15,10 +15,10 @@ struct Slab {
     beside: u32,
     // What it shows.
     mode: u32,
-    unused: u32,
+    padding: u32,
 }
 
-@group(0) @binding(3) var<uniform> slab: Slab;
+@group(0) @binding(1) var<uniform> slab: Slab;
 @group(0) @binding(4) var<storage, read> depth: array<f32>;
 @group(0) @binding(5) var<storage, read_write> value: array<f32>;
 

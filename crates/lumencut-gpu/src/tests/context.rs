@@ -1,6 +1,7 @@
 //! The context is that of the CPU.
 #![allow(clippy::unwrap_used)]
 
+use bytemuck::pod_collect_to_vec;
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::math::lanes::Isa;
@@ -14,7 +15,7 @@ use lumencut_core::stages::context::{context, starts};
 use lumencut_core::volume::{Volume, Voxels};
 
 use super::device;
-use super::scenes::{Placed, ball_and_rod, camera, finish, sheared, volume};
+use super::scenes::{Placed, ball_and_rod, camera, sheared, volume};
 use crate::context::{ContextStage, CutSurfaceImages};
 use crate::recording::Recording;
 use lumencut_core::math::blocks::HUGE;
@@ -84,18 +85,58 @@ fn on_gpu(
     settings: &Settings,
     surface: Option<&CutSurface>,
 ) -> Vec<[f32; 4]> {
+    starts_and_context(stage, placed, settings, surface).1
+}
+
+/// Where the rays start, and what they gather.
+fn starts_and_context(
+    stage: &mut ContextStage,
+    placed: &Placed,
+    settings: &Settings,
+    surface: Option<&CutSurface>,
+) -> (Vec<f32>, Vec<[f32; 4]>) {
     let images = surface.map(|CutSurface { value, depth }| {
         let value: Vec<f32> = value.iter().map(|v| if v.is_nan() { HUGE } else { *v }).collect();
         [placed.image(&value), placed.image(depth)]
     });
     let images = images.as_ref().map(|[value, depth]| CutSurfaceImages { value, depth });
+    let start = placed.device.image("start", placed.pixels(), 4);
     let pixels = placed.device.image("context", placed.pixels(), 16);
     let mut recording = Recording::new(placed.device);
     let view = (&placed.view, placed.camera.size());
     let volume = (&placed.on_device, placed.on_device.blocks().unwrap(), placed.volume);
     let settings = (settings, settings.context.as_ref().unwrap());
-    stage.record(&mut recording, view, volume, settings, images, &pixels).unwrap();
-    finish(recording, &pixels)
+    stage.record(&mut recording, view, volume, settings, images, [&start, &pixels]).unwrap();
+    recording.read(&start, start.size());
+    recording.read(&pixels, pixels.size());
+    let results = super::finish(recording);
+    let names: Vec<_> = results.timings.iter().map(|timing| timing.stage).collect();
+    assert!(names.is_empty() || names == ["context"], "{names:?}");
+    (pod_collect_to_vec(&results.bytes[0]), pod_collect_to_vec(&results.bytes[1]))
+}
+
+#[test]
+fn rays_start_where_those_of_the_cpu_do() {
+    let Some(device) = device() else { return };
+    let voxels = ball_and_rod(SIZE);
+    let volume = volume(Voxels::I16(&voxels), SIZE, sheared(SIZE));
+    let mut stage = ContextStage::new(device);
+    for camera in views() {
+        let mut placed = Placed::new(device, &volume, &camera);
+        placed.on_device.prepare_blocks(device, &volume, &|| false).unwrap();
+        let surface = cut_surface(&camera);
+        for opacity in [None, Some([100.5, 400.5]), Some([400.5, 100.5])] {
+            let settings = Settings {
+                opacity: opacity.map(|[transparent, opaque]| Opacity { transparent, opaque }),
+                slab: opacity.map(|_| Slab { thickness: 3.0, mode: SlabMode::Mean }),
+                ..Settings::default()
+            };
+            let (found, _) = starts_and_context(&mut stage, &placed, &settings, Some(&surface));
+            assert_eq!(found, starts(&surface.value, &surface.depth, &settings), "{opacity:?}");
+            let (alone, _) = starts_and_context(&mut stage, &placed, &settings, None);
+            assert!(alone.iter().all(|start| *start == WHOLE));
+        }
+    }
 }
 
 /// How two pictures differ.
