@@ -1,217 +1,142 @@
 //! The context on the GPU.
 
-use bytemuck::{Pod, Zeroable};
 use lumencut_core::error::Result;
-use lumencut_core::math::light::Shading;
+use lumencut_core::math::context_parameters::{ContextParameters, Gathering};
+use lumencut_core::math::ray::WHOLE;
 use lumencut_core::math::transfer::Colors;
-use lumencut_core::math::window::Ramp;
-use lumencut_core::settings::{Context as ContextSettings, ContextMode, Settings};
+use lumencut_core::settings::{Context, Settings};
 use lumencut_core::stages::context::step;
 use lumencut_core::volume::Volume;
-use wgpu::{BindingResource, Buffer, BufferUsages};
+use wgpu::{BindingResource, Buffer};
 
-use crate::blocks::{DeviceBlocks, MOST_LEVELS};
+use crate::blocks::DeviceBlocks;
 use crate::device::Device;
 use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::DeviceVolume;
 
-/// The most rises and gaps between the control points of a transfer function.
-const MOST_RISES: usize = 63;
-const MOST_GAPS: usize = 33;
-
-/// `Rise` of `settings.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub(crate) struct Rise {
-    pub color: [f32; 3],
-    pub opacity: f32,
-    pub start: f32,
-    pub per_intensity: f32,
-    pub unused: [f32; 2],
-}
-
-/// `Context` of `settings.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub(crate) struct Context {
-    pub window: [f32; 2],
-    pub opacity: [f32; 2],
-    pub per_step: f32,
-    pub behind: f32,
-    pub push: f32,
-    pub mix: f32,
-    pub most: f32,
-    pub black: f32,
-    pub noise: f32,
-    pub last: f32,
-    pub first_color: [f32; 3],
-    pub first_opacity: f32,
-    pub rise_count: u32,
-    pub gap_count: u32,
-    pub level_count: u32,
-    pub finest: u32,
-    pub rises: [Rise; MOST_RISES],
-    pub gaps: [[f32; 4]; MOST_GAPS],
-    pub levels: [[u32; 4]; MOST_LEVELS],
-}
-
-impl Context {
-    /// What `settings` say of the context of `volume`.
-    fn new(
-        volume: &Volume,
-        settings: &Settings,
-        context: &ContextSettings,
-        blocks: &DeviceBlocks,
-    ) -> Result<Self> {
-        let colors = Colors::new(&context.transfer);
-        let window = Ramp::grey(context.window);
-        let gamma = match context.mode {
-            ContextMode::Blend { gamma } => gamma as f32,
-            _ => 0.0,
-        };
-        let (first_color, first_opacity) = colors.first();
-        let mut uniform = Self {
-            window: window.parts(),
-            opacity: Ramp::opacity(settings.opacity).parts(),
-            per_step: (1.0 / step(volume, context)?) as f32,
-            behind: settings.slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32,
-            push: 1.0 + gamma.min(0.0),
-            mix: gamma.max(0.0),
-            most: window.at(colors.first_visible()),
-            black: window.zero(),
-            noise: Shading::new(context.window).noise,
-            last: colors.last(),
-            first_color,
-            first_opacity,
-            rise_count: colors.rises().len() as u32,
-            gap_count: colors.gaps().len() as u32,
-            level_count: blocks.levels.len() as u32,
-            finest: blocks.finest,
-            ..Self::zeroed()
-        };
-        for (to, rise) in uniform.rises.iter_mut().zip(colors.rises()) {
-            *to = Rise {
-                color: rise.color,
-                opacity: rise.opacity,
-                start: rise.start,
-                per_intensity: rise.per_intensity,
-                unused: [0.0; 2],
-            };
-        }
-        for (to, gap) in uniform.gaps.iter_mut().zip(colors.gaps()) {
-            *to = [gap.low, gap.high, 0.0, 0.0];
-        }
-        uniform.levels[..blocks.levels.len()].copy_from_slice(&blocks.levels);
-        Ok(uniform)
-    }
-}
+const ROOM: &str = "stages/context";
 
 /// What the shader is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Permutation {
     is_float: bool,
-    mode: u8,
+    gathering: Gathering,
     is_shaded: bool,
     is_preview: bool,
-    is_alone: bool,
 }
 
 impl Permutation {
-    fn of(context: &ContextSettings, is_float: bool, is_alone: bool) -> Self {
-        let mode = match context.mode {
-            ContextMode::Blend { gamma } if gamma < 1.0 => 0,
-            ContextMode::Blend { .. } => 1,
-            ContextMode::Minimum => 2,
-            ContextMode::Average => 3,
-        };
-        let is_shaded = context.shading && mode == 0;
-        Self { is_float, mode, is_shaded, is_preview: context.preview, is_alone }
+    fn of(context: &Context, is_float: bool) -> Self {
+        let gathering = Gathering::of(context.mode);
+        let is_shaded = context.shading && gathering == Gathering::Blend;
+        Self { is_float, gathering, is_shaded, is_preview: context.preview }
     }
 
     fn compile(self, device: &Device) -> Stage {
         let number = |is: bool| f64::from(u8::from(is));
         let constants = [
             ("FLOAT_VOXELS", number(self.is_float)),
-            ("MODE", f64::from(self.mode)),
+            ("MODE", f64::from(self.gathering.code())),
             ("SHADED", number(self.is_shaded)),
             ("PREVIEW", number(self.is_preview)),
-            ("ALONE", number(self.is_alone)),
         ];
-        Stage::new(device, "stages/context", &constants)
+        Stage::new(device, ROOM, &constants)
     }
 }
 
-/// The stage, for all that it was asked for so far, and its settings.
+/// The stage, for all that it was asked for so far, and its parameters.
 #[derive(Debug)]
 pub(crate) struct ContextStage {
+    starts: Stage,
     stages: Vec<(Permutation, Stage)>,
-    settings: Buffer,
-    /// The settings as the shader was last told.
+    parameters: Buffer,
+    /// The parameters as the shader was last told.
     told: Vec<u8>,
-    nothing: Buffer,
 }
 
-/// The images of a cut surface.
+/// The images of the context.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct CutSurfaceImages<'a> {
-    /// The volume at the cut surface.
-    pub value: &'a Buffer,
-    /// Its depth.
+pub(crate) struct ContextImages<'a> {
+    /// Width and height.
+    pub size: [usize; 2],
+    /// Whether there is a cut surface; without one every ray crosses the whole volume.
+    pub has_surface: bool,
+    /// The depth of the cut surface (mm).
     pub depth: &'a Buffer,
+    /// The volume there.
+    pub value: &'a Buffer,
+    /// Written on the way: where the rays start.
+    pub start: &'a Buffer,
+    /// The result: colours times opacity, and opacity.
+    pub gathered: &'a Buffer,
 }
 
 impl ContextStage {
-    /// Nothing compiled yet.
+    /// No rays compiled yet.
     pub fn new(device: &Device) -> Self {
-        let usage = BufferUsages::STORAGE;
-        let settings = device.uniform::<Context>("context settings");
-        Self { stages: Vec::new(), settings, told: Vec::new(), nothing: device.buffer("nothing", 16, usage) }
+        Self {
+            starts: Stage::entry(device, ROOM, "starts", &[]),
+            stages: Vec::new(),
+            parameters: device.uniform::<ContextParameters>("context parameters"),
+            told: Vec::new(),
+        }
     }
 
-    /// Writes what the rays of a view of `size` pixels gather, colours times opacity, and opacity. Without a cut surface
-    /// every ray crosses the whole volume. `on_device` is `volume`, placed in that view.
+    /// Tells the shaders of the context of `volume`, where they were last told otherwise.
     ///
     /// # Errors
     /// As the stage of the CPU.
-    #[allow(clippy::too_many_arguments)]
+    pub fn write(
+        &mut self,
+        device: &Device,
+        settings: &Settings,
+        context: &Context,
+        volume: &Volume,
+        blocks: &DeviceBlocks,
+    ) -> Result<()> {
+        let (colors, step) = (Colors::new(&context.transfer), step(volume, context)?);
+        let parameters = ContextParameters::new(settings, context, &colors, step, &blocks.places);
+        if self.told != bytemuck::bytes_of(&parameters) {
+            device.write(&self.parameters, &[parameters]);
+            self.told = bytemuck::bytes_of(&parameters).to_vec();
+        }
+        Ok(())
+    }
+
+    /// Writes where the rays start, and what they gather. `on_device` is placed in the view by `grid`.
     pub fn record(
         &mut self,
         recording: &mut Recording,
-        (view, size): (&Buffer, [usize; 2]),
-        (on_device, blocks, volume): (&DeviceVolume, &DeviceBlocks, &Volume),
-        (settings, context): (&Settings, &ContextSettings),
-        cut_surface: Option<CutSurfaceImages>,
-        pixels: &Buffer,
-    ) -> Result<()> {
+        [view, grid]: [&Buffer; 2],
+        (on_device, blocks): (&DeviceVolume, &DeviceBlocks),
+        context: &Context,
+        images: ContextImages,
+    ) {
+        let ContextImages { size, has_surface, depth, value, start, gathered } = images;
         let device = recording.device;
-        let uniform = Context::new(volume, settings, context, blocks)?;
-        if self.told != bytemuck::bytes_of(&uniform) {
-            device.write(&self.settings, &[uniform]);
-            self.told = bytemuck::bytes_of(&uniform).to_vec();
+        if has_surface {
+            let buffers = [view, &self.parameters, value, depth, start].map(Buffer::as_entire_binding);
+            recording.run(&self.starts, &buffers, groups(size, [8, 8]));
+        } else {
+            device.write(start, &vec![WHOLE; size[0] * size[1]]);
         }
-        let permutation = Permutation::of(context, on_device.is_float(), cut_surface.is_none());
-        if !self.stages.iter().any(|(known, _)| *known == permutation) {
+        let permutation = Permutation::of(context, on_device.is_float());
+        let known = self.stages.iter().position(|(known, _)| *known == permutation).unwrap_or_else(|| {
             self.stages.push((permutation, permutation.compile(device)));
-        }
-        let Some((_, stage)) = self.stages.iter().find(|(known, _)| *known == permutation) else {
-            return Ok(());
-        };
-        let nothing = CutSurfaceImages { value: &self.nothing, depth: &self.nothing };
-        let CutSurfaceImages { value, depth } = cut_surface.unwrap_or(nothing);
+            self.stages.len() - 1
+        });
         let resources = [
             view.as_entire_binding(),
-            on_device.grid.as_entire_binding(),
+            self.parameters.as_entire_binding(),
+            grid.as_entire_binding(),
             BindingResource::TextureView(&on_device.voxels),
-            self.settings.as_entire_binding(),
             blocks.ranges.as_entire_binding(),
-            value.as_entire_binding(),
-            depth.as_entire_binding(),
-            pixels.as_entire_binding(),
+            start.as_entire_binding(),
+            gathered.as_entire_binding(),
         ];
         let side = if context.preview { 16 } else { 8 };
-        recording.run(stage, &resources, groups(size, [side, side]));
-        Ok(())
+        recording.run(&self.stages[known].1, &resources, groups(size, [side, side]));
     }
 }

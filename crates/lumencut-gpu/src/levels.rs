@@ -4,62 +4,15 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
-use lumencut_core::math::cost::Rule;
 use lumencut_core::math::hierarchy::{Hierarchy, NO_SLOT};
 use lumencut_core::math::lanes::{ABSENT, FAN, FAR};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
 use lumencut_core::math::projection::Level;
 use lumencut_core::settings::{MAX_LEVELS, Settings};
 use wgpu::Buffer;
 
 use crate::device::Device;
 use crate::view::{AXIS_UNIT, power_above, split_at};
-
-/// The most heights of boxes that the shaders know: 2³² slots have eight.
-const MAX_HEIGHTS: usize = 8;
-
-/// `Level` of `math/levels.wgsl`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-#[repr(C)]
-pub struct LevelPlace {
-    /// The first slot among those of all levels.
-    pub first_slot: u32,
-    /// The first bundle among those of all levels.
-    pub first_bundle: u32,
-    /// The number of bundles.
-    pub bundle_count: u32,
-    /// The number of heights of boxes above them.
-    pub height_count: u32,
-    /// The first box of each height, bottom up.
-    pub heights: [u32; MAX_HEIGHTS],
-}
-
-/// `CutSurface` of `math/levels.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub struct CutSurface {
-    /// The rule that orders the pieces.
-    pub weight: f32,
-    #[allow(missing_docs)]
-    pub margin: f32,
-    #[allow(missing_docs)]
-    pub lift: f32,
-    #[allow(missing_docs)]
-    pub distance_slack: f32,
-    #[allow(missing_docs)]
-    pub depth_slack: f32,
-    /// N / σ (levels² per mm).
-    pub selection: f32,
-    /// N.
-    pub coarsest: u32,
-    /// 1 where radii count, else 0.
-    pub radius_scale: f32,
-    /// View coordinates of the tree's origin (mm): the part that adds to products without rounding.
-    pub origin_coarse: [f32; 4],
-    /// The rest of them.
-    pub origin_fine: [f32; 4],
-    /// Where each level lies in the buffers.
-    pub levels: [LevelPlace; MAX_LEVELS + 1],
-}
 
 /// `Point` of `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -87,6 +40,17 @@ pub struct Span {
     pub level: u32,
 }
 
+/// `Projected` of `math/projection.wgsl`: a point in projection, written and read on the GPU alone.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs)]
+pub struct Projected {
+    pub point: [f32; 3],
+    pub radius: f32,
+    pub edge: [f32; 2],
+    pub padding: [f32; 2],
+}
+
 /// `Slot` of `math/pieces.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
@@ -103,7 +67,7 @@ pub struct Slot {
     pub radius: f32,
     pub radius_change: f32,
     pub slot: u32,
-    pub room: u32,
+    pub padding: u32,
 }
 
 impl Slot {
@@ -120,11 +84,11 @@ impl Slot {
         radius: 0.0,
         radius_change: 0.0,
         slot: NO_SLOT,
-        room: 0,
+        padding: 0,
     };
 }
 
-/// `Box` of `math/hierarchy.wgsl`.
+/// `NodeBox` of `math/hierarchy.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
@@ -133,21 +97,20 @@ pub struct NodeBox {
     pub high: [f32; 2],
     pub z: f32,
     pub radius: f32,
-    pub room: [f32; 2],
+    pub padding: [f32; 2],
 }
 
 impl NodeBox {
     /// A node with nothing inside.
-    const EMPTY: Self = Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, room: [0.0; 2] };
+    const EMPTY: Self = Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, padding: [0.0; 2] };
 }
 
 /// A tree's levels on the GPU.
 #[derive(Debug)]
 pub(crate) struct DeviceLevels {
-    /// The number of levels beyond the finest.
-    pub coarsest: usize,
-    /// The spans of each level and those before it.
+    /// The spans and the points of each level and those before it.
     spans_up_to: Vec<u32>,
+    points_up_to: Vec<u32>,
     places: [LevelPlace; MAX_LEVELS + 1],
     /// What points are counted from (mm, LPS), and the largest distance of a point from it.
     origin: DVec3,
@@ -155,6 +118,8 @@ pub(crate) struct DeviceLevels {
     unit: f64,
     pub spans: Buffer,
     pub points: Buffer,
+    pub next_points: Buffer,
+    pub projected: Buffer,
     pub slots: Buffer,
     pub boxes: Buffer,
     pub vessel_of_slot: Buffer,
@@ -183,14 +148,16 @@ impl DeviceLevels {
             return Err(device.too_large("vessel tree", found, &format!("{most} points")));
         }
         Ok(Self {
-            coarsest: levels.len() - 1,
             spans_up_to: all.spans_up_to,
+            points_up_to: all.points_up_to,
             places: all.places,
             origin,
             reach,
             unit,
             spans: device.upload("spans", &all.spans),
             points: device.upload("points", &all.points),
+            next_points: device.upload("next points", &all.next_points),
+            projected: device.image("projected points", slots, size_of::<Projected>()),
             slots: device.upload("slots", &vec![Slot::EMPTY; all.bundles * FAN]),
             boxes: device.upload("boxes", &vec![NodeBox::EMPTY; all.boxes]),
             vessel_of_slot: device.upload("vessels", &all.vessel_of_slot),
@@ -202,26 +169,22 @@ impl DeviceLevels {
         self.spans_up_to[coarsest]
     }
 
-    /// What the shaders need to know of a view of the tree.
-    pub fn cut_surface(&self, camera: &Camera, settings: &Settings) -> CutSurface {
+    /// The points of the first levels.
+    pub fn point_count(&self, coarsest: usize) -> u32 {
+        self.points_up_to[coarsest]
+    }
+
+    /// The parameters of the stages in a view of the tree.
+    pub fn parameters(&self, camera: &Camera, settings: &Settings) -> CutSurfaceParameters {
         let origin = camera.view_from_world(self.origin).to_array();
         let away = origin.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
-        let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
-        let rule = Rule::new(settings, (self.reach + away) as f32, view_reach);
         let split = origin.map(|c| split_at(c, self.unit * AXIS_UNIT));
         let four = |n: usize| [split[0][n], split[1][n], split[2][n], 0.0];
-        CutSurface {
-            weight: rule.weight,
-            margin: rule.margin,
-            lift: rule.lift,
-            distance_slack: rule.distance_slack,
-            depth_slack: rule.depth_slack,
-            selection: (settings.levels as f64 / settings.level_distance) as f32,
-            coarsest: settings.levels as u32,
-            radius_scale: f32::from(u8::from(settings.preserve_lumen)),
+        CutSurfaceParameters {
             origin_coarse: four(0),
             origin_fine: four(1),
             levels: self.places,
+            ..CutSurfaceParameters::new(settings, camera, (self.reach + away) as f32)
         }
     }
 }
@@ -236,9 +199,11 @@ fn middle(points: &[DVec3]) -> DVec3 {
 #[derive(Default)]
 struct Arrays {
     spans_up_to: Vec<u32>,
+    points_up_to: Vec<u32>,
     places: [LevelPlace; MAX_LEVELS + 1],
     spans: Vec<Span>,
     points: Vec<Point>,
+    next_points: Vec<u32>,
     vessel_of_slot: Vec<i32>,
     bundles: usize,
     boxes: usize,
@@ -259,6 +224,10 @@ impl Arrays {
         let span =
             |ends: &[u32]| Span { first: first_slot + ends[0], end: first_slot + ends[1], level: first_slot };
         self.spans.extend(level.first_slot.windows(2).map(span));
+        for ends in level.first_slot.windows(2) {
+            let [first, last] = [ends[0], ends[1] - 1].map(|slot| first_slot + slot);
+            self.next_points.extend((first..=last).map(|point| (point + 1).min(last)));
+        }
         self.vessel_of_slot.extend(&level.vessel_of_slot);
         let mut place = LevelPlace {
             first_slot,
@@ -273,6 +242,7 @@ impl Arrays {
         }
         self.places[self.spans_up_to.len()] = place;
         self.spans_up_to.push(self.spans.len() as u32);
+        self.points_up_to.push(self.points.len() as u32);
         self.bundles += level.bundle_count();
     }
 }

@@ -26,3 +26,4 @@ mod surface;
 mod tests;
 mod view;
 mod volume;
+mod volumes;

@@ -5,7 +5,7 @@ use lumencut_core::frame::Timing;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::math::blocks::HUGE;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::pipeline::{CpuRenderer, Images, LookPass};
+use lumencut_core::pipeline::{CpuRenderer, Images, LookPass, Request};
 use lumencut_core::stages::{Image, ImageSet, Stage, Work};
 use web_time::Instant;
 

@@ -1,6 +1,5 @@
 //! One view: the stages in the order of the paper's Fig. 4, recorded for the GPU or done by the CPU in its place.
 
-use bytemuck::Pod;
 use lumencut_core::error::Result;
 use lumencut_core::frame::{Frame, Timing};
 use lumencut_core::geometry::Geometry;
@@ -12,6 +11,7 @@ use wgpu::Buffer;
 
 use crate::composite::Layers;
 use crate::context::ContextImages;
+use crate::cut_surface::Visibility;
 use crate::device::Device;
 use crate::images::Images;
 use crate::levels::DeviceLevels;
@@ -43,7 +43,7 @@ pub(crate) struct Pass<'a> {
     pub made: ImageSet,
 }
 
-impl Pass<'_> {
+impl<'a> Pass<'a> {
     /// Finds where the pixels look: projection, distance, depth and its filter.
     pub async fn cut_surface(&mut self) -> Result<()> {
         self.projection();
@@ -122,9 +122,8 @@ impl Pass<'_> {
     fn depth(&mut self) {
         let Some(levels) = self.levels else { return };
         let depth = self.buffer(Image::UnfilteredDepth);
-        let (lumen_first, Stages { view, cut_surface, .. }) =
-            (self.request.settings.lumen_first, &*self.stages);
-        cut_surface.depth(&mut self.recording, view, levels, lumen_first, self.images, depth);
+        let (rule, Stages { view, cut_surface, .. }) = (Visibility::of(self.request.settings), &*self.stages);
+        cut_surface.depth(&mut self.recording, view, levels, rule, self.images, depth);
     }
 
     fn depth_filter(&mut self) {
@@ -153,24 +152,29 @@ impl Pass<'_> {
     }
 
     fn context(&mut self) -> Result<()> {
-        let (Some(on_device), Some(shared)) = (self.volume, &self.scene.volume) else { return Ok(()) };
+        let settings = self.request.settings;
+        let (Some(on_device), Some(shared), Some(context)) =
+            (self.volume, &self.scene.volume, &settings.context)
+        else {
+            return Ok(());
+        };
         self.stages.place(self.device, on_device, &shared.volume, &self.geometry);
         let blocks = on_device.blocks(self.device, shared, self.request.stop)?;
         let Images { size, depth, value, start, gathered, .. } = self.images;
         let has_surface = self.made.has(Image::Value);
         let images = ContextImages { size: *size, has_surface, depth, value, start, gathered };
-        let Stages { view, grid, context, .. } = &mut *self.stages;
-        context.write(self.device, self.request.settings, &shared.volume, blocks)?;
-        context.record(&mut self.recording, [view, grid], (on_device, blocks), self.request.settings, images);
+        let Stages { view, grid, context: stage, .. } = &mut *self.stages;
+        stage.write(self.device, settings, context, &shared.volume, blocks)?;
+        stage.record(&mut self.recording, [view, grid], (on_device, blocks), context, images);
         Ok(())
     }
 
     fn composite(&mut self) {
-        let made = |image| self.made.has(image).then(|| self.buffer(image));
+        let layer = |image| self.made.has(image).then(|| self.buffer(image));
         let layers = Layers {
-            value: made(Image::Value),
-            strength: made(Image::Strength),
-            context: made(Image::Gathered),
+            value: layer(Image::Value),
+            strength: layer(Image::Strength),
+            context: layer(Image::Gathered),
         };
         let Images { size, context, picture, .. } = self.images;
         let Stages { view, composite, .. } = &*self.stages;
@@ -182,7 +186,7 @@ impl Pass<'_> {
     }
 
     /// The buffer of an image.
-    pub fn buffer(&self, image: Image) -> &Buffer {
+    pub fn buffer(&self, image: Image) -> &'a Buffer {
         self.images.buffer(image, self.request.settings.depth_filter)
     }
 

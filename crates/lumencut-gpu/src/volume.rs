@@ -36,7 +36,7 @@ pub(crate) struct GridParameters {
     pub depth: f32,
     pub unit: f32,
     pub per_unit: f32,
-    pub unused: [f32; 2],
+    pub padding: [f32; 2],
     pub origin: [f32; 4],
     pub origin_rest: [f32; 4],
     pub x: [f32; 4],

@@ -30,21 +30,21 @@ struct Gathered {
 
 fn nothing() -> Gathered {
     let best = select(-HUGE, HUGE, MODE == DARKEST);
-    return Gathered(vec3f(), 0.0, settings.most, best, 0u, vec4f());
+    return Gathered(vec3f(), 0.0, parameters.most, best, 0u, vec4f());
 }
 
 // Whether samples with values in a range would change nothing.
 fn ignores(gathered: Gathered, range: vec2f) -> bool {
     // Beyond the last control point the colour stays the same.
-    let is_no_brighter = min(range.y, settings.last) <= gathered.best;
+    let is_no_brighter = min(range.y, parameters.last) <= gathered.best;
     switch MODE {
         case BRIGHTEST: { return is_no_brighter; }
         // Below the black end of the window everything is black.
-        case DARKEST: { return max(range.x, settings.black) >= gathered.best; }
+        case DARKEST: { return max(range.x, parameters.black) >= gathered.best; }
         case AVERAGE: { return false; }
         default: {
-            return (settings.push == 0.0 || ramp_at(settings.window, range.y) <= gathered.most)
-                && (settings.mix == 0.0 || is_no_brighter)
+            return (parameters.push == 0.0 || ramp_at(parameters.window, range.y) <= gathered.most)
+                && (parameters.mix == 0.0 || is_no_brighter)
                 && (gathered.opacity >= OPAQUE || is_transparent(range));
         }
     }
@@ -53,8 +53,8 @@ fn ignores(gathered: Gathered, range: vec2f) -> bool {
 // Takes the next sample.
 fn gather(gathered: ptr<function, Gathered>, value: f32, place: Place, thickness: f32) {
     switch MODE {
-        case BRIGHTEST: { (*gathered).best = max((*gathered).best, min(value, settings.last)); }
-        case DARKEST: { (*gathered).best = min((*gathered).best, max(value, settings.black)); }
+        case BRIGHTEST: { (*gathered).best = max((*gathered).best, min(value, parameters.last)); }
+        case DARKEST: { (*gathered).best = min((*gathered).best, max(value, parameters.black)); }
         case AVERAGE: { average(gathered, value); }
         default: { blend(gathered, value, place, thickness); }
     }
@@ -79,11 +79,11 @@ fn average(gathered: ptr<function, Gathered>, value: f32) {
 
 // DVR, MIDA and what lies between them and MIP.
 fn blend(gathered: ptr<function, Gathered>, value: f32, place: Place, thickness: f32) {
-    let intensity = ramp_at(settings.window, value);
-    let push = max(intensity - (*gathered).most, 0.0) * settings.push;
+    let intensity = ramp_at(parameters.window, value);
+    let push = max(intensity - (*gathered).most, 0.0) * parameters.push;
     let is_seen = push > 0.0 || (*gathered).opacity < OPAQUE;
     (*gathered).most = max((*gathered).most, intensity);
-    (*gathered).best = max((*gathered).best, min(value, settings.last));
+    (*gathered).best = max((*gathered).best, min(value, parameters.last));
     (*gathered).color *= 1.0 - push;
     (*gathered).opacity *= 1.0 - push;
     let own = opacity_of(value);
@@ -105,16 +105,16 @@ fn finished(gathered: Gathered) -> vec4f {
     switch MODE {
         case BRIGHTEST: { return brightest(gathered); }
         case DARKEST: {
-            return grey(ramp_at(settings.window, gathered.best), gathered.best < HUGE);
+            return grey(ramp_at(parameters.window, gathered.best), gathered.best < HUGE);
         }
         case AVERAGE: {
             let sum = gathered.sums.x + gathered.sums.y + gathered.sums.z + gathered.sums.w;
             let mean = sum / f32(max(gathered.count, 1u));
-            return grey(ramp_at(settings.window, mean), gathered.count > 0u);
+            return grey(ramp_at(parameters.window, mean), gathered.count > 0u);
         }
         default: {
             let blended = vec4f(gathered.color, gathered.opacity);
-            return blended + (brightest(gathered) - blended) * settings.mix;
+            return blended + (brightest(gathered) - blended) * parameters.mix;
         }
     }
 }

@@ -1,6 +1,6 @@
 // The smallest and the largest value of each block of the volume: what a ray cannot see there it need not sample.
 // import math/sampling
-// import settings
+// import math/context_parameters
 
 // The side of the smallest block is 2 to this power (cells).
 const SIDE_BITS = 2u;
@@ -15,12 +15,12 @@ const FARTHEST: f32 = 1e6;
 
 // The number of times that the side of a block of a level is doubled from that of a cell.
 fn side_bits(level: u32) -> u32 {
-    return SIDE_BITS + settings.finest + level;
+    return SIDE_BITS + parameters.finest + level;
 }
 
 // The range of the block that holds a voxel as the lower corner of a sample.
 fn range_at(level: u32, voxel: vec3i) -> vec2f {
-    let size = settings.levels[level];
+    let size = parameters.levels[level];
     let block = vec3u(voxel) >> vec3u(side_bits(level));
     return blocks[size.w + (block.z * size.y + block.y) * size.x + block.x];
 }

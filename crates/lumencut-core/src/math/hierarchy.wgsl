@@ -11,7 +11,7 @@ struct NodeBox {
     high: vec2f,
     z: f32,
     radius: f32,
-    room: vec2f,
+    padding: vec2f,
 }
 
 @group(0) @binding(2) var<storage, read> slots: array<Slot>;
@@ -36,12 +36,12 @@ fn squared_distance(tile: Tile, low: vec2f, high: vec2f) -> f32 {
 
 // The first of the nodes below the root.
 fn first_node(level: u32) -> Node {
-    return Node(cut_surface.levels[level].height_count - 1u, 0u);
+    return Node(parameters.levels[level].height_count - 1u, 0u);
 }
 
 // Whether the walk has left the last node.
 fn is_beyond(level: u32, node: Node) -> bool {
-    return node.height >= cut_surface.levels[level].height_count;
+    return node.height >= parameters.levels[level].height_count;
 }
 
 // The first of the nodes within a node.

@@ -14,7 +14,7 @@ struct LevelPlace {
     heights: array<vec4u, 2>,
 }
 
-struct CutSurface {
+struct CutSurfaceParameters {
     // The rule, as `Rule` in Rust says.
     weight: f32,
     margin: f32,
@@ -33,9 +33,9 @@ struct CutSurface {
     levels: array<LevelPlace, MAX_LEVELS>,
 }
 
-@group(0) @binding(1) var<uniform> cut_surface: CutSurface;
+@group(0) @binding(1) var<uniform> parameters: CutSurfaceParameters;
 
 // The first box of a height of a level.
 fn first_box(level: u32, height: u32) -> u32 {
-    return cut_surface.levels[level].heights[height / 4u][height % 4u];
+    return parameters.levels[level].heights[height / 4u][height % 4u];
 }

@@ -1,6 +1,6 @@
 // Shading by the gradient of the volume, with light from the viewer.
 // import math/sampling
-// import settings
+// import math/context_parameters
 
 // The share of its colour that a surface keeps edge on, and what it gains towards the viewer.
 const AMBIENT: f32 = 0.4;
@@ -42,7 +42,7 @@ fn shade(place: Place) -> Light {
     }
     let cosine = abs(gradient.z) / sqrt(square);
     let contrast = dot(change, change);
-    let surface = contrast / (contrast + settings.noise);
+    let surface = contrast / (contrast + parameters.noise);
     let fourth = cosine * cosine * cosine * cosine;
     let sixteenth = fourth * fourth * fourth * fourth;
     return Light(1.0 + surface * (AMBIENT + DIFFUSE * cosine - 1.0), surface * SPECULAR * sixteenth);

@@ -25,7 +25,7 @@ struct Slot {
     radius_change: f32,
     // The slot's number in its level; NO_SLOT where a bundle is not full.
     slot: u32,
-    room: u32,
+    padding: u32,
 }
 
 // The winner of each pixel of the tile so far: its key, its depth (mm), and twice its slot, plus 1 for the stripe.

@@ -1,4 +1,5 @@
-// The levels in one view: points in projection, the edges, what stands at each point, and the boxes around them.
+// The levels in one view, in three passes: points in projection and their edges, what stands at each point, and the boxes
+// around all of it.
 // import math/lanes
 // import math/view
 // import math/levels
@@ -23,26 +24,39 @@ struct Span {
     level: u32,
 }
 
-@group(0) @binding(2) var<storage, read> spans: array<Span>;
-@group(0) @binding(3) var<storage, read> points: array<Point>;
-@group(0) @binding(4) var<storage, read_write> projected: array<Slot>;
+// A point in projection (mm), written once in a view: whoever needs an edge reads it here, so that both neighbours of a
+// border read the same number.
+struct Projected {
+    // View coordinates.
+    point: vec3f,
+    // The radius that counts.
+    radius: f32,
+    // The edge to the next point; zero where it is collinear with the view or not there.
+    edge: vec2f,
+    padding: vec2f,
+}
 
-const SPAN_THREADS = 64u;
 // A segment whose projection is shorter than this (mm) is collinear with the view direction.
 const COLLINEAR_LENGTH: f32 = 1e-3;
+const POINT_THREADS = 64u;
+const SPAN_THREADS = 64u;
+const LEVEL_THREADS = 256u;
+// The number of no point.
 const NOWHERE = 0xffffffffu;
 
-var<workgroup> first_stripe: atomic<u32>;
-var<workgroup> last_stripe: atomic<u32>;
-var<workgroup> nearest_depth: atomic<u32>;
-var<workgroup> nearest_point: atomic<u32>;
+// The next point of the vessel; the last point is its own.
+@group(0) @binding(2) var<storage, read> next_points: array<u32>;
+@group(0) @binding(2) var<storage, read> spans: array<Span>;
+@group(0) @binding(3) var<storage, read> points: array<Point>;
+@group(0) @binding(4) var<storage, read_write> projected: array<Projected>;
+@group(0) @binding(5) var<storage, read_write> bundled: array<Slot>;
 
 fn along(axis: u32, point: Point) -> f32 {
     let coarse = view.axes[axis].coarse.xyz;
     let fine = view.axes[axis].fine.xyz;
     // Exact, in whatever order and with whatever rounding it is computed.
-    let exact = dot(coarse, point.coarse) + cut_surface.origin_coarse[axis];
-    return exact + (dot(fine, point.coarse) + dot(coarse + fine, point.fine) + cut_surface.origin_fine[axis]);
+    let exact = dot(coarse, point.coarse) + parameters.origin_coarse[axis];
+    return exact + (dot(fine, point.coarse) + dot(coarse + fine, point.fine) + parameters.origin_fine[axis]);
 }
 
 // View coordinates of a point (mm).
@@ -50,13 +64,33 @@ fn view_from_world(point: Point) -> vec3f {
     return vec3f(along(0u, point), along(1u, point), along(2u, point));
 }
 
-// The edge from a point to the next of its vessel; zero where it is collinear with the view or not there.
-fn edge_after(span: Span, i: u32) -> vec2f {
-    if i + 1u >= span.end {
-        return vec2f(0.0);
+// One thread for each point of all levels.
+@compute @workgroup_size(POINT_THREADS)
+fn projection(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let i = (group.y * groups.x + group.x) * POINT_THREADS + thread;
+    if i >= arrayLength(&points) {
+        return;
     }
-    let edge = view_from_world(points[i + 1u]).xy - view_from_world(points[i]).xy;
-    return select(edge, vec2f(0.0), dot(edge, edge) < COLLINEAR_LENGTH * COLLINEAR_LENGTH);
+    let here = view_from_world(points[i]);
+    let next = next_points[i];
+    let edge = view_from_world(points[next]).xy - here.xy;
+    let is_edge = next != i && dot(edge, edge) >= COLLINEAR_LENGTH * COLLINEAR_LENGTH;
+    let radius = points[i].radius * parameters.radius_scale;
+    projected[i] = Projected(here, radius, select(vec2f(0.0), edge, is_edge), vec2f(0.0));
+}
+
+var<workgroup> first_stripe: atomic<u32>;
+var<workgroup> last_stripe: atomic<u32>;
+var<workgroup> nearest_depth: atomic<u32>;
+var<workgroup> nearest_point: atomic<u32>;
+
+// Whether a stripe begins at a point.
+fn is_stripe(i: u32) -> bool {
+    return any(projected[i].edge != vec2f(0.0));
 }
 
 // An integer that orders as the number does.
@@ -75,15 +109,15 @@ fn survey(span: Span, thread: u32) {
     }
     workgroupBarrier();
     for (var i = span.first + thread; i < span.end; i += SPAN_THREADS) {
-        if any(edge_after(span, i) != vec2f(0.0)) {
+        if is_stripe(i) {
             atomicMin(&first_stripe, i);
             atomicMax(&last_stripe, i);
         }
-        atomicMin(&nearest_depth, ordered(view_from_world(points[i]).z));
+        atomicMin(&nearest_depth, ordered(projected[i].point.z));
     }
     workgroupBarrier();
     for (var i = span.first + thread; i < span.end; i += SPAN_THREADS) {
-        if ordered(view_from_world(points[i]).z) == atomicLoad(&nearest_depth) {
+        if ordered(projected[i].point.z) == atomicLoad(&nearest_depth) {
             atomicMin(&nearest_point, i);
         }
     }
@@ -101,7 +135,7 @@ fn stand(span: Span, i: u32) -> vec3f {
     }
     if i == end {
         // A half-plane, or a plane where a run ends the vessel.
-        return vec3f(select(vec2f(0.0), edge_after(span, last), last + 1u == end), 1.0);
+        return vec3f(select(vec2f(0.0), projected[last].edge, last + 1u == end), 1.0);
     }
     if i == span.first {
         // With no edge before it, a half-plane, or a plane before a run.
@@ -111,40 +145,35 @@ fn stand(span: Span, i: u32) -> vec3f {
         return vec3f(0.0);
     }
     // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.
-    let before = edge_after(span, i - 1u);
-    return vec3f(before, select(0.0, 1.0, any(before != vec2f(0.0))));
+    return vec3f(projected[i - 1u].edge, select(0.0, 1.0, is_stripe(i - 1u)));
 }
 
 // Writes a point into its place in the bundles.
-fn put(span: Span, i: u32) {
-    let point = points[i];
-    let here = view_from_world(point);
+fn place(span: Span, i: u32) {
+    let here = projected[i];
     let stands = stand(span, i);
-    let edge = edge_after(span, i);
-    let square = dot(edge, edge);
-    let stripe = square > 0.0;
+    let square = dot(here.edge, here.edge);
+    let stripe = is_stripe(i);
     // A collinear segment keeps no extent: its other end has a slot of its own.
-    let following = points[select(i, i + 1u, stripe)];
-    let end = view_from_world(following);
-    let radius = point.radius * cut_surface.radius_scale;
+    let end = projected[select(i, i + 1u, stripe)];
     var slot: Slot;
-    slot.start = here.xy;
-    slot.next = end.xy;
-    slot.edge = edge;
+    slot.start = here.point.xy;
+    slot.next = end.point.xy;
+    slot.edge = here.edge;
     slot.before = stands.xy;
     slot.inverse_length = select(0.0, 1.0 / sqrt(max(square, 1e-30)), stripe);
-    slot.stripe_z = select(ABSENT, here.z, stripe);
-    slot.stripe_dz = select(0.0, end.z - here.z, stripe);
-    slot.wedge_z = select(ABSENT, here.z, stands.z > 0.0);
-    slot.radius = radius;
-    slot.radius_change = following.radius * cut_surface.radius_scale - radius;
+    slot.stripe_z = select(ABSENT, here.point.z, stripe);
+    slot.stripe_dz = select(0.0, end.point.z - here.point.z, stripe);
+    slot.wedge_z = select(ABSENT, here.point.z, stands.z > 0.0);
+    slot.radius = here.radius;
+    slot.radius_change = end.radius - here.radius;
     slot.slot = i - span.level;
-    projected[point.place] = slot;
+    bundled[points[i].place] = slot;
 }
 
 // One group of threads for each vessel at each level.
 @compute @workgroup_size(SPAN_THREADS)
-fn projection(
+fn bundle(
     @builtin(workgroup_id) group: vec3u,
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) thread: u32,
@@ -156,11 +185,10 @@ fn projection(
     let span = spans[n];
     survey(span, thread);
     for (var i = span.first + thread; i < span.end; i += SPAN_THREADS) {
-        put(span, i);
+        place(span, i);
     }
 }
 
-const LEVEL_THREADS = 256u;
 
 @group(0) @binding(3) var<storage, read_write> drawn: array<NodeBox>;
 
@@ -171,7 +199,7 @@ fn nothing() -> NodeBox {
 
 // Draws the box of a node around all slots of its bundle.
 fn enclose_bundle(level: u32, n: u32) {
-    let first = (cut_surface.levels[level].first_bundle + n) * FAN;
+    let first = (parameters.levels[level].first_bundle + n) * FAN;
     var box = nothing();
     for (var s = first; s < first + FAN; s++) {
         let slot = slots[s];
@@ -208,8 +236,8 @@ fn enclose(
     @builtin(local_invocation_index) thread: u32,
 ) {
     let level = group.x;
-    let heights = cut_surface.levels[level].height_count;
-    var nodes = cut_surface.levels[level].bundle_count;
+    let heights = parameters.levels[level].height_count;
+    var nodes = parameters.levels[level].bundle_count;
     for (var n = thread; n < nodes; n += LEVEL_THREADS) {
         enclose_bundle(level, n);
     }

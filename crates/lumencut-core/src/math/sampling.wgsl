@@ -5,7 +5,7 @@
 override FLOAT_VOXELS: bool = false;
 
 // The volume's grid in the view. Vectors of four end with a 0 that means nothing.
-struct Grid {
+struct GridParameters {
     // The last index along (i, j, k).
     last: vec3f,
     // What the voxels of an unsigned type were shifted down by.
@@ -17,7 +17,7 @@ struct Grid {
     // Depths are split into multiples of `unit` and the rest (mm).
     unit: f32,
     per_unit: f32,
-    unused: vec2f,
+    padding: vec2f,
     // The index in the middle of the image at that depth, what a column to the right and a row upwards add to it, and
     // what 1 mm of depth adds: parts of few digits, whose products and sums are exact, and the rests.
     origin: vec4f,
@@ -35,8 +35,8 @@ struct Grid {
     up: vec4f,
 }
 
-@group(0) @binding(1) var<uniform> grid: Grid;
-@group(0) @binding(2) var voxels: texture_3d<i32>;
+@group(0) @binding(2) var<uniform> grid: GridParameters;
+@group(0) @binding(3) var voxels: texture_3d<i32>;
 
 // A continuous index: whole numbers and what is to be added, so that fractions keep their digits.
 struct Place {

@@ -10,7 +10,7 @@ const RUN = 8;
 fn trace(ray: Ray) -> vec4f {
     let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
     var gathered = nothing();
-    var level = settings.level_count - 1u;
+    var level = parameters.level_count - 1u;
     var n = 0;
     loop {
         // Neighbours that wait for each other skip together, and then sample together.
@@ -35,7 +35,7 @@ fn trace(ray: Ray) -> vec4f {
 
 // The first sample from `first` on that can change something, looking first at blocks of a `level`.
 fn skip(ray: Ray, way: vec3f, gathered: Gathered, first: i32, level: ptr<function, u32>) -> i32 {
-    let coarsest = settings.level_count - 1u;
+    let coarsest = parameters.level_count - 1u;
     var n = first;
     while n < ray.count {
         let cell = cell_of(sample_place(ray, n));

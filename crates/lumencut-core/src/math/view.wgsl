@@ -1,6 +1,6 @@
 // The view: its pixels in view space (mm).
 
-struct View {
+struct ViewParameters {
     // Pixels along x and y.
     size: vec2u,
     // The side of a pixel (mm): a part of few digits, whose products with whole numbers are exact, and the rest.
@@ -14,7 +14,7 @@ struct Axis {
     fine: vec4f,
 }
 
-@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(0) var<uniform> view: ViewParameters;
 
 // View x of the centre of column `i`.
 fn view_x(i: u32) -> f32 {

@@ -70,7 +70,7 @@ fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
 
 // Finds the winner of every wanted pixel of the tile among all pieces of a level.
 fn lowest_keys(tile: Tile, level: u32) {
-    let first_bundle = cut_surface.levels[level].first_bundle;
+    let first_bundle = parameters.levels[level].first_bundle;
     let seed = promising_bundle(tile, level);
     var limit = offer_bundle(tile, first_bundle + seed, key_limit(UNSET));
     var node = next_bundle(tile, level, first_node(level), limit);

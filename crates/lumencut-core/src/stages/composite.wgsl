@@ -11,7 +11,7 @@ override HAS_CONTEXT = true;
 override ALONE = false;
 
 // The colours of one picture, 0 to 1.
-struct Paint {
+struct CompositeParameters {
     background: vec4f,
     // Of the silhouettes; the last number is not used.
     line: vec4f,
@@ -24,7 +24,7 @@ struct Paint {
 @group(0) @binding(1) var<storage, read> context: array<vec4f>;
 // RGBA with straight alpha, a byte each, red lowest.
 @group(0) @binding(2) var<storage, read_write> image: array<u32>;
-@group(0) @binding(3) var<storage, read> paint: Paint;
+@group(0) @binding(3) var<storage, read> parameters: CompositeParameters;
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 @group(0) @binding(5) var<storage, read> strength: array<f32>;
 
@@ -51,20 +51,20 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
     if HAS_CONTEXT {
         behind = context[place];
     }
-    let rest = (1.0 - behind.w) * paint.background.w;
-    let back = vec4f(behind.xyz + paint.background.xyz * rest, behind.w + rest);
+    let rest = (1.0 - behind.w) * parameters.background.w;
+    let back = vec4f(behind.xyz + parameters.background.xyz * rest, behind.w + rest);
     var pixel = back;
     // Where there is no value there is no surface.
     if !ALONE && value[place] < HUGE {
-        let grey = ramp_at(paint.grey, value[place]);
-        let opacity = ramp_at(paint.opacity, value[place]);
+        let grey = ramp_at(parameters.grey, value[place]);
+        let opacity = ramp_at(parameters.opacity, value[place]);
         var color = vec3f(grey);
         if HAS_STRENGTH {
-            color += (paint.line.xyz - grey) * strength[place];
+            color += (parameters.line.xyz - grey) * strength[place];
         }
         pixel = vec4f(color, 1.0) * opacity + back * (1.0 - opacity);
     }
-    image[place] = straight(pixel, paint.background.xyz);
+    image[place] = straight(pixel, parameters.background.xyz);
 }
 
 // The context alone.

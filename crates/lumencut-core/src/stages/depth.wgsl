@@ -22,7 +22,7 @@ fn select_levels(tile: Tile) -> u32 {
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
             let q = quad_of(a, r);
-            let f = min(sqrt(cut_surface.selection * distances_at(tile, a, r)), vec4f(f32(cut_surface.coarsest)));
+            let f = min(sqrt(parameters.selection * distances_at(tile, a, r)), vec4f(f32(parameters.coarsest)));
             fine_level[q] = floor(f);
             coarse_weight[q] = f - fine_level[q];
             needed |= select(vec4u(1u), vec4u(3u), coarse_weight[q] > vec4f(0.0)) << vec4u(fine_level[q]);
@@ -57,7 +57,7 @@ fn begin(k: f32) {
 
 // Adds a level's winners by their weights. Finest first: a tie stays with the finer level.
 fn blend(level: u32) {
-    let first_slot = cut_surface.levels[level].first_slot;
+    let first_slot = parameters.levels[level].first_slot;
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         let weight = weights(q, f32(level));
         let rules = weight > ruling_weight[q];

@@ -1,12 +1,12 @@
 // The depth filter: a 7×7 Gaussian (paper section 3.3.3).
 // import math/view
 
-struct Gaussian {
+struct DepthFilterParameters {
     // From the middle outwards.
     weights: vec4f,
 }
 
-@group(0) @binding(1) var<uniform> gaussian: Gaussian;
+@group(0) @binding(1) var<uniform> parameters: DepthFilterParameters;
 @group(0) @binding(2) var<storage, read> image: array<f32>;
 @group(0) @binding(3) var<storage, read_write> smoothed: array<f32>;
 
@@ -18,9 +18,9 @@ fn continued(column: i32, row: i32) -> f32 {
 
 // Columns first, as on the CPU.
 fn down(column: i32, row: i32) -> f32 {
-    var sum = gaussian.weights[0] * continued(column, row);
+    var sum = parameters.weights[0] * continued(column, row);
     for (var n = 1; n <= 3; n++) {
-        sum += gaussian.weights[n] * (continued(column, row - n) + continued(column, row + n));
+        sum += parameters.weights[n] * (continued(column, row - n) + continued(column, row + n));
     }
     return sum;
 }
@@ -31,9 +31,9 @@ fn depth_filter(@builtin(global_invocation_id) thread: vec3u) {
         return;
     }
     let pixel = vec2i(thread.xy);
-    var sum = gaussian.weights[0] * down(pixel.x, pixel.y);
+    var sum = parameters.weights[0] * down(pixel.x, pixel.y);
     for (var n = 1; n <= 3; n++) {
-        sum += gaussian.weights[n] * (down(pixel.x - n, pixel.y) + down(pixel.x + n, pixel.y));
+        sum += parameters.weights[n] * (down(pixel.x - n, pixel.y) + down(pixel.x + n, pixel.y));
     }
     smoothed[place_of(thread.xy)] = sum;
 }

@@ -7,14 +7,14 @@ const ZONE_BORDER = 4.0;
 // Far beyond any slope squared.
 const STEEPEST = 1e12;
 
-struct Slope {
+struct SilhouetteParameters {
     // From the sum of the Sobel weights to mm per mm.
     per_slope: f32,
     // The square of the slope that has half the strength.
     half: f32,
 }
 
-@group(0) @binding(1) var<uniform> slope: Slope;
+@group(0) @binding(1) var<uniform> parameters: SilhouetteParameters;
 // Raised slopes in the first pass, slopes that become strengths in the last.
 @group(0) @binding(2) var<storage, read_write> slopes: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
@@ -48,7 +48,7 @@ fn silhouette(@builtin(global_invocation_id) thread: vec3u) {
         vessel[place_of(vec2u(thread.x, rows.z))],
     );
     let border = any(neighbours != vec4i(own));
-    slopes[place_of(thread.xy)] = raise(z[0], z[1], z[2], border) * slope.per_slope;
+    slopes[place_of(thread.xy)] = raise(z[0], z[1], z[2], border) * parameters.per_slope;
 }
 
 @compute @workgroup_size(16, 4)
@@ -58,5 +58,5 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
     }
     let place = place_of(thread.xy);
     let square = min(slopes[place] * slopes[place], STEEPEST);
-    slopes[place] = square / (square + slope.half);
+    slopes[place] = square / (square + parameters.half);
 }

@@ -75,6 +75,12 @@ impl ImageSet {
         Self(self.0 | others.0)
     }
 
+    /// These but for one.
+    #[must_use]
+    pub const fn without(self, image: Image) -> Self {
+        Self(self.0 & !(1 << image as u16))
+    }
+
     /// Whether an image is one of them.
     pub const fn has(self, image: Image) -> bool {
         self.0 & 1 << image as u16 != 0

@@ -36,7 +36,7 @@ macro_rules! host {
 /// Every structure that Rust writes for shaders.
 fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     vec![
-        host!("math/hierarchy", levels, NodeBox { low, high, z, radius, room }),
+        host!("math/hierarchy", levels, NodeBox { low, high, z, radius, padding }),
         host!(
             "math/levels",
             levels,
@@ -74,10 +74,11 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 radius,
                 radius_change,
                 slot,
-                room
+                padding
             }
         ),
         host!("math/projection", levels, Point { coarse, radius, fine, place }),
+        host!("math/projection", levels, Projected { point, radius, edge, padding }),
         host!("math/projection", levels, Span { first, end, level }),
         host!(
             "math/sampling",
@@ -89,7 +90,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 depth,
                 unit,
                 per_unit,
-                unused,
+                padding,
                 origin,
                 origin_rest,
                 x,
@@ -130,11 +131,11 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 levels
             }
         ),
-        host!("settings", context, Rise { color, opacity, start, per_intensity, unused }),
+        host!("settings", context, Rise { color, opacity, start, per_intensity, padding }),
         host!("stages/composite", composite, Paint { background, line, grey, opacity }),
         host!("stages/depth_filter", depth_filter, Gaussian { weights }),
         host!("stages/silhouette", silhouette, Slope { per_slope, half }),
-        host!("stages/surface", surface, Slab { part, beside, mode, unused }),
+        host!("stages/surface", surface, Slab { part, beside, mode, padding }),
     ]
 }
 

@@ -1,15 +1,15 @@
-// The settings of the context as shaders read them.
+// The parameters of the context, made in the room of the same name in Rust.
 
 // A rise of the transfer function: what is added to all before it.
-struct Rise {
+struct RiseParameters {
     color: vec3f,
     opacity: f32,
     start: f32,
     per_intensity: f32,
-    unused: vec2f,
+    padding: vec2f,
 }
 
-struct Context {
+struct ContextParameters {
     // The ramps of the intensities from 0 to 1, and of the cut surface's opacity.
     window: vec2f,
     opacity: vec2f,
@@ -37,11 +37,11 @@ struct Context {
     gap_count: u32,
     level_count: u32,
     finest: u32,
-    rises: array<Rise, 63>,
+    rises: array<RiseParameters, 63>,
     // The ranges of intensity without opacity: from x to y.
     gaps: array<vec4f, 33>,
     // Blocks along each axis and the place of the first one's range, the smallest blocks first.
     levels: array<vec4u, 16>,
 }
 
-@group(0) @binding(3) var<uniform> settings: Context;
+@group(0) @binding(1) var<uniform> parameters: ContextParameters;
