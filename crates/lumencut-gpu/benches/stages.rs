@@ -6,11 +6,12 @@ use std::error::Error;
 use std::sync::Arc;
 
 use glam::DVec3;
-use lumencut_core::pipeline;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_gpu::adapter::Choice;
 use lumencut_gpu::device::Device;
-use lumencut_gpu::renderer::Renderer;
+use lumencut_gpu::renderer::GpuRenderer;
 use lumencut_phantom::Phantom;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::timing::{StageTimes, head, row, stage_medians};
@@ -36,17 +37,18 @@ struct Measured {
 }
 
 fn measure(device: &Arc<Device>, phantom: &Phantom, side: usize, frames: usize) -> Result<Measured> {
-    let (volume, camera) = (phantom.volume()?, fitted(&phantom.tree, DVec3::Y, side));
-    let mut gpu = Renderer::new(Arc::clone(device), Some(phantom.tree.clone()));
-    let mut cpu = pipeline::Renderer::new(phantom.tree.clone());
+    let scene = Scene::new(phantom.volume()?, phantom.tree.clone());
+    let camera = fitted(&phantom.tree, DVec3::Y, side);
+    let (mut gpu, mut cpu) = (GpuRenderer::new(Arc::clone(device)), CpuRenderer::default());
     let plain = Settings { context: None, ..Settings::default() };
     let mida = Settings::default();
     let mut on_gpu = |settings: &Settings| {
-        stage_medians(frames, || pollster::block_on(gpu.render(&volume, &camera, settings, &|| false)))
+        let request = Request::new(&camera, settings);
+        stage_medians(frames, || pollster::block_on(gpu.render(&scene, &request)))
     };
     let (gpu, gpu_mida) = (on_gpu(&plain)?, on_gpu(&mida)?);
     let mut on_cpu =
-        |settings: &Settings| stage_medians(frames, || cpu.render(&volume, &camera, settings, &|| false));
+        |settings: &Settings| stage_medians(frames, || cpu.render(&scene, &Request::new(&camera, settings)));
     Ok(Measured { gpu, gpu_mida, cpu: on_cpu(&plain)?, cpu_mida: on_cpu(&mida)? })
 }
 
@@ -83,16 +85,15 @@ fn cut_surface(device: &Arc<Device>, effort: Effort) -> Result<()> {
     let tree = random_tree(7, 31, 160, 1.5, 150.0)?;
     let title = format!("Cut surface of {} segments, all levels (ms)", tree.segment_count());
     head(&title, &["side", "rule", "GPU, its clock", "GPU, the caller's", "CPU", "CPU / GPU, its clock"]);
-    let mut gpu = Renderer::new(Arc::clone(device), Some(tree.clone()));
-    let mut cpu = pipeline::Renderer::new(tree.clone());
+    let scene = Scene::default().with_tree(tree.clone());
+    let (mut gpu, mut cpu) = (GpuRenderer::new(Arc::clone(device)), CpuRenderer::default());
     for side in effort.sides {
         let camera = fitted(&tree, DVec3::new(0.1, 1.0, 0.2), side);
         for (rule, lumen_first) in [("cost", false), ("lumen first", true)] {
             let settings = Settings { lumen_first, depth_filter: false, ..Settings::default() };
-            let on_gpu = stage_medians(effort.frames, || {
-                pollster::block_on(gpu.cut_surface(&camera, &settings, &|| false))
-            })?;
-            let on_cpu = stage_medians(effort.frames, || cpu.cut_surface(&camera, &settings, &|| false))?;
+            let request = Request::new(&camera, &settings);
+            let on_gpu = stage_medians(effort.frames, || pollster::block_on(gpu.render(&scene, &request)))?;
+            let on_cpu = stage_medians(effort.frames, || cpu.render(&scene, &request))?;
             let stages = |times: &StageTimes| -> f64 {
                 times.iter().filter(|(stage, _)| **stage != "frame").map(|(_, time)| time).sum()
             };

@@ -8,19 +8,21 @@ use std::sync::Arc;
 
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::pipeline::Request;
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_gpu::adapter::Choice;
 use lumencut_gpu::device::Device;
-use lumencut_gpu::renderer::Renderer;
+use lumencut_gpu::renderer::GpuRenderer;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// Draws `voxels`, which lie i fastest, with sides of `spacing` mm, along one vessel through `points` (x, y, z in mm, one
 /// after the other; the first voxel is at the origin), seen along y: `width` × `height` pixels of RGBA, row 0 on top.
 ///
 /// # Errors
-/// In words, as [`Renderer::render`].
+/// In words, as [`GpuRenderer::render`].
 #[wasm_bindgen]
 pub async fn render(
     voxels: Vec<i16>,
@@ -55,7 +57,7 @@ async fn picture(
     let pixel_spacing = volume.longest_way() / pixels[1].max(1) as f64;
     let camera = Camera::new(center, glam::DVec3::Y, glam::DVec3::Z, pixels, pixel_spacing)?;
     let device = Arc::new(Device::open(Choice::Any).await?);
-    let mut renderer = Renderer::new(device, Some(tree));
-    let frame = renderer.render(&volume, &camera, &Settings::default(), &|| false).await?;
+    let (scene, settings) = (Scene::new(volume, tree), Settings::default());
+    let frame = GpuRenderer::new(device).render(&scene, &Request::new(&camera, &settings)).await?;
     Ok(frame.image.into_flattened())
 }

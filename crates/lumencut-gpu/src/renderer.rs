@@ -72,6 +72,12 @@ impl GpuRenderer {
         &self.device
     }
 
+    /// The volume that was shown last, as it lies on the GPU.
+    #[cfg(test)]
+    pub(crate) fn volume_on_device(&self) -> Option<Arc<DeviceVolume>> {
+        self.volume.clone()
+    }
+
     /// Lets the CPU do some stages from now on, each with what the GPU made before it.
     ///
     /// # Errors

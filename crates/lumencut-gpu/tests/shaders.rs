@@ -7,8 +7,8 @@ use lumencut_gpu::shader::assemble;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, GlobalVariable, Handle, Module};
 
-/// Rooms without Rust of the same name: the view is the camera's in the core, and levels lie in one buffer here only.
-const WITHOUT_RUST: [&str; 2] = ["math/levels", "math/view"];
+/// Rooms without Rust of the same name: the view is the camera's in the core.
+const WITHOUT_RUST: [&str; 1] = ["math/view"];
 
 /// The room that is no stage of the method but runs as one.
 const PROJECTION: &str = "math/projection";

@@ -2,7 +2,7 @@
 
 use lumencut_core::math::window::{Opacity, Window};
 use lumencut_core::settings::Settings;
-use lumencut_core::stages::composite::{self, layer};
+use lumencut_core::stages::composite::{self, CompositeParameters, layer};
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::{BYTE, OTHER_BYTE};
 use lumencut_scenes::views::{front, on_cpu};
@@ -94,9 +94,10 @@ fn on_the_gpu(
     let image = device.image("image", pixels, 4);
     let mut recording = Recording::new(device);
     let view = on_gpu(device, &front(size, 0.5));
-    composite.record(&mut recording, &view, size, layers, settings, &image);
+    composite.write(device, settings);
+    composite.record(&mut recording, &view, size, layers, &image);
     recording.read(&image, 4 * pixels as u64);
-    finish(recording).bytes.remove(0)
+    finish(recording).numbers(0)
 }
 
 #[test]
@@ -114,7 +115,8 @@ fn pictures_are_those_of_the_cpu() {
                 let context = (layers & 2 != 0).then_some(&scene.context[..]);
                 let mut expected = vec![[9; 4]; pixels];
                 let cpu = composite::Layers { value: &scene.value, strength, context };
-                composite::composite(&on_cpu(&camera), &cpu, &settings, &mut expected).unwrap();
+                let parameters = CompositeParameters::new(&settings);
+                composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
                 let images = [Some(&scene.value[..]), strength];
                 let found = on_the_gpu(device, &composite, size, images, context, &settings);
                 tally.add(&found, &expected, &format!("{size:?}, layers {layers}, {:?}", settings.opacity));
@@ -137,7 +139,8 @@ fn a_context_alone_is_that_of_the_cpu() {
             let mut expected = vec![[9; 4]; pixels];
             let value = vec![f32::NAN; pixels];
             let cpu = composite::Layers { value: &value, strength: None, context: Some(&context) };
-            composite::composite(&on_cpu(&camera), &cpu, &settings, &mut expected).unwrap();
+            let parameters = CompositeParameters::new(&settings);
+            composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
             let found = on_the_gpu(device, &composite, size, [None; 2], Some(&context), &settings);
             tally.add(&found, &expected, &format!("{size:?}"));
         }
@@ -158,9 +161,9 @@ fn the_layer_is_that_of_the_cpu() {
         layer(&on_cpu(&camera), &context, &mut expected).unwrap();
         let (colors, image) = (device.upload("context", &context), device.image("image", pixels, 4));
         let mut recording = Recording::new(device);
-        composite.record_layer(&mut recording, &on_gpu(device, &camera), size, &colors, &image);
+        composite.record_layer(&mut recording, &on_gpu(device, &camera), size, [&colors, &image]);
         recording.read(&image, 4 * pixels as u64);
-        tally.add(&finish(recording).bytes[0], &expected, &format!("{size:?}"));
+        tally.add(&finish(recording).numbers::<u8>(0), &expected, &format!("{size:?}"));
     }
     tally.check();
 }
@@ -176,8 +179,8 @@ fn halves_become_the_even_byte() {
     let (colors, image) = (device.upload("context", &context), device.image("image", 511, 4));
     let mut recording = Recording::new(device);
     let view = on_gpu(device, &camera);
-    Composite::new(device).record_layer(&mut recording, &view, [511, 1], &colors, &image);
+    Composite::new(device).record_layer(&mut recording, &view, [511, 1], [&colors, &image]);
     recording.read(&image, 4 * 511);
-    assert_eq!(finish(recording).bytes[0], expected.as_flattened());
+    assert_eq!(finish(recording).numbers::<u8>(0), expected.as_flattened());
     assert!(expected.iter().any(|c| c[0] % 2 == 0) && expected[1][0] == 0 && expected[3][0] == 2);
 }

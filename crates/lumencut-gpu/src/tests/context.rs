@@ -1,26 +1,27 @@
 //! The context is that of the CPU.
 #![allow(clippy::unwrap_used)]
 
-use bytemuck::pod_collect_to_vec;
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
-use lumencut_core::math::lanes::Isa;
+use lumencut_core::math::blocks::Blocks;
+use lumencut_core::math::context_parameters::StartParameters;
 use lumencut_core::math::ray::WHOLE;
-use lumencut_core::math::transfer::{ControlPoint, Preset, TransferFunction};
+use lumencut_core::math::transfer::Preset;
 use lumencut_core::math::window::{Opacity, Window};
-use lumencut_core::phantom;
 use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode};
-use lumencut_core::stages::View;
-use lumencut_core::stages::context::{context, starts};
+use lumencut_core::stages::context::{Surroundings, context, starts};
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_phantom::{calcified_wall, trefoil};
+use lumencut_scenes::settings::{WINDOW, gaps};
+use lumencut_scenes::tolerances::{CONTEXT, CONTEXT_LEAP};
+use lumencut_scenes::views::{self, view_beside_voxels};
+use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
 
-use super::device;
-use super::scenes::{Placed, ball_and_rod, camera, sheared, volume};
-use crate::context::{ContextStage, CutSurfaceImages};
+use super::placed::Placed;
+use super::{device, without_holes};
+use crate::context::{ContextImages, ContextStage};
 use crate::recording::Recording;
-use lumencut_core::math::blocks::HUGE;
 
-const WINDOW: Window = Window { level: 300.0, width: 900.0 };
 const SIZE: [usize; 3] = [41, 37, 29];
 
 /// A cut surface: values, NaN where it is outside, and depths.
@@ -44,13 +45,6 @@ fn cut_surface(camera: &Camera) -> CutSurface {
     }
 }
 
-/// Visible between 20 and 40 and from 320 on, clear between.
-fn gaps() -> TransferFunction {
-    let point = |(intensity, opacity)| ControlPoint { intensity, color: [250, 120, 30], opacity };
-    let points = [(20.0, 0.0), (30.0, 0.05), (40.0, 0.0), (320.0, 0.0), (320.0, 0.2), (950.0, 1.0)];
-    TransferFunction { points: points.map(point).to_vec() }
-}
-
 fn contexts() -> Vec<Context> {
     let base = Context { window: WINDOW, ..Context::default() };
     let mut all = Vec::new();
@@ -71,11 +65,20 @@ fn contexts() -> Vec<Context> {
     all
 }
 
+/// Where the rays of the CPU start.
+fn starts_on_cpu(camera: &Camera, settings: &Settings, surface: &CutSurface) -> Vec<f32> {
+    let mut start = vec![0.0; surface.value.len()];
+    let parameters = StartParameters::new(settings);
+    starts(&views::on_cpu(camera), &parameters, &surface.value, &surface.depth, &mut start);
+    start
+}
+
 fn on_cpu(volume: &Volume, camera: &Camera, settings: &Settings, start: &[f32]) -> Vec<[f32; 4]> {
     let mut pixels = vec![[-1.0; 4]; start.len()];
-    let view = View { camera, isa: Isa::widest(), stop: &|| false };
-    let blocks = volume.blocks(&|| false).unwrap();
-    context(&view, volume, Some(blocks), settings.context.as_ref().unwrap(), start, &mut pixels).unwrap();
+    let blocks = Blocks::new(volume, &|| false).unwrap();
+    let surroundings = Surroundings { camera, volume, blocks: Some(&blocks) };
+    let chosen = settings.context.as_ref().unwrap();
+    context(&views::on_cpu(camera), &surroundings, settings, chosen, start, &mut pixels).unwrap();
     pixels
 }
 
@@ -95,24 +98,32 @@ fn starts_and_context(
     settings: &Settings,
     surface: Option<&CutSurface>,
 ) -> (Vec<f32>, Vec<[f32; 4]>) {
-    let images = surface.map(|CutSurface { value, depth }| {
-        let value: Vec<f32> = value.iter().map(|v| if v.is_nan() { HUGE } else { *v }).collect();
-        [placed.image(&value), placed.image(depth)]
-    });
-    let images = images.as_ref().map(|[value, depth]| CutSurfaceImages { value, depth });
-    let start = placed.device.image("start", placed.pixels(), 4);
-    let pixels = placed.device.image("context", placed.pixels(), 16);
+    let pixels = placed.pixels();
+    let nowhere = CutSurface { value: vec![0.0; pixels], depth: vec![0.0; pixels] };
+    let CutSurface { value, depth } = surface.unwrap_or(&nowhere);
+    let [value, depth] = [placed.image(&without_holes(value)), placed.image(depth)];
+    let start = placed.device.image("start", pixels, 4);
+    let gathered = placed.device.image("gathered", pixels, 16);
+    let blocks = placed.blocks();
+    let chosen = settings.context.as_ref().unwrap();
+    stage.write(placed.device, settings, chosen, placed.volume, &blocks).unwrap();
+    let images = ContextImages {
+        size: placed.camera.size(),
+        has_surface: surface.is_some(),
+        depth: &depth,
+        value: &value,
+        start: &start,
+        gathered: &gathered,
+    };
     let mut recording = Recording::new(placed.device);
-    let view = (&placed.view, placed.camera.size());
-    let volume = (&placed.on_device, placed.on_device.blocks().unwrap(), placed.volume);
-    let settings = (settings, settings.context.as_ref().unwrap());
-    stage.record(&mut recording, view, volume, settings, images, [&start, &pixels]).unwrap();
+    let volumes = (&placed.on_device, &blocks);
+    stage.record(&mut recording, [&placed.view, &placed.grid], volumes, chosen, images);
     recording.read(&start, start.size());
-    recording.read(&pixels, pixels.size());
+    recording.read(&gathered, gathered.size());
     let results = super::finish(recording);
     let names: Vec<_> = results.timings.iter().map(|timing| timing.stage).collect();
     assert!(names.is_empty() || names == ["context"], "{names:?}");
-    (pod_collect_to_vec(&results.bytes[0]), pod_collect_to_vec(&results.bytes[1]))
+    (results.numbers(0), results.numbers(1))
 }
 
 #[test]
@@ -122,8 +133,7 @@ fn rays_start_where_those_of_the_cpu_do() {
     let volume = volume(Voxels::I16(&voxels), SIZE, sheared(SIZE));
     let mut stage = ContextStage::new(device);
     for camera in views() {
-        let mut placed = Placed::new(device, &volume, &camera);
-        placed.on_device.prepare_blocks(device, &volume, &|| false).unwrap();
+        let placed = Placed::new(device, &volume, &camera);
         let surface = cut_surface(&camera);
         for opacity in [None, Some([100.5, 400.5]), Some([400.5, 100.5])] {
             let settings = Settings {
@@ -132,7 +142,7 @@ fn rays_start_where_those_of_the_cpu_do() {
                 ..Settings::default()
             };
             let (found, _) = starts_and_context(&mut stage, &placed, &settings, Some(&surface));
-            assert_eq!(found, starts(&surface.value, &surface.depth, &settings), "{opacity:?}");
+            assert_eq!(found, starts_on_cpu(&camera, &settings, &surface), "{opacity:?}");
             let (alone, _) = starts_and_context(&mut stage, &placed, &settings, None);
             assert!(alone.iter().all(|start| *start == WHOLE));
         }
@@ -143,7 +153,7 @@ fn rays_start_where_those_of_the_cpu_do() {
 #[derive(Debug, Default)]
 struct Difference {
     pixels: usize,
-    /// Pixels with a channel that differs by more than a grey value, and more than four.
+    /// Pixels with a channel further apart than [`CONTEXT`] and [`CONTEXT_LEAP`] say.
     visible: usize,
     large: usize,
     most: f32,
@@ -155,25 +165,26 @@ impl Difference {
             assert!(one.iter().all(|c| (0.0..=1.001).contains(c)), "{one:?} beside {other:?}");
             let most = (0..4).map(|c| (one[c] - other[c]).abs()).fold(0.0, f32::max);
             self.pixels += 1;
-            self.visible += usize::from(most > 1.0 / 255.0);
-            self.large += usize::from(most > 4.0 / 255.0);
+            self.visible += usize::from(most > CONTEXT.apart);
+            self.large += usize::from(most > CONTEXT_LEAP.apart);
             self.most = self.most.max(most);
         }
     }
 
     fn check(&self, what: &str) {
-        let allowed = (self.pixels / 2000).max(1);
-        assert!(self.visible <= allowed && self.large * 100 <= self.pixels, "{what}: {self:?}");
+        // A picture of few pixels may have one that is visible, too.
+        let few_are_visible = self.visible <= 1 || CONTEXT.allows(self.visible, self.pixels);
+        assert!(few_are_visible && CONTEXT_LEAP.allows(self.large, self.pixels), "{what}: {self:?}");
     }
 }
 
 fn views() -> Vec<Camera> {
     vec![
-        camera([0.0, 1.0, 0.0], [257, 257], 0.2),
-        camera([0.5, -0.6, 0.4], [33, 20], 1.3),
-        camera([0.0, 0.0, -1.0], [1, 17], 2.1),
-        camera([-1.0, 0.2, 0.1], [65, 49], 0.9),
-        camera([-0.4, 0.7, -0.3], [11, 9], 9.0),
+        view_beside_voxels([0.0, 1.0, 0.0], [257, 257], 0.2),
+        view_beside_voxels([0.5, -0.6, 0.4], [33, 20], 1.3),
+        view_beside_voxels([0.0, 0.0, -1.0], [1, 17], 2.1),
+        view_beside_voxels([-1.0, 0.2, 0.1], [65, 49], 0.9),
+        view_beside_voxels([-0.4, 0.7, -0.3], [11, 9], 9.0),
     ]
 }
 
@@ -181,8 +192,7 @@ fn compare(volume: &Volume, contexts: &[Context], scale: f64, what: &str) {
     let Some(device) = device() else { return };
     let mut stage = ContextStage::new(device);
     for camera in views() {
-        let mut placed = Placed::new(device, volume, &camera);
-        placed.on_device.prepare_blocks(device, volume, &|| false).unwrap();
+        let placed = Placed::new(device, volume, &camera);
         let surface = cut_surface(&camera);
         for (n, context) in contexts.iter().enumerate() {
             let settings = Settings {
@@ -192,7 +202,7 @@ fn compare(volume: &Volume, contexts: &[Context], scale: f64, what: &str) {
                 ..Settings::default()
             };
             let mut difference = Difference::default();
-            let start = starts(&surface.value, &surface.depth, &settings);
+            let start = starts_on_cpu(&camera, &settings, &surface);
             let expected = on_cpu(volume, &camera, &settings, &start);
             difference.add(&on_gpu(&mut stage, &placed, &settings, Some(&surface)), &expected);
             let alone = vec![WHOLE; placed.pixels()];
@@ -253,14 +263,15 @@ fn voxels_without_a_number() {
     let some: Vec<_> = contexts().into_iter().filter(|c| c.step.is_none()).collect();
     let some: Vec<_> = some.into_iter().step_by(3).map(|c| Context { step: Some(0.57), ..c }).collect();
     compare(&volume(Voxels::F32(&within), EVEN, sheared(EVEN)), &some, 1.0, "NaN");
-    let (all, camera) =
-        (volume(Voxels::F32(&floats), EVEN, sheared(EVEN)), camera([0.3, 1.0, 0.2], [64, 48], 0.7));
+    let (all, camera) = (
+        volume(Voxels::F32(&floats), EVEN, sheared(EVEN)),
+        view_beside_voxels([0.3, 1.0, 0.2], [64, 48], 0.7),
+    );
     let Some(device) = device() else { return };
     let mut stage = ContextStage::new(device);
     let gather = |volume: &Volume, stage: &mut ContextStage, context: &Context| {
         let settings = Settings { context: Some(context.clone()), ..Settings::default() };
-        let mut placed = Placed::new(device, volume, &camera);
-        placed.on_device.prepare_blocks(device, volume, &|| false).unwrap();
+        let placed = Placed::new(device, volume, &camera);
         on_gpu(stage, &placed, &settings, None)
     };
     for context in &some {
@@ -277,9 +288,8 @@ fn the_mean_of_many_samples_keeps_its_digits() {
     let voxels = vec![1000.1f32; 2048];
     let volume =
         volume(Voxels::F32(&voxels), [1, 1, 2048], DAffine3::from_translation(DVec3::NEG_Z * 1023.5));
-    let camera = camera([0.0, 0.0, 1.0], [3, 3], 0.1);
-    let mut placed = Placed::new(device, &volume, &camera);
-    placed.on_device.prepare_blocks(device, &volume, &|| false).unwrap();
+    let camera = view_beside_voxels([0.0, 0.0, 1.0], [3, 3], 0.1);
+    let placed = Placed::new(device, &volume, &camera);
     let context = Context {
         mode: ContextMode::Average,
         window: Window { level: 1000.0, width: 1000.0 },
@@ -304,7 +314,7 @@ fn axes_of_one_voxel() {
 #[test]
 fn phantoms() {
     let some: Vec<_> = contexts().into_iter().step_by(2).collect();
-    for phantom in [phantom::trefoil().unwrap(), phantom::calcified_wall().unwrap()] {
+    for phantom in [trefoil().unwrap(), calcified_wall().unwrap()] {
         compare(&phantom.volume().unwrap(), &some, 1.0, phantom.name);
     }
 }

@@ -1,6 +1,6 @@
 //! The depth filter against the CPU's.
 
-use lumencut_core::stages::depth_filter::depth_filter;
+use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::FILTERED_DEPTH;
 use lumencut_scenes::views::{front, on_cpu};
@@ -20,13 +20,13 @@ fn the_filter_is_that_of_the_cpu() {
         let pixels = size[0] * size[1];
         let image = Random::new(7).image(pixels, -LARGEST, LARGEST);
         let mut expected = vec![0.0; pixels];
-        depth_filter(&on_cpu(&camera), &image, &mut expected).unwrap();
+        depth_filter(&on_cpu(&camera), &DepthFilterParameters::new(), &image, &mut expected).unwrap();
         let smoothed = device.image("smoothed", pixels, 4);
         let mut recording = Recording::new(device);
         let source = device.upload("image", &image);
-        filter.record(&mut recording, &on_gpu(device, &camera), size, &source, &smoothed);
+        filter.record(&mut recording, &on_gpu(device, &camera), size, [&source, &smoothed]);
         recording.read(&smoothed, 4 * pixels as u64);
-        let found: Vec<f32> = bytemuck::pod_collect_to_vec(&finish(recording).bytes[0]);
+        let found: Vec<f32> = finish(recording).numbers(0);
         assert!(pixels == 1 || found != image, "nothing was filtered");
         worst = worst.max(FILTERED_DEPTH.assert_same(&found, &expected, &format!("{size:?}")));
     }

@@ -42,8 +42,8 @@ fn the_passes_of_a_stage_in_a_row_count_together() {
     let image = device.upload("image", &Random::new(1).image(660, 0.0, 1.0));
     let smoothed = device.image("smoothed", 660, 4);
     let mut recording = Recording::new(device);
-    filter.record(&mut recording, &view, camera.size(), &image, &smoothed);
-    filter.record(&mut recording, &view, camera.size(), &image, &smoothed);
+    filter.record(&mut recording, &view, camera.size(), [&image, &smoothed]);
+    filter.record(&mut recording, &view, camera.size(), [&image, &smoothed]);
     filter.record_as("silhouette", &mut recording, &view, camera.size(), [&image, &smoothed]);
     let results = finish(recording);
     let names: Vec<_> = results.timings.iter().map(|timing| timing.stage).collect();

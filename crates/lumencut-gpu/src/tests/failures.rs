@@ -6,19 +6,25 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use lumencut_core::camera::MAX_PIXELS;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::frame::Frame;
+use lumencut_core::pipeline::Request;
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
-use lumencut_core::stages::Stop;
+use lumencut_core::stop::Stop;
 use lumencut_phantom::{Phantom, straight_tube};
 use lumencut_scenes::views::front;
 
 use super::shared;
 use crate::adapter::Choice;
 use crate::device::Device;
-use crate::renderer::Renderer;
+use crate::renderer::GpuRenderer;
 
-fn render(renderer: &mut Renderer, phantom: &Phantom, stop: Stop) -> Result<Frame, Error> {
-    let (volume, camera) = (phantom.volume().unwrap(), front([96, 80], 0.8));
-    pollster::block_on(renderer.render(&volume, &camera, &Settings::default(), stop))
+fn scene(phantom: &Phantom) -> Scene<'_> {
+    Scene::new(phantom.volume().unwrap(), phantom.tree.clone())
+}
+
+fn render(renderer: &mut GpuRenderer, scene: &Scene, stop: Stop) -> Result<Frame, Error> {
+    let (camera, settings) = (front([96, 80], 0.8), Settings::default());
+    pollster::block_on(renderer.render(scene, &Request { stop, ..Request::new(&camera, &settings) }))
 }
 
 /// An error of the GPU in one line that says what would mend it.
@@ -34,19 +40,20 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
         return;
     }
     let phantom = straight_tube().unwrap();
+    let scene = scene(&phantom);
     for views_before in [0, 1] {
         let device = Arc::new(pollster::block_on(Device::open(Choice::Any)).unwrap());
-        let mut renderer = Renderer::new(Arc::clone(&device), Some(phantom.tree.clone()));
+        let mut renderer = GpuRenderer::new(Arc::clone(&device));
         for _ in 0..views_before {
-            render(&mut renderer, &phantom, &|| false).unwrap();
+            render(&mut renderer, &scene, &|| false).unwrap();
         }
         device.lose();
         for _ in 0..2 {
-            check(&render(&mut renderer, &phantom, &|| false).unwrap_err());
+            check(&render(&mut renderer, &scene, &|| false).unwrap_err());
         }
         // What is made on it afterwards does not compute either.
-        let mut late = Renderer::new(device, Some(phantom.tree.clone()));
-        check(&render(&mut late, &phantom, &|| false).unwrap_err());
+        let mut late = GpuRenderer::new(device);
+        check(&render(&mut late, &scene, &|| false).unwrap_err());
     }
 }
 
@@ -59,34 +66,36 @@ fn a_picture_too_large_for_the_buffers_is_refused_by_its_size() {
         return;
     }
     let phantom = straight_tube().unwrap();
-    let mut renderer = Renderer::new(Arc::clone(device), Some(phantom.tree.clone()));
+    let scene = scene(&phantom);
+    let mut renderer = GpuRenderer::new(Arc::clone(device));
     let camera = front([most / 4096 + 1, 4096], 0.01);
-    let error =
-        pollster::block_on(renderer.cut_surface(&camera, &Settings::default(), &|| false)).unwrap_err();
+    let settings = Settings::default();
+    let error = pollster::block_on(renderer.render(&scene, &Request::new(&camera, &settings))).unwrap_err();
     check(&error);
     assert_eq!(error.found, format!("{} × 4096 pixels", most / 4096 + 1));
     assert!(error.expected.contains(&format!("at most {most} pixels")), "{error}");
     // The renderer goes on.
-    render(&mut renderer, &phantom, &|| false).unwrap();
+    render(&mut renderer, &scene, &|| false).unwrap();
 }
 
 #[test]
 fn a_renderer_that_was_stopped_renders_again() {
     let Some(device) = shared() else { return };
     let phantom = straight_tube().unwrap();
-    let mut renderer = Renderer::new(Arc::clone(device), Some(phantom.tree.clone()));
-    let mut fresh = Renderer::new(Arc::clone(device), Some(phantom.tree.clone()));
-    let expected = render(&mut fresh, &phantom, &|| false).unwrap();
+    let scene = scene(&phantom);
+    let mut renderer = GpuRenderer::new(Arc::clone(device));
+    let mut fresh = GpuRenderer::new(Arc::clone(device));
+    let expected = render(&mut fresh, &scene, &|| false).unwrap();
     // Stopped at once, and whenever it asks for the second, third … time: while it sends the volume or waits.
     for patience in 0..6 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
-        match render(&mut renderer, &phantom, &stop) {
+        match render(&mut renderer, &scene, &stop) {
             Err(error) => assert_eq!(error.kind, ErrorKind::Interrupted, "{error}"),
             // A fast GPU is done before it is asked so often.
             Ok(_) => assert!(patience > 0 && asked.into_inner() <= patience),
         }
     }
-    let frame = render(&mut renderer, &phantom, &|| false).unwrap();
-    assert_eq!((&frame.image, &frame.depth), (&expected.image, &expected.depth));
+    let frame = render(&mut renderer, &scene, &|| false).unwrap();
+    assert_eq!((&frame.image, frame.depth()), (&expected.image, expected.depth()));
 }

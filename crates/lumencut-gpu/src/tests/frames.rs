@@ -6,18 +6,20 @@ use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::ErrorKind;
 use lumencut_core::frame::Frame;
-use lumencut_core::math::lanes::Isa;
 use lumencut_core::math::window::Opacity;
-use lumencut_core::pipeline::{self, context_alone};
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::Scene;
 use lumencut_core::settings::{Context, Settings, Slab, SlabMode};
+use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, trefoil, y_junction};
 use lumencut_scenes::compare::assert_equal;
+use lumencut_scenes::pictures::context_alone;
 use lumencut_scenes::tolerances::{CONTEXT_OF_FRAME, DISTANCE};
 use lumencut_scenes::views::{front, view};
 
 use super::shared;
-use crate::renderer::Renderer;
-use crate::stages::STAGES;
+use crate::renderer::GpuRenderer;
+use crate::stages::on_either;
 
 const SIZE: [usize; 2] = [96, 80];
 
@@ -41,26 +43,27 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
 }
 
 /// One phantom on both sides.
-struct Scene {
+struct BothSides {
     phantom: Phantom,
-    gpu: Renderer,
-    cpu: pipeline::Renderer,
+    gpu: GpuRenderer,
 }
 
-impl Scene {
+impl BothSides {
     fn new(device: &Arc<crate::device::Device>, phantom: Phantom) -> Self {
-        let gpu = Renderer::new(Arc::clone(device), Some(phantom.tree.clone()));
-        let cpu = pipeline::Renderer::new(phantom.tree.clone());
-        Self { phantom, gpu, cpu }
+        Self { phantom, gpu: GpuRenderer::new(Arc::clone(device)) }
+    }
+
+    fn scene(&self) -> Scene<'_> {
+        Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone())
     }
 
     fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
-        let volume = self.phantom.volume().unwrap();
-        pollster::block_on(self.gpu.render(&volume, camera, settings, &|| false)).unwrap()
+        let scene = Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone());
+        pollster::block_on(self.gpu.render(&scene, &Request::new(camera, settings))).unwrap()
     }
 
-    fn on_cpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
-        self.cpu.render(&self.phantom.volume().unwrap(), camera, settings, &|| false).unwrap()
+    fn on_cpu(&self, camera: &Camera, settings: &Settings) -> Frame {
+        CpuRenderer::default().render(&self.scene(), &Request::new(camera, settings)).unwrap()
     }
 
     /// The same picture on both sides.
@@ -72,7 +75,7 @@ impl Scene {
     /// [`assert_same`], but that within the lumen around a joint it may be any of the vessels that end there: all of
     /// them cost the same, and the last digit decides.
     fn assert_same(&self, mut gpu: Frame, cpu: &Frame) {
-        let (camera, [width, _]) = (&cpu.camera, cpu.camera.size());
+        let (camera, [width, _]) = (cpu.geometry.camera().unwrap(), cpu.size());
         let mut ends: Vec<(DVec3, f64, i32)> = Vec::new();
         for (id, vessel) in self.phantom.tree.vessels().iter().enumerate() {
             let last = vessel.points().len() - 1;
@@ -113,7 +116,7 @@ fn assert_same(gpu: &Frame, cpu: &Frame) {
 
 fn with_all_settings(phantom: Phantom, camera: &Camera) {
     let Some(device) = shared() else { return };
-    let mut scene = Scene::new(device, phantom);
+    let mut scene = BothSides::new(device, phantom);
     for (name, settings) in all_settings() {
         println!("{}, {name}", scene.phantom.name);
         scene.check(camera, &settings);
@@ -138,7 +141,7 @@ fn a_knot_with_all_settings() {
 #[test]
 fn pictures_of_all_sizes() {
     let Some(device) = shared() else { return };
-    let mut scene = Scene::new(device, y_junction().unwrap());
+    let mut scene = BothSides::new(device, y_junction().unwrap());
     for ((size, spacing), direction) in [([1, 17], 1.0), ([17, 1], 1.0), ([257, 257], 0.4)]
         .into_iter()
         .flat_map(|size| [[0.0, 1.0, 0.0], [0.4, -1.0, 0.3]].map(|direction| (size, direction)))
@@ -151,7 +154,7 @@ fn pictures_of_all_sizes() {
 #[test]
 fn pixels_of_all_sizes() {
     let Some(device) = shared() else { return };
-    let mut scene = Scene::new(device, collinear_run().unwrap());
+    let mut scene = BothSides::new(device, collinear_run().unwrap());
     for (spacing, direction) in [0.05, 0.2, 2.0, 5.0]
         .into_iter()
         .flat_map(|spacing| [[0.0, 1.0, 0.0], [0.4, -1.0, 0.3]].map(|direction| (spacing, direction)))
@@ -162,9 +165,9 @@ fn pixels_of_all_sizes() {
 }
 
 /// Every stage, and all others.
-fn each_stage() -> impl Iterator<Item = (&'static str, Vec<String>)> {
-    let others = |stage| STAGES.iter().filter(|name| **name != stage).map(ToString::to_string).collect();
-    STAGES.iter().map(move |stage| (*stage, others(*stage)))
+fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
+    let others = |stage| on_either().filter(|other| *other != stage).map(|s| s.name().to_owned()).collect();
+    on_either().map(move |stage| (stage, others(stage)))
 }
 
 /// Something of everything: a filter, a slab, silhouettes, and context behind what is transparent.
@@ -178,25 +181,26 @@ fn everything() -> Settings {
 #[test]
 fn each_stage_alone() {
     let Some(device) = shared() else { return };
-    let mut scene = Scene::new(device, y_junction().unwrap());
+    let mut scene = BothSides::new(device, y_junction().unwrap());
     let (camera, settings) = (view([0.3, 1.0, 0.2], SIZE, 0.8), everything());
     let cpu = scene.on_cpu(&camera, &settings);
     for (stage, others) in each_stage() {
-        println!("{stage} alone");
-        scene.gpu.force_to_cpu(others).unwrap();
+        println!("{stage:?} alone");
+        scene.gpu.force_to_cpu(&others).unwrap();
         let gpu = scene.on_gpu(&camera, &settings);
         scene.assert_same(gpu, &cpu);
-        println!("all but {stage}");
-        scene.gpu.force_to_cpu(vec![stage.to_owned()]).unwrap();
+        println!("all but {stage:?}");
+        scene.gpu.force_to_cpu(&[stage.name().to_owned()]).unwrap();
         let gpu = scene.on_gpu(&camera, &settings);
-        assert!(gpu.timings.iter().any(|timing| timing.stage == stage), "{:?}", gpu.timings);
+        assert!(gpu.timings.iter().any(|timing| timing.stage == stage.name()), "{:?}", gpu.timings);
         scene.assert_same(gpu, &cpu);
     }
-    scene.gpu.force_to_cpu(STAGES.map(str::to_owned).to_vec()).unwrap();
+    let all: Vec<_> = on_either().map(|stage| stage.name().to_owned()).collect();
+    scene.gpu.force_to_cpu(&all).unwrap();
     let all_on_cpu = scene.on_gpu(&camera, &settings);
     assert_eq!(
-        (&all_on_cpu.image, &all_on_cpu.depth),
-        (&cpu.image, &cpu.depth),
+        (&all_on_cpu.image, all_on_cpu.depth()),
+        (&cpu.image, cpu.depth()),
         "nothing to compute on the GPU"
     );
 }
@@ -204,11 +208,11 @@ fn each_stage_alone() {
 #[test]
 fn an_unknown_stage_is_refused_and_changes_nothing() {
     let Some(device) = shared() else { return };
-    let mut renderer = Renderer::new(Arc::clone(device), None);
-    let error = renderer.force_to_cpu(vec!["depth".to_owned(), "dept".to_owned()]).unwrap_err();
+    let mut renderer = GpuRenderer::new(Arc::clone(device));
+    let error = renderer.force_to_cpu(&["depth".to_owned(), "dept".to_owned()]).unwrap_err();
     assert_eq!((error.kind, error.found.as_str()), (ErrorKind::Settings, "'dept'"));
-    assert!(STAGES.iter().all(|stage| error.expected.contains(stage)), "{error}");
-    renderer.force_to_cpu(Vec::new()).unwrap();
+    assert!(on_either().all(|stage| error.expected.contains(stage.name())), "{error}");
+    renderer.force_to_cpu(&[]).unwrap();
 }
 
 #[test]
@@ -216,7 +220,7 @@ fn a_volume_alone() {
     let Some(device) = shared() else { return };
     let phantom = trefoil().unwrap();
     let volume = phantom.volume().unwrap();
-    let mut gpu = Renderer::new(Arc::clone(device), None);
+    let mut gpu = GpuRenderer::new(Arc::clone(device));
     let settings = Settings::default();
     let cases = [
         (front(SIZE, 0.7), settings.clone()),
@@ -228,29 +232,102 @@ fn a_volume_alone() {
         ),
     ];
     for (camera, settings) in &cases {
-        let cpu = context_alone(&volume, camera, settings, Isa::widest(), &|| false).unwrap();
-        let frame = pollster::block_on(gpu.render(&volume, camera, settings, &|| false)).unwrap();
+        let cpu = context_alone(volume, camera, settings, &|| false).unwrap();
+        let scene = Scene::default().with_volume(volume);
+        let frame = pollster::block_on(gpu.render(&scene, &Request::new(camera, settings))).unwrap();
         assert_same(&frame, &cpu);
     }
-    let cut = pollster::block_on(gpu.cut_surface(&cases[0].0, &cases[0].1, &|| false)).unwrap_err();
-    assert_eq!(cut.kind, ErrorKind::VesselTree);
+    let (nothing, request) = (Scene::default(), Request::new(&cases[0].0, &cases[0].1));
+    assert_eq!(pollster::block_on(gpu.render(&nothing, &request)).unwrap_err().kind, ErrorKind::Volume);
 }
 
 #[test]
 fn the_cut_surface_alone() {
     let Some(device) = shared() else { return };
-    let mut scene = Scene::new(device, trefoil().unwrap());
+    let phantom = trefoil().unwrap();
+    let scene = Scene::default().with_tree(phantom.tree);
     let (camera, settings) = (front(SIZE, 0.7), Settings::default());
-    let cpu = scene.cpu.cut_surface(&camera, &settings, &|| false).unwrap();
-    let gpu = pollster::block_on(scene.gpu.cut_surface(&camera, &settings, &|| false)).unwrap();
+    let request = Request::new(&camera, &settings);
+    let cpu = CpuRenderer::default().render(&scene, &request).unwrap();
+    let gpu = pollster::block_on(GpuRenderer::new(Arc::clone(device)).render(&scene, &request)).unwrap();
     assert!(gpu.image.is_empty() && gpu.value.is_empty());
     assert_same(&gpu, &cpu);
 }
 
 #[test]
+fn looking_where_the_cpu_found_the_cut_surface_shows_the_same() {
+    let Some(device) = shared() else { return };
+    let both = BothSides::new(device, y_junction().unwrap());
+    let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 0.8), both.scene());
+    let mut gpu = GpuRenderer::new(Arc::clone(device));
+    for settings in [everything(), Settings::default()] {
+        let request = Request::new(&camera, &settings);
+        let cut = Scene { volume: None, ..scene.clone() };
+        let surface = CpuRenderer::default().render(&cut, &request).unwrap();
+        let shared = scene.volume.as_ref().unwrap();
+        let looked = pollster::block_on(gpu.look(shared, surface, &request)).unwrap();
+        assert_same(&looked, &both.on_cpu(&camera, &settings));
+    }
+}
+
+#[test]
+fn a_frame_has_the_images_that_are_asked_for() {
+    let Some(device) = shared() else { return };
+    let mut both = BothSides::new(device, y_junction().unwrap());
+    let (camera, settings) = (front(SIZE, 0.8), Settings::default());
+    let whole = both.on_gpu(&camera, &settings);
+    assert_eq!(whole.images(), ImageSet::ALL);
+    for asked in [&[][..], &[Image::Picture], &[Image::Depth, Image::Value], &[Image::Vessel, Image::Context]]
+    {
+        let request = Request { images: ImageSet::of(asked), ..Request::new(&camera, &settings) };
+        let mut gpu = both.gpu.beside();
+        let frame = pollster::block_on(gpu.render(&both.scene(), &request)).unwrap();
+        assert_eq!(frame.images(), ImageSet::of(asked));
+        let expected = whole.clone().keeping(ImageSet::of(asked));
+        assert_eq!((&frame.image, &frame.vessel), (&expected.image, &expected.vessel));
+        assert_eq!((frame.depth(), &frame.context), (expected.depth(), &expected.context));
+    }
+}
+
+#[test]
+fn another_tree_sends_no_voxels() {
+    let Some(device) = shared() else { return };
+    let phantom = y_junction().unwrap();
+    let (camera, settings) = (front(SIZE, 0.8), Settings::default());
+    let request = Request::new(&camera, &settings);
+    let first = Scene::new(phantom.volume().unwrap(), phantom.tree.clone());
+    let second = first.clone().with_tree(trefoil().unwrap().tree);
+    let mut gpu = GpuRenderer::new(Arc::clone(device));
+    pollster::block_on(gpu.render(&first, &request)).unwrap();
+    let sent = gpu.volume_on_device();
+    let exchanged = pollster::block_on(gpu.render(&second, &request)).unwrap();
+    assert!(Arc::ptr_eq(&gpu.volume_on_device().unwrap(), &sent.clone().unwrap()));
+    // A renderer beside it finds the volume too, and a new one shows the same picture.
+    let mut beside = gpu.beside();
+    pollster::block_on(beside.render(&second, &request)).unwrap();
+    assert!(Arc::ptr_eq(&beside.volume_on_device().unwrap(), &sent.unwrap()));
+    let fresh = pollster::block_on(GpuRenderer::new(Arc::clone(device)).render(&second, &request)).unwrap();
+    assert_eq!((&exchanged.image, exchanged.depth()), (&fresh.image, fresh.depth()));
+}
+
+#[test]
+fn another_volume_is_shown_and_not_the_first_one_again() {
+    let Some(device) = shared() else { return };
+    let (one, other) = (y_junction().unwrap(), trefoil().unwrap());
+    let (camera, settings) = (front(SIZE, 0.8), Settings::default());
+    let request = Request::new(&camera, &settings);
+    let mut gpu = GpuRenderer::new(Arc::clone(device));
+    for phantom in [&one, &other, &one] {
+        let scene = Scene::new(phantom.volume().unwrap(), one.tree.clone());
+        let cpu = CpuRenderer::default().render(&scene, &request).unwrap();
+        assert_same(&pollster::block_on(gpu.render(&scene, &request)).unwrap(), &cpu);
+    }
+}
+
+#[test]
 fn a_view_leaves_nothing_behind_for_the_next() {
     let Some(device) = shared() else { return };
-    let mut used = Scene::new(device, y_junction().unwrap());
+    let mut used = BothSides::new(device, y_junction().unwrap());
     let few_levels = with(|s| (s.levels, s.depth_filter) = (2, false));
     let views = [
         (view([0.3, 1.0, 0.2], SIZE, 0.8), few_levels),
@@ -259,9 +336,9 @@ fn a_view_leaves_nothing_behind_for_the_next() {
         (front(SIZE, 0.8), Settings::default()),
     ];
     for (camera, settings) in &views {
-        let mut fresh = Scene::new(device, y_junction().unwrap());
+        let mut fresh = BothSides::new(device, y_junction().unwrap());
         let (a, b) = (used.on_gpu(camera, settings), fresh.on_gpu(camera, settings));
         assert_eq!((&a.image, &a.context, &a.vessel), (&b.image, &b.context, &b.vessel));
-        assert_eq!((&a.depth, &a.distance), (&b.depth, &b.distance));
+        assert_eq!((a.depth(), &a.distance), (b.depth(), &b.distance));
     }
 }

@@ -4,10 +4,20 @@
 use std::collections::BTreeSet;
 
 use bytemuck::Zeroable;
+use lumencut_core::math::context_parameters::{ContextParameters, RiseParameters};
+use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
 use lumencut_core::shaders::SHADERS;
+use lumencut_core::stages::composite::CompositeParameters;
+use lumencut_core::stages::depth_filter::DepthFilterParameters;
+use lumencut_core::stages::silhouette::SilhouetteParameters;
+use lumencut_core::stages::surface::SurfaceParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 
+use crate::levels::{NodeBox, Point, Projected, Slot, Span};
 use crate::shader::assemble;
+use crate::surface::CurvedPlace;
+use crate::view::{Axis, ViewParameters};
+use crate::volume::GridParameters;
 
 /// A field: its name, offset and size.
 type Field = (String, u32, u32);
@@ -19,28 +29,26 @@ struct Layout {
     span: u32,
 }
 
-/// The room, the name and the layout of a structure of a module of this crate; every field has to be listed.
+/// The room, the name and the layout of a structure; every field has to be listed.
 macro_rules! host {
-    ($room:literal, $module:ident, $name:ident { $($field:ident),+ $(,)? }) => {{
-        use crate::$module::$name as Host;
-        let Host { $($field),+ } = Host::zeroed();
+    ($room:literal, $name:ident { $($field:ident),+ $(,)? }) => {{
+        let $name { $($field),+ } = $name::zeroed();
         let fields = vec![$((
             stringify!($field).to_owned(),
-            std::mem::offset_of!(Host, $field) as u32,
+            std::mem::offset_of!($name, $field) as u32,
             size_of_val(&$field) as u32,
         )),+];
-        ($room, stringify!($name), Layout { fields, span: size_of::<Host>() as u32 })
+        ($room, stringify!($name), Layout { fields, span: size_of::<$name>() as u32 })
     }};
 }
 
 /// Every structure that Rust writes for shaders.
 fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     vec![
-        host!("math/hierarchy", levels, NodeBox { low, high, z, radius, padding }),
+        host!("math/hierarchy", NodeBox { low, high, z, radius, padding }),
         host!(
             "math/levels",
-            levels,
-            CutSurface {
+            CutSurfaceParameters {
                 weight,
                 margin,
                 lift,
@@ -54,14 +62,9 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 levels
             }
         ),
-        host!(
-            "math/levels",
-            levels,
-            LevelPlace { first_slot, first_bundle, bundle_count, height_count, heights }
-        ),
+        host!("math/levels", LevelPlace { first_slot, first_bundle, bundle_count, height_count, heights }),
         host!(
             "math/pieces",
-            levels,
             Slot {
                 start,
                 next,
@@ -77,13 +80,12 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 padding
             }
         ),
-        host!("math/projection", levels, Point { coarse, radius, fine, place }),
-        host!("math/projection", levels, Projected { point, radius, edge, padding }),
-        host!("math/projection", levels, Span { first, end, level }),
+        host!("math/projection", Point { coarse, radius, fine, place }),
+        host!("math/projection", Projected { point, radius, edge, padding }),
+        host!("math/projection", Span { first, end, level }),
         host!(
             "math/sampling",
-            volume,
-            Grid {
+            GridParameters {
                 last,
                 shift,
                 low,
@@ -104,12 +106,11 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 up
             }
         ),
-        host!("math/view", view, View { size, spacing, axes }),
-        host!("math/view", view, Axis { coarse, fine }),
+        host!("math/view", ViewParameters { size, spacing, axes }),
+        host!("math/view", Axis { coarse, fine }),
         host!(
-            "settings",
-            context,
-            Context {
+            "math/context_parameters",
+            ContextParameters {
                 window,
                 opacity,
                 per_step,
@@ -131,11 +132,12 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 levels
             }
         ),
-        host!("settings", context, Rise { color, opacity, start, per_intensity, padding }),
-        host!("stages/composite", composite, Paint { background, line, grey, opacity }),
-        host!("stages/depth_filter", depth_filter, Gaussian { weights }),
-        host!("stages/silhouette", silhouette, Slope { per_slope, half }),
-        host!("stages/surface", surface, Slab { part, beside, mode, padding }),
+        host!("math/context_parameters", RiseParameters { color, opacity, start, per_intensity, padding }),
+        host!("stages/composite", CompositeParameters { background, line, grey, opacity }),
+        host!("stages/depth_filter", DepthFilterParameters { weights }),
+        host!("stages/silhouette", SilhouetteParameters { per_slope, half }),
+        host!("stages/surface", CurvedPlace { whole, part, per_mm }),
+        host!("stages/surface", SurfaceParameters { part, beside, mode, padding, exact_part }),
     ]
 }
 
@@ -192,9 +194,10 @@ fn every_structure_in_a_buffer_is_compared() {
 
 #[test]
 fn the_comparison_sees_every_difference() {
-    let (_, _, host) = host!("stages/silhouette", silhouette, Slope { per_slope, half });
+    let (_, _, host) = host!("stages/silhouette", SilhouetteParameters { per_slope, half });
     let same = |fields: &str| {
-        shader_layout(&format!("struct Slope {{ {fields} }}"), "Slope").as_ref() == Some(&host)
+        shader_layout(&format!("struct SilhouetteParameters {{ {fields} }}"), "SilhouetteParameters").as_ref()
+            == Some(&host)
     };
     assert!(same("per_slope: f32, half: f32"));
     assert!(!same("steep: f32, half: f32"), "renamed");
@@ -204,5 +207,5 @@ fn the_comparison_sees_every_difference() {
     assert!(!same("per_slope: f32, @align(16) half: f32"), "moved");
     assert!(!same("per_slope: f32"), "missing");
     assert!(!same("per_slope: f32, half: f32, more: u32"), "more");
-    assert_eq!(shader_layout("struct Other { size: vec2u }", "Slope"), None);
+    assert_eq!(shader_layout("struct Other { size: vec2u }", "SilhouetteParameters"), None);
 }

@@ -50,8 +50,8 @@ pub(crate) fn shared() -> Option<&'static Arc<Device>> {
 
 /// The GPU's view.
 pub(crate) fn on_gpu(device: &Device, camera: &Camera) -> Buffer {
-    let buffer = device.uniform::<view::View>("view");
-    device.write(&buffer, &[view::View::new(camera)]);
+    let buffer = device.uniform::<view::ViewParameters>("view");
+    device.write(&buffer, &[view::ViewParameters::new(camera)]);
     buffer
 }
 

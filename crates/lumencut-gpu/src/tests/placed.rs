@@ -2,12 +2,15 @@
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
+use lumencut_core::math::blocks::Blocks;
 use lumencut_core::volume::Volume;
+use wgpu::Buffer;
 
+use super::on_gpu;
+use crate::blocks::DeviceBlocks;
 use crate::device::Device;
 use crate::recording::Recording;
-use crate::view::View;
-use crate::volume::DeviceVolume;
+use crate::volume::{DeviceVolume, GridParameters};
 
 /// A volume in a view on the GPU.
 pub struct Placed<'a> {
@@ -15,16 +18,16 @@ pub struct Placed<'a> {
     pub camera: &'a Camera,
     pub volume: &'a Volume<'a>,
     pub on_device: DeviceVolume,
-    pub view: wgpu::Buffer,
+    pub view: Buffer,
+    pub grid: Buffer,
 }
 
 impl<'a> Placed<'a> {
     pub fn new(device: &'a Device, volume: &'a Volume<'a>, camera: &'a Camera) -> Self {
         let on_device = DeviceVolume::new(device, volume, &|| false).unwrap();
-        on_device.place(device, volume, camera);
-        let view = device.uniform::<View>("view");
-        device.write(&view, &[View::new(camera)]);
-        Self { device, camera, volume, on_device, view }
+        let grid = device.uniform::<GridParameters>("grid");
+        device.write(&grid, &[on_device.grid(volume, Some(camera))]);
+        Self { device, camera, volume, on_device, view: on_gpu(device, camera), grid }
     }
 
     pub fn pixels(&self) -> usize {
@@ -32,16 +35,20 @@ impl<'a> Placed<'a> {
     }
 
     /// An image of these numbers.
-    pub fn image(&self, numbers: &[f32]) -> wgpu::Buffer {
+    pub fn image(&self, numbers: &[f32]) -> Buffer {
         let image = self.device.image("image", numbers.len(), 4);
         self.device.write(&image, numbers);
         image
     }
+
+    /// The blocks of the volume.
+    pub fn blocks(&self) -> DeviceBlocks {
+        DeviceBlocks::new(self.device, &Blocks::new(self.volume, &|| false).unwrap()).unwrap()
+    }
 }
 
 /// Runs a recording and gives an image of it.
-pub fn finish<T: bytemuck::Pod>(mut recording: Recording, image: &wgpu::Buffer) -> Vec<T> {
+pub fn finish<T: bytemuck::Pod>(mut recording: Recording, image: &Buffer) -> Vec<T> {
     recording.read(image, image.size());
-    let results = pollster::block_on(recording.finish(&|| false)).unwrap();
-    bytemuck::pod_collect_to_vec(&results.bytes[0])
+    super::finish(recording).numbers(0)
 }

@@ -1,6 +1,7 @@
 //! Silhouettes against the CPU's: where the depth is smooth, where zones meet and at single leaps.
 
-use lumencut_core::stages::silhouette::silhouette;
+use lumencut_core::settings::Settings;
+use lumencut_core::stages::silhouette::{SilhouetteParameters, silhouette};
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::SILHOUETTE;
 use lumencut_scenes::views::{front, on_cpu};
@@ -8,7 +9,7 @@ use lumencut_scenes::views::{front, on_cpu};
 use super::{SIZES, device, finish, on_gpu};
 use crate::depth_filter::DepthFilter;
 use crate::recording::Recording;
-use crate::silhouette::{Images, Silhouette};
+use crate::silhouette::{Silhouette, SilhouetteImages};
 
 /// Both strengths of an image, and the names of the timings.
 fn both(
@@ -20,21 +21,25 @@ fn both(
     let device = device()?;
     let camera = front(size, 0.4);
     let mut expected = vec![0.0; depth.len()];
-    silhouette(&on_cpu(&camera), depth, vessel, half_slope, &mut expected).unwrap();
+    let settings = Settings { silhouette_slope: half_slope, ..Settings::default() };
+    let parameters = SilhouetteParameters::new(&settings, &camera);
+    silhouette(&on_cpu(&camera), &parameters, depth, vessel, &mut expected).unwrap();
     let (stage, filter) = (Silhouette::new(device), DepthFilter::new(device));
     let [raised, strength] = ["raised", "strength"].map(|label| device.image(label, depth.len(), 4));
-    let images = Images {
+    let images = SilhouetteImages {
+        size,
         depth: &device.upload("depth", depth),
         vessel: &device.upload("vessel", vessel),
         raised: &raised,
         strength: &strength,
     };
     let mut recording = Recording::new(device);
-    stage.record(&mut recording, &filter, &on_gpu(device, &camera), &camera, half_slope, images);
+    stage.write(device, &settings, &camera);
+    stage.record(&mut recording, &filter, &on_gpu(device, &camera), images);
     recording.read(&strength, 4 * depth.len() as u64);
     let results = finish(recording);
     let names = results.timings.iter().map(|timing| timing.stage).collect();
-    Some((bytemuck::pod_collect_to_vec(&results.bytes[0]), expected, names))
+    Some((results.numbers(0), expected, names))
 }
 
 #[test]

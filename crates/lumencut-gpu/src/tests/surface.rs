@@ -1,14 +1,15 @@
 //! The surface is that of the CPU.
 #![allow(clippy::unwrap_used)]
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
+use lumencut_core::geometry::{Curved, Geometry};
 use lumencut_core::math::blocks::HUGE;
-use lumencut_core::pipeline::Renderer;
 use lumencut_core::settings::{Settings, Slab, SlabMode};
-use lumencut_core::stages::surface::surface;
+use lumencut_core::stages::surface::{SurfaceParameters, surface};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::trefoil;
+use lumencut_scenes::brute_force::by_hierarchy;
 use lumencut_scenes::tolerances::SURFACE;
 use lumencut_scenes::views::{on_cpu, view_beside_voxels};
 use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
@@ -16,7 +17,7 @@ use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
 use super::device;
 use super::placed::{Placed, finish};
 use crate::recording::Recording;
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceImages};
 
 const SLABS: [Option<Slab>; 5] = [
     None,
@@ -37,15 +38,28 @@ fn depths(camera: &Camera, volume: &Volume) -> Vec<f32> {
     (0..camera.size()[0] * camera.size()[1]).map(depth).collect()
 }
 
-fn on_gpu(placed: &Placed, slab: Option<Slab>, depth: &[f32]) -> Vec<f32> {
+fn on_gpu(placed: &Placed, slab: Option<Slab>, geometry: &Geometry) -> Vec<f32> {
     let mut recording = Recording::new(placed.device);
     let value = placed.device.image("value", placed.pixels(), 4);
-    let view = (&placed.view, placed.camera.size());
+    let depth = placed.device.image("depth", placed.pixels(), 4);
+    placed.device.write(&depth, geometry.depth());
+    let images = SurfaceImages { size: placed.camera.size(), geometry, depth: &depth, value: &value };
     let volume = (&placed.on_device, placed.volume);
     Surface::new(placed.device)
-        .record(&mut recording, view, volume, slab, &placed.image(depth), &value)
+        .record(&mut recording, [&placed.view, &placed.grid], volume, slab, images)
         .unwrap();
     finish(recording, &value)
+}
+
+/// The places where a camera's rays have these depths, as places of their own.
+fn curved(camera: &Camera, depth: &[f32]) -> Geometry {
+    let [width, height] = camera.size();
+    let place = |p: usize| {
+        let (x, y) = (camera.view_x(p % width), camera.view_y(p / width));
+        camera.world_from_view(DVec3::new(x, y, f64::from(depth[p])))
+    };
+    let directions = vec![camera.direction().as_vec3(); depth.len()];
+    Geometry::Curved(Curved::new([width, height], (0..depth.len()).map(place).collect(), directions).unwrap())
 }
 
 /// Compares the values; `contrast` is that between a volume's extremes.
@@ -59,11 +73,14 @@ fn compare(
 ) {
     let Some(device) = device() else { return };
     let placed = Placed::new(device, volume, camera);
+    let orthographic = Geometry::Orthographic { camera: *camera, depth: depth.to_vec() };
+    let geometries = [orthographic, curved(camera, depth)];
     let mut most = 0.0f32;
-    for &slab in slabs {
+    for (&slab, geometry) in slabs.iter().flat_map(|slab| geometries.iter().map(move |g| (slab, g))) {
         let mut expected = vec![0.0; depth.len()];
-        surface(&on_cpu(camera), volume, depth, slab, &mut expected).unwrap();
-        let found = on_gpu(&placed, slab, depth);
+        let parameters = SurfaceParameters::new(slab, volume).unwrap();
+        surface(&on_cpu(camera), geometry, volume, &parameters, &mut expected).unwrap();
+        let found = on_gpu(&placed, slab, geometry);
         let mut elsewhere = 0;
         for (found, expected) in found.iter().zip(&expected) {
             assert!(found.is_finite(), "{what}, {slab:?}: {found}");
@@ -145,8 +162,8 @@ fn a_long_volume_keeps_its_places() {
     // The value is the index, counted from the middle: so values differ as places do, by a 10,000th of a voxel at most.
     const SIZE: [usize; 3] = [64, 48, 1300];
     let voxels: Vec<i16> = (0..SIZE.iter().product()).map(|n: usize| (n / (64 * 48)) as i16 - 650).collect();
-    let middle = DAffine3::from_translation(-glam::DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);
-    let volume = volume(Voxels::I16(&voxels), SIZE, DAffine3::from_scale(glam::DVec3::splat(0.7)) * middle);
+    let middle = DAffine3::from_translation(-DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);
+    let volume = volume(Voxels::I16(&voxels), SIZE, DAffine3::from_scale(DVec3::splat(0.7)) * middle);
     for direction in [[0.02, 0.03, 1.0], [0.3, 1.0, -0.4], [0.0, 1.0, 0.0]] {
         let camera = view_beside_voxels(direction, [1031, 1200], 0.8);
         compare(&volume, &camera, &[None], &depths(&camera, &volume), 10.0, "places");
@@ -157,7 +174,6 @@ fn a_long_volume_keeps_its_places() {
 fn a_cut_surface_is_that_of_the_cpu() {
     let phantom = trefoil().unwrap();
     let camera = view_beside_voxels([0.3, 1.0, -0.2], [257, 257], 0.4);
-    let mut renderer = Renderer::new(phantom.tree.clone());
-    let frame = renderer.cut_surface(&camera, &Settings::default(), &|| false).unwrap();
-    compare(&phantom.volume().unwrap(), &camera, &SLABS, &frame.depth, 500.0, "trefoil");
+    let frame = by_hierarchy(&phantom.tree, &camera, &Settings::default());
+    compare(&phantom.volume().unwrap(), &camera, &SLABS, frame.depth(), 500.0, "trefoil");
 }

@@ -3,6 +3,7 @@
 
 use glam::DAffine3;
 use lumencut_core::error::ErrorKind;
+use lumencut_core::math::blocks::Blocks;
 use lumencut_core::volume::Voxels;
 use lumencut_scenes::views::view_beside_voxels;
 use lumencut_scenes::volumes::{sheared, volume};
@@ -38,12 +39,12 @@ fn blocks_that_do_not_fit_begin_with_larger_ones() {
     let camera = view_beside_voxels([0.0, 1.0, 0.0], [1, 1], 1.0);
     let voxels = vec![7i8; 40 * 30 * 20];
     let volume = volume(Voxels::I8(&voxels), [40, 30, 20], sheared([40, 30, 20]));
-    let mut placed = Placed::new(device, &volume, &camera);
-    placed.on_device.prepare_blocks(device, &volume, &|| false).unwrap();
-    let levels = &placed.on_device.blocks().unwrap().levels;
+    let places = Placed::new(device, &volume, &camera).blocks().places;
+    let levels = &places.levels[..places.level_count as usize];
     assert_eq!(levels[..3], [[10, 8, 5, 0], [5, 4, 3, 400], [3, 2, 2, 460]]);
     assert_eq!(levels.last().unwrap()[..3], [1; 3]);
-    let all: Vec<_> = volume.blocks(&|| false).unwrap().levels().collect();
+    let blocks = Blocks::new(&volume, &|| false).unwrap();
+    let all: Vec<_> = blocks.levels().collect();
     for (room, first) in [(475, 0), (474, 1), (75, 1), (74, 2), (0, all.len() - 1)] {
         assert_eq!(first_that_fits(&all, room), first, "room for {room}");
     }
