@@ -3,9 +3,8 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::error::ErrorKind;
-use lumencut_core::math::window::{Opacity, Window};
 use lumencut_core::pipeline::Renderer;
-use lumencut_core::settings::{Settings, Slab, SlabMode};
+use lumencut_core::settings::{Opacity, Settings, Slab, SlabMode, Window};
 use lumencut_core::stages::composite::{Layers, composite};
 use lumencut_core::stages::depth_filter::depth_filter;
 use lumencut_core::stages::levels::levels;

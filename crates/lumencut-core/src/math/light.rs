@@ -4,7 +4,7 @@ use super::accumulate::Light;
 use super::lanes::FAN;
 use super::ray::IndexFromView;
 use super::sampling::{Path, Places, Sampler};
-use super::window::Window;
+use crate::settings::Window;
 
 /// The share of its colour that a surface keeps edge on, and what it gains towards the viewer.
 const AMBIENT: f32 = 0.4;
