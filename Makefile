@@ -13,7 +13,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint format fuzz bench bench-gpu bench-dicom compare-dicom wheel lock clean develop tools toolchain
+.PHONY: help demo test lint format settings fuzz bench bench-gpu bench-dicom compare-dicom wheel lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -31,6 +31,9 @@ format: tools ## Format Rust and Python, and apply the safe fixes of the linter.
 	cargo fmt --all
 	$(BIN)/ruff check --fix --quiet
 	$(BIN)/ruff format --quiet
+
+settings: develop ## Write again what repeats the table of settings: the class and docs/settings.md.
+	$(BIN)/python scripts/settings.py
 
 fuzz: toolchain ## Feed the readers of centerlines with made-up files; RUNS=1000000 says how many.
 	@$(PYTHON) scripts/fuzz.py $(if $(RUNS),--runs $(RUNS))

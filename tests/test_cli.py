@@ -14,8 +14,8 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction, Window, _lumencut
-from lumencut.cli import main, options, settings
+from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction, Window
+from lumencut.cli import main, options
 from lumencut.cli.render import render
 from lumencut.cli.turntable import turntable
 from scene_files import LUMEN, TISSUE, bent_line, write_lines, write_volume
@@ -94,12 +94,6 @@ def test_every_setting_has_an_option_that_states_its_unit_and_default(command, f
 
 def test_view_names_are_those_of_the_library():
     assert tuple(VIEWS) == options.VIEW_NAMES
-
-
-def test_names_of_the_settings_are_those_of_the_library():
-    assert tuple(_lumencut.CONTEXTS) == settings.CONTEXT_NAMES
-    assert tuple(_lumencut.PRESETS) == settings.PRESET_NAMES
-    assert tuple(_lumencut.SLAB_MODES) == settings.SLAB_NAMES
 
 
 def test_settings_keep_their_defaults_where_no_option_is_given(rendered):

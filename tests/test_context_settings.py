@@ -184,9 +184,9 @@ def test_every_preset_and_every_context_is_taken_and_makes_another_picture():
     def picture(**given):
         return render(made.volume, None, camera, Settings(context_window=window, **given)).image.tobytes()
 
-    presets = [picture(context_transfer=name) for name in _lumencut.PRESETS]
+    presets = [picture(context_transfer=name) for name in _lumencut.SETTINGS["context_transfer"].choices]
     assert len(set(presets)) == len(presets) == 4
-    contexts = [picture(context=name) for name in _lumencut.CONTEXTS]
+    contexts = [picture(context=name) for name in _lumencut.SETTINGS["context"].choices]
     assert len(set(contexts)) == len(contexts) == 5
     assert picture(context="dvr") == picture(context_gamma=-1)
     # Where gamma is 1 the transfer function is still that of MIDA; MIP has its own.

@@ -30,6 +30,13 @@ def number(error: type[LumencutError], subject: str, value: Any) -> float:
     return float(numbers(error, subject, value, ()))
 
 
+def flag(error: type[LumencutError], subject: str, value: Any) -> bool:
+    """Return ``value`` as True or False; numbers are neither."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise error(subject, repr(value), "True or False")
+    return bool(value)
+
+
 def integers(
     error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int
 ) -> tuple[int, ...]:

@@ -10,15 +10,15 @@ _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
-    "CONTEXTS",
-    "PRESETS",
-    "SLAB_MODES",
+    "SETTINGS",
     "CenterlineFile",
     "Renderer",
+    "Setting",
+    "Settings",
     "__version__",
     "check_camera",
     "check_opacity",
-    "check_settings",
+    "check_slab",
     "check_transfer_function",
     "check_vessel",
     "check_window",
@@ -31,10 +31,33 @@ __all__ = [
 
 __version__: str
 
-# What a setting can be called, in the order to show it to users.
-CONTEXTS: list[str]
-PRESETS: list[str]
-SLAB_MODES: list[str]
+# The table of settings by name, in the order to show them to users.
+SETTINGS: dict[str, Setting]
+
+@final
+class Setting:
+    @property
+    def kind(self) -> str: ...
+    @property
+    def optional(self) -> bool: ...
+    @property
+    def default(self) -> Any: ...
+    @property
+    def range(self) -> tuple[float, float] | None: ...
+    @property
+    def unit(self) -> str | None: ...
+    @property
+    def choices(self) -> tuple[str, ...]: ...
+    @property
+    def open(self) -> str | None: ...
+    @property
+    def sentence(self) -> str: ...
+    @property
+    def details(self) -> str: ...
+
+@final
+class Settings:
+    def __new__(cls, attributes: Any) -> Settings: ...
 
 @final
 class CenterlineFile:
@@ -58,11 +81,11 @@ class Renderer:
     def __new__(cls, vessels: list[_Arrays] | None, device: str) -> Renderer: ...
     @property
     def device(self) -> str: ...
-    def render(self, volume: Any, camera: Any, settings: Any) -> dict[str, Any]: ...
+    def render(self, volume: Any, camera: Any, settings: Settings) -> dict[str, Any]: ...
 
 def check_camera(camera: Any) -> list[list[float]]: ...
 def check_opacity(transparent: float, opaque: float) -> None: ...
-def check_settings(settings: Any) -> None: ...
+def check_slab(thickness: float, mode: str) -> None: ...
 def check_transfer_function(points: Sequence[tuple[float, tuple[int, int, int], float]]) -> None: ...
 def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
 def check_window(level: float, width: float) -> None: ...

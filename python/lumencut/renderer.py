@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from lumencut import _lumencut
+from lumencut._checked_settings import checked
 from lumencut._checks import choice
 from lumencut.camera import Camera
 from lumencut.device import look_for_no_display
@@ -119,7 +120,7 @@ class Renderer:
         if settings.context is None and self._tree is None:
             mend = "give the renderer a tree, or the settings a context such as 'mida'"
             raise SettingsError("context", "None without a vessel tree", "something to show", mend)
-        return _frame(camera, self._core.render(self._volume, camera, self.windowed(settings)))
+        return _frame(camera, self._core.render(self._volume, camera, checked(self.windowed(settings))))
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
@@ -136,7 +137,7 @@ class Renderer:
                 "tree of the renderer", "None", "a tree to cut along", "use render for the context alone"
             )
         camera, settings = self._view(camera, settings)
-        return _frame(camera, self._core.render(None, camera, settings))
+        return _frame(camera, self._core.render(None, camera, checked(settings)))
 
     def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
         """The camera and the settings, or their defaults."""
@@ -161,6 +162,8 @@ class Renderer:
             # The smallest values and the means along rays lie far below those of the vessels.
             low = settings.context in ("minip", "average")
             context_window = self._whole_window if low else self.window
+        if (window, context_window) == (settings.window, settings.context_window):
+            return settings
         return replace(settings, window=window, context_window=context_window)
 
     @property

@@ -10,9 +10,9 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::math::blocks::Blocks;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::math::ray::{NONE, WHOLE};
-use lumencut_core::math::transfer::{ControlPoint, Preset, TransferFunction};
-use lumencut_core::math::window::Window;
-use lumencut_core::settings::{Context, ContextMode, Settings};
+use lumencut_core::settings::{
+    Context, ContextMode, ControlPoint, Preset, Settings, TransferFunction, Window,
+};
 use lumencut_core::stages::Work;
 use lumencut_core::stages::context::{Surroundings, context};
 use lumencut_core::volume::{Volume, Voxels};

@@ -3,31 +3,33 @@
 
 use pyo3::prelude::*;
 
-mod arguments;
 mod backend;
+mod camera;
 mod centerlines;
-mod context;
 mod device;
 mod errors;
 mod phantom;
 mod pool;
 mod ranges;
 mod renderer;
+mod settings;
 mod tree;
+mod values;
 mod volume;
 mod write_centerlines;
 
 #[pymodule]
 fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    context::add_names(module)?;
+    settings::add_table(module)?;
     module.add_class::<centerlines::CenterlineFile>()?;
     module.add_class::<renderer::Renderer>()?;
+    module.add_class::<settings::Checked>()?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
-    module.add_function(wrap_pyfunction!(arguments::check_camera, module)?)?;
-    module.add_function(wrap_pyfunction!(arguments::check_settings, module)?)?;
+    module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_opacity, module)?)?;
+    module.add_function(wrap_pyfunction!(ranges::check_slab, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_transfer_function, module)?)?;
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;

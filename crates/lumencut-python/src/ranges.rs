@@ -1,9 +1,7 @@
 //! Checks of single parts of the settings. The Python class of a part calls its check when it is made, so that it need
 //! not know `lumencut.Settings`, which holds the parts.
 
-use lumencut_core::math::transfer::{ControlPoint, TransferFunction};
-use lumencut_core::math::window::{Opacity, Window};
-use lumencut_core::settings::{Context, Settings};
+use lumencut_core::settings::{ControlPoint, Named, Opacity, Slab, SlabMode, TransferFunction, Window};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
@@ -11,23 +9,24 @@ use crate::errors::to_python;
 /// Checks the level and the width of a window against their ranges.
 #[pyfunction]
 pub fn check_window(level: f64, width: f64) -> PyResult<()> {
-    check(&Settings { window: Window { level, width }, ..Settings::default() })
+    Window { level, width }.check("window").map_err(to_python)
 }
 
 /// Checks both ends of an opacity ramp against their ranges.
 #[pyfunction]
 pub fn check_opacity(transparent: f64, opaque: f64) -> PyResult<()> {
-    check(&Settings { opacity: Some(Opacity { transparent, opaque }), ..Settings::default() })
+    Opacity { transparent, opaque }.check().map_err(to_python)
+}
+
+/// Checks the thickness of a slab against its range, and its mode.
+#[pyfunction]
+pub fn check_slab(thickness: f64, mode: &str) -> PyResult<()> {
+    SlabMode::named("slab mode", mode).and_then(|mode| Slab { thickness, mode }.check()).map_err(to_python)
 }
 
 /// Checks the control points (intensity, colour, opacity) of a transfer function: their number, ranges and order.
 #[pyfunction]
 pub fn check_transfer_function(points: Vec<(f64, [u8; 3], f64)>) -> PyResult<()> {
     let point = |(intensity, color, opacity)| ControlPoint { intensity, color, opacity };
-    let transfer = TransferFunction { points: points.into_iter().map(point).collect() };
-    check(&Settings { context: Some(Context { transfer, ..Context::default() }), ..Settings::default() })
-}
-
-fn check(settings: &Settings) -> PyResult<()> {
-    settings.check().map_err(to_python)
+    TransferFunction { points: points.into_iter().map(point).collect() }.check().map_err(to_python)
 }

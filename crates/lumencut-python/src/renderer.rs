@@ -13,11 +13,12 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arguments::{CameraArgument, SettingsArgument};
 use crate::backend::{Backend, View};
+use crate::camera::CameraArgument;
 use crate::device::Wanted;
 use crate::errors::{to_python, warn};
 use crate::pool;
+use crate::settings::Checked;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
 
@@ -59,16 +60,16 @@ impl Renderer {
         py: Python<'py>,
         volume: Option<VolumeArgument<'py>>,
         camera: CameraArgument,
-        settings: SettingsArgument,
+        settings: &Bound<'py, Checked>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let (camera, settings) = (camera.camera()?, settings.settings()?);
+        let (camera, Checked(settings)) = (camera.camera()?, settings.get());
         let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
         let volume = match (&volume, &borrowed) {
             (Some(volume), Some(borrowed)) => Some(volume.volume(borrowed)?.sharing(self.blocks.clone())),
             _ => None,
         };
         let (frame, given_up) = interruptible(py, |stop| {
-            let view = View { volume: volume.as_ref(), camera: &camera, settings: &settings, stop };
+            let view = View { volume: volume.as_ref(), camera: &camera, settings, stop };
             // Locked outside the pool: one of its threads, waiting for a part of this view, could take up another
             // view and wait for the lock that it holds itself.
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.

@@ -1,8 +1,6 @@
 //! Settings that several tests share.
 
-use lumencut_core::math::transfer::{ControlPoint, TransferFunction};
-use lumencut_core::math::window::Window;
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{ControlPoint, Settings, TransferFunction, Window};
 
 /// The context window of [`crate::volumes::ball_and_rod`].
 pub const WINDOW: Window = Window { level: 300.0, width: 900.0 };

@@ -1,190 +1,119 @@
-"""Options for the settings of a picture, and the settings they stand for."""
+"""Options for the settings of a picture, made from the table of settings, and the settings they stand for."""
 
 from __future__ import annotations
 
-from dataclasses import fields
+import re
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from lumencut._lumencut import SETTINGS, Setting
 from lumencut.cli.options import Command, added
-from lumencut.cli.parameters import RGB, WINDOW, Color, Parts, Thickness, Transfer
+from lumencut.cli.parameters import RGB, RGBA, WINDOW, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
     from lumencut.settings import Settings
 
-#: The names that the library knows, here so that ``--help`` need not import it; a test compares.
-CONTEXT_NAMES = ("mida", "dvr", "mip", "minip", "average")
-PRESET_NAMES = ("grey", "angio", "bone", "soft-tissue")
-SLAB_NAMES = ("max", "mean", "min")
-
 #: Stands for None.
 NO_CONTEXT = "none"
+
+#: What most pictures need comes first; the others follow in the order of the table.
+_FIRST = ("window", "opacity", "background")
+
+#: How the help calls the value of a number by its unit, where "NUMBER" would say less.
+_METAVARS = {"mm": "MM", "mm per level": "MM", "mm per mm": "SLOPE"}
+
+#: What the help says about how values of a kind are written, after the sentence about the setting.
+_WRITTEN = {"flag": " (yes or no)", "color": " (hexadecimal)", "slab": ", such as 4mm:mean"}
 
 
 def setting_options(command: Command) -> Command:
     """Add one option for each field of `Settings`, under its name."""
-    return added(_SETTINGS, command)
+    names = [*_FIRST, *(name for name in SETTINGS if name not in _FIRST)]
+    return added(tuple(_option(name, SETTINGS[name]) for name in names), command)
 
 
-# Defaults are Settings' own: an option that is not given is None. The help repeats them and a test compares.
-_SETTINGS = (
-    click.option(
-        "--window",
-        type=WINDOW,
-        help="Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU "
-        "for CT); default: from the data.",
-    ),
-    click.option(
-        "--opacity",
-        type=Parts("TRANSPARENT:OPAQUE", ":", float),
-        help="Ramp of opacity of the cut surface over intensities (unit of the volume, HU for CT); "
-        "default: all opaque.",
-    ),
-    click.option(
-        "--background",
-        type=Color("RRGGBB[AA]", (3, 4)),
-        help="Colour behind it all (hexadecimal); default 000000ff.",
-    ),
-    click.option(
-        "--cost-weight",
-        type=float,
-        metavar="NUMBER",
-        help="λ of Eq. 2: what one mm beyond a vessel's wall costs (mm of depth per mm); default 10.",
-    ),
-    click.option(
-        "--preserve-lumen/--no-preserve-lumen",
-        default=None,
-        help="Measure distance from the wall, or from the centerline (yes or no); default yes.",
-    ),
-    click.option(
-        "--lumen-first/--no-lumen-first",
-        default=None,
-        help="Let every lumen beat every surrounding, whatever the depth (yes or no); default no.",
-    ),
-    click.option(
-        "--lumen-margin",
-        type=float,
-        metavar="MM",
-        help="How far beyond the wall lumen-first reaches (mm); default 0.",
-    ),
-    click.option(
-        "--levels",
-        type=int,
-        metavar="N",
-        help="Levels of detail beyond the finest (count, 0 to 15); default 6.",
-    ),
-    click.option(
-        "--level-distance",
-        type=float,
-        metavar="MM",
-        help="How far from the vessels one level of detail reaches (mm per level); default 8.",
-    ),
-    click.option(
-        "--depth-filter/--no-depth-filter",
-        default=None,
-        help="Smooth the depth with a Gaussian of 7 × 7 pixels (yes or no); default yes.",
-    ),
-    click.option(
-        "--silhouettes/--no-silhouettes",
-        default=None,
-        help="Draw lines where the cut surface leaps (yes or no); default yes.",
-    ),
-    click.option(
-        "--silhouette-slope",
-        type=float,
-        metavar="SLOPE",
-        help="Slope at which a silhouette has half its strength (mm of depth per mm); default 24.",
-    ),
-    click.option(
-        "--silhouette-color",
-        type=RGB,
-        help="Colour of the silhouettes (hexadecimal); default ffdc00.",
-    ),
-    click.option(
-        "--slab",
-        type=Thickness(SLAB_NAMES),
-        help="Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near "
-        "to its far side), such as 4mm:mean; default: one point deep.",
-    ),
-    click.option(
-        "--context",
-        type=click.Choice([*CONTEXT_NAMES, NO_CONTEXT]),
-        help="What is shown where the cut surface is outside the volume or transparent (name): maximum "
-        "intensity difference accumulation, direct volume rendering, largest, smallest or mean value, "
-        "or the background alone; default mida.",
-    ),
-    click.option(
-        "--context-gamma",
-        type=float,
-        metavar="NUMBER",
-        help="For mida: -1 is dvr, 0 mida, 1 mip, between them a blend (number, -1 to 1); default 0.",
-    ),
-    click.option(
-        "--context-window",
-        type=WINDOW,
-        help="Intensities that the context takes as 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT); "
-        "default: from the data.",
-    ),
-    click.option(
-        "--context-transfer",
-        type=Transfer(PRESET_NAMES),
-        metavar=Transfer.name,
-        help=f"Colours and opacities of mida, dvr and mip: {', '.join(PRESET_NAMES)}, or control points of "
-        "intensity (unit of the volume, HU for CT), colour and opacity of one mm (0 to 1); "
-        "default: grey for mip, else angio.",
-    ),
-    click.option(
-        "--context-step",
-        type=float,
-        metavar="MM",
-        help="Longest distance between samples along a ray (mm); default: the smallest side of a voxel, "
-        "half of it for mida and dvr unless a preview.",
-    ),
-    click.option(
-        "--context-shading/--no-context-shading",
-        default=None,
-        help="Shade mida and dvr by the gradient, with light from the viewer (yes or no); default no.",
-    ),
-    click.option(
-        "--context-preview/--no-context-preview",
-        default=None,
-        help="Trace one ray for each square of four pixels: quicker and coarser (yes or no); default no.",
-    ),
-)
+def _option(name: str, setting: Setting) -> Any:
+    """The option of a setting. Its default is the setting's own: an option that is not given is None."""
+    words = f"--{name.replace('_', '-')}"
+    if setting.kind == "flag":
+        return click.option(f"{words}/--no-{words[2:]}", default=None, help=_help(setting))
+    kind, metavar = _type(setting)
+    return click.option(words, type=kind, metavar=metavar, help=_help(setting))
+
+
+def _type(setting: Setting) -> tuple[Any, str | None]:
+    """How the value of an option is written, and what the help calls it."""
+    match setting.kind:
+        case "number":
+            return float, _METAVARS.get(setting.unit or "", "NUMBER")
+        case "count":
+            return int, "N"
+        case "color":
+            return (RGB if len(setting.default) == 3 else RGBA), None
+        case "window":
+            return WINDOW, None
+        case "opacity":
+            return Parts("TRANSPARENT:OPAQUE", ":", float), None
+        case "slab":
+            return Thickness(setting.choices), None
+        case "transfer":
+            return Transfer(setting.choices), Transfer.name
+    none = [NO_CONTEXT] if setting.optional else []
+    return click.Choice([*setting.choices, *none]), None
+
+
+def _help(setting: Setting) -> str:
+    """What the setting does, how its value is written, and its default."""
+    # Names of settings are written as their options.
+    sentence = re.sub(r"`(\w+)`", lambda name: name[1].replace("_", "-"), setting.sentence.rstrip("."))
+    return f"{sentence}{_WRITTEN.get(setting.kind, '')}; {_default(setting)}."
+
+
+def _default(setting: Setting) -> str:
+    if setting.open is not None:
+        return f"default: {setting.open}"
+    match setting.default:
+        case bool(flag):
+            return f"default {'yes' if flag else 'no'}"
+        case tuple(channels):
+            return f"default {bytes(channels).hex()}"
+        case str(name):
+            return f"default {name}"
+        case number:
+            return f"default {number:g}"
 
 
 def settings_from(chosen: dict[str, Any]) -> Settings:
     """Return the settings that the options stand for; what was not given keeps its default."""
     from lumencut.settings import Settings
 
-    names = [field.name for field in fields(Settings)]
-    given = {name: chosen[name] for name in names if chosen.get(name) is not None}
+    given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
     try:
-        return Settings(**_as_fields(given))
+        return Settings(**{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
     except SettingsError as error:
         raise click.UsageError(str(error)) from error
 
 
-def _as_fields(given: dict[str, Any]) -> dict[str, Any]:
-    """What the options hold as what the settings take."""
-    from lumencut.settings import Slab
+def _as_field(setting: Setting, value: Any) -> Any:
+    """What an option holds as what the setting takes."""
+    from lumencut.slab import Slab
     from lumencut.transfer import TransferFunction
     from lumencut.window import Opacity, Window
 
-    made = dict(given)
-    for name in ("window", "context_window"):
-        if name in made:
-            width, level = made[name]
-            made[name] = Window(level=level, width=width)
-    for name, kind in (("opacity", Opacity), ("slab", Slab)):
-        if name in made:
-            made[name] = kind(*made[name])
-    if isinstance(made.get("context_transfer"), tuple):
-        made["context_transfer"] = TransferFunction(made["context_transfer"])
-    if made.get("context") == NO_CONTEXT:
-        made["context"] = None
-    if len(made.get("background", ())) == 3:
-        made["background"] = (*made["background"], 255)
-    return made
+    match setting.kind:
+        case "window":
+            width, level = value
+            return Window(level=level, width=width)
+        case "opacity":
+            return Opacity(*value)
+        case "slab":
+            return Slab(*value)
+        case "transfer" if isinstance(value, tuple):
+            return TransferFunction(value)
+        case "choice" if setting.optional and value == NO_CONTEXT:
+            return None
+        case "color" if len(value) < len(setting.default):
+            return (*value, 255)
+    return value

@@ -2,9 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::transfer::{Colors, MAX_POINTS};
+use super::transfer::Colors;
 use super::window::Ramp;
-use crate::settings::{Context, ContextMode, Settings};
+use crate::settings::{Context, ContextMode, MAX_POINTS, Settings};
 
 /// The most rises and gaps between the control points of a transfer function.
 const MOST_RISES: usize = MAX_POINTS - 1;

@@ -1,26 +1,9 @@
-//! The window (level, width) that maps intensities to grey, and the ramp that maps them to opacity.
+//! Linear maps of intensities to grey and to opacity.
 
 use bytemuck::{Pod, Zeroable};
 
 use super::lanes::{larger, smaller};
-
-/// Intensities shown from black to white: `level` ± `width` / 2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
-    /// The intensity shown as middle grey.
-    pub level: f64,
-    /// The range of intensities from black to white, above 0.
-    pub width: f64,
-}
-
-/// A linear ramp from transparent to opaque; `transparent` may lie above `opaque`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Opacity {
-    /// The intensity at which opacity begins to rise from 0.
-    pub transparent: f64,
-    /// The intensity at which opacity reaches 1.
-    pub opaque: f64,
-}
+use crate::settings::{Opacity, Window};
 
 /// Linear map of intensity to [0, 1], ready for one multiplication and one addition per pixel.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

@@ -1,7 +1,6 @@
 //! Pictures against the CPU's: bytes equal, but for less than one in a thousand that is 1 apart.
 
-use lumencut_core::math::window::{Opacity, Window};
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{Opacity, Settings, Window};
 use lumencut_core::stages::composite::{self, CompositeParameters, layer};
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::{BYTE, OTHER_BYTE};

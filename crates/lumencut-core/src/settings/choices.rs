@@ -1,0 +1,107 @@
+//! Settings as hosts choose them, one by one and in any order, and the checked settings that they stand for.
+
+use super::context::{Context, ContextMode, ContextName};
+use super::named::Named;
+use super::table::{ContextChoices, Settings};
+use super::value::{Transfer, Value};
+use crate::error::{Error, ErrorKind, Result};
+
+/// What a host chose; the rest has its default.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Choices {
+    settings: Settings,
+    context: ContextChoices,
+}
+
+impl Choices {
+    /// Chooses the value of a setting by its name in the table.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for an unknown setting, a value of another kind or a name that is none of the setting's.
+    pub fn set(&mut self, name: &str, value: Value) -> Result<()> {
+        if ContextChoices::ROWS.iter().any(|setting| setting.name == name) {
+            self.context.set(name, value)
+        } else {
+            self.settings.set(name, value)
+        }
+    }
+
+    /// The settings, checked.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] naming the first setting outside its range.
+    pub fn settings(&self) -> Result<Settings> {
+        // The context is checked even where it is not wanted: what is wrong with it shows at once.
+        self.context.check_gamma()?;
+        self.settings.check_rows()?;
+        self.context.check_rows()?;
+        let context = self.context.context.is_some().then(|| self.context.context());
+        Ok(Settings { context, ..self.settings.clone() })
+    }
+}
+
+impl Settings {
+    /// Checks every setting against its range.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] naming the first setting outside its range.
+    pub fn check(&self) -> Result<()> {
+        self.check_rows()?;
+        self.context.as_ref().map_or(Ok(()), |context| ContextChoices::from(context).check_rows())
+    }
+}
+
+impl ContextChoices {
+    /// The context; that of the default name where none is wanted.
+    pub fn context(&self) -> Context {
+        let name = self.context.unwrap_or(ContextName::Mida);
+        let transfer = self.context_transfer.clone().unwrap_or(Transfer::Preset(name.default_transfer()));
+        Context {
+            mode: name.mode(self.context_gamma),
+            window: self.context_window,
+            transfer: transfer.within(self.context_window),
+            step: self.context_step,
+            shading: self.context_shading,
+            preview: self.context_preview,
+        }
+    }
+
+    /// Refuses a gamma for a context that has none.
+    fn check_gamma(&self) -> Result<()> {
+        let gamma = self.context_gamma;
+        if gamma == 0.0 || self.context == Some(ContextName::Mida) {
+            return Ok(());
+        }
+        let context = self.context.map_or("None".to_owned(), |context| format!("'{}'", context.name()));
+        let found = format!("{gamma} with the context {context}");
+        let expected =
+            format!("0, or the context '{}', the only one that has a gamma", ContextName::Mida.name());
+        Err(Error::new(ErrorKind::Settings, "context_gamma", found, expected))
+    }
+}
+
+impl From<&Context> for ContextChoices {
+    /// The choices with the same ranges to keep to: a blend by its γ, a transfer function by its points.
+    fn from(context: &Context) -> Self {
+        let (name, gamma) = match context.mode {
+            ContextMode::Blend { gamma } => (ContextName::Mida, gamma),
+            ContextMode::Minimum => (ContextName::Minip, 0.0),
+            ContextMode::Average => (ContextName::Average, 0.0),
+        };
+        Self {
+            context: Some(name),
+            context_gamma: gamma,
+            context_window: context.window,
+            context_transfer: Some(Transfer::Function(context.transfer.clone())),
+            context_step: context.step,
+            context_shading: context.shading,
+            context_preview: context.preview,
+        }
+    }
+}
+
+impl Default for Context {
+    fn default() -> Self {
+        ContextChoices::default().context()
+    }
+}

@@ -1,0 +1,84 @@
+//! The context: what the rays gather where the cut surface shows nothing, and the names of the ways to do so.
+
+use super::named::Named;
+use super::transfer::{Preset, TransferFunction};
+use super::window::Window;
+
+/// The ways to show the context, by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContextName {
+    /// Maximum intensity difference accumulation, the one whose γ can be chosen.
+    Mida,
+    /// Direct volume rendering.
+    Dvr,
+    /// The largest value.
+    Mip,
+    /// The smallest value.
+    Minip,
+    /// The mean value.
+    Average,
+}
+
+impl Named for ContextName {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("mida", Self::Mida),
+        ("dvr", Self::Dvr),
+        ("mip", Self::Mip),
+        ("minip", Self::Minip),
+        ("average", Self::Average),
+    ];
+}
+
+impl ContextName {
+    /// What its rays gather; `gamma` is that of MIDA.
+    pub fn mode(self, gamma: f64) -> ContextMode {
+        match self {
+            Self::Mida => ContextMode::Blend { gamma },
+            Self::Dvr => ContextMode::Blend { gamma: -1.0 },
+            Self::Mip => ContextMode::Blend { gamma: 1.0 },
+            Self::Minip => ContextMode::Minimum,
+            Self::Average => ContextMode::Average,
+        }
+    }
+
+    /// The transfer function where none is chosen: a maximum is one intensity, whose grey says most.
+    pub fn default_transfer(self) -> Preset {
+        match self {
+            Self::Mip => Preset::Grey,
+            _ => Preset::Angio,
+        }
+    }
+}
+
+/// What the rays of the context gather.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ContextMode {
+    /// Colour and opacity: γ = −1 is direct volume rendering (DVR), 0 maximum intensity difference accumulation
+    /// (MIDA), 1 maximum intensity projection (MIP).
+    Blend {
+        /// γ, from −1 to 1.
+        gamma: f64,
+    },
+    /// The smallest value, grey.
+    Minimum,
+    /// The mean value, grey.
+    Average,
+}
+
+/// How the surroundings are rendered where the cut surface shows nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Context {
+    /// What the rays gather.
+    pub mode: ContextMode,
+    /// The intensities from 0 to 1: for the differences of MIDA, and grey of minimum and average.
+    pub window: Window,
+    /// Colour and opacity of the intensities.
+    pub transfer: TransferFunction,
+    /// The longest distance between samples (mm); `None` is the smallest side of a voxel, and half of it for DVR and
+    /// MIDA at full resolution, whose opaque borders would show rings otherwise.
+    pub step: Option<f64>,
+    /// Shade DVR and MIDA by the gradient, with light from the viewer.
+    pub shading: bool,
+    /// Trace one ray for each square of four pixels only.
+    pub preview: bool,
+}

@@ -1,0 +1,40 @@
+//! Ranges of numbers, and the error for a number outside.
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// The range that a number must lie in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// The smallest number.
+    pub low: f64,
+    /// The largest number.
+    pub high: f64,
+    /// The unit, as the error names it.
+    pub unit: &'static str,
+}
+
+impl Limits {
+    /// The largest intensity of a window, an opacity or a control point.
+    pub const LARGEST_INTENSITY: f64 = 1e12;
+    /// Intensities, in the unit of the volume.
+    pub const INTENSITY: Self =
+        Self::new(-Self::LARGEST_INTENSITY, Self::LARGEST_INTENSITY, "units of intensity");
+
+    /// From `low` to `high`, both included.
+    pub const fn new(low: f64, high: f64, unit: &'static str) -> Self {
+        Self { low, high, unit }
+    }
+
+    /// Checks the value of what is called `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for a number outside, NaN too.
+    pub fn check(&self, name: &str, value: f64) -> Result<()> {
+        let &Self { low, high, unit } = self;
+        if value >= low && value <= high {
+            return Ok(());
+        }
+        let expected = format!("between {low} and {high} {unit}");
+        Err(Error::new(ErrorKind::Settings, name, format!("{value}"), expected))
+    }
+}

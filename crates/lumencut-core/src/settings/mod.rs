@@ -1,0 +1,24 @@
+//! Every setting of the method: what it is called, its range, unit and default, and what it does.
+
+mod choices;
+mod context;
+mod field;
+mod limits;
+mod named;
+mod setting;
+mod slab;
+mod table;
+mod transfer;
+mod value;
+mod window;
+
+pub use choices::Choices;
+pub use context::{Context, ContextMode, ContextName};
+pub use limits::Limits;
+pub use named::Named;
+pub use setting::Setting;
+pub use slab::{Slab, SlabMode};
+pub use table::{ContextChoices, MAX_LEVELS, Settings, table};
+pub use transfer::{ControlPoint, MAX_POINTS, Preset, TransferFunction};
+pub use value::{Kind, Transfer, Value};
+pub use window::{Opacity, Window};

@@ -1,0 +1,32 @@
+//! Values that are chosen by name.
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// Values that have names, the same in Python, on the command line and in a browser.
+pub trait Named: Copy + PartialEq + 'static {
+    /// Each value with its name, in the order to show them to users.
+    const NAMES: &'static [(&'static str, Self)];
+
+    /// The names, in the order to show them to users.
+    fn names() -> Vec<&'static str> {
+        Self::NAMES.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// The name of this value.
+    fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(name, _)| *name)
+    }
+
+    /// The value that is called `name`; `subject` is what it is chosen for.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for a name that is none of these.
+    fn named(subject: &str, name: &str) -> Result<Self> {
+        if let Some((_, value)) = Self::NAMES.iter().find(|(known, _)| *known == name) {
+            return Ok(*value);
+        }
+        let known: Vec<_> = Self::names().iter().map(|name| format!("'{name}'")).collect();
+        let expected = format!("one of {}", known.join(", "));
+        Err(Error::new(ErrorKind::Settings, subject, format!("'{name}'"), expected))
+    }
+}

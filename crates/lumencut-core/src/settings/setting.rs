@@ -1,0 +1,121 @@
+//! One setting as hosts and documents see it, and the macro that declares settings.
+
+use super::limits::Limits;
+use super::value::{Kind, Value};
+
+/// A row of the table of settings.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting {
+    /// The name in Python; the command line has hyphens in the place of underscores.
+    pub name: &'static str,
+    /// What kind of value it has.
+    pub kind: Kind,
+    /// Whether it may be left open.
+    pub optional: bool,
+    /// The range of a number.
+    pub limits: Option<Limits>,
+    /// What holds where it is left open, for those that are open by default.
+    pub open: Option<&'static str>,
+    pub(super) about: &'static str,
+    pub(super) choices: fn() -> Vec<&'static str>,
+    pub(super) default: fn() -> Value,
+}
+
+impl Setting {
+    /// What it does, in one sentence.
+    pub fn sentence(&self) -> String {
+        self.paragraphs().next().unwrap_or_default()
+    }
+
+    /// What else there is to say, for documents that have room for it.
+    pub fn details(&self) -> String {
+        self.paragraphs().skip(1).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The names that can be chosen: of the setting, or of the slab's mode.
+    pub fn choices(&self) -> Vec<&'static str> {
+        (self.choices)()
+    }
+
+    /// The value where nothing is chosen.
+    pub fn default(&self) -> Value {
+        if self.open.is_some() { Value::None } else { (self.default)() }
+    }
+
+    fn paragraphs(&self) -> impl Iterator<Item = String> {
+        self.about.split("\n\n").map(|lines| lines.lines().map(str::trim).collect::<Vec<_>>().join(" "))
+    }
+}
+
+/// Declares a structure of settings, one row for each: `name: type = default`, then the range and the unit of a number,
+/// and what holds where it is left open. The comment before a row is what users read: its first paragraph on the command
+/// line, all of it in the documents.
+macro_rules! settings {
+    (
+        $(#[$attribute:meta])*
+        pub struct $structure:ident {
+            $(
+                $(#[doc = $about:literal])+
+                $name:ident: $type:ty = $default:expr
+                $(, range($low:expr, $high:expr, $unit:literal))?
+                $(, open($open:literal))?;
+            )+
+        }
+        $(
+            beside them {
+                $(#[doc = $beside_about:literal])+
+                $beside:ident: $beside_type:ty = $beside_default:expr;
+            }
+        )?
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $structure {
+            $($(#[doc = $about])+ pub $name: $type,)+
+            $($(#[doc = $beside_about])+ pub $beside: $beside_type,)?
+        }
+
+        impl Default for $structure {
+            fn default() -> Self {
+                Self { $($name: $default,)+ $($beside: $beside_default,)? }
+            }
+        }
+
+        impl $structure {
+            /// The settings of this structure, in the order to show them to users.
+            pub const ROWS: &'static [Setting] = &[$(
+                Setting {
+                    name: stringify!($name),
+                    kind: <$type as Field>::KIND,
+                    optional: <$type as Field>::OPTIONAL,
+                    limits: settings!(@limits $($low, $high, $unit)?),
+                    open: settings!(@open $($open)?),
+                    about: concat!($($about, "\n"),+),
+                    choices: <$type as Field>::choices,
+                    default: || Field::to_value(&Self::default().$name),
+                },
+            )+];
+
+            /// Sets the setting `name`.
+            pub(super) fn set(&mut self, name: &str, value: Value) -> Result<()> {
+                match name {
+                    $(stringify!($name) => self.$name = Field::from_value(name, value)?,)+
+                    _ => return Err(unknown(name)),
+                }
+                Ok(())
+            }
+
+            /// Checks the settings against their ranges.
+            pub(super) fn check_rows(&self) -> Result<()> {
+                $(Field::check(&self.$name, stringify!($name), settings!(@limits $($low, $high, $unit)?).as_ref())?;)+
+                Ok(())
+            }
+        }
+    };
+    (@limits) => { None };
+    (@limits $low:expr, $high:expr, $unit:literal) => { Some(Limits::new($low, $high, $unit)) };
+    (@open) => { None };
+    (@open $open:literal) => { Some($open) };
+}
+
+pub(super) use settings;

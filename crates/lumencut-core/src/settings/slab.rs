@@ -1,0 +1,43 @@
+//! The slab: how thick the cut surface is, and what it shows of its thickness.
+
+use super::limits::Limits;
+use super::named::Named;
+use crate::error::Result;
+
+/// The thicknesses that a slab can have.
+const THICKNESS: Limits = Limits::new(0.0, 1e3, "mm");
+
+/// What a thick cut surface shows of the values along the view direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SlabMode {
+    /// The largest.
+    Max,
+    /// The mean.
+    Mean,
+    /// The smallest.
+    Min,
+}
+
+impl Named for SlabMode {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("max", Self::Max), ("mean", Self::Mean), ("min", Self::Min)];
+}
+
+/// A thick cut surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slab {
+    /// From its near to its far side along the view direction, the cut surface in the middle (mm).
+    pub thickness: f64,
+    /// What it shows.
+    pub mode: SlabMode,
+}
+
+impl Slab {
+    /// Checks the thickness.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Settings`] for a thickness outside its range.
+    pub fn check(&self) -> Result<()> {
+        THICKNESS.check("slab thickness", self.thickness)
+    }
+}

@@ -1,0 +1,111 @@
+//! The table of settings. Checks, the Python class, the options of the command line and the documents come from it.
+
+use super::context::{Context, ContextName};
+use super::field::Field;
+use super::limits::Limits;
+use super::setting::{Setting, settings};
+use super::slab::Slab;
+use super::value::{Transfer, Value};
+use super::window::{Opacity, Window};
+use crate::error::{Error, ErrorKind, Result};
+
+/// The most levels of detail beyond the finest.
+pub const MAX_LEVELS: usize = 15;
+
+/// All settings, in the order to show them to users.
+pub fn table() -> impl Iterator<Item = &'static Setting> {
+    Settings::ROWS.iter().chain(ContextChoices::ROWS)
+}
+
+settings! {
+    /// How the cut surface is made and shown.
+    pub struct Settings {
+        /// λ of Eq. 2: what one mm beyond a vessel's wall costs (mm of depth per mm).
+        cost_weight: f64 = 10.0, range(0.0, 1e4, "mm of depth per mm");
+
+        /// Measure distance from the wall, or from the centerline.
+        ///
+        /// Without radii it is measured from the centerline.
+        preserve_lumen: bool = true;
+
+        /// Let every lumen beat every surrounding, whatever the depth.
+        lumen_first: bool = false;
+
+        /// How far beyond the wall `lumen_first` reaches (mm).
+        lumen_margin: f64 = 0.0, range(0.0, 1e4, "mm");
+
+        /// Levels of detail beyond the finest (count, 0 to 15).
+        levels: usize = 6, range(0.0, MAX_LEVELS as f64, "levels");
+
+        /// How far from the vessels one level of detail reaches (mm per level).
+        level_distance: f64 = 8.0, range(1e-3, 1e6, "mm per level");
+
+        /// Smooth the depth with a Gaussian of 7 × 7 pixels.
+        depth_filter: bool = true;
+
+        /// Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
+        window: Window = Window::default(), open("from the data");
+
+        /// Ramp of opacity of the cut surface over intensities (unit of the volume, HU for CT).
+        opacity: Option<Opacity> = None, open("all opaque");
+
+        /// Draw lines where the cut surface leaps.
+        silhouettes: bool = true;
+
+        /// Slope at which a silhouette has half its strength (mm of depth per mm).
+        silhouette_slope: f64 = 24.0, range(1e-3, 1e6, "mm per mm");
+
+        /// Colour of the silhouettes.
+        silhouette_color: [u8; 3] = [255, 220, 0];
+
+        /// Colour behind it all.
+        background: [u8; 4] = [0, 0, 0, 255];
+
+        /// Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its far
+        /// side).
+        slab: Option<Slab> = None, open("one point deep");
+    }
+    beside them {
+        /// What is shown where the cut surface is outside the volume or transparent; `None` is the background.
+        context: Option<Context> = Some(Context::default());
+    }
+}
+
+settings! {
+    /// The context as hosts choose it; [`ContextChoices::context`] is what rays need of it.
+    pub struct ContextChoices {
+        /// What is shown where the cut surface is outside the volume or transparent (name): maximum intensity
+        /// difference accumulation, direct volume rendering, largest, smallest or mean value, or the background
+        /// alone.
+        context: Option<ContextName> = Some(ContextName::Mida);
+
+        /// For mida: -1 is dvr, 0 mida, 1 mip, between them a blend (number, -1 to 1).
+        context_gamma: f64 = 0.0, range(-1.0, 1.0, "(DVR to MIP)");
+
+        /// Intensities that the context takes as 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
+        ///
+        /// They are 0 to 1 for the differences of mida, and black to white for minip and average; the named transfer
+        /// functions lie within them. From the data they are taken whatever `window` is: as `Window.whole` does for
+        /// minip and average, as `Window.from_data` does for the others.
+        context_window: Window = Window::default(), open("from the data");
+
+        /// Colours and opacities of mida, dvr and mip: grey, angio, bone, soft-tissue, or control points of intensity
+        /// (unit of the volume, HU for CT), colour and opacity of one mm (0 to 1).
+        context_transfer: Option<Transfer> = None, open("grey for mip, else angio");
+
+        /// Longest distance between samples along a ray (mm).
+        context_step: Option<f64> = None, range(1e-3, 1e3, "mm"),
+            open("the smallest side of a voxel, half of it for mida and dvr unless a preview");
+
+        /// Shade mida and dvr by the gradient, with light from the viewer.
+        context_shading: bool = false;
+
+        /// Trace one ray for each square of four pixels: quicker and coarser.
+        context_preview: bool = false;
+    }
+}
+
+fn unknown(name: &str) -> Error {
+    let known: Vec<_> = table().map(|setting| setting.name).collect();
+    Error::new(ErrorKind::Settings, "name of a setting", format!("'{name}'"), known.join(", "))
+}

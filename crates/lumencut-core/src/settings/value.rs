@@ -1,0 +1,89 @@
+//! The kinds of values that settings have, and such values as hosts give them.
+
+use super::slab::Slab;
+use super::transfer::{Preset, TransferFunction};
+use super::window::{Opacity, Window};
+
+/// What kind of value a setting has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Yes or no.
+    Flag,
+    /// A number.
+    Number,
+    /// A whole number.
+    Count,
+    /// A colour of so many channels, 0 to 255: red, green, blue and, fourth, opacity.
+    Color(usize),
+    /// One of some names.
+    Choice,
+    /// A [`Window`].
+    Window,
+    /// An [`Opacity`].
+    Opacity,
+    /// A [`Slab`].
+    Slab,
+    /// A [`TransferFunction`], or the name of a [`Preset`].
+    Transfer,
+}
+
+impl Kind {
+    /// The kind in a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Flag => "flag",
+            Self::Number => "number",
+            Self::Count => "count",
+            Self::Color(_) => "color",
+            Self::Choice => "choice",
+            Self::Window => "window",
+            Self::Opacity => "opacity",
+            Self::Slab => "slab",
+            Self::Transfer => "transfer",
+        }
+    }
+}
+
+/// The value of a setting.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// None is chosen.
+    None,
+    /// Of [`Kind::Flag`].
+    Flag(bool),
+    /// Of [`Kind::Number`].
+    Number(f64),
+    /// Of [`Kind::Count`].
+    Count(usize),
+    /// Of [`Kind::Color`].
+    Color(Vec<u8>),
+    /// Of [`Kind::Choice`] and [`Kind::Transfer`].
+    Name(String),
+    /// Of [`Kind::Window`].
+    Window(Window),
+    /// Of [`Kind::Opacity`].
+    Opacity(Opacity),
+    /// Of [`Kind::Slab`].
+    Slab(Slab),
+    /// Of [`Kind::Transfer`].
+    Transfer(TransferFunction),
+}
+
+/// A transfer function as it is chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Transfer {
+    /// By name; it lies within the window of the context.
+    Preset(Preset),
+    /// By its points.
+    Function(TransferFunction),
+}
+
+impl Transfer {
+    /// The transfer function in the window of the context.
+    pub(super) fn within(&self, window: Window) -> TransferFunction {
+        match self {
+            Self::Preset(preset) => preset.transfer_function(window),
+            Self::Function(function) => function.clone(),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! The window (level, width) that maps intensities to grey, and the ramp that maps them to opacity.
+
+use super::limits::Limits;
+use crate::error::Result;
+
+/// The widths that a window can have.
+const WIDTH: Limits = Limits::new(1e-12, Limits::LARGEST_INTENSITY, Limits::INTENSITY.unit);
+
+/// Intensities shown from black to white: `level` ± `width` / 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// The intensity shown as middle grey.
+    pub level: f64,
+    /// The range of intensities from black to white, above 0.
+    pub width: f64,
+}
+
+/// A window that shows vessels of a CT angiography.
+impl Default for Window {
+    fn default() -> Self {
+        Self { level: 300.0, width: 900.0 }
+    }
+}
+
+impl Window {
+    /// Checks level and width of the window that is called `name`.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Settings`] for a number outside its range.
+    pub fn check(&self, name: &str) -> Result<()> {
+        Limits::INTENSITY.check(&format!("{name} level"), self.level)?;
+        WIDTH.check(&format!("{name} width"), self.width)
+    }
+}
+
+/// A linear ramp from transparent to opaque; `transparent` may lie above `opaque`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opacity {
+    /// The intensity at which opacity begins to rise from 0.
+    pub transparent: f64,
+    /// The intensity at which opacity reaches 1.
+    pub opaque: f64,
+}
+
+impl Opacity {
+    /// Checks both intensities.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Settings`] for an intensity outside its range.
+    pub fn check(&self) -> Result<()> {
+        Limits::INTENSITY.check("opacity start", self.transparent)?;
+        Limits::INTENSITY.check("opacity end", self.opaque)
+    }
+}

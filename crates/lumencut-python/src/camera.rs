@@ -1,0 +1,33 @@
+//! Cameras, read from the attributes of `lumencut.Camera`.
+
+use glam::DVec3;
+use lumencut_core::camera::Camera;
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+
+/// The attributes of `lumencut.Camera`.
+#[derive(FromPyObject)]
+pub struct CameraArgument {
+    center: [f64; 3],
+    direction: [f64; 3],
+    up: [f64; 3],
+    size: [usize; 2],
+    pixel_spacing: f64,
+}
+
+impl CameraArgument {
+    /// The camera of the core.
+    pub fn camera(&self) -> PyResult<Camera> {
+        let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
+        Camera::new(center, direction, up, self.size, self.pixel_spacing).map_err(to_python)
+    }
+}
+
+/// Checks a camera and returns its unit vectors (direction, right, up).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn check_camera(camera: CameraArgument) -> PyResult<[[f64; 3]; 3]> {
+    let camera = camera.camera()?;
+    Ok([camera.direction(), camera.right(), camera.up()].map(|v| v.to_array()))
+}

@@ -1,0 +1,81 @@
+//! The table of settings for Python, and the settings read from the attributes of `lumencut.Settings`.
+
+use lumencut_core::settings::{Choices, Setting, Settings, Value, table};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::errors::to_python;
+use crate::values::value;
+
+/// A row of the table of settings.
+#[pyclass(frozen, get_all, name = "Setting", module = "lumencut._lumencut")]
+struct Row {
+    kind: &'static str,
+    optional: bool,
+    default: Py<PyAny>,
+    range: Option<(f64, f64)>,
+    unit: Option<&'static str>,
+    choices: Py<PyTuple>,
+    open: Option<&'static str>,
+    sentence: String,
+    details: String,
+}
+
+impl Row {
+    fn new(py: Python<'_>, setting: &Setting) -> PyResult<Self> {
+        Ok(Self {
+            kind: setting.kind.name(),
+            optional: setting.optional,
+            default: plain(py, setting.default())?,
+            range: setting.limits.map(|limits| (limits.low, limits.high)),
+            unit: setting.limits.map(|limits| limits.unit),
+            choices: PyTuple::new(py, setting.choices())?.unbind(),
+            open: setting.open,
+            sentence: setting.sentence(),
+            details: setting.details(),
+        })
+    }
+}
+
+/// The default of a setting; those that are left open are None.
+fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
+    match default {
+        Value::Flag(flag) => flag.into_py_any(py),
+        Value::Number(number) => number.into_py_any(py),
+        Value::Count(count) => count.into_py_any(py),
+        Value::Color(channels) => PyTuple::new(py, channels)?.into_py_any(py),
+        Value::Name(name) => name.into_py_any(py),
+        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
+            Ok(py.None())
+        }
+    }
+}
+
+/// Adds the table of settings, by name, to the module.
+pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let rows = PyDict::new(module.py());
+    for setting in table() {
+        rows.set_item(setting.name, Row::new(module.py(), setting)?)?;
+    }
+    module.add_class::<Row>()?;
+    module.add("SETTINGS", rows)
+}
+
+/// The settings that the attributes of `lumencut.Settings` stand for: checked when they are made, and read by every
+/// view.
+#[pyclass(frozen, name = "Settings", module = "lumencut._lumencut")]
+pub struct Checked(pub Settings);
+
+#[pymethods]
+impl Checked {
+    #[new]
+    fn new(attributes: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let mut choices = Choices::default();
+        for setting in table() {
+            let value = value(setting.kind, &attributes.getattr(setting.name)?)?;
+            choices.set(setting.name, value).map_err(to_python)?;
+        }
+        choices.settings().map(Self).map_err(to_python)
+    }
+}

@@ -1,0 +1,83 @@
+//! Values of settings, read from Python objects: numbers, names, and the attributes of windows, opacities, slabs and
+//! transfer functions.
+
+use lumencut_core::error::Result;
+use lumencut_core::settings::{
+    ControlPoint, Kind, Named, Opacity, Slab, SlabMode, TransferFunction, Value, Window,
+};
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+
+/// The value that an object stands for in a setting of this kind.
+pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
+    if object.is_none() {
+        return Ok(Value::None);
+    }
+    Ok(match kind {
+        Kind::Flag => Value::Flag(object.extract()?),
+        Kind::Number => Value::Number(object.extract()?),
+        Kind::Count => Value::Count(object.extract()?),
+        Kind::Color(_) => Value::Color(object.extract()?),
+        Kind::Choice => Value::Name(object.extract()?),
+        Kind::Window => Value::Window(object.extract::<WindowArgument>()?.window()),
+        Kind::Opacity => Value::Opacity(object.extract::<OpacityArgument>()?.opacity()),
+        Kind::Slab => Value::Slab(object.extract::<SlabArgument>()?.slab().map_err(to_python)?),
+        Kind::Transfer => match object.extract() {
+            Ok(name) => Value::Name(name),
+            Err(_) => Value::Transfer(object.extract::<TransferArgument>()?.transfer_function()),
+        },
+    })
+}
+
+/// The attributes of `lumencut.Window`.
+#[derive(FromPyObject)]
+struct WindowArgument {
+    level: f64,
+    width: f64,
+}
+
+impl WindowArgument {
+    fn window(&self) -> Window {
+        Window { level: self.level, width: self.width }
+    }
+}
+
+/// The attributes of `lumencut.Opacity`.
+#[derive(FromPyObject)]
+struct OpacityArgument {
+    transparent: f64,
+    opaque: f64,
+}
+
+impl OpacityArgument {
+    fn opacity(&self) -> Opacity {
+        Opacity { transparent: self.transparent, opaque: self.opaque }
+    }
+}
+
+/// The attributes of `lumencut.Slab`.
+#[derive(FromPyObject)]
+struct SlabArgument {
+    thickness: f64,
+    mode: String,
+}
+
+impl SlabArgument {
+    fn slab(&self) -> Result<Slab> {
+        Ok(Slab { thickness: self.thickness, mode: SlabMode::named("slab mode", &self.mode)? })
+    }
+}
+
+/// The attributes of `lumencut.TransferFunction`.
+#[derive(FromPyObject)]
+struct TransferArgument {
+    points: Vec<(f64, [u8; 3], f64)>,
+}
+
+impl TransferArgument {
+    fn transfer_function(&self) -> TransferFunction {
+        let point = |&(intensity, color, opacity)| ControlPoint { intensity, color, opacity };
+        TransferFunction { points: self.points.iter().map(point).collect() }
+    }
+}

@@ -1,0 +1,68 @@
+"""What `Settings` does besides holding its fields: it checks them, once, by the table of the core."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lumencut import _lumencut
+from lumencut._checks import choice, flag, integers, number
+from lumencut.errors import SettingsError
+from lumencut.slab import Slab
+from lumencut.transfer import TransferFunction
+from lumencut.window import Opacity, Window
+
+_CLASSES = {"window": Window, "opacity": Opacity, "slab": Slab}
+
+
+class CheckedSettings:
+    """The base of `Settings`; beside the fields it keeps what the core made of them when it checked them."""
+
+    # A slot is no field: it is neither compared nor printed, and stays out of what is pickled.
+    __slots__ = ("_checked",)
+    _checked: _lumencut.Settings
+
+    def __post_init__(self) -> None:
+        for name, setting in _lumencut.SETTINGS.items():
+            object.__setattr__(self, name, _value(name, setting, getattr(self, name)))
+        self._keep()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return vars(self)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        self._keep()
+
+    def _keep(self) -> None:
+        object.__setattr__(self, "_checked", _lumencut.Settings(self))
+
+
+def checked(settings: CheckedSettings) -> _lumencut.Settings:
+    """Return the settings as the core reads them; they were checked when they were made."""
+    return settings._checked
+
+
+def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
+    """The value of a setting in its own type, or an error that names the setting; the core checks ranges."""
+    if value is None and setting.optional:
+        return None
+    or_none = " or None" if setting.optional else ""
+    match setting.kind:
+        case "flag":
+            return flag(SettingsError, name, value)
+        case "number":
+            return number(SettingsError, name, value)
+        case "count":
+            low, high = setting.range or (0, 0)
+            return integers(SettingsError, name, [value], int(low), int(high), 1)[0]
+        case "color":
+            return integers(SettingsError, name, value, 0, 255, len(setting.default))
+        case "choice":
+            choice(SettingsError, name, value, setting.choices, or_none)
+        case "transfer":
+            if not isinstance(value, TransferFunction):
+                choice(SettingsError, name, value, setting.choices, f", a TransferFunction{or_none}")
+        case kind:
+            if not isinstance(value, _CLASSES[kind]):
+                raise SettingsError(name, repr(value), f"a {_CLASSES[kind].__name__}{or_none}")
+    return value

@@ -1,0 +1,203 @@
+"""Writes what repeats the table of settings: the class `Settings` of the package, and ``docs/settings.md``.
+
+The table is `crates/lumencut-core/src/settings/table.rs`; this script reads it from the built package.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+
+from lumencut._lumencut import SETTINGS, Setting
+
+ROOT = Path(__file__).resolve().parent.parent
+
+CLASS_HEAD = '''"""Every setting of the method, with its unit and its default.
+
+``make settings`` writes this file from the table of settings in the core.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from lumencut._checked_settings import CheckedSettings
+from lumencut.slab import Slab
+from lumencut.transfer import TransferFunction
+from lumencut.window import Opacity, Window
+
+'''
+CLASS = '''
+
+@dataclass(frozen=True)
+class Settings(CheckedSettings):
+    """How the cut surface is made and shown (Auzinger et al. 2013, section 3), and what is behind it.
+
+    Parameters
+    ----------
+{parameters}
+
+    Raises
+    ------
+    SettingsError
+        For a setting outside its range.
+    """
+
+{fields}
+'''
+PAGE = """# Settings
+
+Each setting is a field of `lumencut.Settings` under this name, and an option of `lumencut render` and
+`lumencut turntable` with hyphens in the place of underscores. `make settings` writes this page from the table
+of settings in the core.
+
+| setting | kind | range | unit | default | what it does |
+|---|---|---|---|---|---|
+{rows}
+"""
+PLAIN = {
+    "flag": "bool",
+    "number": "float",
+    "count": "int",
+    "window": "Window",
+    "opacity": "Opacity",
+    "slab": "Slab",
+}
+"""The types of Python that need no more than their name."""
+
+
+def class_file() -> str:
+    """The module of the class `Settings`."""
+    parameters = "\n".join(parameter(name, setting) for name, setting in SETTINGS.items())
+    fields = "\n".join(
+        f"    {name}: {annotation(name, setting)} = {literal(setting.default)}"
+        for name, setting in SETTINGS.items()
+    )
+    aliases = "".join(
+        f"{alias(name)}: TypeAlias = Literal[{names(setting)}]\n"
+        for name, setting in SETTINGS.items()
+        if setting.kind == "choice"
+    )
+    return CLASS_HEAD + aliases + CLASS.format(parameters=parameters, fields=fields)
+
+
+def parameter(name: str, setting: Setting) -> str:
+    """The entry of a setting in the documentation of the class."""
+    parts = [kind_in_words(setting)]
+    if setting.range is not None:
+        parts.append(span(setting))
+    default = literal(setting.default).removesuffix(".0")
+    parts.append("optional" if setting.open is not None else f"default {default}")
+    text = described(setting)
+    if setting.open is not None:
+        text += f" Where not given: {setting.open}."
+    lines = textwrap.wrap(text.replace("`", "``"), 100, break_on_hyphens=False)
+    return "\n".join([f"    {name} : {', '.join(parts)}", *(f"        {line}" for line in lines)])
+
+
+def described(setting: Setting) -> str:
+    """What a setting does, all of it."""
+    return f"{setting.sentence} {setting.details}".strip()
+
+
+def kind_in_words(setting: Setting) -> str:
+    """The type of a setting as the documentation of the class names it."""
+    match setting.kind:
+        case "color":
+            return f"({', '.join(['int'] * len(setting.default))})"
+        case "choice":
+            return f"{{{names(setting)}}}" + (" or None" if setting.optional else "")
+        case "transfer":
+            return f"{{{names(setting)}}} or TransferFunction"
+    return PLAIN[setting.kind]
+
+
+def annotation(name: str, setting: Setting) -> str:
+    """The type of a field."""
+    match setting.kind:
+        case "color":
+            kind = f"tuple[{', '.join(['int'] * len(setting.default))}]"
+        case "choice":
+            kind = alias(name)
+        case "transfer":
+            kind = "str | TransferFunction"
+        case _:
+            kind = PLAIN[setting.kind]
+    return f"{kind} | None" if setting.optional else kind
+
+
+def alias(name: str) -> str:
+    """What the type of the names of a setting is called."""
+    return "".join(word.capitalize() for word in name.split("_")) + "Name"
+
+
+def names(setting: Setting) -> str:
+    """The names that can be chosen."""
+    return ", ".join(f'"{name}"' for name in setting.choices)
+
+
+def literal(value: object) -> str:
+    """A default as Python writes it."""
+    return f'"{value}"' if isinstance(value, str) else repr(value)
+
+
+def span(setting: Setting) -> str:
+    """The range of a number."""
+    low, high = setting.range or (0.0, 0.0)
+    return f"{plain(low)} to {plain(high)}"
+
+
+def plain(number: float) -> str:
+    """A number without an exponent, and without a fraction where it is whole."""
+    return str(int(number)) if number == int(number) else str(number)
+
+
+def page() -> str:
+    """The page of all settings."""
+    return PAGE.format(rows="\n".join(row(name, setting) for name, setting in SETTINGS.items()))
+
+
+def row(name: str, setting: Setting) -> str:
+    """The row of a setting."""
+    limits, unit = (span(setting), (setting.unit or "").strip("()")) if setting.range else ("", "")
+    text = described(setting)
+    return f"| `{name}` | {page_kind(setting)} | {limits} | {unit} | {page_default(setting)} | {text} |"
+
+
+def page_kind(setting: Setting) -> str:
+    """The kind of a setting as the page names it."""
+    match setting.kind:
+        case "color":
+            return f"{len(setting.default)} whole numbers, 0 to 255"
+        case "choice":
+            return "one of " + ", ".join(f"`{name}`" for name in setting.choices)
+        case "transfer":
+            return "name or `TransferFunction`"
+        case "flag" | "number" | "count":
+            return {"flag": "yes or no", "number": "number", "count": "whole number"}[setting.kind]
+    return f"`{PLAIN[setting.kind]}`"
+
+
+def page_default(setting: Setting) -> str:
+    """The default of a setting as the page names it."""
+    match setting.default:
+        case None:
+            return setting.open or "none"
+        case bool(flag):
+            return "yes" if flag else "no"
+        case float(number):
+            return plain(number)
+        case str(name):
+            return f"`{name}`"
+    return str(setting.default)
+
+
+def files() -> dict[Path, str]:
+    """Each file that repeats the table, and what it has to hold."""
+    return {ROOT / "python/lumencut/settings.py": class_file(), ROOT / "docs/settings.md": page()}
+
+
+if __name__ == "__main__":
+    for path, content in files().items():
+        path.write_text(content, "utf-8")
