@@ -1,10 +1,10 @@
 //! Cameras and settings, read from the attributes of their Python classes.
 
 use glam::DVec3;
-use lumencut_core::camera::Camera;
-use lumencut_core::error::Result;
-use lumencut_core::math::window::{Opacity, Window};
-use lumencut_core::settings::Settings;
+use lumencut::camera::Camera;
+use lumencut::error::Result;
+use lumencut::math::window::{Opacity, Window};
+use lumencut::settings::Settings;
 use pyo3::prelude::*;
 
 use crate::context::{ContextArgument, SlabArgument};

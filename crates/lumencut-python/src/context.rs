@@ -1,9 +1,9 @@
 //! The context and the slab, read from the attributes of `lumencut.Settings`; the names that stand for their modes.
 
-use lumencut_core::error::{Error, ErrorKind, Result};
-use lumencut_core::math::transfer::{ControlPoint, Preset, TransferFunction};
-use lumencut_core::math::window::Window;
-use lumencut_core::settings::{Context, ContextMode, Slab, SlabMode};
+use lumencut::error::{Error, ErrorKind, Result};
+use lumencut::math::transfer::{ControlPoint, Preset, TransferFunction};
+use lumencut::math::window::Window;
+use lumencut::settings::{Context, ContextMode, Slab, SlabMode};
 use pyo3::prelude::*;
 
 use crate::arguments::WindowArgument;

@@ -1,9 +1,9 @@
 //! Checks of single parts of the settings. The Python class of a part calls its check when it is made, so that it need
 //! not know `lumencut.Settings`, which holds the parts.
 
-use lumencut_core::math::transfer::{ControlPoint, TransferFunction};
-use lumencut_core::math::window::{Opacity, Window};
-use lumencut_core::settings::{Context, Settings};
+use lumencut::math::transfer::{ControlPoint, TransferFunction};
+use lumencut::math::window::{Opacity, Window};
+use lumencut::settings::{Context, Settings};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;

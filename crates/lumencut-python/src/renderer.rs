@@ -5,17 +5,17 @@ use std::sync::mpsc;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use lumencut_core::error::Error;
-use lumencut_core::frame::Frame;
-use lumencut_core::stages::Stop;
-use lumencut_core::volume::SharedBlocks;
+use lumencut::backend::{Backend, View};
+use lumencut::devices::Wanted;
+use lumencut::error::Error;
+use lumencut::frame::Frame;
+use lumencut::stages::Stop;
+use lumencut::volume::SharedBlocks;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arguments::{CameraArgument, SettingsArgument};
-use crate::backend::{Backend, View};
-use crate::device::Wanted;
 use crate::errors::{to_python, warn};
 use crate::pool;
 use crate::tree::{VesselArrays, tree};
@@ -39,7 +39,8 @@ impl Renderer {
     fn new(py: Python<'_>, vessels: Option<Vec<VesselArrays<'_>>>, device: &str) -> PyResult<Self> {
         let tree = vessels.map(|vessels| tree(&vessels)).transpose()?;
         let wanted = Wanted::named(device).map_err(to_python)?;
-        let (backend, given_up) = py.detach(|| Backend::new(tree, wanted)).map_err(to_python)?;
+        let (backend, given_up) =
+            py.detach(|| pollster::block_on(Backend::new(tree, wanted))).map_err(to_python)?;
         say_that_the_cpu_goes_on(py, given_up)?;
         Ok(Self { backend: Mutex::new(backend), blocks: SharedBlocks::default() })
     }
@@ -74,7 +75,7 @@ impl Renderer {
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
-            pool::install(|| backend.render(&view))?.map_err(to_python)
+            pool::install(|| pollster::block_on(backend.render(&view)))?.map_err(to_python)
         })?;
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)
