@@ -22,7 +22,9 @@ from xml.etree import ElementTree as ET
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
 PORTABLE = tuple(
-    word for part in ("core", "phantom", "io", "gpu") for word in ("--package", f"lumencut-{part}")
+    word
+    for name in ("lumencut-core", "lumencut-phantom", "lumencut-io", "lumencut-gpu", "lumencut")
+    for word in ("--package", name)
 )
 SCRIPTS = ("scripts/check.py", "scripts/fuzz.py", "scripts/toolchain.py", "scripts/wasm_size.py")
 FUZZ_RUNS = 110_000

@@ -6,27 +6,48 @@ from typing import Any, TypedDict, final
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.placement import Coordinates, Unit
+
+_Axis = str | npt.NDArray[np.float64]
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
+    "LARGEST_EXTENT",
+    "MILLIMETRES",
     "SETTINGS",
+    "SIGNS",
+    "SMALLEST_EXTENT",
+    "VIEWS",
     "CenterlineFile",
     "Renderer",
     "Setting",
     "Settings",
     "__version__",
+    "better_place",
     "check_camera",
     "check_opacity",
     "check_slab",
     "check_transfer_function",
     "check_vessel",
     "check_window",
+    "contains",
     "devices",
+    "fitted",
+    "fitted_turn",
+    "fits_nowhere",
+    "frame_angles",
     "levels",
     "make_phantom",
+    "panned",
+    "placement",
+    "positions",
+    "rotated",
     "sample",
+    "whole_window",
+    "window_from_data",
     "write_centerlines",
+    "zoomed",
 ]
 
 __version__: str
@@ -59,6 +80,15 @@ class Setting:
 class Settings:
     def __new__(cls, attributes: Any) -> Settings: ...
 
+# The views of the body: direction from the viewer into the scene, and up (LPS).
+VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
+
+# Millimetres per unit of centerlines, what brings their spaces to LPS, and which extents (mm) pass for vessels.
+MILLIMETRES: dict[Unit, float]
+SIGNS: dict[Coordinates, tuple[float, float, float]]
+SMALLEST_EXTENT: float
+LARGEST_EXTENT: float
+
 @final
 class CenterlineFile:
     def __new__(cls, content: bytes, name: str) -> CenterlineFile: ...
@@ -83,16 +113,33 @@ class Renderer:
     def device(self) -> str: ...
     def render(self, volume: Any, camera: Any, settings: Settings) -> dict[str, Any]: ...
 
+def better_place(points: npt.NDArray[np.float64], volume: Any) -> str | None: ...
 def check_camera(camera: Any) -> list[list[float]]: ...
 def check_opacity(transparent: float, opaque: float) -> None: ...
 def check_slab(thickness: float, mode: str) -> None: ...
 def check_transfer_function(points: Sequence[tuple[float, tuple[int, int, int], float]]) -> None: ...
 def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
 def check_window(level: float, width: float) -> None: ...
+def contains(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]: ...
 def devices() -> list[dict[str, Any]]: ...
+def fitted(camera: Any, points: npt.NDArray[np.float64]) -> dict[str, Any]: ...
+def fitted_turn(
+    camera: Any, points: npt.NDArray[np.float64], degrees: float, axis: _Axis
+) -> dict[str, Any]: ...
+def fits_nowhere(points: npt.NDArray[np.float64], volume: Any) -> bool: ...
+def frame_angles(frames: int, degrees: float) -> list[float]: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
+def panned(camera: Any, right: float, up: float) -> dict[str, Any]: ...
+def placement(
+    subject: str, points: npt.NDArray[np.float64], known: dict[str, str | None], volume: Any
+) -> dict[str, Any]: ...
+def positions(camera: Any, depth: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]: ...
+def rotated(camera: Any, angle: float, axis: _Axis) -> dict[str, Any]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
+def whole_window(volume: Any) -> tuple[float, float]: ...
+def window_from_data(volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
 def write_centerlines(vessels: list[_NamedArrays], kind: str) -> bytes: ...
+def zoomed(camera: Any, factor: float) -> dict[str, Any]: ...
 
 class _Phantom(TypedDict):
     name: str

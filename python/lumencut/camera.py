@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from copy import copy
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
@@ -15,17 +16,7 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 
 #: The six views of the body: direction from the viewer into the scene, and up (LPS).
-VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
-    "anterior": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
-    "posterior": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
-    "left": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
-    "right": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
-    "superior": ((0.0, 0.0, -1.0), (0.0, -1.0, 0.0)),
-    "inferior": ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0)),
-}
-
-#: What a fitted view leaves free on each side, as a fraction of the image.
-_MARGIN = 0.06
+VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = _lumencut.VIEWS
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +65,14 @@ class Camera:
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
 
+    def _moved(self, place: dict[str, Any]) -> Camera:
+        """The camera at another place, which is taken to the last bit: its axes are unit vectors already."""
+        moved = copy(self)
+        moved._set("pixel_spacing", place["pixel_spacing"])
+        for name in ("center", "direction", "right_axis", "up"):
+            moved._set(name, numbers(CameraError, name, place[name], (3,)))
+        return moved
+
     @classmethod
     def fitted(
         cls,
@@ -85,16 +84,9 @@ class Camera:
         """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels."""
         if not isinstance(scene, (VesselTree, Volume)):
             raise CameraError("scene of the view", type(scene).__name__, "a VesselTree or a Volume")
-        points = scene_points(scene)
-        middle = (points.min(axis=0) + points.max(axis=0)) / 2
         ahead = numbers(CameraError, "direction of the camera", direction, (3,))
-        view = cls(middle, ahead, numbers(CameraError, "up of the camera", up, (3,)), size, 1.0)
-        flat = (points - middle) @ np.stack([view.right_axis, view.up]).T
-        low, high = flat.min(axis=0), flat.max(axis=0)
-        center = middle + (low + high) / 2 @ np.stack([view.right_axis, view.up])
-        free = np.asarray(view.size) * (1 - 2 * _MARGIN)
-        spacing = max(float(((high - low) / free).max()), 1e-3)
-        return replace(view, center=center, pixel_spacing=spacing)
+        view = cls(np.zeros(3), ahead, numbers(CameraError, "up of the camera", up, (3,)), size)
+        return view._moved(_lumencut.fitted(view, scene_points(scene)))
 
     @classmethod
     def named(cls, name: str, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
@@ -145,25 +137,23 @@ class Camera:
         axis : {"up", "right", "direction"} or array_like of shape (3,), default "up"
             An axis of the view, or a vector in world space (LPS).
         """
-        own = {"up": self.up, "right": self.right_axis, "direction": self.direction}
-        vector = own.get(axis, axis) if isinstance(axis, str) else axis
         angle = number(CameraError, "angle of the rotation", angle)
-        turn = _rotation(numbers(CameraError, "axis of the rotation", vector, (3,)), angle)
-        return replace(self, direction=turn @ self.direction, up=turn @ self.up)
+        about = checked_axis(axis, ("up", "right", "direction"))
+        return self._moved(_lumencut.rotated(self, angle, about))
 
     def zoomed(self, factor: float) -> Camera:
         """Return the view magnified by ``factor`` about its center."""
         checked = number(CameraError, "factor of the zoom", factor)
         if not (np.isfinite(checked) and checked > 0):
             raise CameraError("factor of the zoom", f"{factor}", "a number above 0")
-        return replace(self, pixel_spacing=self.pixel_spacing / checked)
+        return self._moved(_lumencut.zoomed(self, checked))
 
     def panned(self, right: float, up: float) -> Camera:
         """Return the view moved by ``right`` and ``up`` (mm) in its plane."""
         shift = [number(CameraError, "shift of the camera", value) for value in (right, up)]
         if not np.isfinite(shift).all():
             raise CameraError("shift of the camera", f"{shift}", "finite distances in mm")
-        return replace(self, center=self.center + shift[0] * self.right_axis + shift[1] * self.up)
+        return self._moved(_lumencut.panned(self, *shift))
 
 
 def scene_points(scene: VesselTree | Volume) -> npt.NDArray[np.float64]:
@@ -171,13 +161,8 @@ def scene_points(scene: VesselTree | Volume) -> npt.NDArray[np.float64]:
     return scene.points if isinstance(scene, VesselTree) else scene.corners
 
 
-def _rotation(axis: npt.NDArray[np.float64], angle: float) -> npt.NDArray[np.float64]:
-    """Rotation matrix by Rodrigues' formula."""
-    largest = float(np.abs(axis).max())
-    if not (np.isfinite(angle) and 0 < largest < np.inf):
-        raise CameraError(
-            "rotation of the camera", f"angle {angle} about {axis.tolist()}", "a finite angle and axis"
-        )
-    x, y, z = (axis / largest) / np.linalg.norm(axis / largest)
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
+def checked_axis(axis: Any, names: tuple[str, ...]) -> str | npt.NDArray[np.float64]:
+    """Return one of the names, or a vector as an array of shape (3,)."""
+    if isinstance(axis, str) and axis in names:
+        return axis
+    return numbers(CameraError, "axis of the rotation", axis, (3,))

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.camera import Camera
 from lumencut.errors import FormatError, VolumeError
@@ -90,12 +91,7 @@ class Frame:
     @property
     def position(self) -> npt.NDArray[np.float64]:
         """World point (mm, LPS) of the cut surface in each pixel, float64, shape (H, W, 3)."""
-        depth = self._present("position", self._depth)[:, :, None].astype(np.float64)
-        camera, (width, height) = self.camera, self.camera.size
-        x = (np.arange(width) + 0.5 - width / 2) * camera.pixel_spacing
-        y = (height / 2 - np.arange(height) - 0.5) * camera.pixel_spacing
-        plane = x[None, :, None] * camera.right_axis + y[:, None, None] * camera.up
-        return np.asarray(camera.center + plane + depth * camera.direction)
+        return _lumencut.positions(self.camera, self._present("position", self._depth))
 
     def __repr__(self) -> str:
         """Return the size and the names of the images."""

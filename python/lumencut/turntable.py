@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut.errors import CameraError
 
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLike
 
-#: What a fitted turn leaves free on each side, as a fraction of the image.
-_MARGIN = 0.06
 _MOST_FRAMES = 1_000_000
 
 
@@ -86,25 +84,18 @@ def fitted_turn(
     degrees, axis
         As for :func:`turntable`.
     """
-    from lumencut.camera import scene_points
+    from lumencut.camera import checked_axis, scene_points
 
-    points = scene_points(scene)
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    view = replace(camera, center=middle)
-    # The extent changes slowly: 72 views find the widest to a fraction of the margin.
-    planes = (np.stack([turned.right_axis, turned.up]) for turned in _views(view, 72, degrees, axis))
-    reach = np.max([np.abs((points - middle) @ plane.T).max(axis=0) for plane in planes], axis=0)
-    free = np.asarray(view.size) * (0.5 - _MARGIN)
-    return replace(view, pixel_spacing=max(float((reach / free).max()), 1e-3))
+    angle = number(CameraError, "degrees of the turntable", degrees)
+    about = checked_axis(axis, ("superior", "up", "right", "direction"))
+    return camera._moved(_lumencut.fitted_turn(camera, scene_points(scene), angle, about))
 
 
 def frame_angles(frames: int, degrees: float) -> npt.NDArray[np.float64]:
     """Angles of the frames (radians), shape (frames,); the last of a whole turn comes before its end."""
     (count,) = integers(CameraError, "frames of the turntable", [frames], 1, _MOST_FRAMES, 1)
     angle = number(CameraError, "degrees of the turntable", degrees)
-    if not np.isfinite(angle):
-        raise CameraError("degrees of the turntable", f"{angle}", "a finite number")
-    return np.linspace(0.0, np.radians(angle), count, endpoint=angle % 360 != 0)
+    return np.array(_lumencut.frame_angles(count, angle))
 
 
 def _views(camera: Camera, frames: int, degrees: float, axis: Axis) -> Iterator[Camera]:

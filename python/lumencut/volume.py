@@ -126,13 +126,9 @@ class Volume:
 
     def contains(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Tell which world points (n, 3) (mm, LPS) lie inside the grid's outer corners, shape (n,)."""
-        points = _points(points)
-        columns = self._world_from_index[:3, :3]
-        with np.errstate(over="ignore", invalid="ignore"):
-            index = np.linalg.solve(columns, (points - self._world_from_index[:3, 3]).T).T
-        # A corner is inside whatever the last bits of its way through the affine and back.
-        inside = (index >= -0.5 - 1e-9) & (index <= np.asarray(self.size) - 0.5 + 1e-9)
-        return np.asarray(inside.all(axis=1), dtype=np.bool_)
+        from lumencut import _lumencut
+
+        return _lumencut.contains(self, _points(points))
 
     def __repr__(self) -> str:
         ni, nj, nk = self.size

@@ -5,24 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-import numpy.typing as npt
-
 from lumencut import _lumencut
 from lumencut._checks import number
-from lumencut.errors import SettingsError, VesselTreeError, VolumeError
+from lumencut.errors import SettingsError, VesselTreeError
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
-
-#: How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
-_BESIDE, _UNKNOWN_RADIUS = 10.0, 10.0
-#: The largest level and width that a window can have.
-_LARGEST = 1e12
-#: Of a volume alone: how many voxels are looked at; which percentiles of them stand for air and for lumen;
-#: how far from the one to the other tissue begins.
-_MOST_VOXELS, _AIR, _LUMEN, _TISSUE = 1e6, 1.0, 99.0, 0.25
 
 
 @dataclass(frozen=True)
@@ -60,8 +49,8 @@ class Window:
 
         if not isinstance(tree, (VesselTree, type(None))):
             raise VesselTreeError("tree", type(tree).__name__, "a VesselTree or None")
-        volume = as_volume(volume)
-        return cls._of_volume(volume) if tree is None else cls._along(volume, tree)
+        vessels = None if tree is None else tree._arrays()
+        return cls(*_lumencut.window_from_data(as_volume(volume), vessels))
 
     @classmethod
     def whole(cls, volume: Volume) -> Window:
@@ -74,45 +63,7 @@ class Window:
         """
         from lumencut.volume_files.memory import as_volume
 
-        values = _spread(as_volume(volume))
-        if values.size == 0:
-            return cls(300.0, 900.0)
-        black, white = (float(end) for end in np.percentile(values, (_AIR, _LUMEN)))
-        return cls._within((black + white) / 2, white - black, f"values from {black:.3g} to {white:.3g}")
-
-    @classmethod
-    def _along(cls, volume: Volume, tree: VesselTree) -> Window:
-        lumen = _finite(volume.sample(tree.points))
-        radii = [np.full(len(v), _UNKNOWN_RADIUS) if v.radius is None else v.radius for v in tree]
-        reach = np.concatenate(radii)[:, None, None] + _BESIDE
-        beside = tree.points[:, None] + reach * np.concatenate([np.eye(3), -np.eye(3)])
-        around = _finite(volume.sample(beside.reshape(-1, 3)))
-        if lumen.size == 0 or around.size == 0:
-            return cls(300.0, 900.0)
-        level, beyond = float(np.median(lumen)), float(np.median(around))
-        width = max(3 * abs(level - beyond), 4 * float(lumen.std()))
-        return cls._within(
-            level, width, f"values around {level:.3g} along the centerlines, {beyond:.3g} beside"
-        )
-
-    @classmethod
-    def _of_volume(cls, volume: Volume) -> Window:
-        values = _spread(volume)
-        if values.size == 0:
-            return cls(300.0, 900.0)
-        air, lumen = (float(end) for end in np.percentile(values, (_AIR, _LUMEN)))
-        brighter = values[values > air + _TISSUE * (lumen - air)]
-        tissue = float(np.median(brighter)) if brighter.size else air
-        return cls._within(lumen, 3 * abs(lumen - tissue), f"values from {air:.3g} to {lumen:.3g}")
-
-    @classmethod
-    def _within(cls, level: float, width: float, found: str) -> Window:
-        """The window, never of no width; where there is no such window an error that says what was found."""
-        width = max(width, 1e-3 * abs(level), 1e-6)
-        if not max(abs(level), width) <= _LARGEST:
-            mend = "scale the voxels, or give window= and context_window= where they stand for nothing"
-            raise VolumeError("window from the data", found, f"a window within ±{_LARGEST:.0e}", mend)
-        return cls(level, width)
+        return cls(*_lumencut.whole_window(as_volume(volume)))
 
 
 @dataclass(frozen=True)
@@ -126,14 +77,3 @@ class Opacity:
         for name in ("transparent", "opaque"):
             object.__setattr__(self, name, number(SettingsError, f"opacity {name}", getattr(self, name)))
         _lumencut.check_opacity(self.transparent, self.opaque)
-
-
-def _spread(volume: Volume) -> npt.NDArray[np.float64]:
-    """About as many finite voxels as are looked at, evenly spread."""
-    step = max(int(np.ceil((volume.array.size / _MOST_VOXELS) ** (1 / 3))), 1)
-    return _finite(volume.array[::step, ::step, ::step])
-
-
-def _finite(values: npt.NDArray[np.generic]) -> npt.NDArray[np.float64]:
-    numbers = values.astype(np.float64).ravel()
-    return numbers[np.isfinite(numbers)]

@@ -82,6 +82,22 @@ impl Camera {
         Ok(Self { center, direction: unit, right, up: right.cross(unit), size, pixel_spacing })
     }
 
+    /// The same view with unit vectors that were kept of it elsewhere, taken to the last bit: normalising them once
+    /// more could change it.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for vectors that are not the camera's own but for rounding.
+    pub fn with_axes(self, direction: DVec3, right: DVec3, up: DVec3) -> Result<Self> {
+        let kept = Self { direction, right, up, ..self };
+        let pairs = [(direction, self.direction), (right, self.right), (up, self.up)];
+        if pairs.iter().any(|(axis, own)| !axis.abs_diff_eq(*own, 1e-9)) {
+            let found = format!("direction {direction}, right {right}, up {up}");
+            let expected = format!("direction {}, right {}, up {}", self.direction, self.right, self.up);
+            return Err(Error::new(ErrorKind::Camera, "axes of the camera", found, expected));
+        }
+        Ok(kept)
+    }
+
     /// The origin of view space (mm, LPS), in the middle of the image at depth 0.
     pub fn center(&self) -> DVec3 {
         self.center

@@ -56,6 +56,16 @@ impl Frame {
         self.geometry.depth()
     }
 
+    /// Counts the time of stages that ran once more, each to its own.
+    pub fn count(&mut self, timings: &[Timing]) {
+        for more in timings {
+            match self.timings.iter_mut().find(|known| known.stage == more.stage) {
+                Some(known) => known.milliseconds += more.milliseconds,
+                None => self.timings.push(*more),
+            }
+        }
+    }
+
     /// The images that it has.
     pub fn images(&self) -> ImageSet {
         let present = [

@@ -81,7 +81,7 @@ impl CpuRenderer {
             None => Frame::of(Geometry::rays(*request.camera)),
         };
         match &scene.volume {
-            Some(volume) => self.look(volume, frame, request),
+            Some(volume) => self.show(volume, frame, request),
             None if scene.tree.is_some() => Ok(frame.keeping(request.images)),
             None => Err(nothing_to_show()),
         }
@@ -108,8 +108,12 @@ impl CpuRenderer {
     /// # Errors
     /// As [`CpuRenderer::render`].
     pub fn look(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
+        request.settings.check()?;
+        self.show(volume, frame, request)
+    }
+
+    fn show(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
         let &Request { settings, stop, .. } = request;
-        settings.check()?;
         let work = Work { size: frame.size(), isa: self.isa, stop };
         let (mut clock, mut images) = (Clock::start(), Images::default());
         let pass = LookPass { work, volume, settings, geometry: &frame.geometry, vessel: &frame.vessel };

@@ -14,6 +14,20 @@ pub enum Space {
     Ras,
 }
 
+impl Space {
+    /// Every space.
+    pub const ALL: [Self; 2] = [Self::Lps, Self::Ras];
+
+    /// The short name: `lps` or `ras`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lps => "lps",
+            Self::Ras => "ras",
+        }
+    }
+}
+
 /// One polyline of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {

@@ -16,7 +16,8 @@ pub enum Unit {
 }
 
 impl Unit {
-    const ALL: [Self; 5] =
+    /// Every unit, the smallest first.
+    pub const ALL: [Self; 5] =
         [Self::Micrometre, Self::Millimetre, Self::Centimetre, Self::Decimetre, Self::Metre];
 
     /// Millimetres per unit.

@@ -1,7 +1,7 @@
 //! Cameras, read from the attributes of `lumencut.Camera`.
 
 use glam::DVec3;
-use lumencut_core::camera::Camera;
+use lumencut::camera::Camera;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;

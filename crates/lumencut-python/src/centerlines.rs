@@ -1,6 +1,6 @@
 //! Centerline files for `lumencut.centerlines`.
 
-use lumencut_io::{Centerlines, Error, Line, Space, Unit, junctions};
+use lumencut::centerlines::{Centerlines, Error, Line, Space, Unit, junctions};
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
@@ -20,7 +20,8 @@ impl CenterlineFile {
     /// Reads the content of the file `name`.
     #[new]
     fn new(py: Python<'_>, content: &[u8], name: String) -> PyResult<Self> {
-        let lines = py.detach(|| lumencut_io::read(content, &name)).map_err(|error| raised(&error))?;
+        let lines =
+            py.detach(|| lumencut::centerlines::read(content, &name)).map_err(|error| raised(&error))?;
         Ok(Self { name, lines })
     }
 
@@ -33,10 +34,7 @@ impl CenterlineFile {
     /// `"lps"`, `"ras"`, or None where the file states no space.
     #[getter]
     fn space(&self) -> Option<&'static str> {
-        self.lines.space.map(|space| match space {
-            Space::Lps => "lps",
-            Space::Ras => "ras",
-        })
+        self.lines.space.map(Space::name)
     }
 
     /// `"um"`, `"mm"`, `"cm"`, `"dm"`, `"m"`, or None where the file states no unit.
@@ -61,7 +59,8 @@ impl CenterlineFile {
     }
 }
 
-fn raised(error: &Error) -> PyErr {
+/// The exception that stands for an error of a file.
+pub fn raised(error: &Error) -> PyErr {
     exception("FormatError", &error.subject, &error.found, &error.expected, &error.mend)
 }
 

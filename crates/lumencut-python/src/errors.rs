@@ -2,7 +2,7 @@
 
 use std::ffi::CString;
 
-use lumencut_core::error::{Error, ErrorKind};
+use lumencut::error::{Error, ErrorKind};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 

@@ -1,27 +1,30 @@
-//! The extension module `lumencut._lumencut`: thin wrappers over `lumencut-core`, `lumencut-gpu` and
-//! `lumencut-io`.
+//! The extension module `lumencut._lumencut`: thin wrappers over `lumencut`.
 
 use pyo3::prelude::*;
 
-mod backend;
 mod camera;
 mod centerlines;
 mod device;
 mod errors;
 mod phantom;
+mod placement;
 mod pool;
 mod ranges;
 mod renderer;
 mod settings;
 mod tree;
 mod values;
+mod views;
 mod volume;
+mod windows;
 mod write_centerlines;
 
 #[pymodule]
 fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     settings::add_table(module)?;
+    placement::add_names(module)?;
+    views::add_names(module)?;
     module.add_class::<centerlines::CenterlineFile>()?;
     module.add_class::<renderer::Renderer>()?;
     module.add_class::<settings::Checked>()?;
@@ -33,6 +36,19 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(ranges::check_transfer_function, module)?)?;
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
+    module.add_function(wrap_pyfunction!(views::fitted, module)?)?;
+    module.add_function(wrap_pyfunction!(views::fitted_turn, module)?)?;
+    module.add_function(wrap_pyfunction!(views::frame_angles, module)?)?;
+    module.add_function(wrap_pyfunction!(views::rotated, module)?)?;
+    module.add_function(wrap_pyfunction!(views::zoomed, module)?)?;
+    module.add_function(wrap_pyfunction!(views::panned, module)?)?;
+    module.add_function(wrap_pyfunction!(views::positions, module)?)?;
+    module.add_function(wrap_pyfunction!(windows::window_from_data, module)?)?;
+    module.add_function(wrap_pyfunction!(windows::whole_window, module)?)?;
+    module.add_function(wrap_pyfunction!(placement::placement, module)?)?;
+    module.add_function(wrap_pyfunction!(placement::better_place, module)?)?;
+    module.add_function(wrap_pyfunction!(placement::fits_nowhere, module)?)?;
+    module.add_function(wrap_pyfunction!(volume::contains, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
     module.add_function(wrap_pyfunction!(write_centerlines::write_centerlines, module)?)?;

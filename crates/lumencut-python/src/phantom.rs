@@ -1,6 +1,6 @@
 //! Phantoms for Python: the voxels move into numpy, the truth becomes plain dictionaries.
 
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut::error::{Error, ErrorKind, Result};
 use lumencut_phantom::{Phantom, Plaque, PlaqueKind, Stenosis};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;

@@ -1,21 +1,23 @@
 //! The renderer: runs without the GIL, and stops at Ctrl-C.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
-use lumencut_core::error::Error;
-use lumencut_core::frame::Frame;
-use lumencut_core::stages::Stop;
-use lumencut_core::volume::SharedBlocks;
+use lumencut::backend::Backend;
+use lumencut::devices::Wanted;
+use lumencut::error::Error;
+use lumencut::frame::Frame;
+use lumencut::geometry::Geometry;
+use lumencut::pipeline::Request;
+use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
+use lumencut::stages::{Image, ImageSet};
+use lumencut::stop::Stop;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::backend::{Backend, View};
 use crate::camera::CameraArgument;
-use crate::device::Wanted;
 use crate::errors::{to_python, warn};
 use crate::pool;
 use crate::settings::Checked;
@@ -25,12 +27,13 @@ use crate::volume::VolumeArgument;
 /// How often a rendering asks Python for signals such as Ctrl-C.
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
-/// Renders views of one tree, or of a volume alone. The buffers of the projected tree and the blocks of the volume are
-/// kept from view to view: every view is of the same volume.
+/// Renders views of one tree, or of a volume alone; every view is of the same volume. Renderers of the same volume with
+/// other trees share what computes and what is known of the volume.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Renderer {
-    backend: Mutex<Backend>,
-    blocks: SharedBlocks,
+    backend: Arc<Mutex<Backend>>,
+    volume: VolumeKey,
+    tree: Option<Arc<LeveledTree>>,
 }
 
 #[pymethods]
@@ -38,11 +41,19 @@ impl Renderer {
     #[new]
     #[allow(clippy::needless_pass_by_value)]
     fn new(py: Python<'_>, vessels: Option<Vec<VesselArrays<'_>>>, device: &str) -> PyResult<Self> {
-        let tree = vessels.map(|vessels| tree(&vessels)).transpose()?;
+        let tree = leveled(vessels)?;
         let wanted = Wanted::named(device).map_err(to_python)?;
-        let (backend, given_up) = py.detach(|| Backend::new(tree, wanted)).map_err(to_python)?;
+        let (backend, given_up) =
+            py.detach(|| pollster::block_on(Backend::new(wanted))).map_err(to_python)?;
         say_that_the_cpu_goes_on(py, given_up)?;
-        Ok(Self { backend: Mutex::new(backend), blocks: SharedBlocks::default() })
+        Ok(Self { backend: Arc::new(Mutex::new(backend)), volume: VolumeKey::default(), tree })
+    }
+
+    /// A renderer of the same volume, on the same device, with another tree.
+    #[allow(clippy::needless_pass_by_value)]
+    fn with_tree(&self, vessels: Option<Vec<VesselArrays<'_>>>) -> PyResult<Self> {
+        let tree = leveled(vessels)?;
+        Ok(Self { backend: Arc::clone(&self.backend), volume: self.volume.clone(), tree })
     }
 
     /// What computes: "cpu", or the name of the GPU.
@@ -51,9 +62,9 @@ impl Renderer {
         py.detach(|| self.backend.lock().unwrap_or_else(PoisonError::into_inner).name().to_owned())
     }
 
-    /// The buffers of one view by name: those of the cut surface where there are vessels, those of the picture where
-    /// there is a volume.
-    #[pyo3(signature = (volume, camera, settings))]
+    /// The buffers of one view by name, those that are asked for: those of the cut surface where there are vessels, those
+    /// of the picture where there is a volume.
+    #[pyo3(signature = (volume, camera, settings, images=None))]
     #[allow(clippy::needless_pass_by_value)]
     fn render<'py>(
         &self,
@@ -61,25 +72,42 @@ impl Renderer {
         volume: Option<VolumeArgument<'py>>,
         camera: CameraArgument,
         settings: &Bound<'py, Checked>,
+        images: Option<Vec<String>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
+        let images = images.map_or(Ok(ImageSet::ALL), |names| image_set(&names))?;
         let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
         let volume = match (&volume, &borrowed) {
-            (Some(volume), Some(borrowed)) => Some(volume.volume(borrowed)?.sharing(self.blocks.clone())),
+            (Some(volume), Some(borrowed)) => {
+                Some(SharedVolume::new(volume.volume(borrowed)?, self.volume.clone()))
+            }
             _ => None,
         };
+        let scene = Scene { volume, tree: self.tree.clone() };
         let (frame, given_up) = interruptible(py, |stop| {
-            let view = View { volume: volume.as_ref(), camera: &camera, settings, stop };
+            let request = Request { camera: &camera, settings, images, stop };
             // Locked outside the pool: one of its threads, waiting for a part of this view, could take up another
             // view and wait for the lock that it holds itself.
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
-            pool::install(|| backend.render(&view))?.map_err(to_python)
+            pool::install(|| pollster::block_on(backend.render(&scene, &request)))?.map_err(to_python)
         })?;
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)
     }
+}
+
+/// A tree for renderers.
+fn leveled(vessels: Option<Vec<VesselArrays<'_>>>) -> PyResult<Option<Arc<LeveledTree>>> {
+    let tree = vessels.map(|vessels| tree(&vessels)).transpose()?;
+    Ok(tree.map(|tree| Arc::new(LeveledTree::new(tree))))
+}
+
+/// The images of these names.
+fn image_set(names: &[String]) -> PyResult<ImageSet> {
+    let images = names.iter().map(|name| Image::of_frame(name));
+    images.collect::<lumencut::error::Result<Vec<_>>>().map(|images| ImageSet::of(&images)).map_err(to_python)
 }
 
 /// Warns where a GPU was given up.
@@ -122,16 +150,20 @@ fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(Stop<'_>) -> PyResul
 
 /// The buffers that a frame has as arrays, moved and not copied.
 fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
-    let [width, height] = frame.camera.size();
+    let [width, height] = frame.size();
     let shape = [height, width];
     let all = PyDict::new(py);
-    if !frame.depth.is_empty() {
-        all.set_item("depth", PyArray1::from_vec(py, frame.depth).reshape(shape)?)?;
-        all.set_item("vessel", PyArray1::from_vec(py, frame.vessel).reshape(shape)?)?;
-        all.set_item("distance", PyArray1::from_vec(py, frame.distance).reshape(shape)?)?;
+    let depth = match frame.geometry {
+        Geometry::Orthographic { depth, .. } => depth,
+        Geometry::Curved(_) => Vec::new(),
+    };
+    for (name, numbers) in [("depth", depth), ("distance", frame.distance), ("value", frame.value)] {
+        if !numbers.is_empty() {
+            all.set_item(name, PyArray1::from_vec(py, numbers).reshape(shape)?)?;
+        }
     }
-    if !frame.value.is_empty() {
-        all.set_item("value", PyArray1::from_vec(py, frame.value).reshape(shape)?)?;
+    if !frame.vessel.is_empty() {
+        all.set_item("vessel", PyArray1::from_vec(py, frame.vessel).reshape(shape)?)?;
     }
     for (name, colors) in [("image", frame.image), ("context", frame.context)] {
         if !colors.is_empty() {

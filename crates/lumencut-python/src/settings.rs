@@ -1,6 +1,6 @@
 //! The table of settings for Python, and the settings read from the attributes of `lumencut.Settings`.
 
-use lumencut_core::settings::{Choices, Setting, Settings, Value, table};
+use lumencut::settings::{Choices, Setting, Settings, Value, table};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};

@@ -1,8 +1,8 @@
 //! Vessel trees from and to lists of arrays.
 
 use glam::DVec3;
-use lumencut_core::stages;
-use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut::stages;
+use lumencut::vessel_tree::{Vessel, VesselTree};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 

@@ -1,8 +1,8 @@
 //! Values of settings, read from Python objects: numbers, names, and the attributes of windows, opacities, slabs and
 //! transfer functions.
 
-use lumencut_core::error::Result;
-use lumencut_core::settings::{
+use lumencut::error::Result;
+use lumencut::settings::{
     ControlPoint, Kind, Named, Opacity, Slab, SlabMode, TransferFunction, Value, Window,
 };
 use pyo3::prelude::*;

@@ -1,13 +1,14 @@
 //! Volumes, borrowed from NumPy without a copy.
 
 use glam::{DAffine3, DMat3, DVec3};
-use lumencut_core::math::sampling::Grid;
-use lumencut_core::volume::{Volume, Voxels};
-use lumencut_core::with_voxels;
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use lumencut::extent::Extent;
+use lumencut::volume::{Volume, Voxels};
+use lumencut::windows;
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::errors::{exception, to_python};
+use crate::tree::points_of;
 
 /// `lumencut.Volume` as the binding needs it: voxels in memory order, grid size and strides along (i, j, k)
 /// in elements, and the affine from index to world, row by row.
@@ -66,12 +67,43 @@ impl<'py> VolumeArgument<'py> {
 
     /// The volume of the core over borrowed voxels.
     pub fn volume<'a>(&self, borrowed: &'a Borrowed<'py>) -> PyResult<Volume<'a>> {
-        let [x, y, z] = self.affine_rows.map(|row| DVec3::new(row[0], row[1], row[2]));
-        let translation = DVec3::from_array(self.affine_rows.map(|row| row[3]));
-        let matrix = DMat3::from_cols(x, y, z).transpose();
-        let affine = DAffine3::from_mat3_translation(matrix, translation);
+        let affine = affine(self.affine_rows);
         Volume::new(borrowed.voxels()?, self.size, self.strides, affine).map_err(to_python)
     }
+}
+
+/// The affine with these rows.
+fn affine(rows: [[f64; 4]; 3]) -> DAffine3 {
+    let [x, y, z] = rows.map(|row| DVec3::new(row[0], row[1], row[2]));
+    let translation = DVec3::from_array(rows.map(|row| row[3]));
+    DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z).transpose(), translation)
+}
+
+/// The grid of a `lumencut.Volume` without its voxels.
+#[derive(FromPyObject)]
+pub struct GridArgument {
+    size: [usize; 3],
+    #[pyo3(attribute("_affine_rows"))]
+    affine_rows: [[f64; 4]; 3],
+}
+
+impl GridArgument {
+    /// The space that the volume fills.
+    pub fn extent(&self) -> Extent {
+        Extent::new(self.size, affine(self.affine_rows))
+    }
+}
+
+/// Which world points (n, 3) (mm, LPS) lie inside the outer corners of a volume; shape (n,).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn contains<'py>(
+    py: Python<'py>,
+    volume: GridArgument,
+    points: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray1<bool>>> {
+    let (extent, points) = (volume.extent(), points_of(&points)?);
+    Ok(PyArray1::from_iter(py, points.into_iter().map(|point| extent.contains(point))))
 }
 
 /// The volume at world points (n, 3) (mm, LPS), trilinear, NaN outside; shape (n,).
@@ -80,16 +112,10 @@ impl<'py> VolumeArgument<'py> {
 pub fn sample<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
-    points: Vec<[f64; 3]>,
+    points: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f32>>> {
     let borrowed = volume.borrow()?;
-    let volume = volume.volume(&borrowed)?;
-    let (grid, to_index) = (Grid::new(&volume), volume.index_from_world());
-    let values: Vec<f32> = py.detach(|| {
-        with_voxels!(volume.voxels(), voxels => points
-            .iter()
-            .map(|p| grid.trilinear(voxels, to_index.transform_point3(DVec3::from_array(*p))))
-            .collect())
-    });
+    let (volume, points) = (volume.volume(&borrowed)?, points_of(&points)?);
+    let values = py.detach(|| windows::sample(&volume, &points));
     Ok(PyArray1::from_vec(py, values))
 }

@@ -1,6 +1,6 @@
 //! Centerline files for `lumencut.centerline_writers`.
 
-use lumencut_io::{Line, write_mrk_json, write_vtp};
+use lumencut::centerlines::{Line, write_mrk_json, write_vtp};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

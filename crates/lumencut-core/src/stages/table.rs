@@ -1,6 +1,7 @@
 //! The one table of the stages: their names, the images that they read and write, and which of them a view needs.
 //! Timings, computing single stages on the CPU in the place of the GPU, tests and benches all go by it.
 
+use crate::error::{Error, ErrorKind, Result};
 use crate::settings::Settings;
 
 /// An image of a view: one number or one vector for each pixel, in rows from the top.
@@ -42,6 +43,30 @@ impl Image {
         Self::Context,
         Self::Picture,
     ];
+}
+
+impl Image {
+    /// The images of a frame, by their names.
+    const OF_FRAME: [(&'static str, Self); 6] = [
+        ("image", Self::Picture),
+        ("depth", Self::Depth),
+        ("vessel", Self::Vessel),
+        ("distance", Self::Distance),
+        ("value", Self::Value),
+        ("context", Self::Context),
+    ];
+
+    /// The image that a frame has under this name.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for another name.
+    pub fn of_frame(name: &str) -> Result<Self> {
+        let known = Self::OF_FRAME.iter().find(|(known, _)| *known == name);
+        known.map(|(_, image)| *image).ok_or_else(|| {
+            let names: Vec<_> = Self::OF_FRAME.iter().map(|(known, _)| *known).collect();
+            Error::new(ErrorKind::Settings, "image of the frame", format!("'{name}'"), names.join(", "))
+        })
+    }
 }
 
 /// Some images.

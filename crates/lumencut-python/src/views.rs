@@ -1,0 +1,151 @@
+//! Views that the facade makes from others, for `lumencut.Camera`.
+
+use glam::DVec3;
+use lumencut::camera::Camera;
+use lumencut::views::{self, Axis, VIEWS};
+use lumencut::{positions, turn};
+use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::to_python;
+use crate::tree::points_of;
+
+/// The attributes of a `lumencut.Camera`, whose axes are unit vectors already.
+#[derive(FromPyObject)]
+pub struct MadeCamera {
+    center: [f64; 3],
+    direction: [f64; 3],
+    right_axis: [f64; 3],
+    up: [f64; 3],
+    size: [usize; 2],
+    pixel_spacing: f64,
+}
+
+impl MadeCamera {
+    /// The camera of the core with exactly these axes.
+    pub fn camera(&self) -> PyResult<Camera> {
+        let vectors = [self.center, self.direction, self.right_axis, self.up].map(DVec3::from_array);
+        let [center, direction, right, up] = vectors;
+        let camera = Camera::new(center, direction, up, self.size, self.pixel_spacing);
+        camera.and_then(|camera| camera.with_axes(direction, right, up)).map_err(to_python)
+    }
+}
+
+/// What another view has of its own: all attributes of a `lumencut.Camera` but the size.
+#[derive(IntoPyObject)]
+pub struct Place {
+    center: [f64; 3],
+    direction: [f64; 3],
+    right_axis: [f64; 3],
+    up: [f64; 3],
+    pixel_spacing: f64,
+}
+
+impl Place {
+    fn of(camera: &Camera) -> Self {
+        Self {
+            center: camera.center().to_array(),
+            direction: camera.direction().to_array(),
+            right_axis: camera.right().to_array(),
+            up: camera.up().to_array(),
+            pixel_spacing: camera.pixel_spacing(),
+        }
+    }
+}
+
+fn placed(made: lumencut::error::Result<Camera>) -> PyResult<Place> {
+    made.map(|camera| Place::of(&camera)).map_err(to_python)
+}
+
+/// An axis of the view or the patient by its name, or a vector.
+#[derive(FromPyObject)]
+pub enum AxisArgument {
+    /// `"superior"`, `"up"`, `"right"` or `"direction"`.
+    Name(String),
+    /// A vector (LPS).
+    Vector([f64; 3]),
+}
+
+impl AxisArgument {
+    fn axis(self) -> PyResult<Axis> {
+        match self {
+            Self::Vector(vector) => Ok(Axis::World(DVec3::from_array(vector))),
+            Self::Name(name) => Axis::named(&name).map_err(to_python),
+        }
+    }
+}
+
+/// The views of the body by name: direction from the viewer into the scene, and up (LPS).
+pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let views = PyDict::new(module.py());
+    for view in VIEWS {
+        let vectors: [(f64, f64, f64); 2] = [view.direction, view.up].map(Into::into);
+        views.set_item(view.name, (vectors[0], vectors[1]))?;
+    }
+    module.add("VIEWS", views)
+}
+
+/// The place from where all points (n, 3) just fit into the image of a camera of the same direction and up.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn fitted(py: Python<'_>, camera: MadeCamera, points: PyReadonlyArray2<'_, f64>) -> PyResult<Place> {
+    let (camera, points) = (camera.camera()?, points_of(&points)?);
+    placed(py.detach(|| views::fitted(&camera, &points)))
+}
+
+/// The place from where every frame of a turn fits.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn fitted_turn(
+    py: Python<'_>,
+    camera: MadeCamera,
+    points: PyReadonlyArray2<'_, f64>,
+    degrees: f64,
+    axis: AxisArgument,
+) -> PyResult<Place> {
+    let (camera, points, axis) = (camera.camera()?, points_of(&points)?, axis.axis()?);
+    placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
+}
+
+/// The angles of the frames of a turn (radians).
+#[pyfunction]
+pub fn frame_angles(frames: usize, degrees: f64) -> PyResult<Vec<f64>> {
+    turn::frame_angles(frames, degrees).map_err(to_python)
+}
+
+/// A camera turned about its center.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn rotated(camera: MadeCamera, angle: f64, axis: AxisArgument) -> PyResult<Place> {
+    placed(views::rotated(&camera.camera()?, angle, axis.axis()?))
+}
+
+/// A camera magnified about its center.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn zoomed(camera: MadeCamera, factor: f64) -> PyResult<Place> {
+    placed(views::zoomed(&camera.camera()?, factor))
+}
+
+/// The world point (mm, LPS) of each pixel of a picture whose depths (mm) are given, shape (H, W, 3).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn positions<'py>(
+    py: Python<'py>,
+    camera: MadeCamera,
+    depth: PyReadonlyArray2<'py, f32>,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let camera = camera.camera()?;
+    let [width, height] = camera.size();
+    let depth = depth.as_slice()?;
+    let points = py.detach(|| positions::positions(&camera, depth).flat_map(|p| p.to_array()).collect());
+    PyArray1::from_vec(py, points).reshape([height, width, 3])
+}
+
+/// A camera moved in its plane (mm).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<Place> {
+    placed(views::panned(&camera.camera()?, right, up))
+}

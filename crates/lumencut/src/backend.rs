@@ -1,0 +1,180 @@
+//! What computes views: the CPU, or a GPU, which the CPU can stand in for.
+
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::frame::Frame;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::Scene;
+use lumencut_core::stages::{Image, ImageSet};
+use lumencut_gpu::renderer::GpuRenderer;
+
+use crate::devices::{self, Choice, Wanted};
+use crate::samples::{Mean, sub_views};
+
+/// The environment variable that names the stages that the CPU does in place of the GPU, with commas between: to find
+/// the one that errs.
+#[cfg(not(target_arch = "wasm32"))]
+pub const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
+
+/// What is asked of every sample of a picture.
+const PICTURE: ImageSet = ImageSet::of(&[Image::Picture]);
+
+/// What computes views.
+pub enum Backend {
+    /// The CPU.
+    Cpu(CpuRenderer),
+    /// A GPU.
+    Gpu(Box<Gpu>),
+}
+
+/// A frame, and where the CPU had to take over from the GPU, from now on, the reason.
+pub type Rendered = (Frame, Option<Error>);
+
+impl Backend {
+    /// What is wanted; where that is a GPU that the CPU may stand in for, and it does not open, the reason too.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Device`] where a GPU must compute and none can be used.
+    pub async fn new(wanted: Wanted) -> Result<(Self, Option<Error>)> {
+        let cpu = || Self::Cpu(CpuRenderer::default());
+        let (choice, is_optional) = match wanted {
+            Wanted::Cpu => return Ok((cpu(), None)),
+            Wanted::Gpu(choice) => (choice, false),
+            Wanted::Auto(choice) => (choice, true),
+        };
+        if is_optional {
+            match devices::open_if_there(choice).await {
+                Ok(Some(_)) => {}
+                Ok(None) => return Ok((cpu(), None)),
+                Err(error) => return Ok((cpu(), Some(error))),
+            }
+        }
+        let mut gpu = Gpu::new(choice, is_optional);
+        gpu.open().await?;
+        Ok((Self::Gpu(Box::new(gpu)), None))
+    }
+
+    /// "cpu", or the name of the GPU.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Cpu(_) => "cpu",
+            Self::Gpu(gpu) => &gpu.name,
+        }
+    }
+
+    /// Renders a view of a scene. With several samples per pixel side (`Settings::samples`) the picture is the mean of
+    /// pictures that are seen from places within a pixel; all other images are those of the view itself.
+    ///
+    /// # Errors
+    /// Those of the scene and the settings, [`ErrorKind::Interrupted`] once `request.stop` says so, and
+    /// [`ErrorKind::Device`] where the GPU fails and the CPU may not stand in for it.
+    pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
+        let (mut frame, mut given_up) = self.render_once(scene, request).await?;
+        if request.settings.samples > 1 && !frame.image.is_empty() {
+            let mut mean = Mean::of(frame.image.len());
+            for camera in sub_views(request.camera, request.settings.samples)? {
+                // The middle one of an odd number is the view itself.
+                if camera == *request.camera {
+                    mean.add(&frame.image);
+                    continue;
+                }
+                let request = Request { camera: &camera, images: PICTURE, ..*request };
+                let (sample, error) = self.render_once(scene, &request).await?;
+                given_up = given_up.or(error);
+                mean.add(&sample.image);
+                frame.count(&sample.timings);
+            }
+            frame.image = mean.pixels();
+        }
+        Ok((frame, given_up))
+    }
+
+    /// One picture with one sample per pixel.
+    async fn render_once(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
+        let gpu = match self {
+            Self::Cpu(cpu) => return Ok((cpu.render(scene, request)?, None)),
+            Self::Gpu(gpu) => gpu,
+        };
+        let error = match gpu.render(scene, request).await {
+            Err(error) if error.kind == ErrorKind::Device => error,
+            other => return Ok((other?, None)),
+        };
+        gpu.let_go();
+        if !gpu.is_optional {
+            return Err(error);
+        }
+        let mut cpu = CpuRenderer::default();
+        // Whoever interrupts this view has not heard of the failure yet: the GPU is then tried again.
+        let frame = cpu.render(scene, request)?;
+        *self = Self::Cpu(cpu);
+        Ok((frame, Some(error)))
+    }
+}
+
+/// The GPU of the process, and what a renderer keeps on it.
+pub struct Gpu {
+    choice: Choice,
+    /// Whether the CPU may stand in for it.
+    is_optional: bool,
+    name: String,
+    renderer: Option<GpuRenderer>,
+    /// The process that opened it.
+    process: u32,
+}
+
+impl Gpu {
+    fn new(choice: Choice, is_optional: bool) -> Self {
+        Self { choice, is_optional, name: String::new(), renderer: None, process: devices::process() }
+    }
+
+    /// What the GPU keeps, made anew after a failure and in a forked process.
+    async fn open(&mut self) -> Result<&mut GpuRenderer> {
+        self.leave_the_parents();
+        let renderer = match self.renderer.take() {
+            Some(renderer) => renderer,
+            None => {
+                let device = devices::open(self.choice).await?;
+                self.name.clone_from(&device.description().name);
+                let renderer = GpuRenderer::new(device);
+                #[cfg(not(target_arch = "wasm32"))]
+                let renderer = forced_to_cpu(renderer)?;
+                renderer
+            }
+        };
+        Ok(self.renderer.insert(renderer))
+    }
+
+    async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
+        self.open().await?.render(scene, request).await
+    }
+
+    /// Keeps nothing on a GPU that failed.
+    fn let_go(&mut self) {
+        if let Some(renderer) = self.renderer.take() {
+            devices::forget(renderer.device());
+        }
+    }
+
+    /// A forked process cannot use, or free, what its parent has on the GPU.
+    fn leave_the_parents(&mut self) {
+        let process = devices::process();
+        if self.process != process {
+            std::mem::forget(self.renderer.take());
+            self.process = process;
+        }
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        self.leave_the_parents();
+    }
+}
+
+/// The same renderer, with the stages that [`CPU_STAGES`] names done by the CPU.
+#[cfg(not(target_arch = "wasm32"))]
+fn forced_to_cpu(mut renderer: GpuRenderer) -> Result<GpuRenderer> {
+    let named = std::env::var(CPU_STAGES).unwrap_or_default();
+    let stages = named.split(',').map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
+    renderer.force_to_cpu(&stages.collect::<Vec<_>>())?;
+    Ok(renderer)
+}

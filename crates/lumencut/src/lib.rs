@@ -1,0 +1,25 @@
+//! What every host of Lumencut shares, whether Python, a browser or a program in Rust: which device computes and
+//! what takes over where it fails, views fitted to a scene, windows from the data, the space and unit of centerlines,
+//! and the way from pixels to the world and back.
+//!
+//! Points are in world space (LPS, mm) unless their documentation says otherwise.
+
+pub mod backend;
+pub mod devices;
+pub mod extent;
+mod fused;
+pub mod placement;
+pub mod places;
+pub mod positions;
+mod samples;
+mod statistics;
+mod text;
+pub mod turn;
+pub mod views;
+pub mod windows;
+
+pub use lumencut_core::{
+    camera, error, frame, geometry, math, pipeline, scene, settings, stages, stop, vessel_tree, volume,
+    with_voxels,
+};
+pub use lumencut_io as centerlines;

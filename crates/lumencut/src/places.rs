@@ -1,0 +1,138 @@
+//! The places that coordinates can be meant in, and how many points each of them brings into a volume.
+
+use std::fmt;
+
+use glam::DVec3;
+use lumencut_io::{Space, Unit};
+
+use crate::extent::Extent;
+use crate::fused;
+
+/// Extents between these (mm) pass for vessels of a body.
+pub const SMALLEST: f64 = 8.0;
+/// See [`SMALLEST`].
+pub const LARGEST: f64 = 2500.0;
+
+/// A space and a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Patient coordinates, LPS or RAS.
+    pub space: Space,
+    /// Their unit.
+    pub unit: Unit,
+}
+
+impl Place {
+    /// What brings coordinates of the place to LPS in mm, axis by axis.
+    pub fn scale(self) -> DVec3 {
+        signs(self.space) * self.unit.in_mm()
+    }
+
+    /// How coordinates of this place that were read as LPS in mm would have to be changed, and the options that do it.
+    pub(crate) fn mistaken(self) -> (String, String) {
+        let (mut how, mut mend) = (Vec::new(), Vec::new());
+        if self.space == Space::Ras {
+            how.push("with x and y negated (LPS and RAS mixed up?)".to_owned());
+            mend.push("coordinates=\"ras\", or \"lps\" where they were read as RAS".to_owned());
+        }
+        if self.unit != Unit::Millimetre {
+            how.push(format!("{} times as large (another unit?)", self.unit.in_mm()));
+            mend.push(format!("unit=\"{}\" where they were read in mm", self.unit.name()));
+        }
+        (how.join(" and "), mend.join(", and "))
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} in {}", self.space.name(), self.unit.name())
+    }
+}
+
+/// What brings coordinates of the space to LPS, axis by axis.
+pub fn signs(space: Space) -> DVec3 {
+    match space {
+        Space::Lps => DVec3::ONE,
+        Space::Ras => DVec3::new(-1.0, -1.0, 1.0),
+    }
+}
+
+/// All places of these spaces and units, the spaces one after the other.
+pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<Place> {
+    spaces.iter().flat_map(|space| units.iter().map(|unit| Place { space: *space, unit: *unit })).collect()
+}
+
+/// How many points lie inside a volume where their coordinates are read in a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reading {
+    /// The place.
+    pub place: Place,
+    /// How many points lie inside; none where the vessels had no size of a body's.
+    pub inside: usize,
+}
+
+/// What each place makes of the points.
+pub fn readings(points: &[DVec3], candidates: &[Place], volume: &Extent) -> Vec<Reading> {
+    let extent = diagonal(points);
+    let reading = |place: &Place| {
+        // What is given in mm may be a short piece; in another unit it has to look like vessels.
+        let is_plausible =
+            place.unit == Unit::Millimetre || (SMALLEST..=LARGEST).contains(&(extent * place.unit.in_mm()));
+        let scale = place.scale();
+        let inside = if is_plausible { volume.count(points.iter().map(|p| *p * scale)) } else { 0 };
+        Reading { place: *place, inside }
+    };
+    candidates.iter().map(reading).collect()
+}
+
+/// The diagonal of the box around the points, 0 of no points.
+fn diagonal(points: &[DVec3]) -> f64 {
+    let (low, high) =
+        points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
+    let sides = if points.is_empty() { DVec3::ZERO } else { high - low };
+    fused::dot(sides, sides).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::*;
+
+    #[test]
+    fn a_place_brings_coordinates_to_lps_in_mm() {
+        let place = Place { space: Space::Ras, unit: Unit::Centimetre };
+        assert_eq!(DVec3::new(1.0, 2.0, 3.0) * place.scale(), DVec3::new(-10.0, -20.0, 30.0));
+        assert_eq!(place.to_string(), "ras in cm");
+    }
+
+    #[test]
+    fn places_go_space_by_space() {
+        let all = places(&Space::ALL, &Unit::ALL);
+        assert_eq!(all.len(), 10);
+        assert_eq!(all[1], Place { space: Space::Lps, unit: Unit::Millimetre });
+        assert_eq!(all[5], Place { space: Space::Ras, unit: Unit::Micrometre });
+    }
+
+    #[test]
+    fn what_is_no_size_of_vessels_counts_only_in_mm() {
+        let volume = Extent::new([100; 3], DAffine3::IDENTITY);
+        let counted = |points: &[DVec3]| {
+            readings(points, &places(&[Space::Lps], &Unit::ALL), &volume)
+                .iter()
+                .map(|r| r.inside)
+                .collect::<Vec<_>>()
+        };
+        // 2 units: a short piece in mm, 20 mm in cm, 200 mm in dm, of which one end leaves the volume.
+        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 2.0]), [0, 2, 2, 1, 1]);
+        // Beyond 2500 mm in metres.
+        assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 2.6]), [0, 2, 2, 1, 0]);
+        assert_eq!(counted(&[]), [0; 5]);
+    }
+
+    #[test]
+    fn the_diagonal_is_that_of_the_box() {
+        let points = [DVec3::new(1.0, 5.0, 0.0), DVec3::new(4.0, 1.0, 12.0), DVec3::new(2.0, 3.0, 4.0)];
+        assert_eq!(diagonal(&points), 13.0);
+    }
+}

@@ -1,0 +1,134 @@
+use glam::DAffine3;
+
+use super::*;
+
+/// A volume of 100 mm along each axis, far enough from the origin that only one space fits it.
+fn volume() -> Extent {
+    Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(20.0)))
+}
+
+fn nothing() -> Known {
+    Known {
+        asked_space: None,
+        asked_unit: None,
+        stated_space: None,
+        stated_unit: None,
+        usual_unit: Unit::Millimetre,
+    }
+}
+
+/// Points inside the volume, as a file in this place would hold them.
+fn points(space: Space, unit: Unit) -> Vec<DVec3> {
+    let scale = Place { space, unit }.scale();
+    (0..50).map(|n| DVec3::splat(30.0 + f64::from(n)) / scale).collect()
+}
+
+fn decided(known: &Known, points: &[DVec3]) -> Placement {
+    placement(known, points, Some(&volume())).unwrap()
+}
+
+#[test]
+fn what_is_asked_rules_and_contradictions_are_told() {
+    let known = Known {
+        asked_space: Some(Space::Ras),
+        asked_unit: Some(Unit::Metre),
+        stated_space: Some(Space::Lps),
+        ..nothing()
+    };
+    let found = decided(&known, &points(Space::Lps, Unit::Millimetre));
+    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Metre });
+    assert_eq!((found.space_from, found.unit_from), (Origin::Asked, Origin::Asked));
+    assert_eq!(found.decision, "the file states lps; read as ras as asked");
+    assert!(!found.is_unusual);
+}
+
+#[test]
+fn without_a_volume_the_usual_is_assumed() {
+    let found = placement(&nothing(), &points(Space::Ras, Unit::Millimetre), None).unwrap();
+    assert_eq!(found.place, Place { space: Space::Lps, unit: Unit::Millimetre });
+    assert_eq!((found.space_from, found.unit_from), (Origin::Assumed, Origin::Assumed));
+    assert_eq!(found.decision, "the file states no space and no unit; lps in mm is assumed");
+}
+
+#[test]
+fn the_volume_confirms_the_usual_place() {
+    let found = decided(&nothing(), &points(Space::Lps, Unit::Millimetre));
+    assert_eq!((found.space_from, found.unit_from), (Origin::Volume, Origin::Volume));
+    let expected = "lps in mm fits the volume (50 of 50 points inside, 0 in ras)";
+    assert_eq!(found.decision, format!("the file states no space and no unit; {expected}"));
+    assert!(!found.is_unusual);
+}
+
+#[test]
+fn the_volume_decides_against_the_usual_place() {
+    let known = Known { stated_unit: Some(Unit::Millimetre), ..nothing() };
+    let found = decided(&known, &points(Space::Ras, Unit::Millimetre));
+    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!((found.space_from, found.unit_from), (Origin::Volume, Origin::Stated));
+    let counts = "0 of 50 points lie inside the volume in lps in mm, but 50 in ras in mm";
+    let expected = format!("the file states no space; {counts}: read so; coordinates=\"ras\" confirms it");
+    assert_eq!(found.decision, expected);
+    assert!(found.is_unusual);
+}
+
+#[test]
+fn a_space_and_a_unit_can_both_be_unusual() {
+    let found = decided(&nothing(), &points(Space::Ras, Unit::Centimetre));
+    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Centimetre });
+    assert!(
+        found.decision.ends_with("coordinates=\"ras\" and unit=\"cm\" confirms it"),
+        "{}",
+        found.decision
+    );
+}
+
+#[test]
+fn spaces_that_fit_alike_are_left_to_the_caller() {
+    let around = Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(-50.0)));
+    let points: Vec<DVec3> = (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect();
+    let error = placement(&nothing(), &points, Some(&around)).unwrap_err().in_file("lines.csv");
+    let found = "neither stated nor to be told by the volume what its coordinates are: lps in mm (20 of 20 points \
+                 inside), ras in mm (20 of 20 points inside)";
+    let mend = "give coordinates=\"lps\" or coordinates=\"ras\"";
+    assert_eq!(error.to_string(), format!("lines.csv: found {found}; expected one that fits; {mend}"));
+}
+
+#[test]
+fn centerlines_of_another_volume_are_refused() {
+    let far: Vec<DVec3> = (0..50).map(|n| DVec3::new(7000.0, f64::from(n), 0.0)).collect();
+    let error = placement(&nothing(), &far, Some(&volume())).unwrap_err();
+    assert_eq!(error.found, "no point inside the volume, in lps or ras, in um, mm, cm, dm, m");
+    // Where the file states the space there is nothing to ask for.
+    let known = Known { stated_space: Some(Space::Ras), ..nothing() };
+    let found = decided(&known, &far);
+    assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
+    assert_eq!(found.decision, "the file states no unit; ras in mm is assumed");
+}
+
+#[test]
+fn a_better_place_is_named_with_its_option() {
+    assert_eq!(better_place(&points(Space::Lps, Unit::Millimetre), &volume()), None);
+    let text = better_place(&points(Space::Ras, Unit::Centimetre), &volume()).unwrap();
+    let how = "with x and y negated (LPS and RAS mixed up?) and 10 times as large (another unit?)";
+    let mend = "coordinates=\"ras\", or \"lps\" where they were read as RAS, and unit=\"cm\" where they were read in mm";
+    let expected = format!(
+        "0 of 50 points lie inside the volume as read, but 50 {how}; read the centerlines with {mend}"
+    );
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn a_few_points_more_are_no_better_place() {
+    // Three of fifty fit only with x and y negated: under a tenth.
+    let mut mixed = vec![DVec3::splat(7000.0); 47];
+    mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[..3]);
+    assert_eq!(better_place(&mixed, &volume()), None);
+    mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[3..6]);
+    assert!(better_place(&mixed, &volume()).is_some());
+}
+
+#[test]
+fn what_misses_the_volume_everywhere_is_said_so() {
+    assert!(!fits_nowhere(&points(Space::Ras, Unit::Metre), &volume()));
+    assert!(fits_nowhere(&[DVec3::new(7000.0, 0.0, 0.0), DVec3::new(7000.0, 9.0, 0.0)], &volume()));
+}

@@ -1,0 +1,100 @@
+use std::f64::consts::FRAC_PI_2;
+
+use super::*;
+
+fn front() -> Camera {
+    Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [100, 50], 1.0).unwrap()
+}
+
+fn assert_near(found: DVec3, expected: DVec3) {
+    assert!(found.abs_diff_eq(expected, 1e-12), "{found} is not {expected}");
+}
+
+#[test]
+fn from_the_front_the_patients_left_is_on_the_right() {
+    let rights = [
+        ("anterior", DVec3::X),
+        ("posterior", DVec3::NEG_X),
+        ("left", DVec3::Y),
+        ("right", DVec3::NEG_Y),
+        ("superior", DVec3::NEG_X),
+        ("inferior", DVec3::X),
+    ];
+    for (name, right) in rights {
+        let view = named(name).unwrap();
+        let camera = Camera::new(DVec3::ZERO, view.direction, view.up, [4, 4], 1.0).unwrap();
+        assert_eq!((view.name, camera.right(), camera.up()), (name, right, view.up));
+    }
+}
+
+#[test]
+fn an_unknown_view_is_named_with_all_that_are_known() {
+    let error = named("front").unwrap_err();
+    let expected = "one of anterior, posterior, left, right, superior, inferior";
+    assert_eq!(error.to_string(), format!("name of the view: found 'front'; expected {expected}"));
+}
+
+#[test]
+fn a_fitted_view_leaves_the_margin_free_on_the_wider_side() {
+    // 44 mm across and 11 mm upwards: 100 pixels of which 88 are used, 0.5 mm each.
+    let corners = [DVec3::new(10.0, -7.0, 5.0), DVec3::new(54.0, 9.0, 16.0)];
+    let fitted = fitted(&front(), &corners).unwrap();
+    assert_near(fitted.center(), DVec3::new(32.0, 1.0, 10.5));
+    assert!((fitted.pixel_spacing() - 0.5).abs() < 1e-12);
+    assert_eq!((fitted.direction(), fitted.up(), fitted.size()), (DVec3::Y, DVec3::Z, [100, 50]));
+}
+
+#[test]
+fn a_single_point_is_seen_at_the_finest_spacing() {
+    let fitted = fitted(&front(), &[DVec3::new(1.0, 2.0, 3.0); 2]).unwrap();
+    assert_eq!((fitted.center(), fitted.pixel_spacing()), (DVec3::new(1.0, 2.0, 3.0), 1e-3));
+}
+
+#[test]
+fn nothing_cannot_be_fitted() {
+    let error = fitted(&front(), &[]).unwrap_err();
+    assert_eq!((error.kind, error.found.as_str()), (ErrorKind::Camera, "no points"));
+}
+
+#[test]
+fn turning_is_counterclockwise_as_seen_against_the_axis() {
+    assert_near(rotated(&front(), FRAC_PI_2, Axis::Up).unwrap().direction(), DVec3::NEG_X);
+    assert_near(rotated(&front(), FRAC_PI_2, Axis::Superior).unwrap().direction(), DVec3::NEG_X);
+    assert_near(rotated(&front(), FRAC_PI_2, Axis::Right).unwrap().direction(), DVec3::Z);
+    assert_near(rotated(&front(), FRAC_PI_2, Axis::Direction).unwrap().up(), DVec3::X);
+    let about = Axis::World(DVec3::new(0.0, 0.0, 1e-200));
+    assert_near(rotated(&front(), FRAC_PI_2, about).unwrap().direction(), DVec3::NEG_X);
+}
+
+#[test]
+fn axes_have_names() {
+    let named = |name: &str| Axis::named(name).unwrap().of(&front());
+    assert_eq!(["superior", "up", "right", "direction"].map(named), [DVec3::Z, DVec3::Z, DVec3::X, DVec3::Y]);
+    assert_eq!(Axis::named("left").unwrap_err().found, "'left'");
+}
+
+#[test]
+fn a_rotation_needs_a_finite_angle_and_an_axis() {
+    let found = |angle: f64, axis: DVec3| rotated(&front(), angle, Axis::World(axis)).unwrap_err().found;
+    assert_eq!(found(1.0, DVec3::ZERO), "angle 1.0 about [0.0, 0.0, 0.0]");
+    assert_eq!(found(f64::NAN, DVec3::X), "angle nan about [1.0, 0.0, 0.0]");
+    assert_eq!(found(2.5, DVec3::new(f64::INFINITY, 0.0, 1e-5)), "angle 2.5 about [inf, 0.0, 1e-05]");
+    assert_eq!(found(0.0, DVec3::new(1.0, f64::NAN, 0.0)), "angle 0.0 about [1.0, nan, 0.0]");
+}
+
+#[test]
+fn zooming_changes_the_spacing_and_panning_the_center() {
+    let zoomed = zoomed(&front(), 4.0).unwrap();
+    assert_eq!((zoomed.pixel_spacing(), zoomed.center()), (0.25, DVec3::ZERO));
+    let panned = panned(&front(), 3.0, -2.0).unwrap();
+    assert_eq!((panned.pixel_spacing(), panned.center()), (1.0, DVec3::new(3.0, 0.0, -2.0)));
+}
+
+#[test]
+fn zooming_and_panning_need_finite_numbers() {
+    for (factor, text) in [(0.0, "0.0"), (-1.0, "-1.0"), (f64::NAN, "nan"), (f64::INFINITY, "inf")] {
+        assert_eq!(zoomed(&front(), factor).unwrap_err().found, text);
+    }
+    assert_eq!(panned(&front(), f64::NAN, 1.0).unwrap_err().found, "[nan, 1.0]");
+    assert_eq!(panned(&front(), 0.0, 1e7).unwrap_err().subject, "center of the camera");
+}

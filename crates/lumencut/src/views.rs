@@ -1,0 +1,198 @@
+//! The six views of the body, views fitted to a scene, and what turning, zooming and panning do.
+//!
+//! Every function returns another camera and leaves the given one as it is. Points are in world space (LPS, mm).
+
+use glam::{DMat3, DVec3};
+use lumencut_core::camera::Camera;
+use lumencut_core::error::{Error, ErrorKind, Result};
+
+use crate::fused;
+use crate::text::shortest;
+
+/// What a fitted view leaves free on each side, as a fraction of the image.
+pub(crate) const MARGIN: f64 = 0.06;
+
+/// The smallest pixel spacing of a fitted view (mm).
+pub(crate) const FINEST: f64 = 1e-3;
+
+/// A view of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedView {
+    /// Its name: the side of the patient that the viewer stands on.
+    pub name: &'static str,
+    /// Unit vector from the viewer into the scene (LPS).
+    pub direction: DVec3,
+    /// Unit vector upwards in the image (LPS).
+    pub up: DVec3,
+}
+
+/// The six views of the body.
+pub const VIEWS: [NamedView; 6] = [
+    NamedView { name: "anterior", direction: DVec3::Y, up: DVec3::Z },
+    NamedView { name: "posterior", direction: DVec3::NEG_Y, up: DVec3::Z },
+    NamedView { name: "left", direction: DVec3::NEG_X, up: DVec3::Z },
+    NamedView { name: "right", direction: DVec3::X, up: DVec3::Z },
+    NamedView { name: "superior", direction: DVec3::NEG_Z, up: DVec3::NEG_Y },
+    NamedView { name: "inferior", direction: DVec3::Z, up: DVec3::NEG_Y },
+];
+
+/// The view of the body with this name.
+///
+/// # Errors
+/// [`ErrorKind::Camera`] for another name.
+pub fn named(name: &str) -> Result<NamedView> {
+    VIEWS.into_iter().find(|view| view.name == name).ok_or_else(|| {
+        let expected = format!("one of {}", VIEWS.map(|view| view.name).join(", "));
+        Error::new(ErrorKind::Camera, "name of the view", format!("'{name}'"), expected)
+    })
+}
+
+/// An axis to turn a view about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Axis {
+    /// From the patient's feet to the head.
+    Superior,
+    /// Upwards in the image.
+    Up,
+    /// To the right in the image.
+    Right,
+    /// Away from the viewer.
+    Direction,
+    /// A vector of any length (LPS).
+    World(DVec3),
+}
+
+impl Axis {
+    /// The axis of this name: `superior`, `up`, `right` or `direction`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for another name.
+    pub fn named(name: &str) -> Result<Self> {
+        match name {
+            "superior" => Ok(Self::Superior),
+            "up" => Ok(Self::Up),
+            "right" => Ok(Self::Right),
+            "direction" => Ok(Self::Direction),
+            _ => {
+                let expected = "superior, up, right or direction";
+                Err(Error::new(ErrorKind::Camera, "axis of the rotation", format!("'{name}'"), expected))
+            }
+        }
+    }
+
+    /// The axis in world space.
+    fn of(self, camera: &Camera) -> DVec3 {
+        match self {
+            Self::Superior => DVec3::Z,
+            Self::Up => camera.up(),
+            Self::Right => camera.right(),
+            Self::Direction => camera.direction(),
+            Self::World(vector) => vector,
+        }
+    }
+}
+
+/// The camera moved and magnified so that all points just fit into its image; its direction, up and size are kept.
+///
+/// # Errors
+/// [`ErrorKind::Camera`] for no points, or a view of them that is none.
+pub fn fitted(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
+    let camera = centered(camera, points)?.with_axes(camera.direction(), camera.right(), camera.up())?;
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for point in points {
+        for (axis, coordinate) in in_plane(&camera, *point).into_iter().enumerate() {
+            low[axis] = low[axis].min(coordinate);
+            high[axis] = high[axis].max(coordinate);
+        }
+    }
+    let [x, y] = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
+    let center = camera.center() + fused::combined(camera.right(), x, camera.up(), y);
+    let extent = [0, 1].map(|axis| high[axis] - low[axis]);
+    let spacing = spacing_for(&camera, extent, 1.0 - 2.0 * MARGIN);
+    Camera::new(center, camera.direction(), camera.up(), camera.size(), spacing)
+}
+
+/// The camera in the middle of the box around the points, at 1 mm per pixel.
+pub(crate) fn centered(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
+    if points.is_empty() {
+        return Err(Error::new(ErrorKind::Camera, "scene of the view", "no points", "one or more"));
+    }
+    let (low, high) =
+        points.iter().fold((DVec3::MAX, DVec3::MIN), |(low, high), p| (low.min(*p), high.max(*p)));
+    Camera::new((low + high) / 2.0, camera.direction(), camera.up(), camera.size(), 1.0)
+}
+
+/// Where a point lies to the right of the camera's center and above it (mm).
+pub(crate) fn in_plane(camera: &Camera, point: DVec3) -> [f64; 2] {
+    let offset = point - camera.center();
+    [fused::dot(offset, camera.right()), fused::dot(offset, camera.up())]
+}
+
+/// The pixel spacing (mm) at which lengths along the image's axes (mm) take `part` of them.
+pub(crate) fn spacing_for(camera: &Camera, lengths: [f64; 2], part: f64) -> f64 {
+    let [across, upwards] = [0, 1].map(|axis| lengths[axis] / (camera.size()[axis] as f64 * part));
+    across.max(upwards).max(FINEST)
+}
+
+/// The camera turned about its center by an angle (radians), counterclockwise as seen against the axis.
+///
+/// # Errors
+/// [`ErrorKind::Camera`] for an angle or axis that is not finite, or an axis of no length.
+pub fn rotated(camera: &Camera, angle: f64, axis: Axis) -> Result<Camera> {
+    let turn = rotation(axis.of(camera), angle)?;
+    let [direction, up] = [camera.direction(), camera.up()].map(|vector| fused::product(&turn, vector));
+    Camera::new(camera.center(), direction, up, camera.size(), camera.pixel_spacing())
+}
+
+/// Rotation matrix by Rodrigues' formula.
+fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
+    let largest = axis.abs().max_element();
+    if !(angle.is_finite() && axis.is_finite() && largest > 0.0) {
+        let found = format!("angle {} about [{}]", shortest(angle), axis.to_array().map(shortest).join(", "));
+        return Err(Error::new(
+            ErrorKind::Camera,
+            "rotation of the camera",
+            found,
+            "a finite angle and axis",
+        ));
+    }
+    let scaled = axis / largest;
+    let unit = scaled / fused::dot(scaled, scaled).sqrt();
+    let cross = DMat3::from_cols(
+        DVec3::new(0.0, unit.z, -unit.y),
+        DVec3::new(-unit.z, 0.0, unit.x),
+        DVec3::new(unit.y, -unit.x, 0.0),
+    );
+    let squared = fused::matrices(&(cross * (1.0 - angle.cos())), &cross);
+    Ok((DMat3::IDENTITY + cross * angle.sin()) + squared)
+}
+
+/// The camera magnified about its center by a factor above 0.
+///
+/// # Errors
+/// [`ErrorKind::Camera`] for another factor, or a pixel spacing beyond its range.
+pub fn zoomed(camera: &Camera, factor: f64) -> Result<Camera> {
+    if !(factor.is_finite() && factor > 0.0) {
+        let expected = "a number above 0";
+        return Err(Error::new(ErrorKind::Camera, "factor of the zoom", shortest(factor), expected));
+    }
+    let spacing = camera.pixel_spacing() / factor;
+    Camera::new(camera.center(), camera.direction(), camera.up(), camera.size(), spacing)
+}
+
+/// The camera moved in its plane, to the right and upwards (mm).
+///
+/// # Errors
+/// [`ErrorKind::Camera`] for distances that are not finite, or that lead beyond the reach of cameras.
+pub fn panned(camera: &Camera, right: f64, up: f64) -> Result<Camera> {
+    if !(right.is_finite() && up.is_finite()) {
+        let found = format!("[{}, {}]", shortest(right), shortest(up));
+        return Err(Error::new(ErrorKind::Camera, "shift of the camera", found, "finite distances in mm"));
+    }
+    let center = camera.center() + right * camera.right() + up * camera.up();
+    Camera::new(center, camera.direction(), camera.up(), camera.size(), camera.pixel_spacing())
+}
+
+#[cfg(test)]
+#[path = "tests/views.rs"]
+mod tests;
