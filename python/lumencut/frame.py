@@ -91,7 +91,8 @@ class Frame:
     @property
     def position(self) -> npt.NDArray[np.float64]:
         """World point (mm, LPS) of the cut surface in each pixel, float64, shape (H, W, 3)."""
-        return _lumencut.positions(self.camera, self._present("position", self._depth))
+        depth = np.ascontiguousarray(self._present("position", self._depth), np.float32)
+        return _lumencut.positions(self.camera, depth)
 
     def __repr__(self) -> str:
         """Return the size and the names of the images."""

@@ -170,7 +170,8 @@ def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     except (TypeError, ValueError, OverflowError) as error:
         raise VolumeError("points", type(points).__name__, expected) from error
     if array.shape == (3,) or (array.ndim == 2 and array.shape[1] == 3):
-        return array.reshape(-1, 3)
+        # The extension module reads aligned numbers only.
+        return (array if array.flags.aligned else array.copy()).reshape(-1, 3)
     raise VolumeError("points", f"shape {np.shape(array)}", expected)
 
 

@@ -1,7 +1,7 @@
 //! Space and unit of centerlines, for `lumencut.placement`.
 
 use lumencut::centerlines::{Space, Unit};
-use lumencut::placement::{self, Known};
+use lumencut::placement::{self as decision, Known};
 use lumencut::places::{LARGEST, SMALLEST, signs};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
@@ -93,7 +93,7 @@ pub fn placement<'py>(
     volume: Option<GridArgument>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (points, extent) = (points_of(&points)?, volume.map(|grid| grid.extent()));
-    let found = py.detach(|| placement::placement(&known.known(), &points, extent.as_ref()));
+    let found = py.detach(|| decision::placement(&known.known(), &points, extent.as_ref()));
     let found = found.map_err(|error| raised(&error.in_file(subject)))?;
     let fields = PyDict::new(py);
     fields.set_item("space", found.place.space.name())?;
@@ -114,7 +114,7 @@ pub fn better_place(
     volume: GridArgument,
 ) -> PyResult<Option<String>> {
     let (points, extent) = (points_of(&points)?, volume.extent());
-    Ok(py.detach(|| placement::better_place(&points, &extent)))
+    Ok(py.detach(|| decision::better_place(&points, &extent)))
 }
 
 /// Whether points (n, 3) (mm, LPS) miss a volume in whatever space and unit they might be meant.
@@ -126,5 +126,5 @@ pub fn fits_nowhere(
     volume: GridArgument,
 ) -> PyResult<bool> {
     let (points, extent) = (points_of(&points)?, volume.extent());
-    Ok(py.detach(|| placement::fits_nowhere(&points, &extent)))
+    Ok(py.detach(|| decision::fits_nowhere(&points, &extent)))
 }

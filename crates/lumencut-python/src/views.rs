@@ -3,7 +3,7 @@
 use glam::DVec3;
 use lumencut::camera::Camera;
 use lumencut::views::{self, Axis, VIEWS};
-use lumencut::{positions, turn};
+use lumencut::{positions as pixels, turn};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -139,7 +139,7 @@ pub fn positions<'py>(
     let camera = camera.camera()?;
     let [width, height] = camera.size();
     let depth = depth.as_slice()?;
-    let points = py.detach(|| positions::positions(&camera, depth).flat_map(|p| p.to_array()).collect());
+    let points = py.detach(|| pixels::positions(&camera, depth).flat_map(|p| p.to_array()).collect());
     PyArray1::from_vec(py, points).reshape([height, width, 3])
 }
 

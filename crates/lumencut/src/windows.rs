@@ -117,6 +117,8 @@ fn within(level: f64, width: f64, found: impl Fn() -> String) -> Result<Window> 
 }
 
 /// About as many finite voxels as are looked at, evenly spread.
+// Of the ten types of voxels some fit into f64 as they are, others only by a cast.
+#[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
 fn spread_voxels(volume: &Volume) -> Vec<f64> {
     let (size, strides) = (volume.size(), volume.strides());
     let count = size.iter().product::<usize>() as f64;
