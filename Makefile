@@ -3,17 +3,20 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
+# Python compiles what it imports; to compile all that is installed takes longer than to install it.
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile
 RESOLVE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 --generate-hashes \
 	--no-header --no-annotate --upgrade --quiet --system-certs
 
+# How the extension module is compiled: `release` as users get it, or `checks` as the checks do.
+PROFILE := release
 # What the extension module is built from: it is rebuilt when one of these is newer than the last build.
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
 	$(shell find crates/*/src)
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint format settings fuzz bench bench-gpu bench-dicom compare-dicom wheel lock clean develop tools toolchain
+.PHONY: help demo test lint format settings fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -51,29 +54,34 @@ compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases
 bench-dicom: develop tools ## Measure how fast long DICOM series are read, the decoder alone beside it.
 	$(BIN)/python benches/read_dicom.py
 
-wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
-	$(BIN)/maturin build --release --locked --out dist
+wheel: $(VENV)/.wheel ## Build the wheels and the source package into ./dist, and try them out; takes minutes.
+	@$(PYTHON) scripts/toolchain.py rust targets
+	@$(BIN)/python scripts/wheel.py
+
+licences: toolchain ## Write THIRD-PARTY-LICENSES anew: the licence texts of the linked crates.
+	@$(PYTHON) scripts/licences.py
 
 lock: $(VENV)/.python ## Resolve the Python requirements anew into requirements/*.lock.
 	$(PIP) uv
 	$(RESOLVE) --group build --output-file requirements/runtime.lock
 	$(RESOLVE) --group dev --constraints requirements/runtime.lock --output-file requirements/dev.lock
 	$(RESOLVE) --group peers --constraints requirements/dev.lock --output-file requirements/peers.lock
+	$(RESOLVE) --group wheel --constraints requirements/runtime.lock --output-file requirements/wheel.lock
 
 clean: ## Remove everything that the other commands made.
 	rm -rf $(VENV) target dist demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	rm -f python/lumencut/_lumencut*.so
 	find python tests scripts -name __pycache__ -type d -prune -exec rm -rf {} +
 
-develop: $(VENV)/.lumencut ## Install the package into .venv, rebuilding it when Rust sources changed.
+develop: $(VENV)/.lumencut-$(PROFILE) ## Install the package into .venv, rebuilding it when Rust sources changed.
 
 tools: $(VENV)/.dev
 
 toolchain:
 	@$(PYTHON) scripts/toolchain.py rust
 
-# The stamps: an empty environment, what the package needs, what its developers need, what it is compared with,
-# the package itself.
+# The stamps: an empty environment, what the package needs, what its developers need, what links its wheels,
+# what it is compared with, the package itself.
 $(VENV)/.python:
 	@$(PYTHON) scripts/toolchain.py python
 	$(PYTHON) -m venv $(VENV)
@@ -87,10 +95,17 @@ $(VENV)/.dev: requirements/dev.lock $(VENV)/.runtime
 	$(PIP) --require-hashes --requirement $<
 	@touch $@
 
+$(VENV)/.wheel: requirements/wheel.lock $(VENV)/.runtime
+	$(PIP) --require-hashes --requirement $<
+	@touch $@
+
 $(VENV)/.peers: requirements/peers.lock $(VENV)/.runtime
 	$(PIP) --require-hashes --requirement $<
 	@touch $@
 
-$(VENV)/.lumencut: $(RUST_SOURCES) $(VENV)/.runtime | toolchain
-	PATH="$(abspath $(BIN)):$$PATH" $(PIP) --no-deps --no-build-isolation --editable .
+# There is one extension module in .venv, so there is one stamp: that of the profile it was compiled with.
+$(VENV)/.lumencut-$(PROFILE): $(RUST_SOURCES) $(VENV)/.runtime | toolchain
+	PATH="$(abspath $(BIN)):$$PATH" $(PIP) --no-deps --no-build-isolation \
+		--config-settings "maturin.build-args=--profile $(PROFILE)" --editable .
+	@rm -f $(VENV)/.lumencut-*
 	@touch $@
