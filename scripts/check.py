@@ -24,7 +24,7 @@ BIN = ".venv/bin"
 PORTABLE = tuple(
     word for part in ("core", "phantom", "io", "gpu") for word in ("--package", f"lumencut-{part}")
 )
-SCRIPTS = ("scripts/check.py", "scripts/fuzz.py", "scripts/toolchain.py", "scripts/wasm_size.py")
+SCRIPTS = tuple(f"scripts/{name}.py" for name in ("check", "frames", "fuzz", "toolchain", "wasm_size"))
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
 WEB = "target/wasm32-unknown-unknown/wasm/examples/web.wasm"
