@@ -18,7 +18,10 @@ from lumencut.errors import FormatError, VolumeError
 #: Formats of Pillow without transparency.
 _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
-#: What a view can have.
+#: What a view can be asked for.
+IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
+
+#: What a view can have: the position follows from the depth.
 _IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context")
 
 
@@ -45,6 +48,7 @@ class Frame:
     _distance: npt.NDArray[np.float32] | None = None
     _value: npt.NDArray[np.float32] | None = None
     _context: npt.NDArray[np.uint8] | None = None
+    _asked: tuple[str, ...] | None = None
 
     @property
     def image(self) -> npt.NDArray[np.uint8]:
@@ -107,7 +111,11 @@ class Frame:
     def _present(self, name: str, array: Any) -> Any:
         if array is not None:
             return array
-        if self._image is None:
+        stored = "depth" if name == "position" else name
+        if self._asked is not None and stored not in self._asked:
+            found = f"a frame that was asked for {', '.join(self._asked) or 'no image'} alone"
+            raise VolumeError(f"{name} of the frame", found, f"a frame with {stored}", "name it in images=")
+        if self._image is None and self._asked is None:
             found, expected, mend = "a cut surface without a volume", "a rendered frame", "use render"
         elif name == "context":
             found, expected = "a frame rendered without a context", "a frame with one"

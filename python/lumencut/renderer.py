@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -14,7 +15,7 @@ from lumencut._checks import choice
 from lumencut.camera import Camera
 from lumencut.device import look_for_no_display
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
-from lumencut.frame import Frame
+from lumencut.frame import IMAGES, Frame
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -54,22 +55,46 @@ class Renderer:
     def __init__(
         self, volume: Any, tree: VesselTree | None = None, device: Literal["auto", "cpu", "gpu"] = "auto"
     ) -> None:
-        if not isinstance(tree, (VesselTree, type(None))):
-            raise VesselTreeError(
-                "tree", type(tree).__name__, "a VesselTree, such as read_centerlines returns, or None"
-            )
+        _check_kind(tree)
         choice(SettingsError, "device", device, ("auto", "cpu", "gpu"))
-        self._volume = None if volume is None else as_volume(volume)
-        self._tree = tree
-        scene = self._volume if tree is None else tree
-        if scene is None:
-            raise VolumeError("scene of the renderer", "neither a volume nor a tree", "one of them or both")
-        self._scene = scene
-        if self._volume is not None and tree is not None:
-            _check_meeting(self._volume, tree)
+        self._set_scene(None if volume is None else as_volume(volume), tree)
         if device != "cpu":
             look_for_no_display()
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
+
+    def _set_scene(self, volume: Volume | None, tree: VesselTree | None) -> None:
+        """Take over what is shown, once it is known that there is something and that both meet."""
+        scene = volume if tree is None else tree
+        if scene is None:
+            raise VolumeError("scene of the renderer", "neither a volume nor a tree", "one of them or both")
+        if volume is not None and tree is not None:
+            _check_meeting(volume, tree)
+        self._volume, self._tree, self._scene = volume, tree, scene
+
+    def with_tree(self, tree: VesselTree | None) -> Renderer:
+        """Return a renderer of the same volume on the same device with another tree, or without one.
+
+        What is known of the volume stays: on a GPU its voxels are not sent again, and where the settings name no
+        window, that of this renderer is used, so that the picture does not become lighter or darker with the
+        tree. Both renderers can be used; their views take turns.
+
+        Raises
+        ------
+        VesselTreeError
+            For a tree of another kind, or one that lies wholly outside the volume.
+        VolumeError
+            For no tree where there is no volume either.
+        """
+        _check_kind(tree)
+        if self._volume is not None:
+            # Taken from the data now, while the tree is there that it was to be taken along.
+            window = self._window
+        other = object.__new__(Renderer)
+        other._set_scene(self._volume, tree)
+        other._core = self._core.with_tree(None if tree is None else tree._arrays())
+        if self._volume is not None:
+            vars(other)["_window"] = window
+        return other
 
     @property
     def volume(self) -> Volume | None:
@@ -91,7 +116,13 @@ class Renderer:
         """What views are fitted to: the tree, or the volume where there is no tree."""
         return self._scene
 
-    def render(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
+    def render(
+        self,
+        camera: Camera | None = None,
+        settings: Settings | None = None,
+        *,
+        images: Iterable[str] | None = None,
+    ) -> Frame:
         """Return the picture of one view.
 
         Parameters
@@ -100,13 +131,17 @@ class Renderer:
             The view; from the front, fitted to the tree or else the volume, where not given.
         settings : Settings, optional
             The knobs; their defaults where not given. Without a tree those of the cut surface do nothing.
+        images : iterable of str, optional
+            The images that the frame is to have, of ``"image"``, ``"depth"``, ``"vessel"``, ``"distance"``,
+            ``"value"`` and ``"context"``; all where not given. On a GPU each one that is not asked for saves
+            its way back. ``Frame.position`` needs the depth.
 
         Raises
         ------
         VolumeError
             Without a volume.
         SettingsError
-            Without a tree for settings without a context, or a ``context_step`` too small for the volume.
+            For an image of another name, or without a tree for settings without a context, or a ``context_step`` too small for the volume.
         DeviceError
             With the device ``"gpu"`` where the GPU fails or has no room; a further view starts it anew.
         KeyboardInterrupt
@@ -120,7 +155,9 @@ class Renderer:
         if settings.context is None and self._tree is None:
             mend = "give the renderer a tree, or the settings a context such as 'mida'"
             raise SettingsError("context", "None without a vessel tree", "something to show", mend)
-        return _frame(camera, self._core.render(self._volume, camera, checked(self.windowed(settings))))
+        asked = None if images is None else _names(images)
+        windowed = checked(self.windowed(settings))
+        return _frame(camera, self._core.render(self._volume, camera, windowed, asked), asked)
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
@@ -211,6 +248,12 @@ def render(
     return Renderer(volume, tree).render(camera, settings)
 
 
+def _check_kind(tree: Any) -> None:
+    if not isinstance(tree, (VesselTree, type(None))):
+        expected = "a VesselTree, such as read_centerlines returns, or None"
+        raise VesselTreeError("tree", type(tree).__name__, expected)
+
+
 def as_volume(image: Any) -> Volume:
     """Return ``image`` as a volume; see :func:`lumencut.volume_files.memory.as_volume`."""
     if isinstance(image, Volume):
@@ -234,6 +277,13 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
     check_space_once(tree, volume)
 
 
-def _frame(camera: Camera, buffers: dict[str, Any]) -> Frame:
+def _names(images: Iterable[str]) -> list[str]:
+    names = [images] if isinstance(images, str) else list(images)
+    for name in names:
+        choice(SettingsError, "image of the frame", name, IMAGES)
+    return names
+
+
+def _frame(camera: Camera, buffers: dict[str, Any], asked: list[str] | None = None) -> Frame:
     arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
-    return Frame(camera, buffers["timings"], **arrays)
+    return Frame(camera, buffers["timings"], **arrays, _asked=None if asked is None else tuple(asked))
