@@ -11,7 +11,7 @@ pub const MAX_POINTS: usize = 64;
 pub const MOST_INTENSITY: f64 = 1e12;
 
 /// Opacity below which nothing is seen, far below one grey value over a whole body.
-const INVISIBLE: f32 = 1e-6;
+pub const INVISIBLE: f32 = 1e-6;
 
 /// Colour and opacity at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
