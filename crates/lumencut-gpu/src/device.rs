@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lumencut_core::error::{Error, ErrorKind, Result};
-use wgpu::{Features, Limits};
+use wgpu::{Adapter, Features, Limits};
 
 use crate::adapter::{Choice, Description, choose};
 
@@ -30,8 +30,15 @@ impl Device {
     /// # Errors
     /// [`ErrorKind::Device`] where there is none, or one whose limits are too small.
     pub async fn open(choice: Choice) -> Result<Self> {
-        let adapter = choose(choice).await?;
-        let description = Description::of(&adapter);
+        Self::on(&choose(choice).await?).await
+    }
+
+    /// Opens the GPU of an adapter.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Device`] where its limits are too small.
+    pub(crate) async fn on(adapter: &Adapter) -> Result<Self> {
+        let description = Description::of(adapter);
         check_limits(&description.name, &adapter.limits())?;
         let has_timestamps = adapter.features().contains(Features::TIMESTAMP_QUERY);
         let descriptor = wgpu::DeviceDescriptor {

@@ -8,8 +8,10 @@ use crate::stop::{Stop, go_on};
 use crate::volume::{Real, Volume, Voxel};
 use crate::with_voxels;
 
+/// The side of the smallest block is 2 to this power (cells).
+pub const SIDE_BITS: u32 = 2;
 /// The side of a block (cells between neighbouring voxels).
-pub const SIDE: usize = 4;
+pub const SIDE: usize = 1 << SIDE_BITS;
 
 /// The most blocks along an axis that are asked one by one; for more, larger blocks are asked.
 const MOST_ASKED: i32 = 3;

@@ -1,7 +1,8 @@
 // The levels of detail of the tree, one after the other in every buffer, and the rule that orders their pieces.
 // import math/lanes
 
-const MAX_LEVELS = 16u;
+// The most levels beyond the finest.
+const MAX_LEVELS = 15u;
 
 // Where a level lies in the buffers.
 struct LevelPlace {
@@ -30,7 +31,7 @@ struct CutSurfaceParameters {
     // View coordinates (mm) of the point that the tree's points are counted from, and the rest of them.
     origin_coarse: vec4f,
     origin_fine: vec4f,
-    levels: array<LevelPlace, MAX_LEVELS>,
+    levels: array<LevelPlace, MAX_LEVELS + 1u>,
 }
 
 @group(0) @binding(1) var<uniform> parameters: CutSurfaceParameters;

@@ -6,11 +6,16 @@ use super::ray::IndexFromView;
 use super::sampler::Sampler;
 use super::sampling::{Around, Places};
 
-/// The share of its colour that a surface keeps edge on, and what it gains towards the viewer.
-const AMBIENT: f32 = 0.4;
-const DIFFUSE: f32 = 0.6;
+/// The share of its colour that a surface keeps edge on.
+pub const AMBIENT: f32 = 0.4;
+/// What a surface gains on that towards the viewer.
+pub const DIFFUSE: f32 = 0.6;
 /// White mirrored straight towards the viewer; it falls off with the sixteenth power of the cosine.
-const SPECULAR: f32 = 0.2;
+pub const SPECULAR: f32 = 0.2;
+/// A change within what can be squared.
+pub const STEEPEST: f32 = 1e12;
+/// What a colour without shading is multiplied by, and what is added to it.
+pub const UNSHADED: [f32; 2] = [1.0, 0.0];
 
 /// How strongly changes are shaded.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +27,6 @@ pub struct Shading {
 /// A change within what can be squared; NaN stays.
 #[inline(always)]
 fn bounded(change: f32) -> f32 {
-    const STEEPEST: f32 = 1e12;
     let change = if change > STEEPEST { STEEPEST } else { change };
     if change < -STEEPEST { -STEEPEST } else { change }
 }
@@ -44,7 +48,7 @@ pub struct Headlight<'a> {
 impl Light for Headlight<'_> {
     #[inline(always)]
     fn shade(&self) -> [[f32; FAN]; 2] {
-        let (mut lit, mut shine) = ([1.0; FAN], [0.0; FAN]);
+        let [mut lit, mut shine] = UNSHADED.map(|number| [number; FAN]);
         let Some(shading) = self.shading else {
             return [lit, shine];
         };

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
-use super::sampling::{Grid, Path, Places};
+use super::sampling::{Grid, PLACE_ROUNDING, Path, Places};
 use crate::camera::Camera;
 use crate::volume::Volume;
 
@@ -17,6 +17,8 @@ pub const STEPS: usize = 8;
 pub const WHOLE: f32 = -1e9;
 /// Where a ray starts that is not needed.
 pub const NONE: f32 = 1e9;
+/// Beyond both.
+pub const NEVER: f64 = 2e9;
 
 /// The most samples along a ray, and of a slab.
 pub const MOST_SAMPLES: f64 = 65_536.0;
@@ -25,9 +27,7 @@ pub const MOST_SAMPLES: f64 = 65_536.0;
 pub const PARALLEL: f64 = 1e-9;
 /// How much of a step a chord may be longer than whole steps without a part more: n voxels have n parts, however n · side
 /// is rounded, on a GPU with the digits of `f32`.
-const SPARE: f64 = 1e-3;
-/// Wider than what rounding moves a place (voxels).
-const ROUNDING: f64 = 1e-3;
+pub const SPARE: f64 = 1e-3;
 
 /// Continuous index as an affine map of view coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -121,8 +121,8 @@ impl Packet {
                 let (one, other) = ((-0.5 - o) * per_voxel, (last[a] + 0.5 - o) * per_voxel);
                 let (enter, leave) = if one < other { (one, other) } else { (other, one) };
                 let outside = (o < -0.5) | (o > last[a] + 0.5);
-                let enter = if parallel { if outside { 2e9 } else { -2e9 } } else { enter };
-                let leave = if parallel { 2e9 } else { leave };
+                let enter = if parallel { if outside { NEVER } else { -NEVER } } else { enter };
+                let leave = if parallel { NEVER } else { leave };
                 near[l] = if enter > near[l] { enter } else { near[l] };
                 far[l] = if leave < far[l] { leave } else { far[l] };
                 foot[a][l] = o;
@@ -198,8 +198,8 @@ impl Packet {
         for a in 0..3 {
             let (one, other) = (self.toward[a] * begin, self.toward[a] * end);
             let (less, more) = if one < other { (one, other) } else { (other, one) };
-            low[a] = ((foot[a][0] + less - ROUNDING) as i32).clamp(0, last_cell[a]);
-            high[a] = ((foot[a][1] + more + ROUNDING) as i32).clamp(0, last_cell[a]);
+            low[a] = ((foot[a][0] + less - PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
+            high[a] = ((foot[a][1] + more + PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
         }
         let range = match blocks {
             Some(blocks) => blocks.range(low, high),

@@ -5,6 +5,9 @@ use glam::DVec3;
 use super::lanes::{FAN, larger, smaller};
 use crate::volume::{Real, Volume, Voxel};
 
+/// Wider than what rounding moves a place (voxels).
+pub const PLACE_ROUNDING: f64 = 1e-3;
+
 /// The grid of a volume, ready to find the voxels around a continuous index.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {

@@ -4,6 +4,9 @@
 // Whether the voxels are the bits of floats; else they are whole numbers.
 override FLOAT_VOXELS: bool = false;
 
+// Wider than what rounding moves a place (voxels).
+const PLACE_ROUNDING: f32 = 1e-3;
+
 // The volume's grid in the view. Vectors of four end with a 0 that means nothing.
 struct GridParameters {
     // The last index along (i, j, k).

@@ -3,6 +3,9 @@
 
 use super::lanes::{FAN, larger, smaller};
 
+/// The bits of √½.
+pub const ROOT_HALF: u32 = 0x3F35_04F3;
+
 /// The opacity of `thickness` mm of something whose opacity is `opacity` per mm; thickness 0 or above.
 #[inline(always)]
 pub fn of_thickness(opacity: &[f32; FAN], thickness: &[f32; FAN]) -> [f32; FAN] {
@@ -19,7 +22,6 @@ pub fn of_thickness(opacity: &[f32; FAN], thickness: &[f32; FAN]) -> [f32; FAN] 
 #[inline(always)]
 fn log2_of_one_minus(a: f32) -> f32 {
     // 1 − a = 2^e · m with m between √½ and √2; log₂ m = 2/ln 2 · artanh((m − 1)/(m + 1)).
-    const ROOT_HALF: u32 = 0x3F35_04F3;
     let rest = 1.0 - a;
     let exponent = (rest.to_bits().wrapping_sub(ROOT_HALF) as i32) >> 23;
     let m = f32::from_bits(rest.to_bits().wrapping_sub((exponent << 23) as u32));

@@ -1,5 +1,6 @@
 // Opacity of another thickness: 1 − (1 − α)^h, with the polynomials of the CPU.
 
+// The bits of √½.
 const ROOT_HALF = 0x3F3504F3u;
 const LOG2_E: f32 = 1.4426950408889634;
 const LN_2: f32 = 0.6931471805599453;

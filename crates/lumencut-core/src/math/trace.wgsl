@@ -4,7 +4,7 @@
 // import math/ray
 
 // The samples of a ray that are taken in a row.
-const RUN = 8;
+const RUN: i32 = 8;
 
 // What a ray finds.
 fn trace(ray: Ray) -> vec4f {

@@ -5,7 +5,7 @@ use super::lanes::{FAN, larger, smaller};
 use crate::settings::{ControlPoint, TransferFunction};
 
 /// Opacity below which nothing is seen, far below one grey value over a whole body.
-const INVISIBLE: f32 = 1e-6;
+pub const INVISIBLE: f32 = 1e-6;
 
 /// A rise from one control point to the next: what is added to all before it.
 #[derive(Clone, Copy, Debug)]

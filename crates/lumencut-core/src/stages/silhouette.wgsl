@@ -3,9 +3,9 @@
 // import math/view
 
 // How much a leap between the influence zones of two vessels counts beside one within a zone.
-const ZONE_BORDER = 4.0;
+const ZONE_BORDER: f32 = 4.0;
 // Far beyond any slope squared.
-const STEEPEST = 1e12;
+const STEEPEST: f32 = 1e12;
 
 struct SilhouetteParameters {
     // From the sum of the Sobel weights to mm per mm.

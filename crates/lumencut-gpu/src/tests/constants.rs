@@ -1,36 +1,229 @@
-//! Numbers that mean something of their own are the same in WGSL and in Rust.
+//! Every constant of a shader is the one of that name in Rust, to the last bit; the few that only shaders have are listed
+//! with the reason.
 
 use std::collections::BTreeMap;
+use std::f32::consts;
 
-use lumencut_core::math::{blocks, hierarchy, lanes};
-use naga::{Expression, Literal};
+use lumencut_core::math::blocks::Range;
+use lumencut_core::math::context_parameters::Gathering;
+use lumencut_core::math::{
+    accumulate, blocks, hierarchy, lanes, light, projection, ray, sampling, thickness, transfer,
+};
+use lumencut_core::settings;
+use lumencut_core::shaders::{SHADERS, Shader};
+use lumencut_core::stages::{context, silhouette, surface};
+use naga::{Expression, Handle, Literal, Module};
 
-use crate::shader::assemble;
+use crate::cut_surface;
+use crate::shader::assemble_from;
 
-/// The constants of a room by name, as exact decimals.
-fn constants(room: &str) -> BTreeMap<String, f64> {
-    let module = naga::front::wgsl::parse_str(&assemble(room)).unwrap();
-    let number = |expression| match module.global_expressions[expression] {
-        Expression::Literal(Literal::F32(number)) => f64::from(number),
-        Expression::Literal(Literal::U32(number)) => f64::from(number),
-        Expression::Literal(Literal::I32(number)) => f64::from(number),
-        ref other => panic!("not a number: {other:?}"),
+/// A room and the name of one of its constants.
+type Name = (String, String);
+
+/// A constant as the numbers it holds; a shader's floats have 32 bits.
+trait Numbers {
+    fn numbers(&self) -> Vec<f64>;
+}
+
+macro_rules! whole_numbers {
+    ($($type:ty),*) => { $(impl Numbers for $type {
+        fn numbers(&self) -> Vec<f64> {
+            vec![*self as f64]
+        }
+    })* };
+}
+
+whole_numbers!(u32, usize);
+
+impl Numbers for f32 {
+    fn numbers(&self) -> Vec<f64> {
+        vec![f64::from(*self)]
+    }
+}
+
+impl Numbers for f64 {
+    fn numbers(&self) -> Vec<f64> {
+        (*self as f32).numbers()
+    }
+}
+
+impl Numbers for [f32; 2] {
+    fn numbers(&self) -> Vec<f64> {
+        self.iter().flat_map(Numbers::numbers).collect()
+    }
+}
+
+impl Numbers for Range {
+    fn numbers(&self) -> Vec<f64> {
+        [self.low, self.high].numbers()
+    }
+}
+
+/// The constants of Rust, by the room of the shader that has a constant of the same name.
+macro_rules! in_rust {
+    ($($room:literal: $($constant:path),+;)*) => {
+        BTreeMap::from([$($((name($room, stringify!($constant)), $constant.numbers())),+),*])
     };
-    let named = |constant: &naga::Constant| (constant.name.clone().unwrap(), number(constant.init));
-    module.constants.iter().map(|(_, constant)| named(constant)).collect()
+}
+
+fn name(room: &str, path: &str) -> Name {
+    let last = path.rsplit("::").next().unwrap_or(path);
+    (room.to_owned(), last.trim().to_owned())
+}
+
+fn in_rust() -> BTreeMap<Name, Vec<f64>> {
+    let mut all = in_rust! {
+        "math/accumulate": accumulate::OPAQUE;
+        "math/blocks": blocks::SIDE_BITS, Range::ALL;
+        "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::SETTLED, hierarchy::NO_SLOT,
+            blocks::HUGE;
+        "math/levels": settings::MAX_LEVELS;
+        "math/light": light::AMBIENT, light::DIFFUSE, light::SPECULAR, light::STEEPEST, light::UNSHADED;
+        "math/projection": projection::COLLINEAR_LENGTH, cut_surface::POINT_THREADS;
+        "math/ray": ray::WHOLE, ray::NONE, ray::NEVER, ray::SPARE;
+        "math/sampling": sampling::PLACE_ROUNDING;
+        "math/thickness": thickness::ROOT_HALF, consts::LOG2_E, consts::LN_2;
+        "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
+        "math/transfer": transfer::INVISIBLE;
+        "stages/context": context::IN_FRONT;
+        "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
+        "stages/surface": surface::MEAN, surface::LARGEST, surface::SMALLEST;
+    };
+    let gatherings = [
+        ("BLEND", Gathering::Blend),
+        ("BRIGHTEST", Gathering::Brightest),
+        ("DARKEST", Gathering::Darkest),
+        ("AVERAGE", Gathering::Average),
+    ];
+    all.extend(
+        gatherings.map(|(code, gathering)| (name("math/accumulate", code), gathering.code().numbers())),
+    );
+    all
+}
+
+/// The constants that only shaders have, by room, and why.
+const ONLY_IN_SHADERS: [(&str, &str, &str); 10] = [
+    ("math/blocks", "FARTHEST", "rays of the CPU skip whole segments and count no samples"),
+    ("math/projection", "SPAN_THREADS", "the threads of a group"),
+    ("math/projection", "LEVEL_THREADS", "the threads of a group"),
+    ("math/projection", "NOWHERE", "where a group of threads has found nothing yet"),
+    ("math/tile", "MAX_ACROSS", "the size of an array of a thread"),
+    ("math/tile", "MAX_ROWS", "the size of an array of a thread"),
+    ("math/tile", "MAX_QUADS", "the size of an array of a thread"),
+    ("math/trace", "RUN", "how often a thread looks at the blocks, which changes no picture"),
+    ("math/window", "FAR_INTENSITY", "on the CPU a product may be infinite"),
+    ("stages/surface", "CHUNK", "the CPU adds up the samples of a slab one by one"),
+];
+
+/// The names of the constants that a room declares itself. They stand outside functions, where this test sees them.
+fn declared(shader: &Shader) -> Vec<String> {
+    let lines = shader.text.lines().filter(|line| line.trim_start().starts_with("const "));
+    let name = |line: &str| {
+        let rest = line.strip_prefix("const ");
+        let rest = rest.unwrap_or_else(|| panic!("{}: '{line}' is within a function", shader.room));
+        rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+    };
+    lines.map(name).collect()
+}
+
+/// The numbers of an expression.
+fn numbers(module: &Module, expression: Handle<Expression>) -> Vec<f64> {
+    match &module.global_expressions[expression] {
+        Expression::Literal(Literal::F32(number)) => vec![f64::from(*number)],
+        Expression::Literal(Literal::U32(number)) => vec![f64::from(*number)],
+        Expression::Literal(Literal::I32(number)) => vec![f64::from(*number)],
+        Expression::Constant(constant) => numbers(module, module.constants[*constant].init),
+        Expression::Compose { components, .. } => {
+            components.iter().flat_map(|component| numbers(module, *component)).collect()
+        }
+        other => panic!("not a number: {other:?}"),
+    }
+}
+
+/// The constants that some rooms declare themselves.
+fn in_shaders(shaders: &[Shader]) -> BTreeMap<Name, Vec<f64>> {
+    let mut found = BTreeMap::new();
+    for shader in shaders {
+        let module = naga::front::wgsl::parse_str(&assemble_from(shaders, shader.room)).unwrap();
+        for constant in declared(shader) {
+            let has_name = |of: &naga::Constant| of.name.as_ref() == Some(&constant);
+            let declaration = module.constants.iter().find(|(_, of)| has_name(of));
+            let (_, declaration) =
+                declaration.unwrap_or_else(|| panic!("{}: {constant} needs a type", shader.room));
+            found.insert(name(shader.room, &constant), numbers(&module, declaration.init));
+        }
+    }
+    found
+}
+
+/// The constants of shaders that are not those of Rust and not among the `alone`, as lines to read.
+fn differences(
+    shaders: &BTreeMap<Name, Vec<f64>>,
+    rust: &BTreeMap<Name, Vec<f64>>,
+    alone: &[Name],
+) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (name, value) in shaders.iter().filter(|(name, _)| !alone.contains(name)) {
+        match rust.get(name) {
+            Some(same) if same == value => {}
+            other => lines.push(format!("{name:?} is {value:?} in WGSL and {other:?} in Rust")),
+        }
+    }
+    let is_gone = |name: &&Name| !shaders.contains_key(*name);
+    lines.extend(rust.keys().chain(alone).filter(is_gone).map(|name| format!("{name:?} is not in WGSL")));
+    lines.extend(alone.iter().filter(|name| rust.contains_key(*name)).map(|name| format!("{name:?} twice")));
+    lines
+}
+
+fn alone() -> Vec<Name> {
+    ONLY_IN_SHADERS.iter().map(|(room, constant, _)| name(room, constant)).collect()
 }
 
 #[test]
-fn sentinels_are_those_of_rust() {
-    let expected = [
-        ("FAN", lanes::FAN as f64),
-        ("UNSET", f64::from(lanes::UNSET)),
-        ("ABSENT", f64::from(lanes::ABSENT)),
-        ("FAR", f64::from(lanes::FAR)),
-        ("SETTLED", f64::from(lanes::SETTLED)),
-        ("NO_SLOT", f64::from(hierarchy::NO_SLOT)),
-        ("HUGE", f64::from(blocks::HUGE)),
+fn every_constant_is_that_of_rust() {
+    let shaders = in_shaders(SHADERS);
+    assert!(shaders.len() > 40, "{} constants", shaders.len());
+    let found = differences(&shaders, &in_rust(), &alone());
+    assert!(found.is_empty(), "add to `in_rust`, or with a reason to `ONLY_IN_SHADERS`: {found:#?}");
+}
+
+#[test]
+fn every_difference_is_seen() {
+    const ROOMS: [Shader; 2] = [
+        Shader { room: "low", text: "const A: f32 = 1e-3;\nconst B = 2u;\n" },
+        Shader { room: "top", text: "// import low\nconst C = vec2f(-A, A);\nconst D: f32 = 1.0 - A;\n" },
     ];
-    let expected: BTreeMap<_, _> = expected.map(|(name, number)| (name.to_owned(), number)).into();
-    assert_eq!(constants("math/lanes"), expected);
+    let shaders = in_shaders(&ROOMS);
+    let rust = BTreeMap::from([
+        (name("low", "lower::A"), 1e-3f64.numbers()),
+        (name("low", "B"), 2usize.numbers()),
+        (name("top", "C"), [-1e-3f32, 1e-3].numbers()),
+    ]);
+    let alone = [name("top", "D")];
+    assert_eq!(differences(&shaders, &rust, &alone), [""; 0]);
+    assert_eq!(differences(&shaders, &rust, &[]).len(), 1, "a constant that Rust lacks");
+    for constant in rust.keys() {
+        let mut other = rust.clone();
+        other.entry(constant.clone()).and_modify(|value| value[0] = value[0].next_up());
+        assert_eq!(differences(&shaders, &other, &alone).len(), 1, "another {constant:?}");
+        let mut fewer = shaders.clone();
+        fewer.remove(constant);
+        assert_eq!(differences(&fewer, &rust, &alone).len(), 1, "without {constant:?}");
+    }
+    let twice = [name("top", "D"), name("low", "A")];
+    assert_eq!(differences(&shaders, &rust, &twice).len(), 1, "in both lists");
+}
+
+#[test]
+#[should_panic(expected = "within a function")]
+fn a_constant_within_a_function_is_refused() {
+    in_shaders(&[Shader { room: "room", text: "fn f() -> f32 {\n    const A = 1.0;\n    return A;\n}\n" }]);
+}
+
+#[test]
+fn the_tile_fits_the_arrays_of_a_thread() {
+    let shaders = in_shaders(SHADERS);
+    let most = |constant| shaders[&name("math/tile", constant)][0] as usize;
+    let [across, rows] = cut_surface::TILE;
+    assert!(across <= most("MAX_ACROSS") && rows <= most("MAX_ROWS") && across * rows <= most("MAX_QUADS"));
 }

@@ -4,6 +4,7 @@
 mod composite;
 mod constants;
 mod context;
+mod coverage;
 mod depth_filter;
 mod device;
 mod failures;
@@ -21,7 +22,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::math::blocks::HUGE;
 use wgpu::Buffer;
 
-use crate::adapter::Choice;
+use crate::adapter::{Choice, adapters};
 use crate::device::Device;
 use crate::recording::{Recording, Results};
 use crate::view;
@@ -46,6 +47,21 @@ pub(crate) fn shared() -> Option<&'static Arc<Device>> {
         }
     };
     DEVICE.get_or_init(open).as_ref()
+}
+
+/// Every GPU of this machine that has what the stages need, software too.
+pub(crate) fn every_device() -> Vec<Arc<Device>> {
+    if shared().is_none() {
+        return Vec::new();
+    }
+    let open = |adapter| match pollster::block_on(Device::on(&adapter)) {
+        Ok(device) => Some(Arc::new(device)),
+        Err(error) => {
+            eprintln!("not tested: {error}");
+            None
+        }
+    };
+    pollster::block_on(adapters()).into_iter().filter_map(open).collect()
 }
 
 /// The GPU's view.

@@ -1,0 +1,172 @@
+//! No pixel is left uncovered: at every level that a pixel uses some piece covers it, on every GPU of this machine.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lumencut_core::camera::Camera;
+use lumencut_core::pipeline::Request;
+use lumencut_core::scene::Scene;
+use lumencut_core::settings::{MAX_LEVELS, Settings};
+use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::settings::unfiltered;
+
+use super::every_device;
+use crate::device::Device;
+use crate::renderer::GpuRenderer;
+
+/// How far the trees lie behind the view's origin (mm). A pixel that no piece covers has depth 0 at that level, which
+/// takes its depth out of the tree's range, however small the level's weight.
+const AWAY: f64 = 2e4;
+/// More than the rounding of such depths (mm).
+const ROUNDING: f64 = 0.05;
+
+/// Directions along an axis and oblique to all.
+const DIRECTIONS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.31, 0.83, -0.47]];
+
+/// Sizes and pixel spacings (mm), from far within a segment to a whole tree in a pixel.
+const VIEWS: [([usize; 2], f64); 7] = [
+    ([1, 1], 1.0),
+    ([1, 17], 0.3),
+    ([17, 1], 2.0),
+    ([64, 48], 1.0),
+    ([33, 20], 1e-4),
+    ([33, 20], 0.01),
+    ([33, 20], 40.0),
+];
+
+/// The view from [`AWAY`] mm in front of the origin.
+fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
+    let direction = DVec3::from_array(direction).normalize();
+    Camera::new(direction * -AWAY, direction, DVec3::Z, size, pixel_spacing).unwrap()
+}
+
+/// Levels blended by the distance, each of some levels alone wherever the distance is not 0, and *lumen first*.
+fn all_settings() -> Vec<Settings> {
+    let plain = unfiltered();
+    let alone = |levels| Settings { levels, level_distance: 1e-3, ..plain.clone() };
+    let lumen_first = Settings { lumen_first: true, lumen_margin: 1.0, ..plain.clone() };
+    vec![plain.clone(), lumen_first, alone(0), alone(1), alone(2), alone(4), alone(MAX_LEVELS)]
+}
+
+/// A tree of vessels given in the view coordinates of views along `direction`.
+fn seen_along(direction: [f64; 3], vessels: &[Vec<[f64; 3]>]) -> VesselTree {
+    let camera = view(direction, [1, 1], 1.0);
+    let place = |[x, y, z]: &[f64; 3]| camera.right() * *x + camera.up() * *y + camera.direction() * *z;
+    let vessel = |points: &Vec<[f64; 3]>| {
+        let radii = (0..points.len()).map(|i| 0.5 + (i % 3) as f64).collect();
+        Vessel::new(points.iter().map(place).collect(), Some(radii)).unwrap()
+    };
+    VesselTree::new(vessels.iter().map(vessel).collect()).unwrap()
+}
+
+/// Runs along the view at the beginning, within and at the end of vessels, and a vessel that is one run.
+fn runs() -> Vec<Vec<[f64; 3]>> {
+    let within =
+        [[-20.0, 0.0, 0.0], [-10.0, 0.0, 0.0], [-10.0, 0.0, 5.0], [-10.0, 0.0, 9.0], [0.0, 8.0, 9.0]];
+    let at_the_end = [[0.0, 8.0, 9.0], [10.0, -5.0, 2.0], [20.0, 0.0, 2.0], [20.0, 0.0, -7.0]];
+    let first = [[5.0, 5.0, -3.0], [5.0, 5.0, 0.0], [5.0, 5.0, 4.0], [9.0, 5.0, 4.0]];
+    let alone = [[-3.0, -12.0, 0.0], [-3.0, -12.0, 4.0], [-3.0, -12.0, -6.0]];
+    vec![within.to_vec(), at_the_end.to_vec(), first.to_vec(), alone.to_vec()]
+}
+
+/// Segments about as long in projection as the shortest that are none of a run.
+fn nearly_collinear() -> Vec<Vec<[f64; 3]>> {
+    let steep = |i: i32| [f64::from(i) * 1e-3 * (1.0 + 0.1 * f64::from(i % 7 - 3)), 0.0, f64::from(i % 5)];
+    let round = |i: i32| [1e-3 * f64::from(i).cos(), 1e-3 * f64::from(i).sin(), f64::from(i) * 0.5];
+    vec![(0..60).map(steep).collect(), (0..60).map(round).collect()]
+}
+
+/// Vessels that are hardly more than a point: shorter than the shortest segment, and in steps about as long.
+fn tiny() -> Vec<Vec<[f64; 3]>> {
+    let line =
+        |count: i32, step: f64, y: f64| (0..count).map(move |i| [f64::from(i) * step, y, 0.0]).collect();
+    vec![line(2, 1e-4, 0.0), line(40, 4e-4, 3.0), line(3, 1.01e-3, -3.0), line(50, 0.999e-3, 5.0)]
+}
+
+/// Borders of pieces through the centres of pixels: along rows, columns and diagonals, and back again.
+fn through_pixels() -> Vec<Vec<[f64; 3]>> {
+    let steps = [[0.5, 0.5, 0.0], [4.5, 0.5, 1.0], [4.5, 4.5, 2.0], [8.5, 8.5, 0.0], [0.5, 0.5, 3.0]];
+    let back = [[-9.5, 0.5, 1.0], [-3.5, 0.5, 2.0], [-9.5, 0.5, 3.0], [-3.5, -5.5, 4.0], [-3.5, 6.5, 5.0]];
+    vec![steps.to_vec(), back.to_vec()]
+}
+
+/// Small trees, and what each is.
+fn trees(direction: [f64; 3]) -> Vec<(&'static str, VesselTree)> {
+    let made = [
+        ("runs", runs()),
+        ("nearly collinear", nearly_collinear()),
+        ("tiny", tiny()),
+        ("through pixels", through_pixels()),
+    ];
+    let random = [(5, 1.5, 60.0), (6, 0.01, 0.3), (7, 25.0, 400.0)]
+        .map(|(seed, step, extent)| ("random", random_tree(seed, 6, 50, step, extent).unwrap()));
+    made.map(|(name, vessels)| (name, seen_along(direction, &vessels))).into_iter().chain(random).collect()
+}
+
+/// The depths (mm) between which the points of a tree lie.
+fn depth_range(tree: &VesselTree, camera: &Camera) -> [f64; 2] {
+    let points = tree.vessels().iter().flat_map(|vessel| vessel.points());
+    let depths = points.map(|point| camera.view_from_world(*point).z);
+    depths.fold([f64::MAX, f64::MIN], |[low, high], depth| [low.min(depth), high.max(depth)])
+}
+
+/// The pixels whose depth lies outside the range of the tree, or whose vessel is none of so many.
+fn uncovered(depth: &[f32], vessel: &[i32], [low, high]: [f64; 2], vessels: usize) -> Vec<usize> {
+    let range = low - ROUNDING..=high + ROUNDING;
+    let is_covered =
+        |p: &usize| range.contains(&f64::from(depth[*p])) && (0..vessels as i32).contains(&vessel[*p]);
+    assert_eq!(depth.len(), vessel.len());
+    (0..depth.len()).filter(|p| !is_covered(p)).collect()
+}
+
+/// Renders a tree from everywhere; the number of pixels.
+fn cover(device: &Arc<Device>, name: &str, tree: &VesselTree, direction: [f64; 3]) -> usize {
+    let mut renderer = GpuRenderer::new(Arc::clone(device));
+    let scene = Scene::default().with_tree(tree.clone());
+    let mut pixels = 0;
+    for (size, spacing) in VIEWS {
+        let camera = view(direction, size, spacing);
+        let range = depth_range(tree, &camera);
+        for settings in all_settings() {
+            let request = Request::new(&camera, &settings);
+            let frame = pollster::block_on(renderer.render(&scene, &request)).unwrap();
+            let left = uncovered(frame.depth(), &frame.vessel, range, tree.vessels().len());
+            let (levels, spacing) = (settings.levels, camera.pixel_spacing());
+            assert!(
+                left.is_empty(),
+                "{name} along {direction:?}, {size:?} pixels of {spacing} mm, {levels} levels: {} uncovered, the first \
+                 at {} with depth {} of {range:?}",
+                left.len(),
+                left[0],
+                frame.depth()[left[0]]
+            );
+            assert!(frame.distance.iter().all(|d| (0.0..1e6).contains(d)), "{name}: distances");
+            pixels += frame.depth().len();
+        }
+    }
+    pixels
+}
+
+#[test]
+fn no_pixel_is_left_uncovered_on_any_gpu() {
+    for device in every_device() {
+        let mut pixels = 0;
+        for direction in DIRECTIONS {
+            for (name, tree) in trees(direction) {
+                pixels += cover(&device, name, &tree, direction);
+            }
+        }
+        let found = device.description();
+        println!("{} by {}: {pixels} pixels, all covered", found.name, found.backend);
+        assert!(pixels > 100_000);
+    }
+}
+
+#[test]
+fn a_pixel_without_a_winner_at_one_level_is_seen() {
+    // 3 % of the weight at the level where nothing wins.
+    let depths = [2e4f32, 2e4 * 0.97, 0.0, 2e4, f32::NAN];
+    let vessels = [0, 0, 0, 2, 1];
+    assert_eq!(uncovered(&depths, &vessels, [2e4 - 400.0, 2e4 + 400.0], 2), [1, 2, 3, 4]);
+}
