@@ -54,6 +54,10 @@ class Settings(CheckedSettings):
     slab : Slab, optional
         Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its
         far side). Where not given: one point deep.
+    samples : int, 1 to 4, default 1
+        Samples of each pixel along each of its sides, averaged in the picture (count, 1 to 4). Edges become
+        smoother, and the picture takes as many times as long as there are samples. All other images stay
+        those of one sample in the middle of each pixel.
     context : {"mida", "dvr", "mip", "minip", "average"} or None, default "mida"
         What is shown where the cut surface is outside the volume or transparent (name): maximum intensity
         difference accumulation, direct volume rendering, largest, smallest or mean value, or the background
@@ -98,6 +102,7 @@ class Settings(CheckedSettings):
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
+    samples: int = 1
     context: ContextName | None = "mida"
     context_gamma: float = 0.0
     context_window: Window | None = None
