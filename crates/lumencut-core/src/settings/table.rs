@@ -43,6 +43,12 @@ settings! {
         /// Smooth the depth with a Gaussian of 7 × 7 pixels.
         depth_filter: bool = true;
 
+        /// Samples of each pixel along each of its sides, averaged in the picture (count, 1 to 4).
+        ///
+        /// Edges become smoother, and the picture takes as many times as long as there are samples. All other images stay
+        /// those of one sample in the middle of each pixel.
+        samples: usize = 1, range(1.0, 4.0, "samples");
+
         /// Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         window: Window = Window::default(), open("from the data");
 
@@ -64,12 +70,6 @@ settings! {
         /// Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its far
         /// side).
         slab: Option<Slab> = None, open("one point deep");
-
-        /// Samples of each pixel along each of its sides, averaged in the picture (count, 1 to 4).
-        ///
-        /// Edges become smoother, and the picture takes as many times as long as there are samples. All other images stay
-        /// those of one sample in the middle of each pixel.
-        samples: usize = 1, range(1.0, 4.0, "samples");
     }
     beside them {
         /// What is shown where the cut surface is outside the volume or transparent; `None` is the background.
