@@ -171,7 +171,8 @@ def page_kind(setting: Setting) -> str:
         case "color":
             return f"{len(setting.default)} whole numbers, 0 to 255"
         case "choice":
-            return "one of " + ", ".join(f"`{name}`" for name in setting.choices)
+            named = ", ".join(f"`{name}`" for name in setting.choices)
+            return f"one of {named}" + (" or None" if setting.optional else "")
         case "transfer":
             return "name or `TransferFunction`"
         case "flag" | "number" | "count":

@@ -35,7 +35,8 @@ if TYPE_CHECKING:
     )
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer, render
-    from lumencut.settings import Settings, Slab
+    from lumencut.settings import Settings
+    from lumencut.slab import Slab
     from lumencut.transfer import TransferFunction
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
@@ -65,7 +66,8 @@ _HOME = {
     ),
     "frame": ("Frame",),
     "renderer": ("Renderer", "render"),
-    "settings": ("Settings", "Slab"),
+    "settings": ("Settings",),
+    "slab": ("Slab",),
     "transfer": ("TransferFunction",),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),

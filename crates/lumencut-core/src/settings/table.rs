@@ -38,6 +38,8 @@ settings! {
         levels: usize = 6, range(0.0, MAX_LEVELS as f64, "levels");
 
         /// How far from the vessels one level of detail reaches (mm per level).
+        ///
+        /// σ in the paper, as `levels` is N.
         level_distance: f64 = 8.0, range(1e-3, 1e6, "mm per level");
 
         /// Smooth the depth with a Gaussian of 7 × 7 pixels.
@@ -62,9 +64,13 @@ settings! {
         silhouette_slope: f64 = 24.0, range(1e-3, 1e6, "mm per mm");
 
         /// Colour of the silhouettes.
+        ///
+        /// Red, green and blue.
         silhouette_color: [u8; 3] = [255, 220, 0];
 
         /// Colour behind it all.
+        ///
+        /// Red, green, blue and opacity, where there is nothing to show.
         background: [u8; 4] = [0, 0, 0, 255];
 
         /// Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its far
