@@ -13,7 +13,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint format fuzz bench bench-gpu bench-dicom compare-dicom wheel lock clean develop tools toolchain
+.PHONY: help demo test lint format fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -48,14 +48,19 @@ compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases
 bench-dicom: develop tools ## Measure how fast long DICOM series are read, the decoder alone beside it.
 	$(BIN)/python benches/read_dicom.py
 
-wheel: $(VENV)/.runtime | toolchain ## Build a wheel for this platform into ./dist.
-	$(BIN)/maturin build --release --locked --out dist
+wheel: $(VENV)/.wheel ## Build the wheels and the source package into ./dist, and try them out; takes minutes.
+	@$(PYTHON) scripts/toolchain.py rust targets
+	@$(BIN)/python scripts/wheel.py
+
+licences: toolchain ## Write THIRD-PARTY-LICENSES anew: the licence texts of the linked crates.
+	@$(PYTHON) scripts/licences.py
 
 lock: $(VENV)/.python ## Resolve the Python requirements anew into requirements/*.lock.
 	$(PIP) uv
 	$(RESOLVE) --group build --output-file requirements/runtime.lock
 	$(RESOLVE) --group dev --constraints requirements/runtime.lock --output-file requirements/dev.lock
 	$(RESOLVE) --group peers --constraints requirements/dev.lock --output-file requirements/peers.lock
+	$(RESOLVE) --group wheel --constraints requirements/runtime.lock --output-file requirements/wheel.lock
 
 clean: ## Remove everything that the other commands made.
 	rm -rf $(VENV) target dist demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
@@ -69,8 +74,8 @@ tools: $(VENV)/.dev
 toolchain:
 	@$(PYTHON) scripts/toolchain.py rust
 
-# The stamps: an empty environment, what the package needs, what its developers need, what it is compared with,
-# the package itself.
+# The stamps: an empty environment, what the package needs, what its developers need, what links its wheels,
+# what it is compared with, the package itself.
 $(VENV)/.python:
 	@$(PYTHON) scripts/toolchain.py python
 	$(PYTHON) -m venv $(VENV)
@@ -81,6 +86,10 @@ $(VENV)/.runtime: requirements/runtime.lock $(VENV)/.python
 	@touch $@
 
 $(VENV)/.dev: requirements/dev.lock $(VENV)/.runtime
+	$(PIP) --require-hashes --requirement $<
+	@touch $@
+
+$(VENV)/.wheel: requirements/wheel.lock $(VENV)/.runtime
 	$(PIP) --require-hashes --requirement $<
 	@touch $@
 

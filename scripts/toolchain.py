@@ -15,8 +15,13 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-#: The targets besides this machine's own that the core and the readers must compile for.
-TARGETS = ("wasm32-unknown-unknown", "aarch64-unknown-linux-gnu")
+#: The targets besides this machine's own that everything but the extension module must compile for.
+TARGETS = (
+    "wasm32-unknown-unknown",
+    "aarch64-unknown-linux-gnu",
+    "x86_64-pc-windows-gnu",
+    "aarch64-apple-darwin",
+)
 
 #: What lets the tests of the GPU run without one: the loader of Vulkan, and a driver that is software.
 VULKAN_PACKAGES = ("libvulkan1", "mesa-vulkan-drivers")
