@@ -7,6 +7,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
 RESOLVE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 --generate-hashes \
 	--no-header --no-annotate --upgrade --quiet --system-certs
 
+# How the extension module is compiled: `release` as users get it, or `checks` as the checks do.
+PROFILE := release
 # What the extension module is built from: it is rebuilt when one of these is newer than the last build.
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
 	$(shell find crates/*/src)
@@ -67,7 +69,7 @@ clean: ## Remove everything that the other commands made.
 	rm -f python/lumencut/_lumencut*.so
 	find python tests scripts -name __pycache__ -type d -prune -exec rm -rf {} +
 
-develop: $(VENV)/.lumencut ## Install the package into .venv, rebuilding it when Rust sources changed.
+develop: $(VENV)/.lumencut-$(PROFILE) ## Install the package into .venv, rebuilding it when Rust sources changed.
 
 tools: $(VENV)/.dev
 
@@ -97,6 +99,9 @@ $(VENV)/.peers: requirements/peers.lock $(VENV)/.runtime
 	$(PIP) --require-hashes --requirement $<
 	@touch $@
 
-$(VENV)/.lumencut: $(RUST_SOURCES) $(VENV)/.runtime | toolchain
-	PATH="$(abspath $(BIN)):$$PATH" $(PIP) --no-deps --no-build-isolation --editable .
+# There is one extension module in .venv, so there is one stamp: that of the profile it was compiled with.
+$(VENV)/.lumencut-$(PROFILE): $(RUST_SOURCES) $(VENV)/.runtime | toolchain
+	PATH="$(abspath $(BIN)):$$PATH" $(PIP) --no-deps --no-build-isolation \
+		--config-settings "maturin.build-args=--profile $(PROFILE)" --editable .
+	@rm -f $(VENV)/.lumencut-*
 	@touch $@

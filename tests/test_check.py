@@ -1,6 +1,5 @@
 """The script behind `make test` counts rightly and never calls a red run green."""
 
-import importlib.util
 import os
 import re
 import shutil
@@ -10,16 +9,9 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+from script_modules import SCRIPTS, script
 
-
-def script(name: str):
-    spec = importlib.util.spec_from_file_location(name, ROOT / "scripts" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    yield module
-    del sys.modules[name]
+ROOT = SCRIPTS.parent
 
 
 @pytest.fixture(scope="module")

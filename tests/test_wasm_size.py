@@ -1,6 +1,5 @@
 """The budget of the WebAssembly is kept by what a browser loads, and nothing too large passes."""
 
-import importlib.util
 import os
 import subprocess
 import sys
@@ -8,15 +7,14 @@ from pathlib import Path
 
 import pytest
 
-SCRIPT = Path(__file__).resolve().parents[1] / "scripts" / "wasm_size.py"
+from script_modules import SCRIPTS, script
+
+SCRIPT = SCRIPTS / "wasm_size.py"
 
 
 @pytest.fixture(scope="module")
 def wasm_size():
-    spec = importlib.util.spec_from_file_location("wasm_size", SCRIPT)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    yield from script("wasm_size")
 
 
 def section(kind: int, *items: bytes) -> bytes:

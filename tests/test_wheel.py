@@ -1,0 +1,74 @@
+"""A wheel that would not install or run everywhere is noticed before it is kept."""
+
+import zipfile
+
+import pytest
+
+from script_modules import SCRIPTS, script
+
+ROOT = SCRIPTS.parent
+#: The headers of programs for either machine, and one that needs symbols of glibc.
+X86, ARM = (b"\x7fELF" + bytes(14) + number.to_bytes(2, "little") for number in (62, 183))
+MODULE = X86 + b"\0GLIBC_2.2.5\0GLIBC_2.17\0"
+
+
+@pytest.fixture(scope="module")
+def wheel():
+    yield from script("wheel")
+
+
+@pytest.fixture
+def made(tmp_path, wheel):
+    """A wheel with as much in it as is looked at."""
+
+    def make(platform="manylinux_2_17_x86_64", tag=None, binary=MODULE, **licences):
+        path = tmp_path / f"lumencut-0.1.0-cp311-abi3-{platform}.whl"
+        texts = {name: (ROOT / name).read_bytes() for name in wheel.LICENCES} | licences
+        stated = "".join(f"License-File: {name}\n" for name, text in texts.items() if text)
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("lumencut/_lumencut.abi3.so", binary)
+            archive.writestr("lumencut-0.1.0.dist-info/METADATA", f"Name: lumencut\n{stated}")
+            archive.writestr("lumencut-0.1.0.dist-info/WHEEL", f"Tag: cp311-abi3-{tag or platform}\n")
+            for name, text in texts.items():
+                if text:
+                    archive.writestr(f"lumencut-0.1.0.dist-info/licenses/{name}", text)
+        return path
+
+    return make
+
+
+def test_a_portable_wheel_passes(wheel, made):
+    wheel.check_wheel(made())
+    wheel.check_portable(made(), "x86_64")
+    platform = "manylinux_2_17_aarch64"
+    wheel.check_portable(made(platform, binary=ARM + b"\0GLIBC_2.17\0"), "aarch64")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"platform": "manylinux_2_35_x86_64"}, "expected manylinux_2_17_x86_64"),
+        ({"tag": "linux_x86_64"}, "expected manylinux_2_17_x86_64"),
+        ({"binary": ARM + b"\0GLIBC_2.17\0"}, "not compiled for x86_64"),
+        ({"binary": b"no program, GLIBC_2.17 "}, "not compiled for x86_64"),
+        ({"binary": X86 + b"\0GLIBC_2.4\0GLIBC_2.34\0"}, r"needs glibc \(2, 34\)"),
+        ({"binary": X86}, "needs glibc None"),
+    ],
+)
+def test_a_wheel_that_runs_elsewhere_only_is_noticed(wheel, made, changes, said):
+    with pytest.raises(wheel.PackageError, match=said):
+        wheel.check_portable(made(**changes), "x86_64")
+
+
+def test_a_wheel_without_a_licence_text_is_noticed(wheel, made):
+    with pytest.raises(wheel.PackageError, match="found the licences"):
+        wheel.check_wheel(made(**{"THIRD-PARTY-LICENSES": b""}))
+    with pytest.raises(wheel.PackageError, match="THIRD-PARTY-LICENSES is not the repository's"):
+        wheel.check_wheel(made(**{"THIRD-PARTY-LICENSES": b"an older list"}))
+
+
+def test_a_wheel_for_one_python_alone_is_noticed(wheel, made, tmp_path):
+    path = tmp_path / "lumencut-0.1.0-cp312-cp312-manylinux_2_17_x86_64.whl"
+    made().rename(path)
+    with pytest.raises(wheel.PackageError, match="expected the stable ABI"):
+        wheel.check_wheel(path)
