@@ -19,12 +19,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+from toolchain import TARGETS
+
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
-PORTABLE = tuple(
-    word for part in ("core", "phantom", "io", "gpu") for word in ("--package", f"lumencut-{part}")
+PORTABLE = ("--workspace", "--exclude", "lumencut-python")
+"""All crates but the extension module, which needs the Python of its target."""
+CHECKS = ("--locked", "--profile", "checks")
+"""One profile for all, so that what the compilations share is compiled once."""
+SCRIPTS = tuple(
+    f"scripts/{name}.py"
+    for name in ("check", "fuzz", "licences", "render_phantom", "toolchain", "wasm_size", "wheel")
 )
-SCRIPTS = ("scripts/check.py", "scripts/fuzz.py", "scripts/toolchain.py", "scripts/wasm_size.py")
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
 WEB = "target/wasm32-unknown-unknown/wasm/examples/web.wasm"
@@ -78,19 +84,25 @@ def lint_checks() -> list[Check]:
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", "python", "rust", "targets", "vulkan")),
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
+        Check("licences", (sys.executable, "scripts/licences.py", "--check")),
         Check("tools", ("make", "--no-print-directory", "tools")),
         Check("format of Python", (f"{BIN}/ruff", "format", "--check")),
         Check("lint of Python", (f"{BIN}/ruff", "check")),
         Check(
             "lint of Rust",
-            (*cargo, "clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"),
+            (*cargo, "clippy", *CHECKS, "--workspace", "--all-targets", "--", "-D", "warnings"),
         ),
         Check(
-            "WebAssembly",
-            (*cargo, "check", "--locked", *PORTABLE, "--target", "wasm32-unknown-unknown"),
-            {"RUSTFLAGS": "-C target-feature=+simd128"},
+            "documentation",
+            (*cargo, "doc", *CHECKS, "--workspace", "--no-deps"),
+            {"RUSTDOCFLAGS": "-D warnings"},
         ),
-        Check("ARM", (*cargo, "check", "--locked", *PORTABLE, "--target", "aarch64-unknown-linux-gnu")),
+        # One command for all of them: both cores have work to the end.
+        Check(
+            "other platforms",
+            (*cargo, "check", *CHECKS, *PORTABLE, *(f"--target={target}" for target in TARGETS)),
+            {"CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS": "-C target-feature=+simd128"},
+        ),
         Check(
             "WebAssembly of the GPU",
             (
@@ -99,12 +111,7 @@ def lint_checks() -> list[Check]:
             ),
         ),
         Check("size of the WebAssembly", (sys.executable, "scripts/wasm_size.py", WEB)),
-        Check(
-            "documentation",
-            (*cargo, "doc", "--locked", "--workspace", "--no-deps"),
-            {"RUSTDOCFLAGS": "-D warnings"},
-        ),
-        Check("package", ("make", "--no-print-directory", "develop")),
+        Check("package", ("make", "--no-print-directory", "develop", "PROFILE=checks")),
         Check("types", (f"{BIN}/mypy",)),
         Check("types of the scripts", (f"{BIN}/mypy", *SCRIPTS)),
         Check("stubs", (f"{BIN}/python", "-m", "mypy.stubtest", "lumencut._lumencut")),
@@ -118,7 +125,7 @@ def test_checks(report: str) -> list[Check]:
     return [
         Check(
             "tests of Rust",
-            ("cargo", "test", "--quiet", "--locked", "--workspace", "--release", "--no-fail-fast"),
+            ("cargo", "test", "--quiet", *CHECKS, "--workspace", "--no-fail-fast"),
             environment,
             count=count_rust,
         ),

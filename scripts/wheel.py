@@ -126,7 +126,7 @@ def check_portable(wheel: Path, machine: str) -> None:
         (statement,) = [name for name in archive.namelist() if name.endswith(".dist-info/WHEEL")]
         tags = BytesParser().parsebytes(archive.read(statement)).get_all("Tag") or []
     wanted = f"manylinux_{GLIBC[0]}_{GLIBC[1]}_{machine}"
-    if not any(tag.split("-")[2].split(".")[0] == wanted for tag in tags) or wanted not in wheel.name:
+    if f"cp311-abi3-{wanted}" not in tags or wanted not in wheel.name:
         raise PackageError(f"{wheel.name}: found the tags {tags}; expected {wanted}")
     if binary[:4] != b"\x7fELF" or int.from_bytes(binary[18:20], "little") != MACHINES[machine]:
         raise PackageError(f"{wheel.name}: {module} is not compiled for {machine}")

@@ -7,6 +7,8 @@ from pathlib import Path
 from types import ModuleType
 
 SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
+# Where they find each other when they run.
+sys.path.append(str(SCRIPTS))
 
 
 def script(name: str) -> Iterator[ModuleType]:
