@@ -8,7 +8,6 @@ Elsewhere than on Linux there is one wheel, for this machine. Run by `make wheel
 
 from __future__ import annotations
 
-import hashlib
 import os
 import platform
 import re
@@ -52,13 +51,14 @@ class Environment:
         subprocess.run((program, *command[1:]), cwd=self.folder, env=outside, check=True)
 
     def install(self, wheel: Path) -> None:
-        """Install a wheel in place of the one before, and what it requires as it is locked."""
-        digest = hashlib.sha256(wheel.read_bytes()).hexdigest()
-        wanted = self.folder / "wanted.txt"
-        wanted.write_text(f"lumencut @ {wheel.as_uri()} --hash=sha256:{digest}\n", "utf-8")
-        pip = ("python", "-m", "pip", "--disable-pip-version-check", "install", "--quiet", "--require-hashes")
-        self.run(*pip, "--force-reinstall", "--constraint", LOCK, "--requirement", wanted)
-        self.run("python", "-m", "pip", "--disable-pip-version-check", "check")
+        """Install a wheel in place of the one before, and what it asks for, as it is locked."""
+        # Without the hashes: with them pip would take only what is named beside the wheel.
+        versions = re.findall(r"^\w.*?(?= \\)", LOCK.read_text("utf-8"), re.MULTILINE)
+        locked = self.folder / "locked.txt"
+        locked.write_text("\n".join(versions), "utf-8")
+        pip = ("python", "-m", "pip", "--disable-pip-version-check")
+        self.run(*pip, "install", "--quiet", "--force-reinstall", "--constraint", locked, wheel)
+        self.run(*pip, "check")
 
 
 def say(line: str) -> None:
