@@ -83,6 +83,17 @@ def test_corners_and_contains_agree():
         volume.contains([1.0, 2.0])
 
 
+def test_points_may_lie_anywhere_in_memory():
+    volume = Volume(coded(), world_from_index=oblique())
+    points = volume.corners * 0.9 + volume.corners.mean(axis=0) * 0.1
+    shifted = np.frombuffer(b"-" + points.tobytes(), np.uint8)[1:].view(np.float64).reshape(points.shape)
+    assert not shifted.flags.aligned
+    for odd in (shifted, points[::-1][::-1], np.asfortranarray(points), points.astype(">f8")):
+        np.testing.assert_array_equal(volume.contains(odd), volume.contains(points))
+        np.testing.assert_array_equal(volume.sample(odd), volume.sample(points))
+    assert volume.contains(points).all()
+
+
 BAD_ARRAYS = {
     "4 axes": np.zeros((2, 2, 2, 2)),
     "2 axes": np.zeros((2, 2)),

@@ -1,6 +1,6 @@
 """The compiled part of the package."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict, final
 
 import numpy as np
@@ -33,9 +33,9 @@ __all__ = [
     "check_window",
     "contains",
     "devices",
+    "fits_nowhere",
     "fitted",
     "fitted_turn",
-    "fits_nowhere",
     "frame_angles",
     "levels",
     "make_phantom",
@@ -83,7 +83,7 @@ class Settings:
 # The views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
 
-# Millimetres per unit of centerlines, what brings their spaces to LPS, and which extents (mm) pass for vessels.
+# Of centerlines: millimetres per unit, what brings each space to LPS, which extents (mm) pass for vessels.
 MILLIMETRES: dict[Unit, float]
 SIGNS: dict[Coordinates, tuple[float, float, float]]
 SMALLEST_EXTENT: float
@@ -134,7 +134,7 @@ def frame_angles(frames: int, degrees: float) -> list[float]: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
 def panned(camera: Any, right: float, up: float) -> dict[str, Any]: ...
 def placement(
-    subject: str, points: npt.NDArray[np.float64], known: dict[str, str | None], volume: Any
+    subject: str, points: npt.NDArray[np.float64], known: Mapping[str, str | None], volume: Any
 ) -> dict[str, Any]: ...
 def positions(camera: Any, depth: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]: ...
 def rotated(camera: Any, angle: float, axis: _Axis) -> dict[str, Any]: ...

@@ -43,6 +43,7 @@ fn camera_errors() -> Vec<Error> {
         make(o, y, z, [9, 9], 0.0).unwrap_err(),
         make(o, y, z, [9, 9], 1.1e4).unwrap_err(),
         make(o, y, z, [9, 9], f64::NAN).unwrap_err(),
+        make(o, y, z, [9, 9], 1.0).and_then(|camera| camera.with_axes(y, -DVec3::X, z)).unwrap_err(),
     ]
 }
 

@@ -23,7 +23,8 @@ pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     let is_whole = degrees % 360.0 == 0.0;
     let steps = if is_whole { frames } else { frames.saturating_sub(1) };
     let step = end / steps.max(1) as f64;
-    let mut angles: Vec<f64> = (0..frames).map(|frame| frame as f64 * step).collect();
+    // Added to 0, so that a turn the other way begins at 0 too, not at -0.
+    let mut angles: Vec<f64> = (0..frames).map(|frame| 0.0 + frame as f64 * step).collect();
     if !is_whole && frames > 1 {
         angles[frames - 1] = end;
     }
@@ -65,6 +66,8 @@ mod tests {
         assert_eq!(frame_angles(3, 180.0).unwrap(), [0.0, PI / 2.0, PI]);
         assert_eq!(frame_angles(2, 0.0).unwrap(), [0.0, 0.0]);
         assert_eq!(frame_angles(1, 90.0).unwrap(), [0.0]);
+        let back = frame_angles(2, -360.0).unwrap();
+        assert_eq!((back[0].is_sign_positive(), back[1]), (true, -PI));
     }
 
     #[test]

@@ -35,6 +35,18 @@ fn an_unknown_view_is_named_with_all_that_are_known() {
 }
 
 #[test]
+fn unit_vectors_that_were_kept_elsewhere_are_taken_to_the_last_bit() {
+    let camera = front();
+    let nudged = DVec3::new(0.0, 1f64.next_down(), 0.0);
+    let kept = camera.with_axes(nudged, camera.right(), camera.up()).unwrap();
+    assert_eq!(kept.direction(), nudged);
+    // Whatever is made of it has unit vectors anew.
+    assert_eq!(zoomed(&kept, 2.0).unwrap().direction(), DVec3::Y);
+    let error = camera.with_axes(nudged, camera.up(), camera.right()).unwrap_err();
+    assert_eq!(error.subject, "axes of the camera");
+}
+
+#[test]
 fn a_fitted_view_leaves_the_margin_free_on_the_wider_side() {
     // 44 mm across and 11 mm upwards: 100 pixels of which 88 are used, 0.5 mm each.
     let corners = [DVec3::new(10.0, -7.0, 5.0), DVec3::new(54.0, 9.0, 16.0)];
