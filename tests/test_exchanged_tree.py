@@ -75,7 +75,9 @@ def test_a_cut_surface_has_another_tree_too(scene, one_branch):
     assert_same(other.cut_surface(camera), expected, ("depth", "vessel", "distance"))
 
 
-@pytest.mark.parametrize("images", [["image"], ("depth", "value"), {"vessel", "distance", "context"}, "image", []])
+@pytest.mark.parametrize(
+    "images", [["image"], ("depth", "value"), {"vessel", "distance", "context"}, "image", []]
+)
 def test_a_frame_has_the_images_that_are_asked_for(scene, images):
     renderer = Renderer(*scene, "cpu")
     whole = renderer.render(Camera.anterior(scene[1], SIZE))

@@ -18,6 +18,7 @@ from packaging.utils import canonicalize_name
 import lumencut
 from import_graph import circle, import_graph
 from lumencut import errors
+from rust_graph import rust_graph
 
 ROOT = Path(__file__).resolve().parents[1]
 LONGEST_FILE = 400
@@ -328,3 +329,30 @@ def test_circles_of_imports_are_found(tmp_path, first, second):
     assert {"house.first", "house.second"} <= set(found)
     assert found[0] == found[-1]
     assert all(target in graph[module] for module, target in itertools.pairwise(found))
+
+
+@pytest.mark.parametrize(
+    "crate", sorted(path.parent.parent.name for path in ROOT.glob("crates/*/src/lib.rs"))
+)
+def test_no_files_of_a_crate_need_each_other_in_a_circle(crate):
+    graph = rust_graph(ROOT / "crates" / crate / "src")
+    assert any(graph.values())
+    assert " needs ".join(circle(graph)) == ""
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("use crate::room::second::Door;", "use crate::room::first::{Key, Lock};"),
+        ("use super::second::{self, Door};", "pub use super::{first::Key};"),
+        ("use crate::{a::B, room::second::Door};", "pub(crate) use super::super::room::first::Key;"),
+    ],
+)
+def test_circles_of_files_are_found(tmp_path, first, second):
+    (tmp_path / "room").mkdir()
+    (tmp_path / "room.rs").write_text("mod first;\nmod second;\n")
+    (tmp_path / "room/first.rs").write_text(first)
+    (tmp_path / "room/second.rs").write_text("use std::fmt;\n// use super::first::Key;\n")
+    assert circle(rust_graph(tmp_path)) == []
+    (tmp_path / "room/second.rs").write_text(second)
+    assert set(circle(rust_graph(tmp_path))) == {"room::first", "room::second"}

@@ -74,9 +74,9 @@ class Renderer:
     def with_tree(self, tree: VesselTree | None) -> Renderer:
         """Return a renderer of the same volume on the same device with another tree, or without one.
 
-        What is known of the volume stays: on a GPU its voxels are not sent again, and where the settings name no
-        window, that of this renderer is used, so that the picture does not become lighter or darker with the
-        tree. Both renderers can be used; their views take turns.
+        What is known of the volume stays: on a GPU its voxels are not sent again, and where the settings name
+        no window, that of this renderer is used, so that the picture does not become lighter or darker with
+        the tree. Both renderers can be used; their views take turns.
 
         Raises
         ------
@@ -141,7 +141,8 @@ class Renderer:
         VolumeError
             Without a volume.
         SettingsError
-            For an image of another name, or without a tree for settings without a context, or a ``context_step`` too small for the volume.
+            For an image of another name, without a tree for settings without a context, or for a
+            ``context_step`` too small for the volume.
         DeviceError
             With the device ``"gpu"`` where the GPU fails or has no room; a further view starts it anew.
         KeyboardInterrupt

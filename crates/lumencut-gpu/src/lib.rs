@@ -15,6 +15,8 @@ mod levels;
 #[cfg(not(target_arch = "wasm32"))]
 mod on_cpu;
 mod pass;
+#[cfg(not(target_arch = "wasm32"))]
+mod pass_on_cpu;
 mod recording;
 pub mod renderer;
 pub mod shader;

@@ -1,23 +1,16 @@
-//! The stages as the CPU does them, with what the GPU made before: to find where a difference begins.
+//! Which stages the CPU does in the GPU's place: to find where a difference begins.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
-use lumencut_core::frame::Timing;
-use lumencut_core::geometry::Geometry;
-use lumencut_core::math::blocks::HUGE;
-use lumencut_core::math::lanes::Isa;
-use lumencut_core::pipeline::{CpuRenderer, Images, LookPass, Request};
-use lumencut_core::stages::{Image, ImageSet, Stage, Work};
-use web_time::Instant;
+use lumencut_core::pipeline::CpuRenderer;
+use lumencut_core::stages::Stage;
 
-use crate::pass::{Pass, with_holes};
-use crate::recording::Results;
 use crate::stages::on_either;
 
 /// Which stages the CPU does, and what it keeps for them.
 #[derive(Debug, Default)]
 pub(crate) struct OnCpu {
     stages: Vec<Stage>,
-    renderer: CpuRenderer,
+    pub renderer: CpuRenderer,
 }
 
 impl OnCpu {
@@ -39,99 +32,4 @@ impl OnCpu {
     pub fn has(&self, stage: Stage) -> bool {
         self.stages.contains(&stage)
     }
-}
-
-impl Pass<'_> {
-    /// Does a stage on the CPU: reads its images from the GPU and writes what it makes back.
-    pub(crate) async fn run_on_cpu(&mut self, stage: Stage) -> Result<()> {
-        let read: Vec<_> = stage.reads().iter().copied().filter(|image| self.made.has(*image)).collect();
-        let results = self.finish(&read).await?;
-        let mut images = Images::default();
-        for (n, image) in read.into_iter().enumerate() {
-            put(&mut images, image, &results, n);
-        }
-        drop(results);
-        let start = Instant::now();
-        if Stage::of_cut_surface(self.request.settings).any(|of_surface| of_surface == stage) {
-            self.find(stage, &mut images)?;
-        } else {
-            self.show(stage, &mut images)?;
-        }
-        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-        self.timings.push(Timing { stage: stage.name(), milliseconds });
-        for image in stage.writes() {
-            self.send(*image, &images);
-        }
-        Ok(())
-    }
-
-    /// A stage that finds the cut surface.
-    fn find(&mut self, stage: Stage, images: &mut Images) -> Result<()> {
-        let (Some(tree), settings) = (&self.scene.tree, self.request.settings) else { return Ok(()) };
-        let renderer = &mut self.on_cpu.renderer;
-        renderer.prepare(tree, settings.levels);
-        renderer.project(self.request.camera, settings);
-        renderer.pass(self.request).run(stage, images)
-    }
-
-    /// A stage that shows the volume.
-    fn show(&self, stage: Stage, images: &mut Images) -> Result<()> {
-        let Some(volume) = &self.scene.volume else { return Ok(()) };
-        let geometry = match &self.geometry {
-            Geometry::Orthographic { camera, .. } => {
-                Geometry::Orthographic { camera: *camera, depth: std::mem::take(&mut images.depth) }
-            }
-            Geometry::Curved(curved) => Geometry::Curved(curved.clone()),
-        };
-        let &Request { settings, stop, .. } = self.request;
-        let work = Work { size: self.images.size, isa: Isa::widest(), stop };
-        let vessel = std::mem::take(&mut images.vessel);
-        LookPass { work, volume, settings, geometry: &geometry, vessel: &vessel }.run(stage, images)?;
-        if stage == Stage::Context && images.gathered.is_empty() {
-            images.gathered = vec![[0.0; 4]; self.images.pixels()];
-        }
-        Ok(())
-    }
-
-    /// Sends an image, where the CPU has made it.
-    fn send(&mut self, image: Image, images: &Images) {
-        let bytes: &[u8] = match image {
-            Image::Distance => bytemuck::cast_slice(&images.distance),
-            Image::UnfilteredDepth => bytemuck::cast_slice(&images.unfiltered_depth),
-            Image::Depth => bytemuck::cast_slice(&images.depth),
-            Image::Vessel => bytemuck::cast_slice(&images.vessel),
-            Image::Value => &without_holes(&images.value),
-            Image::Strength => bytemuck::cast_slice(&images.strength),
-            Image::Start => bytemuck::cast_slice(&images.start),
-            Image::Gathered => bytemuck::cast_slice(&images.gathered),
-            Image::Context => bytemuck::cast_slice(&images.context),
-            Image::Picture => bytemuck::cast_slice(&images.picture),
-        };
-        if !bytes.is_empty() {
-            self.device.write(self.buffer(image), bytes);
-            self.made = self.made.and(ImageSet::of(&[image]));
-        }
-    }
-}
-
-/// Takes an image that was read as the `n`th.
-fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
-    match image {
-        Image::Distance => images.distance = results.numbers(n),
-        Image::UnfilteredDepth => images.unfiltered_depth = results.numbers(n),
-        Image::Depth => images.depth = results.numbers(n),
-        Image::Vessel => images.vessel = results.numbers(n),
-        Image::Value => images.value = with_holes(results.numbers(n)),
-        Image::Strength => images.strength = results.numbers(n),
-        Image::Start => images.start = results.numbers(n),
-        Image::Gathered => images.gathered = results.numbers(n),
-        Image::Context => images.context = results.numbers(n),
-        Image::Picture => images.picture = results.numbers(n),
-    }
-}
-
-/// Values with HUGE for NaN, as shaders have them.
-fn without_holes(values: &[f32]) -> Vec<u8> {
-    let huge = values.iter().map(|value| if value.is_nan() { HUGE } else { *value });
-    huge.flat_map(f32::to_ne_bytes).collect()
 }
