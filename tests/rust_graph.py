@@ -20,7 +20,7 @@ def modules(root: Path) -> Iterator[tuple[Module, Path]]:
 
 
 def expanded(tree: str) -> list[str]:
-    """The paths that `use tree` names: of ``crate::a::{b, c}`` they are ``crate::a::b`` and ``crate::a::c``."""
+    """The paths that `use tree` names, such as ``crate::a`` and ``crate::b`` of ``crate::{a, b}``."""
     grouped = re.match(r"((?:\w+::)*)\{(.*)\}$", tree.strip(), re.DOTALL)
     if grouped is None:
         return [tree.strip().split(" as ")[0]]
