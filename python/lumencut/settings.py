@@ -34,9 +34,14 @@ class Settings(CheckedSettings):
     levels : int, 0 to 15, default 6
         Levels of detail beyond the finest (count, 0 to 15).
     level_distance : float, 0.001 to 1000000, default 8
-        How far from the vessels one level of detail reaches (mm per level).
+        How far from the vessels one level of detail reaches (mm per level). σ in the paper, as ``levels``
+        is N.
     depth_filter : bool, default True
         Smooth the depth with a Gaussian of 7 × 7 pixels.
+    samples : int, 1 to 4, default 1
+        Samples of each pixel along each of its sides, averaged in the picture (count, 1 to 4). Edges become
+        smoother, and the picture takes as many times as long as there are samples. All other images stay
+        those of one sample in the middle of each pixel.
     window : Window, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         Where not given: from the data.
@@ -48,16 +53,12 @@ class Settings(CheckedSettings):
     silhouette_slope : float, 0.001 to 1000000, default 24
         Slope at which a silhouette has half its strength (mm of depth per mm).
     silhouette_color : (int, int, int), default (255, 220, 0)
-        Colour of the silhouettes.
+        Colour of the silhouettes. Red, green and blue.
     background : (int, int, int, int), default (0, 0, 0, 255)
-        Colour behind it all.
+        Colour behind it all. Red, green, blue and opacity, where there is nothing to show.
     slab : Slab, optional
         Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its
         far side). Where not given: one point deep.
-    samples : int, 1 to 4, default 1
-        Samples of each pixel along each of its sides, averaged in the picture (count, 1 to 4). Edges become
-        smoother, and the picture takes as many times as long as there are samples. All other images stay
-        those of one sample in the middle of each pixel.
     context : {"mida", "dvr", "mip", "minip", "average"} or None, default "mida"
         What is shown where the cut surface is outside the volume or transparent (name): maximum intensity
         difference accumulation, direct volume rendering, largest, smallest or mean value, or the background
@@ -95,6 +96,7 @@ class Settings(CheckedSettings):
     levels: int = 6
     level_distance: float = 8.0
     depth_filter: bool = True
+    samples: int = 1
     window: Window | None = None
     opacity: Opacity | None = None
     silhouettes: bool = True
@@ -102,7 +104,6 @@ class Settings(CheckedSettings):
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
-    samples: int = 1
     context: ContextName | None = "mida"
     context_gamma: float = 0.0
     context_window: Window | None = None

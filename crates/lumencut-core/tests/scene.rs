@@ -55,7 +55,7 @@ fn an_exchanged_tree_is_shown_as_in_a_scene_of_its_own() {
     let mut renderer = CpuRenderer::default();
     let first = scene(&one);
     let exchanged = first.clone().with_tree(other.tree.clone());
-    let fresh = Scene::new(one.volume().unwrap(), other.tree.clone());
+    let fresh = Scene::new(one.volume().unwrap(), other.tree);
     let settings = all_layers();
     let request = Request::new(&camera, &settings);
     let before = renderer.render(&first, &request).unwrap();

@@ -188,7 +188,7 @@ mod tests {
     fn missing_and_misshapen_images_are_refused() {
         refuses("image: different sizes", SIZE, |b| b.image.clear());
         refuses("depth: different sizes", SIZE, |b| {
-            *b = b.clone().keeping(ImageSet::of(&[Image::Picture, Image::Vessel]))
+            *b = b.clone().keeping(ImageSet::of(&[Image::Picture, Image::Vessel]));
         });
         refuses("different views", SIZE, |b| *b = frame([160, 200]));
         let mut nothing = frame(SIZE);

@@ -25,15 +25,17 @@ trait Numbers {
     fn numbers(&self) -> Vec<f64>;
 }
 
-macro_rules! whole_numbers {
-    ($($type:ty),*) => { $(impl Numbers for $type {
-        fn numbers(&self) -> Vec<f64> {
-            vec![*self as f64]
-        }
-    })* };
+impl Numbers for u32 {
+    fn numbers(&self) -> Vec<f64> {
+        vec![f64::from(*self)]
+    }
 }
 
-whole_numbers!(u32, usize);
+impl Numbers for usize {
+    fn numbers(&self) -> Vec<f64> {
+        vec![*self as f64]
+    }
+}
 
 impl Numbers for f32 {
     fn numbers(&self) -> Vec<f64> {
