@@ -43,6 +43,7 @@ fuzz: toolchain ## Feed the readers of centerlines with made-up files; RUNS=1000
 
 bench: develop tools ## Measure this machine, VTK beside it; prints tables, keeps nothing.
 	cargo bench --locked --package lumencut-core --bench '*'
+	$(BIN)/python benches/another_tree.py
 	$(BIN)/python benches/context_vs_vtk.py
 
 bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--quick for slow ones.
