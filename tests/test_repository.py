@@ -129,17 +129,19 @@ def pins(path: str) -> dict[str, set[str]]:
 
 def test_locks_hold_what_is_declared():
     project = toml("pyproject.toml")
-    runtime, dev = pins("requirements/runtime.lock"), pins("requirements/dev.lock")
+    runtime, dev, wheel = (pins(f"requirements/{name}.lock") for name in ("runtime", "dev", "wheel"))
     groups = project["dependency-groups"]
     for lock, declared in (
         (runtime, project["project"]["dependencies"] + groups["build"]),
         (dev, [line for line in groups["dev"] if isinstance(line, str)]),
+        (wheel, [line for line in groups["wheel"] if isinstance(line, str)]),
     ):
         for requirement in map(Requirement, declared):
             versions = lock.get(canonicalize_name(requirement.name), set())
             assert versions, f"{requirement} is not locked: make lock"
             assert all(requirement.specifier.contains(version) for version in versions), requirement
-    assert {name: versions for name, versions in dev.items() if name in runtime} == runtime
+    for lock in (dev, wheel):
+        assert {name: versions for name, versions in lock.items() if name in runtime} == runtime
     assert project["build-system"]["requires"] == groups["build"]
 
 
