@@ -10,6 +10,7 @@ use lumencut_core::settings::{MAX_LEVELS, Settings};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::settings::unfiltered;
+use lumencut_scenes::trees::tree;
 
 use super::every_device;
 use crate::device::Device;
@@ -46,18 +47,15 @@ fn all_settings() -> Vec<Settings> {
     let plain = unfiltered();
     let alone = |levels| Settings { levels, level_distance: 1e-3, ..plain.clone() };
     let lumen_first = Settings { lumen_first: true, lumen_margin: 1.0, ..plain.clone() };
-    vec![plain.clone(), lumen_first, alone(0), alone(1), alone(2), alone(4), alone(MAX_LEVELS)]
+    vec![plain.clone(), lumen_first, alone(0), alone(1), alone(3), alone(MAX_LEVELS)]
 }
 
-/// A tree of vessels given in the view coordinates of views along `direction`.
-fn seen_along(direction: [f64; 3], vessels: &[Vec<[f64; 3]>]) -> VesselTree {
+/// A vessel given in the view coordinates of views along `direction`, and nothing that covers what it leaves out.
+fn seen_along(direction: [f64; 3], points: &[[f64; 3]]) -> VesselTree {
     let camera = view(direction, [1, 1], 1.0);
     let place = |[x, y, z]: &[f64; 3]| camera.right() * *x + camera.up() * *y + camera.direction() * *z;
-    let vessel = |points: &Vec<[f64; 3]>| {
-        let radii = (0..points.len()).map(|i| 0.5 + (i % 3) as f64).collect();
-        Vessel::new(points.iter().map(place).collect(), Some(radii)).unwrap()
-    };
-    VesselTree::new(vessels.iter().map(vessel).collect()).unwrap()
+    let radii = (0..points.len()).map(|i| 0.5 + (i % 3) as f64).collect();
+    tree(vec![Vessel::new(points.iter().map(place).collect(), Some(radii)).unwrap()])
 }
 
 /// Runs along the view at the beginning, within and at the end of vessels, and a vessel that is one run.
@@ -99,9 +97,14 @@ fn trees(direction: [f64; 3]) -> Vec<(&'static str, VesselTree)> {
         ("tiny", tiny()),
         ("through pixels", through_pixels()),
     ];
-    let random = [(5, 1.5, 60.0), (6, 0.01, 0.3), (7, 25.0, 400.0)]
-        .map(|(seed, step, extent)| ("random", random_tree(seed, 6, 50, step, extent).unwrap()));
-    made.map(|(name, vessels)| (name, seen_along(direction, &vessels))).into_iter().chain(random).collect()
+    let random = [(1, 1.5, 60.0), (1, 0.01, 0.3), (1, 25.0, 400.0), (6, 1.5, 60.0)];
+    let random = random.into_iter().zip(5..).map(|((vessels, step, extent), seed)| {
+        ("random", random_tree(seed, vessels, 50, step, extent).unwrap())
+    });
+    made.iter()
+        .flat_map(|(name, vessels)| vessels.iter().map(|points| (*name, seen_along(direction, points))))
+        .chain(random)
+        .collect()
 }
 
 /// The depths (mm) between which the points of a tree lie.
