@@ -54,7 +54,9 @@ def main() -> None:
     print(f"\nAnother tree of {segments} segments, volume of {SIDE}³ voxels (ms)\n")
     print("| what | median | worst |\n| --- | --- | --- |")
     print(f"| `with_tree` | {statistics.median(exchanged):.2f} | {max(exchanged):.2f} |")
-    print(f"| its levels of detail, in its first view | {statistics.median(levels):.2f} | {max(levels):.2f} |")
+    print(
+        f"| its levels of detail, in its first view | {statistics.median(levels):.2f} | {max(levels):.2f} |"
+    )
     both = [sum(pair) for pair in zip(exchanged, levels, strict=True)]
     print(f"| both | {statistics.median(both):.2f} | {max(both):.2f} |")
     print(f"| the first view of the volume, which reads it all | {first_view:.1f} | |")
