@@ -24,7 +24,13 @@ BIN = ".venv/bin"
 PORTABLE = tuple(
     word for part in ("core", "phantom", "io", "gpu") for word in ("--package", f"lumencut-{part}")
 )
-SCRIPTS = ("scripts/check.py", "scripts/fuzz.py", "scripts/toolchain.py", "scripts/wasm_size.py")
+SCRIPTS = (
+    "scripts/check.py",
+    "scripts/fuzz.py",
+    "scripts/settings.py",
+    "scripts/toolchain.py",
+    "scripts/wasm_size.py",
+)
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
 WEB = "target/wasm32-unknown-unknown/wasm/examples/web.wasm"
