@@ -29,7 +29,10 @@ CHECKS = ("--locked", "--profile", "checks")
 """One profile for all, so that what the compilations share is compiled once."""
 SCRIPTS = tuple(
     f"scripts/{name}.py"
-    for name in ("check", "frames", "fuzz", "licences", "render_phantom", "toolchain", "wasm_size", "wheel")
+    for name in (
+        *("check", "frames", "fuzz", "licences", "render_phantom"),
+        *("settings", "toolchain", "wasm_size", "wheel"),
+    )
 )
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""

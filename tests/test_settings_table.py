@@ -16,7 +16,11 @@ from lumencut.camera import Camera
 from scene_files import bent_line
 
 ROOT = Path(__file__).resolve().parents[1]
-CHANGED = Settings(slab=Slab(2, "min"), window=Window(1, 2), context_transfer="bone", levels=3)
+
+
+@pytest.fixture
+def changed():
+    return Settings(slab=Slab(2, "min"), window=Window(1, 2), context_transfer="bone", levels=3)
 
 
 def written_files():
@@ -51,27 +55,27 @@ def test_the_class_has_the_settings_of_the_table_and_their_defaults():
         lambda settings: Settings(**vars(settings)),
     ],
 )
-def test_settings_made_again_are_the_same_and_render(again):
-    made = again(CHANGED)
-    assert made == CHANGED
-    assert hash(made) == hash(CHANGED)
-    assert repr(made) == repr(CHANGED)
+def test_settings_made_again_are_the_same_and_render(again, changed):
+    made = again(changed)
+    assert made == changed
+    assert hash(made) == hash(changed)
+    assert repr(made) == repr(changed)
     camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (5, 4))
     tree = VesselTree([Vessel(bent_line(), 3.0)])
-    depths = [Renderer(None, tree).cut_surface(camera, settings).depth for settings in (made, CHANGED)]
+    depths = [Renderer(None, tree).cut_surface(camera, settings).depth for settings in (made, changed)]
     assert (depths[0] == depths[1]).all()
 
 
-def test_what_the_core_keeps_of_settings_is_no_field():
+def test_what_the_core_keeps_of_settings_is_no_field(changed):
     names = list(_lumencut.SETTINGS)
-    assert list(vars(CHANGED)) == list(asdict(CHANGED)) == names
-    assert "_checked" not in repr(CHANGED)
+    assert list(vars(changed)) == list(asdict(changed)) == names
+    assert "_checked" not in repr(changed)
     with pytest.raises(AttributeError):
-        CHANGED._checked = None
+        changed._checked = None
 
 
-def test_settings_that_are_pickled_out_of_range_are_refused():
-    out_of_range = {**vars(CHANGED), "level_distance": -1.0}
+def test_settings_that_are_pickled_out_of_range_are_refused(changed):
+    out_of_range = {**vars(changed), "level_distance": -1.0}
     with pytest.raises(ValueError, match="level_distance: found -1; expected between"):
         Settings.__new__(Settings).__setstate__(out_of_range)
 
