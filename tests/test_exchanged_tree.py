@@ -94,6 +94,8 @@ def test_a_frame_has_the_images_that_are_asked_for(scene, images):
 def test_an_image_of_another_name_is_refused(scene):
     with pytest.raises(SettingsError, match="image of the frame: found 'picture'"):
         Renderer(*scene, "cpu").render(images=["image", "picture"])
+    with pytest.raises(SettingsError, match="images of the frame: found 5; expected names of image, depth"):
+        Renderer(*scene, "cpu").render(images=5)
 
 
 @pytest.mark.parametrize("device", ["cpu", "gpu"])

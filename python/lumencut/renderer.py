@@ -26,7 +26,8 @@ class Renderer:
     """Renders views of one volume and one vessel tree, or of a volume alone.
 
     What does not depend on the view is made once; a further view allocates nothing of the size of the volume
-    or the tree. Views may be rendered from several threads; they take turns.
+    or the tree, unless one of another tree that :meth:`with_tree` made was rendered in between. Views may be
+    rendered from several threads; they take turns.
 
     The voxels must not be changed after the first view with a context: what that view has learnt of them is
     used again. For changed voxels make a new renderer.
@@ -86,14 +87,13 @@ class Renderer:
             For no tree where there is no volume either.
         """
         _check_kind(tree)
-        if self._volume is not None:
-            # Taken from the data now, while the tree is there that it was to be taken along.
-            window = self._window
         other = object.__new__(Renderer)
         other._set_scene(self._volume, tree)
         other._core = self._core.with_tree(None if tree is None else tree._arrays())
         if self._volume is not None:
-            vars(other)["_window"] = window
+            # Taken from the data now, while the tree is there that it is taken along.
+            vars(other)["_window"] = self._window
+            vars(other).update({name: vars(self)[name] for name in ("_whole_window",) if name in vars(self)})
         return other
 
     @property
@@ -279,6 +279,8 @@ def _check_meeting(volume: Volume, tree: VesselTree) -> None:
 
 
 def _names(images: Iterable[str]) -> list[str]:
+    if not isinstance(images, Iterable):
+        raise SettingsError("images of the frame", repr(images), f"names of {', '.join(IMAGES)}")
     names = [images] if isinstance(images, str) else list(images)
     for name in names:
         choice(SettingsError, "image of the frame", name, IMAGES)

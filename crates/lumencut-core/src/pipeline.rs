@@ -69,7 +69,7 @@ impl CpuRenderer {
     }
 
     /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
-    /// alone.
+    /// alone. `Settings::samples` is not read here: hosts average several pictures.
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Volume`] for a scene without volume and tree,
@@ -117,7 +117,7 @@ impl CpuRenderer {
         let work = Work { size: frame.size(), isa: self.isa, stop };
         let (mut clock, mut images) = (Clock::start(), Images::default());
         let pass = LookPass { work, volume, settings, geometry: &frame.geometry, vessel: &frame.vessel };
-        for stage in pass.stages() {
+        for stage in Stage::of_look(settings, &frame.geometry, frame.images()) {
             pass.run(stage, &mut images)?;
             clock.lap(stage);
         }

@@ -53,11 +53,6 @@ pub struct VolumeKey {
 pub struct WeakVolumeKey(Weak<OnceLock<Blocks>>);
 
 impl VolumeKey {
-    /// Whether both stand for the same voxels.
-    pub fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.blocks, &other.blocks)
-    }
-
     /// The same key, which keeps nothing in memory.
     pub fn downgrade(&self) -> WeakVolumeKey {
         WeakVolumeKey(Arc::downgrade(&self.blocks))

@@ -1,7 +1,9 @@
 //! The table of stages is that of the shaders, of the order in which they run, and of the images that they need.
 #![allow(clippy::unwrap_used)]
 
+use glam::{DVec3, Vec3};
 use lumencut_core::camera::Camera;
+use lumencut_core::geometry::{Curved, Geometry};
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::settings::Settings;
 use lumencut_core::shaders::SHADERS;
@@ -12,7 +14,8 @@ use lumencut_scenes::views::front;
 /// The stages of a whole picture.
 fn whole(settings: &Settings) -> Vec<Stage> {
     let surface = Stage::of_cut_surface(settings);
-    surface.chain(Stage::of_look(settings, ImageSet::of(&[Image::Depth, Image::Vessel]))).collect()
+    let made = ImageSet::of(&[Image::Depth, Image::Vessel]);
+    surface.chain(Stage::of_look(settings, &Geometry::rays(front([4, 3], 1.0)), made)).collect()
 }
 
 #[test]
@@ -23,16 +26,15 @@ fn every_stage_that_writes_images_has_a_shader_of_its_name() {
     }
     let of_stages = SHADERS.iter().filter_map(|shader| shader.room.strip_prefix("stages/"));
     for name in of_stages {
-        assert!(Stage::named(name).is_some(), "no stage {name}");
+        assert!(Stage::ALL.iter().any(|stage| stage.name() == name), "no stage {name}");
     }
 }
 
 #[test]
 fn names_are_unique() {
     for stage in Stage::ALL {
-        assert_eq!(Stage::named(stage.name()), Some(stage));
+        assert_eq!(Stage::ALL.iter().filter(|other| other.name() == stage.name()).count(), 1, "{stage:?}");
     }
-    assert_eq!(Stage::named("walk"), None);
 }
 
 #[test]
@@ -62,8 +64,15 @@ fn every_image_is_written_before_it_is_read() {
 fn what_is_not_wanted_is_not_run() {
     let settings = Settings { depth_filter: false, silhouettes: false, context: None, ..Settings::default() };
     assert_eq!(whole(&settings), [Stage::Distance, Stage::Depth, Stage::Surface, Stage::Composite]);
-    let alone: Vec<_> = Stage::of_look(&Settings::default(), ImageSet::of(&[])).collect();
-    assert_eq!(alone, [Stage::Blocks, Stage::Context, Stage::Composite]);
+    let rays = Geometry::rays(front([4, 3], 1.0));
+    let look = |geometry: &Geometry, made: &[Image]| {
+        Stage::of_look(&Settings::default(), geometry, ImageSet::of(made))
+    };
+    let alone = [Stage::Blocks, Stage::Context, Stage::Composite];
+    assert_eq!(look(&rays, &[]), alone);
+    assert_eq!(look(&rays, &[Image::Vessel]), alone, "silhouettes are lines of the depth");
+    let curved = Curved::new([1, 1], vec![DVec3::ZERO], vec![Vec3::Z]).unwrap();
+    assert_eq!(look(&Geometry::Curved(curved), &[]), [Stage::Surface, Stage::Composite]);
 }
 
 #[test]

@@ -28,4 +28,3 @@ mod surface;
 mod tests;
 mod view;
 mod volume;
-mod volumes;

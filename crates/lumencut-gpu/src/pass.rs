@@ -56,17 +56,16 @@ impl<'a> Pass<'a> {
 
     /// Shows what is there: values, silhouettes, context, picture.
     pub async fn look(&mut self) -> Result<()> {
-        let stages: Vec<_> = match self.geometry {
-            Geometry::Orthographic { .. } => Stage::of_look(self.request.settings, self.made).collect(),
-            Geometry::Curved(_) => Stage::of_curved_look().collect(),
-        };
-        for stage in stages {
+        for stage in Stage::of_look(self.request.settings, &self.geometry, self.made) {
             self.run(stage).await?;
         }
         Ok(())
     }
 
     /// Sends depth and vessels of a cut surface that was made elsewhere.
+    ///
+    /// # Panics
+    /// Where they are not those of every pixel: a mistake in the program, never in its input.
     pub fn send_surface(&mut self, vessel: &[i32]) {
         let depth = self.geometry.depth();
         for (image, bytes) in [
@@ -74,6 +73,7 @@ impl<'a> Pass<'a> {
             (Image::Vessel, bytemuck::cast_slice(vessel)),
         ] {
             if !bytes.is_empty() {
+                assert_eq!(bytes.len(), 4 * self.images.pixels(), "bytes of the image {image:?}");
                 self.device.write(self.buffer(image), bytes);
                 self.made = self.made.and(ImageSet::of(&[image]));
             }

@@ -7,7 +7,7 @@ use lumencut_core::frame::Frame;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::math::projection::Level;
 use lumencut_core::pipeline::{Request, nothing_to_show};
-use lumencut_core::scene::{Scene, SharedVolume};
+use lumencut_core::scene::{Scene, SharedVolume, WeakVolumeKey};
 use lumencut_core::stages::ImageSet;
 
 use crate::device::Device;
@@ -20,19 +20,17 @@ use crate::recording::Recording;
 use crate::stages::Stages;
 use crate::view::ViewParameters;
 use crate::volume::DeviceVolume;
-use crate::volumes::Volumes;
 
-/// Renders views of scenes as [`lumencut_core::pipeline::CpuRenderer`] does on the CPU. Volumes and trees are sent to the
-/// GPU when they are first shown; the last ones that were shown stay there.
+/// Renders views of scenes as [`lumencut_core::pipeline::CpuRenderer`] does on the CPU. A volume and a tree are
+/// sent to the GPU when they are first shown; one of each stays there, also in views that do not show it.
 #[derive(Debug)]
 pub struct GpuRenderer {
     device: Arc<Device>,
-    volumes: Arc<Volumes>,
     stages: Stages,
     #[cfg(not(target_arch = "wasm32"))]
     on_cpu: OnCpu,
     tree: Option<DeviceTree>,
-    volume: Option<Arc<DeviceVolume>>,
+    volume: Option<ShownVolume>,
     images: Option<Images>,
 }
 
@@ -43,22 +41,19 @@ struct DeviceTree {
     on_device: DeviceLevels,
 }
 
+/// The volume that was shown last.
+#[derive(Debug)]
+struct ShownVolume {
+    key: WeakVolumeKey,
+    on_device: DeviceVolume,
+}
+
 impl GpuRenderer {
     /// A renderer on a GPU.
     pub fn new(device: Arc<Device>) -> Self {
-        Self::with_volumes(device, Arc::default())
-    }
-
-    /// Another renderer on the same GPU. A volume that both show is on the GPU once.
-    pub fn beside(&self) -> Self {
-        Self::with_volumes(Arc::clone(&self.device), Arc::clone(&self.volumes))
-    }
-
-    fn with_volumes(device: Arc<Device>, volumes: Arc<Volumes>) -> Self {
         Self {
             stages: Stages::new(&device),
             device,
-            volumes,
             #[cfg(not(target_arch = "wasm32"))]
             on_cpu: OnCpu::default(),
             tree: None,
@@ -72,10 +67,10 @@ impl GpuRenderer {
         &self.device
     }
 
-    /// The volume that was shown last, as it lies on the GPU.
+    /// The voxels of the volume that was shown last.
     #[cfg(test)]
-    pub(crate) fn volume_on_device(&self) -> Option<Arc<DeviceVolume>> {
-        self.volume.clone()
+    pub(crate) fn voxels(&self) -> Option<wgpu::TextureView> {
+        self.volume.as_ref().map(|volume| volume.on_device.voxels.clone())
     }
 
     /// Lets the CPU do some stages from now on, each with what the GPU made before it.
@@ -89,7 +84,7 @@ impl GpuRenderer {
     }
 
     /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
-    /// alone.
+    /// alone. `Settings::samples` is not read here.
     ///
     /// # Errors
     /// As [`lumencut_core::pipeline::CpuRenderer::render`], and [`lumencut_core::error::ErrorKind::Device`] where the GPU has no room or fails.
@@ -143,6 +138,7 @@ impl GpuRenderer {
             _ => Images::new(&self.device, size)?,
         };
         let levels = self.tree.as_ref().map(|tree| &tree.on_device);
+        let volume = self.volume.as_ref().map(|volume| &volume.on_device);
         self.device.write(&self.stages.view, &[ViewParameters::of(&geometry)]);
         Ok(Pass {
             device: &self.device,
@@ -152,7 +148,7 @@ impl GpuRenderer {
             images: self.images.insert(images),
             scene,
             levels: levels.filter(|_| scene.tree.is_some()),
-            volume: self.volume.as_deref().filter(|_| scene.volume.is_some()),
+            volume: volume.filter(|_| scene.volume.is_some()),
             geometry,
             request,
             recording: Recording::new(&self.device),
@@ -164,15 +160,17 @@ impl GpuRenderer {
     /// Sends what the scene has and the GPU has not.
     fn prepare(&mut self, scene: &Scene, request: &Request) -> Result<()> {
         if let Some(shared) = &scene.volume {
-            let volume = self.volumes.kept(&self.device, shared, request.stop)?;
-            if request.settings.context.is_some() {
-                volume.blocks(&self.device, shared, request.stop)?;
+            if self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key)) {
+                // There may be no room for two.
+                self.volume = None;
+                let on_device = DeviceVolume::new(&self.device, &shared.volume, request.stop)?;
+                self.volume = Some(ShownVolume { key: shared.key.downgrade(), on_device });
             }
-            self.volume = Some(volume);
         }
         if let Some(tree) = &scene.tree {
             let levels = tree.levels(request.settings.levels);
             if self.tree.as_ref().is_none_or(|kept| !Arc::ptr_eq(&kept.levels, &levels)) {
+                self.tree = None;
                 let on_device = DeviceLevels::new(&self.device, &levels)?;
                 self.tree = Some(DeviceTree { levels, on_device });
             }

@@ -51,7 +51,7 @@ impl Stages {
 }
 
 /// The stages that the CPU can do in place of the GPU, to find where a difference begins: those that write images. In a
-/// browser it does none: its kernels would be most of what is loaded.
+/// browser it does none: a page that loads this crate alone need not load the kernels of the CPU.
 pub fn on_either() -> impl Iterator<Item = Stage> {
     Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty())
 }

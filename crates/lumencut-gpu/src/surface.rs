@@ -96,9 +96,7 @@ impl Surface {
         let device = recording.device;
         device.write(&self.parameters, &[SurfaceParameters::new(slab, volume)?]);
         let (sent, is_curved) = match images.geometry {
-            Geometry::Curved(curved) => {
-                (Some(device.upload("curved places", &CurvedPlace::of(curved, volume))), true)
-            }
+            Geometry::Curved(curved) => (Some(send(device, curved, volume)?), true),
             Geometry::Orthographic { .. } => (None, false),
         };
         let places = sent.as_ref().unwrap_or(&self.nowhere);
@@ -119,4 +117,14 @@ impl Surface {
         recording.run(stage, &resources, groups(images.size, [8, 8]));
         Ok(())
     }
+}
+
+/// Sends the places of a curved geometry.
+fn send(device: &Device, curved: &Curved, volume: &Volume) -> Result<Buffer> {
+    let most = device.limits.max_storage_buffer_binding_size as usize / size_of::<CurvedPlace>();
+    if curved.position().len() > most {
+        let found = format!("{} pixels with places of their own", curved.position().len());
+        return Err(device.too_large("curved geometry", found, &format!("{most} pixels")));
+    }
+    Ok(device.upload("curved places", &CurvedPlace::of(curved, volume)))
 }

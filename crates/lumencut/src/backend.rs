@@ -19,14 +19,18 @@ pub const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
 const PICTURE: ImageSet = ImageSet::of(&[Image::Picture]);
 
 /// What computes views.
-pub enum Backend {
-    /// The CPU.
+pub struct Backend {
+    computer: Computer,
+    /// Why the CPU took over from the GPU, until a whole view tells it.
+    untold: Option<Error>,
+}
+
+enum Computer {
     Cpu(CpuRenderer),
-    /// A GPU.
     Gpu(Box<Gpu>),
 }
 
-/// A frame, and where the CPU had to take over from the GPU, from now on, the reason.
+/// A frame; and where the CPU took over for good since the frame before, why.
 pub type Rendered = (Frame, Option<Error>);
 
 impl Backend {
@@ -35,6 +39,70 @@ impl Backend {
     /// # Errors
     /// [`ErrorKind::Device`] where a GPU must compute and none can be used.
     pub async fn new(wanted: Wanted) -> Result<(Self, Option<Error>)> {
+        let (computer, given_up) = Computer::new(wanted).await?;
+        Ok((Self { computer, untold: None }, given_up))
+    }
+
+    /// "cpu", or the name of the GPU.
+    pub fn name(&self) -> &str {
+        match &self.computer {
+            Computer::Cpu(_) => "cpu",
+            Computer::Gpu(gpu) => &gpu.name,
+        }
+    }
+
+    /// Renders a view of a scene. With several samples per pixel side (`Settings::samples`) the picture is the mean of
+    /// pictures that are seen from places within a pixel; all other images are those of the view itself.
+    ///
+    /// # Errors
+    /// Those of the scene and the settings, [`ErrorKind::Interrupted`] once `request.stop` says so, and
+    /// [`ErrorKind::Device`] where the GPU fails and the CPU may not stand in for it.
+    pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
+        let views = sub_views(request.camera, request.settings.samples)?;
+        let mut frame = self.render_once(scene, request).await?;
+        if views.len() > 1 && !frame.image.is_empty() {
+            let mut mean = Mean::of(frame.image.len());
+            for camera in &views {
+                // The middle one of an odd number is the view itself.
+                if camera == request.camera {
+                    mean.add(&frame.image);
+                    continue;
+                }
+                let sample =
+                    self.render_once(scene, &Request { camera, images: PICTURE, ..*request }).await?;
+                mean.add(&sample.image);
+                frame.count(&sample.timings);
+            }
+            frame.image = mean.pixels();
+        }
+        Ok((frame, self.untold.take()))
+    }
+
+    /// One picture with one sample per pixel.
+    async fn render_once(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
+        let gpu = match &mut self.computer {
+            Computer::Cpu(cpu) => return cpu.render(scene, request),
+            Computer::Gpu(gpu) => gpu,
+        };
+        let error = match gpu.render(scene, request).await {
+            Err(error) if error.kind == ErrorKind::Device => error,
+            other => return other,
+        };
+        gpu.let_go();
+        if !gpu.is_optional {
+            return Err(error);
+        }
+        let mut cpu = CpuRenderer::default();
+        // Whoever interrupts this picture has not heard of the failure yet: the GPU is then tried again.
+        let frame = cpu.render(scene, request)?;
+        self.computer = Computer::Cpu(cpu);
+        self.untold = Some(error);
+        Ok(frame)
+    }
+}
+
+impl Computer {
+    async fn new(wanted: Wanted) -> Result<(Self, Option<Error>)> {
         let cpu = || Self::Cpu(CpuRenderer::default());
         let (choice, is_optional) = match wanted {
             Wanted::Cpu => return Ok((cpu(), None)),
@@ -52,66 +120,10 @@ impl Backend {
         gpu.open().await?;
         Ok((Self::Gpu(Box::new(gpu)), None))
     }
-
-    /// "cpu", or the name of the GPU.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Cpu(_) => "cpu",
-            Self::Gpu(gpu) => &gpu.name,
-        }
-    }
-
-    /// Renders a view of a scene. With several samples per pixel side (`Settings::samples`) the picture is the mean of
-    /// pictures that are seen from places within a pixel; all other images are those of the view itself.
-    ///
-    /// # Errors
-    /// Those of the scene and the settings, [`ErrorKind::Interrupted`] once `request.stop` says so, and
-    /// [`ErrorKind::Device`] where the GPU fails and the CPU may not stand in for it.
-    pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
-        let (mut frame, mut given_up) = self.render_once(scene, request).await?;
-        if request.settings.samples > 1 && !frame.image.is_empty() {
-            let mut mean = Mean::of(frame.image.len());
-            for camera in sub_views(request.camera, request.settings.samples)? {
-                // The middle one of an odd number is the view itself.
-                if camera == *request.camera {
-                    mean.add(&frame.image);
-                    continue;
-                }
-                let request = Request { camera: &camera, images: PICTURE, ..*request };
-                let (sample, error) = self.render_once(scene, &request).await?;
-                given_up = given_up.or(error);
-                mean.add(&sample.image);
-                frame.count(&sample.timings);
-            }
-            frame.image = mean.pixels();
-        }
-        Ok((frame, given_up))
-    }
-
-    /// One picture with one sample per pixel.
-    async fn render_once(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
-        let gpu = match self {
-            Self::Cpu(cpu) => return Ok((cpu.render(scene, request)?, None)),
-            Self::Gpu(gpu) => gpu,
-        };
-        let error = match gpu.render(scene, request).await {
-            Err(error) if error.kind == ErrorKind::Device => error,
-            other => return Ok((other?, None)),
-        };
-        gpu.let_go();
-        if !gpu.is_optional {
-            return Err(error);
-        }
-        let mut cpu = CpuRenderer::default();
-        // Whoever interrupts this view has not heard of the failure yet: the GPU is then tried again.
-        let frame = cpu.render(scene, request)?;
-        *self = Self::Cpu(cpu);
-        Ok((frame, Some(error)))
-    }
 }
 
 /// The GPU of the process, and what a renderer keeps on it.
-pub struct Gpu {
+struct Gpu {
     choice: Choice,
     /// Whether the CPU may stand in for it.
     is_optional: bool,

@@ -14,7 +14,7 @@ use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
 use crate::stages::silhouette::{SilhouetteParameters, silhouette};
 use crate::stages::surface::{SurfaceParameters, surface};
-use crate::stages::{Image, ImageSet, Stage, Work};
+use crate::stages::{Stage, Work};
 
 /// What the stages that find the cut surface share.
 pub struct CutSurfacePass<'a> {
@@ -70,18 +70,6 @@ pub struct LookPass<'a> {
 }
 
 impl LookPass<'_> {
-    /// The stages that show the volume at this geometry, in their order.
-    pub fn stages(&self) -> Vec<Stage> {
-        let depth = if self.geometry.depth().is_empty() { &[][..] } else { &[Image::Depth] };
-        let vessel = if self.vessel.is_empty() { &[][..] } else { &[Image::Vessel] };
-        match self.geometry {
-            Geometry::Orthographic { .. } => {
-                Stage::of_look(self.settings, ImageSet::of(depth).and(ImageSet::of(vessel))).collect()
-            }
-            Geometry::Curved(_) => Stage::of_curved_look().collect(),
-        }
-    }
-
     /// Runs one of the stages that show the volume; others change nothing here.
     ///
     /// # Errors

@@ -45,10 +45,10 @@ settings! {
         /// Smooth the depth with a Gaussian of 7 × 7 pixels.
         depth_filter: bool = true;
 
-        /// Samples of each pixel along each of its sides, averaged in the picture (count, 1 to 4).
+        /// N × N samples in each pixel, averaged in the picture (count, 1 to 4).
         ///
-        /// Edges become smoother, and the picture takes as many times as long as there are samples. All other images stay
-        /// those of one sample in the middle of each pixel.
+        /// Edges become smoother, and the picture takes N² times as long. All other images stay those of one sample in the
+        /// middle of each pixel.
         samples: usize = 1, range(1.0, 4.0, "samples");
 
         /// Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).

@@ -2,6 +2,7 @@
 //! Timings, computing single stages on the CPU in the place of the GPU, tests and benches all go by it.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::Geometry;
 use crate::settings::Settings;
 
 /// An image of a view: one number or one vector for each pixel, in rows from the top.
@@ -15,7 +16,7 @@ pub enum Image {
     Depth,
     /// Id of the vessel whose influence zone a pixel is in, i32.
     Vessel,
-    /// The volume at the cut surface, f32; without a value outside the volume.
+    /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
     /// Strength of the silhouettes, 0 to 1, f32.
     Strength,
@@ -130,7 +131,8 @@ pub enum Stage {
     Surface,
     /// Lines where the cut surface leaps.
     Silhouette,
-    /// Ranges of values of the volume, made once per volume.
+    /// Ranges of values of the volume, made once per volume. (On the CPU its time holds that of finding where rays start:
+    /// where none does, no blocks are made.)
     Blocks,
     /// Rays through the volume.
     Context,
@@ -169,11 +171,6 @@ impl Stage {
         }
     }
 
-    /// The stage of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|stage| stage.name() == name)
-    }
-
     /// The images that it reads, where they are there.
     pub const fn reads(self) -> &'static [Image] {
         match self {
@@ -207,17 +204,23 @@ impl Stage {
         [Self::Distance, Self::Depth].into_iter().chain(filter)
     }
 
-    /// The stages that show what is where a camera's rays meet the cut surface, in their order. `made` are the images that
-    /// are there: without a depth the context alone is shown, without vessels there are no silhouettes.
-    pub fn of_look(settings: &Settings, made: ImageSet) -> impl Iterator<Item = Self> + use<> {
-        let surface = made.has(Image::Depth).then_some(Self::Surface);
-        let silhouette = (settings.silhouettes && made.has(Image::Vessel)).then_some(Self::Silhouette);
-        let context = settings.context.as_ref().map(|_| [Self::Blocks, Self::Context]);
-        surface.into_iter().chain(silhouette).chain(context.into_iter().flatten()).chain([Self::Composite])
-    }
-
-    /// The stages that show what is at the places of a curved geometry, which no camera looks at, in their order.
-    pub fn of_curved_look() -> impl Iterator<Item = Self> {
-        [Self::Surface, Self::Composite].into_iter()
+    /// The stages that show what is there, in their order. `made` are the images that are there: without a depth the context
+    /// alone is shown, and silhouettes need vessels too. At places of their own, which no camera looks at, there are neither
+    /// silhouettes nor a context.
+    pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet) -> Vec<Self> {
+        if matches!(geometry, Geometry::Curved(_)) {
+            return vec![Self::Surface, Self::Composite];
+        }
+        let has_surface = made.has(Image::Depth);
+        let has_silhouettes = settings.silhouettes && has_surface && made.has(Image::Vessel);
+        let has_context = settings.context.is_some();
+        let wanted = [
+            (Self::Surface, has_surface),
+            (Self::Silhouette, has_silhouettes),
+            (Self::Blocks, has_context),
+            (Self::Context, has_context),
+            (Self::Composite, true),
+        ];
+        wanted.into_iter().filter(|(_, is_wanted)| *is_wanted).map(|(stage, _)| stage).collect()
     }
 }
