@@ -39,9 +39,9 @@ class Settings(CheckedSettings):
     depth_filter : bool, default True
         Smooth the depth with a Gaussian of 7 × 7 pixels.
     samples : int, 1 to 4, default 1
-        Samples of each pixel along each of its sides, averaged in the picture (count, 1 to 4). Edges become
-        smoother, and the picture takes as many times as long as there are samples. All other images stay
-        those of one sample in the middle of each pixel.
+        N × N samples in each pixel, averaged in the picture (count, 1 to 4). Edges become smoother, and the
+        picture takes N² times as long. All other images stay those of one sample in the middle of each
+        pixel.
     window : Window, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         Where not given: from the data.
