@@ -159,13 +159,13 @@ impl GpuRenderer {
 
     /// Sends what the scene has and the GPU has not.
     fn prepare(&mut self, scene: &Scene, request: &Request) -> Result<()> {
-        if let Some(shared) = &scene.volume {
-            if self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key)) {
-                // There may be no room for two.
-                self.volume = None;
-                let on_device = DeviceVolume::new(&self.device, &shared.volume, request.stop)?;
-                self.volume = Some(ShownVolume { key: shared.key.downgrade(), on_device });
-            }
+        if let Some(shared) = &scene.volume
+            && self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key))
+        {
+            // There may be no room for two.
+            self.volume = None;
+            let on_device = DeviceVolume::new(&self.device, &shared.volume, request.stop)?;
+            self.volume = Some(ShownVolume { key: shared.key.downgrade(), on_device });
         }
         if let Some(tree) = &scene.tree {
             let levels = tree.levels(request.settings.levels);

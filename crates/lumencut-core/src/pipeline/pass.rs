@@ -6,7 +6,7 @@ use crate::geometry::Geometry;
 use crate::math::context_parameters::StartParameters;
 use crate::math::ray::{NONE, WHOLE};
 use crate::scene::SharedVolume;
-use crate::settings::{Context, Settings};
+use crate::settings::Settings;
 use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
 use crate::stages::context::{Surroundings, context, starts};
 use crate::stages::depth::{CutSurface, depth};
@@ -49,7 +49,13 @@ impl CutSurfacePass<'_> {
                 images.unfiltered_depth = Vec::new();
                 Ok(())
             }
-            _ => Ok(()),
+            Stage::Levels
+            | Stage::Projection
+            | Stage::Surface
+            | Stage::Silhouette
+            | Stage::Blocks
+            | Stage::Context
+            | Stage::Composite => Ok(()),
         }
     }
 }
@@ -76,13 +82,13 @@ impl LookPass<'_> {
     /// [`crate::error::ErrorKind::Settings`] for a slab or a step that does not fit the volume,
     /// [`crate::error::ErrorKind::Interrupted`].
     pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
-        match (stage, &self.settings.context) {
-            (Stage::Surface, _) => self.surface(images),
-            (Stage::Silhouette, _) => self.silhouette(images),
-            (Stage::Blocks, _) => self.blocks(images),
-            (Stage::Context, Some(settings)) => self.context(settings, images),
-            (Stage::Composite, _) => self.composite(images),
-            _ => Ok(()),
+        match stage {
+            Stage::Surface => self.surface(images),
+            Stage::Silhouette => self.silhouette(images),
+            Stage::Blocks => self.blocks(images),
+            Stage::Context => self.context(images),
+            Stage::Composite => self.composite(images),
+            Stage::Levels | Stage::Projection | Stage::Distance | Stage::Depth | Stage::DepthFilter => Ok(()),
         }
     }
 
@@ -115,8 +121,10 @@ impl LookPass<'_> {
     }
 
     /// Behind a cut surface that hides everything there is nothing to gather.
-    fn context(&self, settings: &Context, images: &mut Images) -> Result<()> {
-        let Some(camera) = self.geometry.camera() else { return Ok(()) };
+    fn context(&self, images: &mut Images) -> Result<()> {
+        let (Some(camera), Some(chosen)) = (self.geometry.camera(), &self.settings.context) else {
+            return Ok(());
+        };
         if images.start.is_empty() {
             self.starts(images);
         }
@@ -126,7 +134,7 @@ impl LookPass<'_> {
         let (volume, blocks) = (&self.volume.volume, Some(self.volume.blocks(self.work.stop)?));
         images.gathered = vec![[0.0; 4]; self.work.pixels()];
         let surroundings = Surroundings { camera, volume, blocks };
-        context(&self.work, &surroundings, self.settings, settings, &images.start, &mut images.gathered)
+        context(&self.work, &surroundings, self.settings, chosen, &images.start, &mut images.gathered)
     }
 
     fn composite(&self, images: &mut Images) -> Result<()> {
