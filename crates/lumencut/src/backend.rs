@@ -190,3 +190,7 @@ fn forced_to_cpu(mut renderer: GpuRenderer) -> Result<GpuRenderer> {
     renderer.force_to_cpu(&stages.collect::<Vec<_>>())?;
     Ok(renderer)
 }
+
+#[cfg(test)]
+#[path = "tests/backend.rs"]
+mod tests;
