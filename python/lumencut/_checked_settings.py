@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Self
 
 from lumencut import _lumencut
 from lumencut._checks import choice, flag, integers, number
@@ -25,6 +25,25 @@ class CheckedSettings:
         for name, setting in _lumencut.SETTINGS.items():
             object.__setattr__(self, name, _value(name, setting, getattr(self, name)))
         self._keep()
+
+    @classmethod
+    def paper(cls, **changes: Any) -> Self:
+        """Return the paper's own rules, with all other settings at their defaults.
+
+        They are those of Auzinger et al. 2013, section 3: the smallest cost wins at each level of detail, the
+        depth filter knows no zones, and silhouettes follow the gradient of the depth.
+
+        Parameters
+        ----------
+        **changes
+            Settings that shall have other values, by their names.
+
+        Raises
+        ------
+        SettingsError
+            For a setting outside its range.
+        """
+        return cls(**{**_lumencut.PAPER, **changes})
 
     def __getstate__(self) -> dict[str, Any]:
         return vars(self)

@@ -15,6 +15,7 @@ _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, st
 __all__ = [
     "LARGEST_EXTENT",
     "MILLIMETRES",
+    "PAPER",
     "SETTINGS",
     "SIGNS",
     "SMALLEST_EXTENT",
@@ -54,6 +55,7 @@ __version__: str
 
 # The table of settings by name, in the order to show them to users.
 SETTINGS: dict[str, Setting]
+PAPER: dict[str, Any]
 
 @final
 class Setting:

@@ -13,6 +13,8 @@ from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
 from lumencut.window import Opacity, Window
 
+LevelChoiceName: TypeAlias = Literal["own", "nearest"]
+SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 
 
@@ -28,9 +30,21 @@ class Settings(CheckedSettings):
         Measure distance from the wall, or from the centerline. Without radii it is measured from the
         centerline.
     lumen_first : bool, default False
-        Let every lumen beat every surrounding, whatever the depth.
+        Show every lumen unless a nearer lumen hides it: lumen before wall before surroundings, whatever the
+        depth.
     lumen_margin : float, 0 to 10000, default 0
-        How far beyond the wall ``lumen_first`` reaches (mm).
+        How thick the wall around a lumen is taken to be (mm). With ``lumen_first`` the wall comes after
+        every lumen and before all surroundings. With the level choice ``own`` the levels of detail are
+        counted from its outside.
+    unknown_radius : float, 0 to 10000, default 1
+        Radius that ``lumen_first`` takes for vessels without radius, or where it is 0 (mm).
+    level_choice : {"own", "nearest"}, default "nearest"
+        Which vessel the levels of detail of a pixel belong to (name): the one that wins the pixel at the
+        finest level, or whichever wins at each level, as in the paper.
+    centerline_smoothing : float, 0 to 10, default 0
+        Smooth each centerline along its length by a Gaussian of this many radii (radii, 0 to 10). Jitter of
+        the centerline folds the cut where a vessel runs towards the viewer. Ends, places where vessels meet
+        and vessels without radius stay as they are.
     levels : int, 0 to 15, default 6
         Levels of detail beyond the finest (count, 0 to 15).
     level_distance : float, 0.001 to 1000000, default 8
@@ -38,6 +52,10 @@ class Settings(CheckedSettings):
         is N.
     depth_filter : bool, default True
         Smooth the depth with a Gaussian of 7 × 7 pixels.
+    zone_filter : bool, default False
+        Let the depth filter mix only depths of one vessel that lie on an even surface.
+    depth_leap : float, 0 to 1000000, default 1
+        How far a pair of neighbours may lie off a straight line before ``zone_filter`` leaves it out (mm).
     samples : int, 1 to 4, default 1
         N × N samples in each pixel, averaged in the picture (count, 1 to 4). Edges become smoother, and the
         picture takes N² times as long. All other images stay those of one sample in the middle of each
@@ -50,8 +68,11 @@ class Settings(CheckedSettings):
         given: all opaque.
     silhouettes : bool, default True
         Draw lines where the cut surface leaps.
+    silhouette_rule : {"leap", "gradient"}, default "gradient"
+        Where silhouettes are drawn (name): where the surface leaps, or where the depth is steep, as in the
+        paper.
     silhouette_slope : float, 0.001 to 1000000, default 24
-        Slope at which a silhouette has half its strength (mm of depth per mm).
+        Slope at which a silhouette of the rule ``gradient`` has half its strength (mm of depth per mm).
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     background : (int, int, int, int), default (0, 0, 0, 255)
@@ -93,13 +114,19 @@ class Settings(CheckedSettings):
     preserve_lumen: bool = True
     lumen_first: bool = False
     lumen_margin: float = 0.0
+    unknown_radius: float = 1.0
+    level_choice: LevelChoiceName = "nearest"
+    centerline_smoothing: float = 0.0
     levels: int = 6
     level_distance: float = 8.0
     depth_filter: bool = True
+    zone_filter: bool = False
+    depth_leap: float = 1.0
     samples: int = 1
     window: Window | None = None
     opacity: Opacity | None = None
     silhouettes: bool = True
+    silhouette_rule: SilhouetteRuleName = "gradient"
     silhouette_slope: float = 24.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)

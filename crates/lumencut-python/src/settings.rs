@@ -52,14 +52,19 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     }
 }
 
-/// Adds the table of settings, by name, to the module.
+/// Adds the table of settings, by name, to the module, and in what the paper's rules differ from the defaults.
 pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = PyDict::new(module.py());
     for setting in table() {
         rows.set_item(setting.name, Row::new(module.py(), setting)?)?;
     }
     module.add_class::<Row>()?;
-    module.add("SETTINGS", rows)
+    module.add("SETTINGS", rows)?;
+    let paper = PyDict::new(module.py());
+    for (name, value) in Settings::paper_values() {
+        paper.set_item(name, plain(module.py(), value)?)?;
+    }
+    module.add("PAPER", paper)
 }
 
 /// The settings that the attributes of `lumencut.Settings` stand for: checked when they are made, and read by every

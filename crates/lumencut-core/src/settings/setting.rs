@@ -96,6 +96,11 @@ macro_rules! settings {
                 },
             )+];
 
+            /// The value of each setting of this structure, by its name.
+            pub fn values(&self) -> Vec<(&'static str, Value)> {
+                vec![$((stringify!($name), Field::to_value(&self.$name)),)+]
+            }
+
             /// Sets the setting `name`.
             pub(super) fn set(&mut self, name: &str, value: Value) -> Result<()> {
                 match name {

@@ -3,6 +3,7 @@
 use super::context::{Context, ContextName};
 use super::field::Field;
 use super::limits::Limits;
+use super::rules::{LevelChoice, SilhouetteRule};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
 use super::value::{Transfer, Value};
@@ -28,11 +29,27 @@ settings! {
         /// Without radii it is measured from the centerline.
         preserve_lumen: bool = true;
 
-        /// Let every lumen beat every surrounding, whatever the depth.
+        /// Show every lumen unless a nearer lumen hides it: lumen before wall before surroundings, whatever the depth.
         lumen_first: bool = false;
 
-        /// How far beyond the wall `lumen_first` reaches (mm).
+        /// How thick the wall around a lumen is taken to be (mm).
+        ///
+        /// With `lumen_first` the wall comes after every lumen and before all surroundings. With the level choice `own`
+        /// the levels of detail are counted from its outside.
         lumen_margin: f64 = 0.0, range(0.0, 1e4, "mm");
+
+        /// Radius that `lumen_first` takes for vessels without radius, or where it is 0 (mm).
+        unknown_radius: f64 = 1.0, range(0.0, 1e4, "mm");
+
+        /// Which vessel the levels of detail of a pixel belong to (name): the one that wins the pixel at the finest level,
+        /// or whichever wins at each level, as in the paper.
+        level_choice: LevelChoice = LevelChoice::Nearest;
+
+        /// Smooth each centerline along its length by a Gaussian of this many radii (radii, 0 to 10).
+        ///
+        /// Jitter of the centerline folds the cut where a vessel runs towards the viewer. Ends, places where vessels meet
+        /// and vessels without radius stay as they are.
+        centerline_smoothing: f64 = 0.0, range(0.0, 10.0, "radii");
 
         /// Levels of detail beyond the finest (count, 0 to 15).
         levels: usize = 6, range(0.0, MAX_LEVELS as f64, "levels");
@@ -44,6 +61,12 @@ settings! {
 
         /// Smooth the depth with a Gaussian of 7 × 7 pixels.
         depth_filter: bool = true;
+
+        /// Let the depth filter mix only depths of one vessel that lie on an even surface.
+        zone_filter: bool = false;
+
+        /// How far a pair of neighbours may lie off a straight line before `zone_filter` leaves it out (mm).
+        depth_leap: f64 = 1.0, range(0.0, 1e6, "mm");
 
         /// N × N samples in each pixel, averaged in the picture (count, 1 to 4).
         ///
@@ -60,7 +83,10 @@ settings! {
         /// Draw lines where the cut surface leaps.
         silhouettes: bool = true;
 
-        /// Slope at which a silhouette has half its strength (mm of depth per mm).
+        /// Where silhouettes are drawn (name): where the surface leaps, or where the depth is steep, as in the paper.
+        silhouette_rule: SilhouetteRule = SilhouetteRule::Gradient;
+
+        /// Slope at which a silhouette of the rule `gradient` has half its strength (mm of depth per mm).
         silhouette_slope: f64 = 24.0, range(1e-3, 1e6, "mm per mm");
 
         /// Colour of the silhouettes.
