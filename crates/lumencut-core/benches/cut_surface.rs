@@ -9,8 +9,8 @@ use lumencut_core::error::Result;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::LeveledTree;
-use lumencut_core::settings::Settings;
-use lumencut_core::stages::depth::depth;
+use lumencut_core::settings::{LevelChoice, Settings};
+use lumencut_core::stages::depth::{DepthImages, depth};
 use lumencut_core::stages::distance::distance;
 use lumencut_core::stages::levels::levels;
 use lumencut_core::vessel_tree::VesselTree;
@@ -30,6 +30,13 @@ fn buffers() -> Buffers {
     Buffers { distance: vec![0.0; 512 * 512], depth: vec![0.0; 512 * 512], vessel: vec![0; 512 * 512] }
 }
 
+impl Buffers {
+    /// What the stage `depth` writes.
+    fn written(&mut self) -> (&[f32], DepthImages<'_>) {
+        (&self.distance, DepthImages { depth: &mut self.depth, vessel: &mut self.vessel, sheet: &mut [] })
+    }
+}
+
 /// Renders the cut surface `runs` times.
 fn cut_surface(
     renderer: &mut CpuRenderer,
@@ -42,8 +49,12 @@ fn cut_surface(
     let times = time(runs, || {
         renderer.project(camera, settings);
         let pass = renderer.pass(&request);
-        let done = distance(&pass.work, &pass.surface, &mut b.distance)
-            .and_then(|()| depth(&pass.work, &pass.surface, &b.distance, &mut b.depth, &mut b.vessel));
+        let far = match settings.level_choice {
+            LevelChoice::Nearest => distance(&pass.work, &pass.surface, &mut b.distance),
+            LevelChoice::Own => Ok(()),
+        };
+        let (distance, images) = b.written();
+        let done = far.and_then(|()| depth(&pass.work, &pass.surface, distance, images));
         done.expect("nobody asks to stop");
     });
     (times, b)
@@ -55,9 +66,12 @@ fn by_brute_force(renderer: &CpuRenderer, camera: &Camera, settings: &Settings) 
     let request = Request::new(camera, settings);
     let pass = renderer.pass(&request);
     let times = time(3, || {
-        let done = brute_force::distance(&pass.work, &pass.surface, &mut b.distance).and_then(|()| {
-            brute_force::depth(&pass.work, &pass.surface, &b.distance, &mut b.depth, &mut b.vessel)
-        });
+        let far = match settings.level_choice {
+            LevelChoice::Nearest => brute_force::distance(&pass.work, &pass.surface, &mut b.distance),
+            LevelChoice::Own => Ok(()),
+        };
+        let (distance, images) = b.written();
+        let done = far.and_then(|()| brute_force::depth(&pass.work, &pass.surface, distance, images));
         done.expect("nobody asks to stop");
     });
     (times, b)
@@ -66,8 +80,14 @@ fn by_brute_force(renderer: &CpuRenderer, camera: &Camera, settings: &Settings) 
 /// Hierarchy against brute force, for some instruction sets and both rules.
 fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) {
     let camera = fitted(tree, DVec3::new(0.1, 1.0, 0.2), 512);
-    for (rule, lumen_first) in [("cost", false), ("lumen first", true)] {
-        let settings = Settings { lumen_first, ..Settings::default() };
+    let own = Settings {
+        lumen_first: true,
+        lumen_margin: 1.0,
+        level_choice: LevelChoice::Own,
+        ..Settings::default()
+    };
+    let nearest = Settings { level_choice: LevelChoice::Nearest, ..own.clone() };
+    for (rule, settings) in [("paper", Settings::paper()), ("lumen first, nearest", nearest), ("own", own)] {
         for &isa in sets {
             let mut renderer = CpuRenderer::new(isa);
             renderer.prepare(&LeveledTree::new(tree.clone()), settings.levels);

@@ -6,10 +6,11 @@ use crate::math::cost::Rule;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
 use crate::math::lanes::{ABSENT, FAN, PIXELS};
 use crate::math::nearest::lower_distance;
+use crate::math::own_pieces::{Decision, NearestPieces, OwnPieces};
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 use crate::stages::Work;
-use crate::stages::depth::{CutSurface, Search, depth_by};
+use crate::stages::depth::{CutSurface, DepthImages, Search, depth_by};
 use crate::stages::distance::{Measure, distance_by};
 
 /// [`crate::stages::distance::distance`] against every segment.
@@ -56,18 +57,17 @@ impl Search for EveryPiece<'_> {
             }
         }
     }
+
+    #[inline(always)]
+    fn own(&mut self, pieces: OwnPieces, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces) {
+        pieces.offer_all(tile, decision, nearest);
+    }
 }
 
 /// [`crate::stages::depth::depth`] against every piece.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn depth(
-    work: &Work,
-    surface: &CutSurface,
-    distance: &[f32],
-    depth: &mut [f32],
-    vessel: &mut [i32],
-) -> Result<()> {
-    depth_by(work, surface, distance, depth, vessel, || EveryPiece(surface))
+pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
+    depth_by(work, surface, distance, images, || EveryPiece(surface))
 }

@@ -22,6 +22,8 @@ pub struct Frame {
     pub image: Vec<[u8; 4]>,
     /// Id of the vessel whose influence zone the pixel is in.
     pub vessel: Vec<i32>,
+    /// Where the cut surface leaps ([`crate::stages::leap`]).
+    pub leap: Vec<u32>,
     /// Projected distance to the nearest centerline (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
@@ -39,6 +41,7 @@ impl Frame {
             geometry,
             image: Vec::new(),
             vessel: Vec::new(),
+            leap: Vec::new(),
             distance: Vec::new(),
             value: Vec::new(),
             context: Vec::new(),
@@ -72,6 +75,7 @@ impl Frame {
             (Image::Picture, !self.image.is_empty()),
             (Image::Depth, !self.depth().is_empty()),
             (Image::Vessel, !self.vessel.is_empty()),
+            (Image::Leap, !self.leap.is_empty()),
             (Image::Distance, !self.distance.is_empty()),
             (Image::Value, !self.value.is_empty()),
             (Image::Context, !self.context.is_empty()),
@@ -90,6 +94,7 @@ impl Frame {
         }
         keep(&mut self.image, wanted.has(Image::Picture));
         keep(&mut self.vessel, wanted.has(Image::Vessel));
+        keep(&mut self.leap, wanted.has(Image::Leap));
         keep(&mut self.distance, wanted.has(Image::Distance));
         keep(&mut self.value, wanted.has(Image::Value));
         keep(&mut self.context, wanted.has(Image::Context));

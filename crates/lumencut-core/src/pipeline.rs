@@ -19,12 +19,11 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::math::lanes::Isa;
-use crate::math::levels::radius_scale;
-use crate::math::projection::{Level, ProjectedLevel};
+use crate::math::projection::{Level, ProjectedLevel, Radii};
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::Settings;
 use crate::stages::depth::CutSurface;
-use crate::stages::{ImageSet, Stage, Work};
+use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
 
 /// What is asked for: a view of a scene.
@@ -44,6 +43,13 @@ impl<'a> Request<'a> {
     /// All images of a view, without a way to stop.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false }
+    }
+
+    /// The same without the picture where the scene has no volume to show: nothing is made for it then.
+    #[must_use]
+    pub fn of(self, scene: &Scene) -> Self {
+        let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
+        Self { images, ..self }
     }
 }
 
@@ -77,7 +83,7 @@ impl CpuRenderer {
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         request.settings.check()?;
         let frame = match &scene.tree {
-            Some(tree) => self.cut_surface(tree, request)?,
+            Some(tree) => self.cut_surface(tree, &request.of(scene))?,
             None => Frame::of(Geometry::rays(*request.camera)),
         };
         match &scene.volume {
@@ -95,7 +101,7 @@ impl CpuRenderer {
         self.project(request.camera, request.settings);
         clock.lap(Stage::Projection);
         let pass = self.pass(request);
-        for stage in Stage::of_cut_surface(request.settings) {
+        for stage in Stage::of_cut_surface(request.settings, request.images) {
             pass.run(stage, &mut images)?;
             clock.lap(stage);
         }
@@ -116,7 +122,8 @@ impl CpuRenderer {
         let &Request { settings, stop, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop };
         let (mut clock, mut images) = (Clock::start(), Images::default());
-        let pass = LookPass { work, volume, settings, geometry: &frame.geometry, vessel: &frame.vessel };
+        let Frame { geometry, vessel, leap, .. } = &frame;
+        let pass = LookPass { work, volume, settings, geometry, vessel, leap };
         for stage in Stage::of_look(settings, &frame.geometry, frame.images()) {
             pass.run(stage, &mut images)?;
             clock.lap(stage);
@@ -139,16 +146,17 @@ impl CpuRenderer {
         projected
             .par_iter_mut()
             .zip(levels.par_iter())
-            .for_each(|(projected, level)| projected.project(level, camera, radius_scale(settings)));
+            .for_each(|(projected, level)| projected.project(level, camera, Radii::new(settings)));
     }
 
     /// What the stages of the cut surface read, once the levels are projected into the view.
     pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
-        let &Request { camera, settings, stop, .. } = request;
+        let &Request { camera, settings, images, stop } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
         CutSurfacePass {
             work: Work { size: camera.size(), isa: self.isa, stop },
             surface: CutSurface::new(levels, projected, camera, settings),
+            has_sheet: Stage::has_sheet(settings, images),
         }
     }
 }

@@ -12,6 +12,7 @@ pub const MAX_COORDINATE: f64 = 1e6;
 pub struct Vessel {
     points: Vec<DVec3>,
     radius: Option<Vec<f64>>,
+    arc_length: Vec<f64>,
 }
 
 impl Vessel {
@@ -41,12 +42,21 @@ impl Vessel {
                 return wrong("radius of the vessel", found, "finite radii between 0 and 1e6 mm");
             }
         }
-        Ok(Self { points, radius })
+        Ok(Self::from_checked(points, radius))
     }
 
     /// A vessel from parts that satisfy [`Vessel::new`] by construction.
     pub(crate) fn from_checked(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Self {
-        Self { points, radius }
+        let mut arc_length = vec![0.0; points.len()];
+        for i in 1..points.len() {
+            arc_length[i] = arc_length[i - 1] + points[i].distance(points[i - 1]);
+        }
+        Self { points, radius, arc_length }
+    }
+
+    /// A coarser level of a vessel, whose points know where along the vessel itself they are (mm, never falling).
+    pub(crate) fn coarser(points: Vec<DVec3>, radius: Option<Vec<f64>>, arc_length: Vec<f64>) -> Self {
+        Self { points, radius, arc_length }
     }
 
     /// The points (mm, LPS), at least two.
@@ -57,6 +67,12 @@ impl Vessel {
     /// The radius at each point (mm), where known.
     pub fn radius(&self) -> Option<&[f64]> {
         self.radius.as_deref()
+    }
+
+    /// The length of the centerline from its first point to each point (mm); at a level of detail that of the vessel
+    /// itself, taken through the same filter as the points.
+    pub fn arc_length(&self) -> &[f64] {
+        &self.arc_length
     }
 
     /// The radius at point `i` (mm), 0 where unknown.

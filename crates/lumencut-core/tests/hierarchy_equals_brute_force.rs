@@ -1,7 +1,7 @@
 //! The hierarchy finds exactly what trying every piece finds.
 #![allow(clippy::unwrap_used)]
 
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{LevelChoice, Settings};
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_scenes::brute_force::{by_brute_force, by_hierarchy};
 use lumencut_scenes::identical::different_pixels;
@@ -31,6 +31,15 @@ fn rules() -> Vec<Settings> {
         Settings { preserve_lumen: false, levels: 3, ..unfiltered() },
         Settings { levels: 0, cost_weight: 100.0, ..unfiltered() },
         Settings { lumen_first: true, levels: 15, level_distance: 2.0, cost_weight: 0.0, ..unfiltered() },
+        Settings { level_choice: LevelChoice::Own, ..unfiltered() },
+        Settings { lumen_first: true, lumen_margin: 1.0, level_choice: LevelChoice::Own, ..unfiltered() },
+        Settings {
+            level_choice: LevelChoice::Own,
+            levels: 15,
+            level_distance: 0.5,
+            cost_weight: 1.0,
+            ..unfiltered()
+        },
     ]
 }
 

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::geometry::{Curved, Geometry};
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{LevelChoice, Settings, SilhouetteRule};
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use lumencut_core::stages::{Image, ImageSet, Stage, Work};
@@ -13,9 +13,10 @@ use lumencut_scenes::views::front;
 
 /// The stages of a whole picture.
 fn whole(settings: &Settings) -> Vec<Stage> {
-    let surface = Stage::of_cut_surface(settings);
-    let made = ImageSet::of(&[Image::Depth, Image::Vessel]);
-    surface.chain(Stage::of_look(settings, &Geometry::rays(front([4, 3], 1.0)), made)).collect()
+    let surface = Stage::of_cut_surface(settings, ImageSet::ALL);
+    let made = ImageSet::of(&[Image::Depth, Image::Vessel, Image::Leap]);
+    let look = Stage::of_look(settings, &Geometry::rays(front([4, 3], 1.0)), made);
+    surface.into_iter().chain(look).collect()
 }
 
 #[test]
@@ -51,7 +52,8 @@ fn stages_run_in_the_order_of_the_table() {
 #[test]
 fn every_image_is_written_before_it_is_read() {
     let mut made = ImageSet::of(&[]);
-    for stage in whole(&Settings::default()) {
+    let settings = Settings { silhouette_rule: SilhouetteRule::Leap, ..Settings::default() };
+    for stage in whole(&settings) {
         for image in stage.reads() {
             assert!(made.has(*image), "{stage:?} reads {image:?} before it is there");
         }
@@ -73,6 +75,23 @@ fn what_is_not_wanted_is_not_run() {
     assert_eq!(look(&rays, &[Image::Vessel]), alone, "silhouettes are lines of the depth");
     let curved = Curved::new([1, 1], vec![DVec3::ZERO], vec![Vec3::Z]).unwrap();
     assert_eq!(look(&Geometry::Curved(curved), &[]), [Stage::Surface, Stage::Composite]);
+}
+
+#[test]
+fn what_nothing_reads_is_not_made() {
+    let own = Settings { level_choice: LevelChoice::Own, depth_filter: false, ..Settings::default() };
+    let leaps = Settings { silhouette_rule: SilhouetteRule::Leap, ..own.clone() };
+    let stages = |settings: &Settings, wanted: &[Image]| {
+        let wanted = ImageSet::of(wanted);
+        (Stage::of_cut_surface(settings, wanted), Stage::has_sheet(settings, wanted))
+    };
+    assert_eq!(stages(&own, &[Image::Picture]), (vec![Stage::Depth], false));
+    assert_eq!(stages(&own, &[Image::Distance]), (vec![Stage::Distance, Stage::Depth], false));
+    assert_eq!(stages(&own, &[Image::Sheet]), (vec![Stage::Depth], true));
+    assert_eq!(stages(&leaps, &[Image::Depth]), (vec![Stage::Depth], false));
+    assert_eq!(stages(&leaps, &[Image::Picture]), (vec![Stage::Depth, Stage::Leap], true));
+    let paper = Settings { depth_filter: false, ..Settings::paper() };
+    assert_eq!(stages(&paper, &[Image::Picture]), (vec![Stage::Distance, Stage::Depth], false));
 }
 
 #[test]

@@ -4,7 +4,8 @@ use std::mem::offset_of;
 
 use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
 use lumencut_core::pipeline::Request;
-use lumencut_core::settings::{MAX_LEVELS, Settings};
+use lumencut_core::settings::{LevelChoice, MAX_LEVELS};
+use lumencut_core::stages::Stage as Table;
 use wgpu::Buffer;
 
 use crate::device::Device;
@@ -32,8 +33,8 @@ pub(crate) struct CutSurfaceStages {
     bundle: Stage,
     enclose: Stage,
     distance: Stage,
-    /// Without and with *lumen first*.
-    depth: [Stage; 2],
+    /// Depth by each level choice, without and with *lumen first*, without and with a sheet; compiled once needed.
+    depth: [[[Option<Stage>; 2]; 2]; 2],
     parameters: Buffer,
     /// Where the levels lie, as the shaders were last told.
     told: Option<[LevelPlace; MAX_LEVELS + 1]>,
@@ -46,15 +47,12 @@ impl CutSurfaceStages {
     pub fn new(device: &Device) -> Self {
         let [across, rows] = TILE;
         let tile = [("ACROSS", across as f64), ("ROWS", rows as f64)];
-        let depth = |lumen_first| {
-            Stage::new(device, "stages/depth", &[tile[0], tile[1], ("LUMEN_FIRST", lumen_first)])
-        };
         Self {
             projection: Stage::new(device, "math/projection", &[]),
             bundle: Stage::entry(device, "math/projection", "bundle", &[]).with_first_binding(2),
             enclose: Stage::entry(device, "math/projection", "enclose", &[]).with_first_binding(1),
             distance: Stage::new(device, "stages/distance", &tile),
-            depth: [depth(0.0), depth(1.0)],
+            depth: Default::default(),
             group: [across * QUAD * TILES_ACROSS, rows * TILES / TILES_ACROSS],
             told: None,
             parameters: device.uniform::<CutSurfaceParameters>("cut surface parameters"),
@@ -73,7 +71,7 @@ impl CutSurfaceStages {
 
     /// Projects the levels that are needed: their points, then what stands at each, then the boxes around them.
     pub fn project(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, coarsest: usize) {
-        let all = [view, &self.parameters, &levels.next_points, &levels.points, &levels.projected];
+        let all = [view, &self.parameters, &levels.alongs, &levels.points, &levels.projected];
         let points = levels.point_count(coarsest).div_ceil(POINT_THREADS);
         recording.run(&self.projection, &all.map(Buffer::as_entire_binding), in_rows(points));
         let all = [&levels.spans, &levels.points, &levels.projected, &levels.slots];
@@ -89,37 +87,61 @@ impl CutSurfaceStages {
         recording.run(&self.distance, &all.map(Buffer::as_entire_binding), groups(images.size, self.group));
     }
 
-    /// Depth, into a buffer of its own choice, and vessel of every pixel.
+    /// Depth, into a buffer of its own choice, vessel and sheet of every pixel.
     pub fn depth(
-        &self,
+        &mut self,
         recording: &mut Recording,
         view: &Buffer,
         levels: &DeviceLevels,
-        rule: Visibility,
+        rules: DepthRules,
         images: &Images,
         depth: &Buffer,
     ) {
-        let Images { size, distance, vessel, .. } = images;
+        let Images { size, distance, vessel, sheet, .. } = images;
         let (slots, boxes, of_slot) = (&levels.slots, &levels.boxes, &levels.vessel_of_slot);
-        let all = [view, &self.parameters, slots, boxes, distance, of_slot, depth, vessel];
-        let stage = &self.depth[rule as usize];
-        recording.run(stage, &all.map(Buffer::as_entire_binding), groups(*size, self.group));
+        let last = if rules.is_own { &levels.spans } else { distance };
+        let parameters = self.parameters.clone();
+        let all = [view, &parameters, slots, boxes, of_slot, depth, vessel, sheet, &levels.projected, last];
+        let groups = groups(*size, self.group);
+        let stage = self.depth_stage(recording.device, rules);
+        recording.run(stage, &all.map(Buffer::as_entire_binding), groups);
+    }
+
+    /// The stage `depth` for some rules.
+    fn depth_stage(&mut self, device: &Device, rules: DepthRules) -> &Stage {
+        let DepthRules { is_own, lumen_first, has_sheet } = rules;
+        let [own, lumen, sheet] = [is_own, lumen_first, has_sheet].map(usize::from);
+        self.depth[own][lumen][sheet].get_or_insert_with(|| {
+            let [across, rows] = TILE.map(|n| n as f64);
+            let [lumen_first, has_sheet] = [lumen_first, has_sheet].map(|is| f64::from(u8::from(is)));
+            let constants =
+                [("ACROSS", across), ("ROWS", rows), ("LUMEN_FIRST", lumen_first), ("HAS_SHEET", has_sheet)];
+            let entry = if is_own { "depth" } else { "nearest" };
+            Stage::entry(device, "stages/depth", entry, &constants)
+        })
     }
 }
 
-/// Which pieces win: those of the smallest cost, or lumen before all else.
+/// What the stage `depth` is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Visibility {
-    /// By the cost alone.
-    Cost = 0,
-    /// *Lumen first*.
-    LumenFirst = 1,
+pub(crate) struct DepthRules {
+    /// Whether the levels are those of the vessel that wins on the finest one.
+    pub is_own: bool,
+    /// Whether lumen comes before all else.
+    pub lumen_first: bool,
+    /// Whether the sheet is written.
+    pub has_sheet: bool,
 }
 
-impl Visibility {
-    /// The rule that `settings` ask for.
-    pub fn of(settings: &Settings) -> Self {
-        if settings.lumen_first { Self::LumenFirst } else { Self::Cost }
+impl DepthRules {
+    /// The rules of a view.
+    pub fn of(request: &Request) -> Self {
+        let &Request { settings, images, .. } = request;
+        Self {
+            is_own: settings.level_choice == LevelChoice::Own,
+            lumen_first: settings.lumen_first,
+            has_sheet: Table::has_sheet(settings, images),
+        }
     }
 }
 

@@ -28,7 +28,17 @@ pub struct Point {
     pub place: u32,
 }
 
-/// `Span` of `math/projection.wgsl`: the slots of one vessel at one level.
+/// `Along` of `math/projection.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Along {
+    /// The next point of the vessel; the last point is its own.
+    pub next: u32,
+    /// The arc length of the point (mm).
+    pub arc_length: f32,
+}
+
+/// `Span` of `math/levels.wgsl`: the slots of one vessel at one level.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct Span {
@@ -40,7 +50,7 @@ pub struct Span {
     pub level: u32,
 }
 
-/// `Projected` of `math/projection.wgsl`: a point in projection, written and read on the GPU alone.
+/// `Projected` of `math/levels.wgsl`: a point in projection, written and read on the GPU alone.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs)]
@@ -48,7 +58,11 @@ pub struct Projected {
     pub point: [f32; 3],
     pub radius: f32,
     pub edge: [f32; 2],
-    pub padding: [f32; 2],
+    pub before: [f32; 2],
+    pub inverse_length: f32,
+    pub arc_length: f32,
+    pub stands: u32,
+    pub padding: u32,
 }
 
 /// `Slot` of `math/pieces.wgsl`.
@@ -118,7 +132,7 @@ pub(crate) struct DeviceLevels {
     unit: f64,
     pub spans: Buffer,
     pub points: Buffer,
-    pub next_points: Buffer,
+    pub alongs: Buffer,
     pub projected: Buffer,
     pub slots: Buffer,
     pub boxes: Buffer,
@@ -156,7 +170,7 @@ impl DeviceLevels {
             unit,
             spans: device.upload("spans", &all.spans),
             points: device.upload("points", &all.points),
-            next_points: device.upload("next points", &all.next_points),
+            alongs: device.upload("along vessels", &all.alongs),
             projected: device.image("projected points", slots, size_of::<Projected>()),
             slots: device.upload("slots", &vec![Slot::EMPTY; all.bundles * FAN]),
             boxes: device.upload("boxes", &vec![NodeBox::EMPTY; all.boxes]),
@@ -183,6 +197,7 @@ impl DeviceLevels {
         CutSurfaceParameters {
             origin_coarse: four(0),
             origin_fine: four(1),
+            vessel_count: self.spans_up_to[0],
             levels: self.places,
             ..CutSurfaceParameters::new(settings, camera, (self.reach + away) as f32)
         }
@@ -203,7 +218,7 @@ struct Arrays {
     places: [LevelPlace; MAX_LEVELS + 1],
     spans: Vec<Span>,
     points: Vec<Point>,
-    next_points: Vec<u32>,
+    alongs: Vec<Along>,
     vessel_of_slot: Vec<i32>,
     bundles: usize,
     boxes: usize,
@@ -226,7 +241,11 @@ impl Arrays {
         self.spans.extend(level.first_slot.windows(2).map(span));
         for ends in level.first_slot.windows(2) {
             let [first, last] = [ends[0], ends[1] - 1].map(|slot| first_slot + slot);
-            self.next_points.extend((first..=last).map(|point| (point + 1).min(last)));
+            let along = |point: u32| Along {
+                next: (point + 1).min(last),
+                arc_length: level.arc_length[(point - first_slot) as usize],
+            };
+            self.alongs.extend((first..=last).map(along));
         }
         self.vessel_of_slot.extend(&level.vessel_of_slot);
         let mut place = LevelPlace {

@@ -11,6 +11,7 @@ mod cut_surface;
 mod depth_filter;
 pub mod device;
 mod images;
+mod leap;
 mod levels;
 #[cfg(not(target_arch = "wasm32"))]
 mod on_cpu;

@@ -6,12 +6,13 @@ use lumencut_core::geometry::Geometry;
 use lumencut_core::math::blocks::HUGE;
 use lumencut_core::pipeline::Request;
 use lumencut_core::scene::Scene;
+use lumencut_core::settings::SilhouetteRule;
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use wgpu::Buffer;
 
 use crate::composite::Layers;
 use crate::context::ContextImages;
-use crate::cut_surface::Visibility;
+use crate::cut_surface::DepthRules;
 use crate::device::Device;
 use crate::images::Images;
 use crate::levels::DeviceLevels;
@@ -47,7 +48,7 @@ impl<'a> Pass<'a> {
     /// Finds where the pixels look: projection, distance, depth and its filter.
     pub async fn cut_surface(&mut self) -> Result<()> {
         self.projection();
-        for stage in Stage::of_cut_surface(self.request.settings) {
+        for stage in Stage::of_cut_surface(self.request.settings, self.request.images) {
             self.run(stage).await?;
         }
         self.made = self.made.and(ImageSet::of(&[Image::Depth]));
@@ -62,15 +63,16 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Sends depth and vessels of a cut surface that was made elsewhere.
+    /// Sends depth, vessels and leaps of a cut surface that was made elsewhere.
     ///
     /// # Panics
     /// Where they are not those of every pixel: a mistake in the program, never in its input.
-    pub fn send_surface(&mut self, vessel: &[i32]) {
+    pub fn send_surface(&mut self, vessel: &[i32], leap: &[u32]) {
         let depth = self.geometry.depth();
         for (image, bytes) in [
             (Image::Depth, bytemuck::cast_slice::<_, u8>(depth)),
             (Image::Vessel, bytemuck::cast_slice(vessel)),
+            (Image::Leap, bytemuck::cast_slice(leap)),
         ] {
             if !bytes.is_empty() {
                 assert_eq!(bytes.len(), 4 * self.images.pixels(), "bytes of the image {image:?}");
@@ -95,6 +97,7 @@ impl<'a> Pass<'a> {
         match stage {
             Stage::Distance => self.distance(),
             Stage::Depth => self.depth(),
+            Stage::Leap => self.leap(),
             Stage::DepthFilter => self.depth_filter(),
             Stage::Surface => return self.surface(),
             Stage::Silhouette => self.silhouette(),
@@ -122,8 +125,15 @@ impl<'a> Pass<'a> {
     fn depth(&mut self) {
         let Some(levels) = self.levels else { return };
         let depth = self.buffer(Image::UnfilteredDepth);
-        let (rule, Stages { view, cut_surface, .. }) = (Visibility::of(self.request.settings), &*self.stages);
-        cut_surface.depth(&mut self.recording, view, levels, rule, self.images, depth);
+        let (rules, Stages { view, cut_surface, .. }) = (DepthRules::of(self.request), &mut *self.stages);
+        cut_surface.depth(&mut self.recording, view, levels, rules, self.images, depth);
+    }
+
+    fn leap(&mut self) {
+        let depth = self.buffer(Image::UnfilteredDepth);
+        let Stages { view, leap, .. } = &*self.stages;
+        leap.write(self.device, self.request.camera);
+        leap.record(&mut self.recording, view, self.images, depth);
     }
 
     fn depth_filter(&mut self) {
@@ -146,6 +156,9 @@ impl<'a> Pass<'a> {
         let Geometry::Orthographic { camera, .. } = &self.geometry else { return };
         let Images { depth, vessel, raised, strength, size, .. } = self.images;
         let Stages { view, depth_filter, silhouette, .. } = &*self.stages;
+        if self.request.settings.silhouette_rule == SilhouetteRule::Leap {
+            return silhouette.record_leaps(&mut self.recording, depth_filter, view, self.images);
+        }
         silhouette.write(self.device, self.request.settings, camera);
         let images = SilhouetteImages { size: *size, depth, vessel, raised, strength };
         silhouette.record(&mut self.recording, depth_filter, view, images);
@@ -204,6 +217,7 @@ impl<'a> Pass<'a> {
                 (Image::Distance, _) => frame.distance = results.numbers(n),
                 (Image::Depth, Geometry::Orthographic { depth, .. }) => *depth = results.numbers(n),
                 (Image::Vessel, _) => frame.vessel = results.numbers(n),
+                (Image::Leap, _) => frame.leap = results.numbers(n),
                 (Image::Value, _) => frame.value = with_holes(results.numbers(n)),
                 (Image::Context, _) => frame.context = results.numbers(n),
                 (Image::Picture, _) => frame.image = results.numbers(n),
@@ -217,7 +231,7 @@ impl<'a> Pass<'a> {
     pub async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         for image in wanted {
-            let bytes = if *image == Image::Gathered { 16 } else { 4 };
+            let bytes = if matches!(image, Image::Gathered | Image::Sheet) { 16 } else { 4 };
             recording.read(self.buffer(*image), bytes * self.images.pixels() as u64);
         }
         let mut results = recording.finish(self.request.stop).await?;

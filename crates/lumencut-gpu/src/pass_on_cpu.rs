@@ -23,7 +23,7 @@ impl Pass<'_> {
         }
         drop(results);
         let start = Instant::now();
-        if Stage::of_cut_surface(self.request.settings).any(|of_surface| of_surface == stage) {
+        if stage.is_of_cut_surface() {
             self.find(stage, &mut images)?;
         } else {
             self.show(stage, &mut images)?;
@@ -57,7 +57,9 @@ impl Pass<'_> {
         let &Request { settings, stop, .. } = self.request;
         let work = Work { size: self.images.size, isa: Isa::widest(), stop };
         let vessel = std::mem::take(&mut images.vessel);
-        LookPass { work, volume, settings, geometry: &geometry, vessel: &vessel }.run(stage, images)?;
+        let leap = std::mem::take(&mut images.leap);
+        let pass = LookPass { work, volume, settings, geometry: &geometry, vessel: &vessel, leap: &leap };
+        pass.run(stage, images)?;
         if stage == Stage::Context && images.gathered.is_empty() {
             images.gathered = vec![[0.0; 4]; self.images.pixels()];
         }
@@ -71,6 +73,8 @@ impl Pass<'_> {
             Image::UnfilteredDepth => bytemuck::cast_slice(&images.unfiltered_depth),
             Image::Depth => bytemuck::cast_slice(&images.depth),
             Image::Vessel => bytemuck::cast_slice(&images.vessel),
+            Image::Sheet => bytemuck::cast_slice(&images.sheet),
+            Image::Leap => bytemuck::cast_slice(&images.leap),
             Image::Value => &without_holes(&images.value),
             Image::Strength => bytemuck::cast_slice(&images.strength),
             Image::Start => bytemuck::cast_slice(&images.start),
@@ -92,6 +96,8 @@ fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
         Image::UnfilteredDepth => images.unfiltered_depth = results.numbers(n),
         Image::Depth => images.depth = results.numbers(n),
         Image::Vessel => images.vessel = results.numbers(n),
+        Image::Sheet => images.sheet = results.numbers(n),
+        Image::Leap => images.leap = results.numbers(n),
         Image::Value => images.value = with_holes(results.numbers(n)),
         Image::Strength => images.strength = results.numbers(n),
         Image::Start => images.start = results.numbers(n),

@@ -93,6 +93,7 @@ impl GpuRenderer {
         if scene.volume.is_none() && scene.tree.is_none() {
             return Err(nothing_to_show());
         }
+        let request = &request.of(scene);
         let mut pass = self.pass(scene, Geometry::rays(*request.camera), request)?;
         if scene.tree.is_some() {
             pass.cut_surface().await?;
@@ -115,9 +116,9 @@ impl GpuRenderer {
     ) -> Result<Frame> {
         request.settings.check()?;
         let scene = Scene { volume: Some(volume.clone()), tree: None };
-        let Frame { geometry, vessel, distance, timings, .. } = frame;
+        let Frame { geometry, vessel, leap, distance, timings, .. } = frame;
         let mut pass = self.pass(&scene, geometry, request)?;
-        pass.send_surface(&vessel);
+        pass.send_surface(&vessel, &leap);
         pass.look().await?;
         let mut shown = pass.frame().await?;
         shown.timings.splice(..0, timings);

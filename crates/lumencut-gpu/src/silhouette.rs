@@ -7,6 +7,7 @@ use wgpu::Buffer;
 
 use crate::depth_filter::{DepthFilter, GROUP};
 use crate::device::Device;
+use crate::images::Images;
 use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
@@ -16,6 +17,7 @@ use crate::view::groups;
 pub(crate) struct Silhouette {
     raise: Stage,
     strength: Stage,
+    beside_leaps: Stage,
     parameters: Buffer,
 }
 
@@ -40,6 +42,7 @@ impl Silhouette {
         Self {
             raise: Stage::new(device, ROOM, &[]),
             strength: Stage::entry(device, ROOM, "strength", &[]),
+            beside_leaps: Stage::entry(device, ROOM, "beside_leaps", &[]),
             parameters: device.uniform::<SilhouetteParameters>("silhouette parameters"),
         }
     }
@@ -49,7 +52,21 @@ impl Silhouette {
         device.write(&self.parameters, &[SilhouetteParameters::new(settings, camera)]);
     }
 
-    /// Writes the strength of the silhouettes.
+    /// Writes the strength of the silhouettes beside leaps.
+    pub fn record_leaps(
+        &self,
+        recording: &mut Recording,
+        filter: &DepthFilter,
+        view: &Buffer,
+        images: &Images,
+    ) {
+        let Images { size, leap, raised, strength, .. } = images;
+        let buffers = [view, leap, raised].map(Buffer::as_entire_binding);
+        recording.run(&self.beside_leaps, &buffers, groups(*size, GROUP));
+        filter.record_as(self.raise.name, recording, view, *size, [raised, strength]);
+    }
+
+    /// Writes the strength of the silhouettes of a steep depth.
     pub fn record(
         &self,
         recording: &mut Recording,

@@ -10,6 +10,7 @@ use crate::context::ContextStage;
 use crate::cut_surface::CutSurfaceStages;
 use crate::depth_filter::DepthFilter;
 use crate::device::Device;
+use crate::leap::Leap;
 use crate::silhouette::Silhouette;
 use crate::surface::Surface;
 use crate::view::ViewParameters;
@@ -22,6 +23,7 @@ pub(crate) struct Stages {
     /// The grid of the volume in the view.
     pub grid: Buffer,
     pub cut_surface: CutSurfaceStages,
+    pub leap: Leap,
     pub depth_filter: DepthFilter,
     pub surface: Surface,
     pub silhouette: Silhouette,
@@ -36,6 +38,7 @@ impl Stages {
             view: device.uniform::<ViewParameters>("view"),
             grid: device.uniform::<GridParameters>("grid"),
             cut_surface: CutSurfaceStages::new(device),
+            leap: Leap::new(device),
             depth_filter: DepthFilter::new(device),
             surface: Surface::new(device),
             silhouette: Silhouette::new(device),

@@ -9,6 +9,7 @@ use lumencut_core::pipeline::{CpuRenderer, Images, Request};
 use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::Stage;
+use lumencut_core::stages::depth::DepthImages;
 use lumencut_core::vessel_tree::VesselTree;
 
 /// Depth, vessel and distance through the hierarchy.
@@ -26,7 +27,8 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
     // A pixel that brute force leaves out is seen.
     let (mut distance, mut depth, mut vessel) = (vec![-1.0; pixels], vec![-1.0; pixels], vec![-1; pixels]);
     brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
-    brute_force::depth(&pass.work, &pass.surface, &distance, &mut depth, &mut vessel).unwrap();
+    let written = DepthImages { depth: &mut depth, vessel: &mut vessel, sheet: &mut [] };
+    brute_force::depth(&pass.work, &pass.surface, &distance, written).unwrap();
     let mut images = Images { unfiltered_depth: depth, ..Images::default() };
     if settings.depth_filter {
         pass.run(Stage::DepthFilter, &mut images).unwrap();

@@ -31,6 +31,38 @@ pub fn candidates<const LUMEN_FIRST: bool>(
     found
 }
 
+/// Which pieces of a slot may cover a pixel of an area, and what that was found by.
+#[derive(Clone, Copy, Debug)]
+pub struct Cover {
+    /// Whether the stripe may.
+    pub in_stripe: bool,
+    /// Whether what stands at the point may.
+    pub in_wedge: bool,
+    /// (q − p)·e at the middle q of the area.
+    start: f32,
+    /// The most that it differs from that over the area.
+    along: f32,
+    /// Half the sides of the area, and more than the rounding of all products.
+    sides: [f32; 2],
+}
+
+impl Cover {
+    /// Of a slot whose stripe has these two ends, with the edge along it and the edge before it.
+    #[inline(always)]
+    pub fn new(area: &Area, ends: [[f32; 2]; 2], [ex, ey]: [f32; 2], [fx, fy]: [f32; 2]) -> Self {
+        let ([cx, cy], [hx, hy]) = (area.center, area.half);
+        let (ux, uy) = (cx - ends[0][0], cy - ends[0][1]);
+        let (wx, wy) = (cx - ends[1][0], cy - ends[1][1]);
+        let sx = hx + 1e-5 * larger(ux.abs(), wx.abs());
+        let sy = hy + 1e-5 * larger(uy.abs(), wy.abs());
+        let (start, end, before) = (ux * ex + uy * ey, wx * ex + wy * ey, ux * fx + uy * fy);
+        let along = sx * ex.abs() + sy * ey.abs();
+        let in_stripe = (start + along >= 0.0) & (end - along <= 0.0);
+        let in_wedge = (before + sx * fx.abs() + sy * fy.abs() >= 0.0) & (start - along <= 0.0);
+        Self { in_stripe, in_wedge, start, along, sides: [sx, sy] }
+    }
+}
+
 /// Bounds from below on the keys of a bundle's stripes and wedges in an area; [`ABSENT`] where a piece covers
 /// none of it.
 #[inline(always)]
@@ -43,17 +75,10 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
     let ([cx, cy], [hx, hy]) = (area.center, area.half);
     for s in 0..FAN {
         let (ux, uy) = (cx - bundle.x[s], cy - bundle.y[s]);
-        let (wx, wy) = (cx - bundle.next_x[s], cy - bundle.next_y[s]);
         let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
-        let (fx, fy) = (bundle.before_x[s], bundle.before_y[s]);
-        // Half the sides, and more than the rounding of all products below.
-        let sx = hx + 1e-5 * larger(ux.abs(), wx.abs());
-        let sy = hy + 1e-5 * larger(uy.abs(), wy.abs());
-        let (start, end, before) = (ux * ex + uy * ey, wx * ex + wy * ey, ux * fx + uy * fy);
-        // The most that they differ over the area from their values at its middle.
-        let along = sx * ex.abs() + sy * ey.abs();
-        let in_stripe = (start + along >= 0.0) & (end - along <= 0.0);
-        let in_wedge = (before + sx * fx.abs() + sy * fy.abs() >= 0.0) & (start - along <= 0.0);
+        let ends = [[bundle.x[s], bundle.y[s]], [bundle.next_x[s], bundle.next_y[s]]];
+        let cover = Cover::new(area, ends, [ex, ey], [bundle.before_x[s], bundle.before_y[s]]);
+        let Cover { in_stripe, in_wedge, start, along, sides: [sx, sy] } = cover;
 
         let inverse = bundle.inverse_length[s];
         let (z0, dz, r0) = (bundle.stripe_z[s], bundle.stripe_dz[s], bundle.radius[s]);

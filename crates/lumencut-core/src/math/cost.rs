@@ -8,9 +8,10 @@ use crate::settings::Settings;
 pub struct Rule {
     /// λ.
     pub weight: f32,
-    /// How far beyond the wall lumen reaches under *lumen first* (mm).
+    /// How thick the wall around a lumen is (mm).
     pub margin: f32,
-    /// More than the depth range of the tree (mm): lifts every lumen before every surrounding.
+    /// More than the depth range of the tree (mm): under *lumen first* it lifts every wall before all surroundings, and
+    /// every lumen before every wall.
     pub lift: f32,
     /// More than the rounding error of a projected distance (mm).
     pub distance_slack: f32,
@@ -37,7 +38,21 @@ impl Rule {
     pub fn key<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32) -> f32 {
         let beyond = d - r;
         let cost = z + self.weight * larger(beyond, 0.0);
-        if LUMEN_FIRST && beyond <= self.margin { z - self.lift } else { cost }
+        if !LUMEN_FIRST {
+            return cost;
+        }
+        let lifted = if beyond <= 0.0 { z - 2.0 * self.lift } else { z - self.lift };
+        if beyond <= self.margin { lifted } else { cost }
+    }
+
+    /// How far a piece at distance `d` from its centerline, of radius `r`, lies beyond its vessel's wall (mm); under
+    /// *lumen first* the key tells whether it does at all.
+    #[inline(always)]
+    pub fn beyond_wall<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> f32 {
+        let beyond = larger(d - r - self.margin, 0.0);
+        // Surroundings have keys of half a mm above −lift/2 and more, walls of half a mm below it and less.
+        let is_lifted = LUMEN_FIRST && key < -0.5 * self.lift;
+        if is_lifted { 0.0 } else { beyond }
     }
 
     /// A key that nothing at depth ≥ `z` with radius ≤ `r` falls below from a distance ≥ `d`.

@@ -8,9 +8,20 @@ fn keys(z: vec4f, d: vec4f, r: vec4f) -> vec4f {
     let beyond = d - r;
     let cost = z + parameters.weight * max(beyond, vec4f(0.0));
     if LUMEN_FIRST {
-        return select(cost, z - parameters.lift, beyond <= vec4f(parameters.margin));
+        let lifted = z - select(vec4f(parameters.lift), vec4f(2.0 * parameters.lift), beyond <= vec4f(0.0));
+        return select(cost, lifted, beyond <= vec4f(parameters.margin));
     }
     return cost;
+}
+
+// How far a piece at distance `d` from its centerline, of radius `r`, lies beyond its vessel's wall (mm); under *lumen
+// first* the key tells whether it does at all.
+fn beyond_wall(key: f32, d: f32, r: f32) -> f32 {
+    // Surroundings have keys of half a mm above -lift/2 and more, walls of half a mm below it and less.
+    if LUMEN_FIRST && key < -0.5 * parameters.lift {
+        return 0.0;
+    }
+    return max(d - r - parameters.margin, 0.0);
 }
 
 // A key that nothing at depth ≥ `z` with radius ≤ `r` falls below from a distance ≥ `d`.
@@ -19,7 +30,8 @@ fn key_bound(z: f32, d: f32, r: f32) -> f32 {
     let nearest = z - parameters.depth_slack;
     let cost = nearest + parameters.weight * max(beyond, 0.0);
     if LUMEN_FIRST {
-        return select(cost, nearest - parameters.lift, beyond <= parameters.margin);
+        let lifted = nearest - select(parameters.lift, 2.0 * parameters.lift, beyond <= 0.0);
+        return select(cost, lifted, beyond <= parameters.margin);
     }
     return cost;
 }

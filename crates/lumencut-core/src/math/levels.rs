@@ -3,6 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::cost::Rule;
+use super::projection::Radii;
 use crate::camera::Camera;
 use crate::settings::{MAX_LEVELS, Settings};
 
@@ -45,6 +46,12 @@ pub struct CutSurfaceParameters {
     pub coarsest: u32,
     /// What radii are multiplied by: 1 where they count, else 0.
     pub radius_scale: f32,
+    /// What takes the place of a radius of 0 (mm).
+    pub unknown_radius: f32,
+    /// The number of vessels, on a GPU.
+    pub vessel_count: u32,
+    /// The next field lies at a multiple of 16 bytes.
+    pub padding: [u32; 2],
     /// View coordinates (mm) of the point that a GPU counts the tree's points from: the part that adds to products
     /// without rounding.
     pub origin_coarse: [f32; 4],
@@ -59,6 +66,7 @@ impl CutSurfaceParameters {
     pub fn new(settings: &Settings, camera: &Camera, tree_reach: f32) -> Self {
         let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
         let rule = Rule::new(settings, tree_reach, view_reach);
+        let radii = Radii::new(settings);
         Self {
             weight: rule.weight,
             margin: rule.margin,
@@ -67,7 +75,8 @@ impl CutSurfaceParameters {
             depth_slack: rule.depth_slack,
             selection: (settings.levels as f64 / settings.level_distance) as f32,
             coarsest: settings.levels as u32,
-            radius_scale: radius_scale(settings),
+            radius_scale: radii.scale,
+            unknown_radius: radii.unknown,
             ..Self::zeroed()
         }
     }
@@ -77,9 +86,4 @@ impl CutSurfaceParameters {
         let &Self { weight, margin, lift, distance_slack, depth_slack, .. } = self;
         Rule { weight, margin, lift, distance_slack, depth_slack }
     }
-}
-
-/// What radii are multiplied by: 1 where they count, else 0.
-pub fn radius_scale(settings: &Settings) -> f32 {
-    f32::from(u8::from(settings.preserve_lumen))
 }

@@ -15,6 +15,34 @@ struct LevelPlace {
     heights: array<vec4u, 2>,
 }
 
+// The points of one vessel at one level. Those of all vessels of a level follow one another, and the levels too.
+struct Span {
+    first: u32,
+    end: u32,
+    // The first point of its level.
+    level: u32,
+}
+
+// A point in projection (mm), written once in a view: whoever needs an edge reads it here, so that both neighbours of a
+// border read the same number.
+struct Projected {
+    // View coordinates.
+    point: vec3f,
+    // The radius that counts.
+    radius: f32,
+    // The edge to the next point; zero where it is collinear with the view or not there.
+    edge: vec2f,
+    // The edge before what stands at the point; zero where it is not there.
+    before: vec2f,
+    // 1 / |edge|, zero with it.
+    inverse_length: f32,
+    // Where along its vessel the point is.
+    arc_length: f32,
+    // 1 where a wedge, a half-plane or a plane stands.
+    stands: u32,
+    padding: u32,
+}
+
 struct CutSurfaceParameters {
     // The rule, as `Rule` in Rust says.
     weight: f32,
@@ -28,6 +56,10 @@ struct CutSurfaceParameters {
     coarsest: u32,
     // 1 where radii count, else 0.
     radius_scale: f32,
+    // What takes the place of a radius of 0.
+    unknown_radius: f32,
+    vessel_count: u32,
+    padding: vec2u,
     // View coordinates (mm) of the point that the tree's points are counted from, and the rest of them.
     origin_coarse: vec4f,
     origin_fine: vec4f,

@@ -133,25 +133,19 @@ impl<const N: usize> Pixels<'_, N> {
     /// Offers the stripe of slot `s` to every pixel.
     #[inline(always)]
     pub fn offer_stripe<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
-        let (x, y) = (bundle.x[s], bundle.y[s]);
-        let (next_x, next_y) = (bundle.next_x[s], bundle.next_y[s]);
-        let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
-        let inverse = bundle.inverse_length[s];
-        let (unit_x, unit_y) = (ex * inverse, ey * inverse);
-        let per_square = inverse * inverse;
+        let stripe = Stripe::new(
+            [bundle.x[s], bundle.y[s]],
+            [bundle.next_x[s], bundle.next_y[s]],
+            [bundle.edge_x[s], bundle.edge_y[s]],
+            bundle.inverse_length[s],
+        );
         let (z0, dz) = (bundle.stripe_z[s], bundle.stripe_dz[s]);
         let (r0, dr) = (bundle.radius[s], bundle.radius_change[s]);
         let piece = bundle.slot[s] * 2 + 1;
         for l in 0..N {
-            let (ux, uy) = (self.x[l] - x, self.y[l] - y);
-            let after_start = ux * ex + uy * ey;
-            let beyond_end = (self.x[l] - next_x) * ex + (self.y[l] - next_y) * ey;
-            // Rounding must not carry t past the end, where depth and radius were never bounded.
-            let t = smaller(after_start * per_square, 1.0);
-            let d = (ux * unit_y - uy * unit_x).abs();
+            let Foot { covered, t, distance } = stripe.foot(self.x[l], self.y[l]);
             let z = z0 + t * dz;
-            let key = rule.key::<LUMEN_FIRST>(z, d, r0 + t * dr);
-            let covered = (after_start >= 0.0) & (beyond_end <= 0.0);
+            let key = rule.key::<LUMEN_FIRST>(z, distance, r0 + t * dr);
             self.offer(l, covered, key, z, piece);
         }
     }
@@ -159,19 +153,84 @@ impl<const N: usize> Pixels<'_, N> {
     /// Offers the wedge, half-plane or plane of slot `s` to every pixel.
     #[inline(always)]
     pub fn offer_wedge<const LUMEN_FIRST: bool>(&mut self, bundle: &Bundle, s: usize, rule: &Rule) {
-        let (x, y) = (bundle.x[s], bundle.y[s]);
-        let (fx, fy) = (bundle.before_x[s], bundle.before_y[s]);
-        let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
+        let wedge = Wedge {
+            point: [bundle.x[s], bundle.y[s]],
+            before: [bundle.before_x[s], bundle.before_y[s]],
+            edge: [bundle.edge_x[s], bundle.edge_y[s]],
+        };
         let (z, r) = (bundle.wedge_z[s], bundle.radius[s]);
         let piece = bundle.slot[s] * 2;
         for l in 0..N {
-            let (ux, uy) = (self.x[l] - x, self.y[l] - y);
-            let beyond_before = ux * fx + uy * fy;
-            let after_start = ux * ex + uy * ey;
-            let d = (ux * ux + uy * uy).sqrt();
-            let key = rule.key::<LUMEN_FIRST>(z, d, r);
-            let covered = (beyond_before >= 0.0) & (after_start <= 0.0);
+            let (covered, distance) = wedge.cover(self.x[l], self.y[l]);
+            let key = rule.key::<LUMEN_FIRST>(z, distance, r);
             self.offer(l, covered, key, z, piece);
         }
+    }
+}
+
+/// Where a stripe lies in the view plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Stripe {
+    start: [f32; 2],
+    end: [f32; 2],
+    edge: [f32; 2],
+    unit: [f32; 2],
+    per_square: f32,
+}
+
+/// How a pixel lies to a stripe.
+#[derive(Clone, Copy, Debug)]
+pub struct Foot {
+    /// Whether the stripe covers the pixel.
+    pub covered: bool,
+    /// Where along the stripe its foot is, from 0 to 1 where it is covered.
+    pub t: f32,
+    /// Its distance from the line of the stripe (mm).
+    pub distance: f32,
+}
+
+impl Stripe {
+    /// The stripe from `start` along `edge` to `end` (view x and y, mm), with 1 / |edge|.
+    #[inline(always)]
+    pub fn new(start: [f32; 2], end: [f32; 2], edge: [f32; 2], inverse_length: f32) -> Self {
+        let unit = [edge[0] * inverse_length, edge[1] * inverse_length];
+        Self { start, end, edge, unit, per_square: inverse_length * inverse_length }
+    }
+
+    /// How the pixel at (x, y) lies to it.
+    #[inline(always)]
+    pub fn foot(&self, x: f32, y: f32) -> Foot {
+        let [ex, ey] = self.edge;
+        let (ux, uy) = (x - self.start[0], y - self.start[1]);
+        let after_start = ux * ex + uy * ey;
+        let beyond_end = (x - self.end[0]) * ex + (y - self.end[1]) * ey;
+        Foot {
+            covered: (after_start >= 0.0) & (beyond_end <= 0.0),
+            // Rounding must not carry t past the end, where depth and radius were never bounded.
+            t: smaller(after_start * self.per_square, 1.0),
+            distance: (ux * self.unit[1] - uy * self.unit[0]).abs(),
+        }
+    }
+}
+
+/// Where a wedge, half-plane or plane lies in the view plane (mm).
+#[derive(Clone, Copy, Debug)]
+pub struct Wedge {
+    /// The point it stands at.
+    pub point: [f32; 2],
+    /// f: the edge before the point, zero where it is not there.
+    pub before: [f32; 2],
+    /// e: the edge after the point, zero where it is not there.
+    pub edge: [f32; 2],
+}
+
+impl Wedge {
+    /// Whether it covers the pixel at (x, y), and how far from the point that is (mm).
+    #[inline(always)]
+    pub fn cover(&self, x: f32, y: f32) -> (bool, f32) {
+        let (ux, uy) = (x - self.point[0], y - self.point[1]);
+        let beyond_before = ux * self.before[0] + uy * self.before[1];
+        let after_start = ux * self.edge[0] + uy * self.edge[1];
+        ((beyond_before >= 0.0) & (after_start <= 0.0), (ux * ux + uy * uy).sqrt())
     }
 }

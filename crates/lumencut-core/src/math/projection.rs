@@ -4,7 +4,9 @@ use glam::DVec3;
 
 use super::hierarchy::{Hierarchy, NO_SLOT, spatial_order};
 use super::lanes::{ABSENT, FAN};
+use super::pieces::{Stripe, Wedge};
 use crate::camera::Camera;
+use crate::settings::Settings;
 use crate::vessel_tree::VesselTree;
 
 /// A segment whose projection is shorter than this (mm) is collinear with the view direction: it gives no
@@ -20,6 +22,8 @@ pub struct Level {
     pub points: Vec<DVec3>,
     /// The radius at each slot (mm), 0 where unknown.
     pub radii: Vec<f32>,
+    /// Where along its vessel each slot is (mm); it never falls from one slot of a vessel to the next.
+    pub arc_length: Vec<f32>,
     /// The slot in each place of the bundles.
     pub order: Vec<u32>,
     /// The bundle of each slot.
@@ -34,6 +38,7 @@ impl Level {
     pub fn new(tree: &VesselTree) -> Self {
         let slots = tree.segment_count() + tree.vessels().len();
         let (mut points, mut radii) = (Vec::with_capacity(slots), Vec::with_capacity(slots));
+        let mut arc_length = Vec::with_capacity(slots);
         let mut vessel_of_slot = Vec::with_capacity(slots);
         let mut first_slot = vec![0];
         for (id, vessel) in tree.vessels().iter().enumerate() {
@@ -42,6 +47,7 @@ impl Level {
                 if i == 0 || points.last().is_none_or(far) {
                     points.push(*point);
                     radii.push(vessel.radius_or_zero(i) as f32);
+                    arc_length.push(vessel.arc_length()[i] as f32);
                     vessel_of_slot.push(id as i32);
                 }
             }
@@ -54,7 +60,7 @@ impl Level {
         for (place, slot) in order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
             bundle_of_slot[*slot as usize] = (place / FAN) as u32;
         }
-        Self { first_slot, points, radii, order, bundle_of_slot, vessel_of_slot }
+        Self { first_slot, points, radii, arc_length, order, bundle_of_slot, vessel_of_slot }
     }
 
     /// The number of bundles that hold the slots.
@@ -65,20 +71,77 @@ impl Level {
 
 /// A point in projection and what stands there.
 #[derive(Clone, Copy, Debug, Default)]
-struct Projected {
+pub struct Projected {
     /// View coordinates (mm).
-    point: [f32; 3],
+    pub point: [f32; 3],
+    /// Radius (mm), as far as radii count.
+    pub radius: f32,
     /// e, zero where collinear or not there.
-    edge: [f32; 2],
+    pub edge: [f32; 2],
     /// f of what stands at the point.
-    before: [f32; 2],
-    stands: bool,
+    pub before: [f32; 2],
+    /// 1 / |e|, zero with e.
+    pub inverse_length: f32,
+    /// Whether a wedge, a half-plane or a plane stands there.
+    pub stands: bool,
+}
+
+impl Projected {
+    /// Whether a stripe begins at the point.
+    #[inline(always)]
+    pub fn has_stripe(&self) -> bool {
+        self.inverse_length > 0.0
+    }
+
+    /// The stripe from this point to the next one.
+    #[inline(always)]
+    pub fn stripe(&self, next: &Self) -> Stripe {
+        let [start, end] = [self, next].map(|p| [p.point[0], p.point[1]]);
+        Stripe::new(start, end, self.edge, self.inverse_length)
+    }
+
+    /// What stands at this point.
+    #[inline(always)]
+    pub fn wedge(&self) -> Wedge {
+        Wedge { point: [self.point[0], self.point[1]], before: self.before, edge: self.edge }
+    }
+
+    /// How the depth of the stripe to `next` changes along view x and y (mm per mm); 0 for the point itself.
+    #[inline(always)]
+    pub fn slope(&self, next: &Self) -> [f32; 2] {
+        let per_mm = self.inverse_length * self.inverse_length * (next.point[2] - self.point[2]);
+        [self.edge[0] * per_mm, self.edge[1] * per_mm]
+    }
+}
+
+/// What is made of the radii of a tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Radii {
+    /// What they are multiplied by: 1 where they count, else 0.
+    pub scale: f32,
+    /// What takes the place of a radius of 0 (mm).
+    pub unknown: f32,
+}
+
+impl Radii {
+    /// The radii that `settings` ask for.
+    pub fn new(settings: &Settings) -> Self {
+        let unknown = if settings.lumen_first { settings.unknown_radius as f32 } else { 0.0 };
+        Self { scale: f32::from(u8::from(settings.preserve_lumen)), unknown }
+    }
+
+    /// What is made of one radius (mm).
+    fn of(self, radius: f32) -> f32 {
+        let known = radius * self.scale;
+        if known > 0.0 { known } else { self.unknown }
+    }
 }
 
 /// A level in one view; the buffers are kept from view to view.
 #[derive(Debug)]
 pub struct ProjectedLevel {
-    projected: Vec<Projected>,
+    /// The slots in their order, vessel by vessel.
+    pub projected: Vec<Projected>,
     /// The slots in bundles, in projection.
     pub hierarchy: Hierarchy,
 }
@@ -90,42 +153,39 @@ impl ProjectedLevel {
         Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
     }
 
-    /// Projects all slots of `level` into the view of `camera`; radii are multiplied by `radius_scale`.
-    pub fn project(&mut self, level: &Level, camera: &Camera, radius_scale: f32) {
-        for (projected, point) in self.projected.iter_mut().zip(&level.points) {
+    /// Projects all slots of `level` into the view of `camera`.
+    pub fn project(&mut self, level: &Level, camera: &Camera, radii: Radii) {
+        for ((projected, point), radius) in self.projected.iter_mut().zip(&level.points).zip(&level.radii) {
             projected.point = camera.view_from_world(*point).as_vec3().to_array();
+            projected.radius = radii.of(*radius);
         }
         for ends in level.first_slot.windows(2) {
             stand(&mut self.projected[ends[0] as usize..ends[1] as usize]);
         }
         for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
-            self.place(level, place, *slot as usize, radius_scale);
+            self.place(place, *slot as usize);
         }
         self.hierarchy.enclose();
     }
 
     /// Writes a slot into its place in the bundles.
-    fn place(&mut self, level: &Level, place: usize, slot: usize, radius_scale: f32) {
+    fn place(&mut self, place: usize, slot: usize) {
         let (bundle, s) = (&mut self.hierarchy.bundles[place / FAN], place % FAN);
         let here = self.projected[slot];
-        let [ex, ey] = here.edge;
-        let square = ex * ex + ey * ey;
-        let stripe = square > 0.0;
+        let stripe = here.has_stripe();
         // A collinear segment keeps no extent: its other end has a slot of its own.
-        let next = slot + usize::from(stripe);
-        let end = self.projected[next].point;
-        let radius = level.radii[slot] * radius_scale;
+        let end = self.projected[slot + usize::from(stripe)];
         bundle.slot[s] = slot as u32;
         (bundle.x[s], bundle.y[s]) = (here.point[0], here.point[1]);
-        (bundle.next_x[s], bundle.next_y[s]) = (end[0], end[1]);
-        (bundle.edge_x[s], bundle.edge_y[s]) = (ex, ey);
+        (bundle.next_x[s], bundle.next_y[s]) = (end.point[0], end.point[1]);
+        (bundle.edge_x[s], bundle.edge_y[s]) = (here.edge[0], here.edge[1]);
         (bundle.before_x[s], bundle.before_y[s]) = (here.before[0], here.before[1]);
-        bundle.inverse_length[s] = if stripe { 1.0 / square.sqrt() } else { 0.0 };
+        bundle.inverse_length[s] = here.inverse_length;
         bundle.stripe_z[s] = if stripe { here.point[2] } else { ABSENT };
-        bundle.stripe_dz[s] = if stripe { end[2] - here.point[2] } else { 0.0 };
+        bundle.stripe_dz[s] = end.point[2] - here.point[2];
         bundle.wedge_z[s] = if here.stands { here.point[2] } else { ABSENT };
-        bundle.radius[s] = radius;
-        bundle.radius_change[s] = level.radii[next] * radius_scale - radius;
+        bundle.radius[s] = here.radius;
+        bundle.radius_change[s] = end.radius - here.radius;
     }
 
     /// The largest absolute view coordinate of all slots (mm).
@@ -143,23 +203,24 @@ fn stand(vessel: &mut [Projected]) {
         let next = vessel[(i + 1).min(last)].point;
         let here = vessel[i].point;
         let edge = [next[0] - here[0], next[1] - here[1]];
-        let collinear = edge[0] * edge[0] + edge[1] * edge[1] < COLLINEAR_LENGTH * COLLINEAR_LENGTH;
+        let square = edge[0] * edge[0] + edge[1] * edge[1];
+        let collinear = square < COLLINEAR_LENGTH * COLLINEAR_LENGTH;
         vessel[i].edge = if collinear { [0.0; 2] } else { edge };
+        vessel[i].inverse_length = if collinear { 0.0 } else { 1.0 / square.sqrt() };
         vessel[i].before = [0.0; 2];
         vessel[i].stands = false;
     }
-    let is_stripe = |p: &Projected| p.edge != [0.0; 2];
-    let Some(first_stripe) = vessel.iter().position(is_stripe) else {
+    let Some(first_stripe) = vessel.iter().position(Projected::has_stripe) else {
         let nearest = (0..=last).min_by(|a, b| vessel[*a].point[2].total_cmp(&vessel[*b].point[2]));
         vessel[nearest.unwrap_or(0)].stands = true;
         return;
     };
-    let last_stripe = vessel.iter().rposition(is_stripe).unwrap_or(first_stripe);
+    let last_stripe = vessel.iter().rposition(Projected::has_stripe).unwrap_or(first_stripe);
     // With no edge before it, what stands at the first point is a half-plane, or a plane before a run.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
         // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.
-        vessel[i].stands = is_stripe(&vessel[i - 1]);
+        vessel[i].stands = vessel[i - 1].has_stripe();
         vessel[i].before = vessel[i - 1].edge;
     }
     // The last point: a half-plane, or a plane where a run ends the vessel.

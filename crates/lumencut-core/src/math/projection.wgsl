@@ -16,26 +16,6 @@ struct Point {
     place: u32,
 }
 
-// The points of one vessel at one level.
-struct Span {
-    first: u32,
-    end: u32,
-    // The first point of its level.
-    level: u32,
-}
-
-// A point in projection (mm), written once in a view: whoever needs an edge reads it here, so that both neighbours of a
-// border read the same number.
-struct Projected {
-    // View coordinates.
-    point: vec3f,
-    // The radius that counts.
-    radius: f32,
-    // The edge to the next point; zero where it is collinear with the view or not there.
-    edge: vec2f,
-    padding: vec2f,
-}
-
 // A segment whose projection is shorter than this (mm) is collinear with the view direction.
 const COLLINEAR_LENGTH: f32 = 1e-3;
 const POINT_THREADS = 64u;
@@ -44,8 +24,15 @@ const LEVEL_THREADS = 256u;
 // The number of no point.
 const NOWHERE = 0xffffffffu;
 
-// The next point of the vessel; the last point is its own.
-@group(0) @binding(2) var<storage, read> next_points: array<u32>;
+// What is known of a point along its vessel.
+struct Along {
+    // The next point; the last point is its own.
+    next: u32,
+    // Its arc length (mm).
+    arc_length: f32,
+}
+
+@group(0) @binding(2) var<storage, read> alongs: array<Along>;
 @group(0) @binding(2) var<storage, read> spans: array<Span>;
 @group(0) @binding(3) var<storage, read> points: array<Point>;
 @group(0) @binding(4) var<storage, read_write> projected: array<Projected>;
@@ -76,11 +63,18 @@ fn projection(
         return;
     }
     let here = view_from_world(points[i]);
-    let next = next_points[i];
+    let next = alongs[i].next;
     let edge = view_from_world(points[next]).xy - here.xy;
-    let is_edge = next != i && dot(edge, edge) >= COLLINEAR_LENGTH * COLLINEAR_LENGTH;
-    let radius = points[i].radius * parameters.radius_scale;
-    projected[i] = Projected(here, radius, select(vec2f(0.0), edge, is_edge), vec2f(0.0));
+    let square = dot(edge, edge);
+    let is_edge = next != i && square >= COLLINEAR_LENGTH * COLLINEAR_LENGTH;
+    let known = points[i].radius * parameters.radius_scale;
+    var written: Projected;
+    written.point = here;
+    written.radius = select(parameters.unknown_radius, known, known > 0.0);
+    written.edge = select(vec2f(0.0), edge, is_edge);
+    written.inverse_length = select(0.0, 1.0 / sqrt(max(square, 1e-30)), is_edge);
+    written.arc_length = alongs[i].arc_length;
+    projected[i] = written;
 }
 
 var<workgroup> first_stripe: atomic<u32>;
@@ -152,7 +146,8 @@ fn stand(span: Span, i: u32) -> vec3f {
 fn place(span: Span, i: u32) {
     let here = projected[i];
     let stands = stand(span, i);
-    let square = dot(here.edge, here.edge);
+    projected[i].before = stands.xy;
+    projected[i].stands = u32(stands.z);
     let stripe = is_stripe(i);
     // A collinear segment keeps no extent: its other end has a slot of its own.
     let end = projected[select(i, i + 1u, stripe)];
@@ -161,7 +156,7 @@ fn place(span: Span, i: u32) {
     slot.next = end.point.xy;
     slot.edge = here.edge;
     slot.before = stands.xy;
-    slot.inverse_length = select(0.0, 1.0 / sqrt(max(square, 1e-30)), stripe);
+    slot.inverse_length = here.inverse_length;
     slot.stripe_z = select(ABSENT, here.point.z, stripe);
     slot.stripe_dz = select(0.0, end.point.z - here.point.z, stripe);
     slot.wedge_z = select(ABSENT, here.point.z, stands.z > 0.0);

@@ -3,6 +3,7 @@
 use crate::camera::Camera;
 use crate::frame::{Frame, Timing};
 use crate::geometry::Geometry;
+use crate::stages::depth::Sheet;
 
 /// The images by the names that the table of stages gives them; an image that is not there yet is empty.
 #[derive(Debug, Default)]
@@ -12,6 +13,8 @@ pub struct Images {
     pub unfiltered_depth: Vec<f32>,
     pub depth: Vec<f32>,
     pub vessel: Vec<i32>,
+    pub sheet: Vec<Sheet>,
+    pub leap: Vec<u32>,
     pub value: Vec<f32>,
     pub strength: Vec<f32>,
     pub start: Vec<f32>,
@@ -25,7 +28,8 @@ impl Images {
     pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
         let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
         let geometry = Geometry::Orthographic { camera, depth };
-        Frame { vessel: self.vessel, distance: self.distance, timings, ..Frame::of(geometry) }
+        let Self { vessel, leap, distance, .. } = self;
+        Frame { vessel, leap, distance, timings, ..Frame::of(geometry) }
     }
 
     /// `frame` with what is shown where it looks.

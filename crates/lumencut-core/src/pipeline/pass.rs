@@ -6,13 +6,14 @@ use crate::geometry::Geometry;
 use crate::math::context_parameters::StartParameters;
 use crate::math::ray::{NONE, WHOLE};
 use crate::scene::SharedVolume;
-use crate::settings::Settings;
+use crate::settings::{Settings, SilhouetteRule};
 use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
 use crate::stages::context::{Surroundings, context, starts};
-use crate::stages::depth::{CutSurface, depth};
+use crate::stages::depth::{CutSurface, DepthImages, depth};
 use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
-use crate::stages::silhouette::{SilhouetteParameters, silhouette};
+use crate::stages::leap::{LeapParameters, leap};
+use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceParameters, surface};
 use crate::stages::{Stage, Work};
 
@@ -22,6 +23,8 @@ pub struct CutSurfacePass<'a> {
     pub work: Work<'a>,
     /// The levels in the view.
     pub surface: CutSurface<'a>,
+    /// Whether the stage `depth` writes the sheet.
+    pub has_sheet: bool,
 }
 
 impl CutSurfacePass<'_> {
@@ -39,8 +42,15 @@ impl CutSurfacePass<'_> {
             Stage::Depth => {
                 images.unfiltered_depth = vec![0.0; pixels];
                 images.vessel = vec![0; pixels];
-                let (depths, vessels) = (&mut images.unfiltered_depth, &mut images.vessel);
-                depth(work, &self.surface, &images.distance, depths, vessels)
+                images.sheet = vec![[0.0; 4]; if self.has_sheet { pixels } else { 0 }];
+                let Images { unfiltered_depth, vessel, sheet, .. } = images;
+                let written = DepthImages { depth: unfiltered_depth, vessel, sheet };
+                depth(work, &self.surface, &images.distance, written)
+            }
+            Stage::Leap => {
+                images.leap = vec![0; pixels];
+                let parameters = LeapParameters::new(self.surface.camera());
+                leap(work, &parameters, &images.unfiltered_depth, &images.sheet, &mut images.leap)
             }
             Stage::DepthFilter => {
                 images.depth = vec![0.0; pixels];
@@ -73,6 +83,8 @@ pub struct LookPass<'a> {
     pub geometry: &'a Geometry,
     /// The vessel of each pixel; empty where none is known.
     pub vessel: &'a [i32],
+    /// Where the surface leaps; empty where it is not known.
+    pub leap: &'a [u32],
 }
 
 impl LookPass<'_> {
@@ -88,7 +100,12 @@ impl LookPass<'_> {
             Stage::Blocks => self.blocks(images),
             Stage::Context => self.context(images),
             Stage::Composite => self.composite(images),
-            Stage::Levels | Stage::Projection | Stage::Distance | Stage::Depth | Stage::DepthFilter => Ok(()),
+            Stage::Levels
+            | Stage::Projection
+            | Stage::Distance
+            | Stage::Depth
+            | Stage::Leap
+            | Stage::DepthFilter => Ok(()),
         }
     }
 
@@ -100,8 +117,11 @@ impl LookPass<'_> {
 
     fn silhouette(&self, images: &mut Images) -> Result<()> {
         let Some(camera) = self.geometry.camera() else { return Ok(()) };
-        let parameters = SilhouetteParameters::new(self.settings, camera);
         images.strength = vec![0.0; self.work.pixels()];
+        if self.settings.silhouette_rule == SilhouetteRule::Leap {
+            return silhouette_of_leaps(&self.work, self.leap, &mut images.strength);
+        }
+        let parameters = SilhouetteParameters::new(self.settings, camera);
         silhouette(&self.work, &parameters, self.geometry.depth(), self.vessel, &mut images.strength)
     }
 

@@ -1,6 +1,9 @@
-//! The depth of the cut surface: per level the piece with the smallest cost, blended between the two levels
-//! that the distance selects (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2;
-//! Eq. 2).
+//! The depth of the cut surface: the piece with the smallest key at each pixel, and the blend of two levels of detail
+//! (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
+
+mod blend;
+mod nearest;
+mod own;
 
 use rayon::prelude::*;
 
@@ -9,13 +12,14 @@ use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
-use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch, places, smaller};
+use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch};
 use crate::math::levels::CutSurfaceParameters;
+use crate::math::own_pieces::{Decision, NearestPieces, OwnPieces};
 use crate::math::pieces::Envelope;
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::tile::{Tile, gather, scatter};
 use crate::math::walk::{Seeds, lowest_keys};
-use crate::settings::{MAX_LEVELS, Settings};
+use crate::settings::{LevelChoice, MAX_LEVELS, Settings};
 
 /// The levels of a tree in one view, the rule that orders their pieces, and how levels are selected.
 pub struct CutSurface<'a> {
@@ -24,7 +28,8 @@ pub struct CutSurface<'a> {
     camera: &'a Camera,
     rule: Rule,
     lumen_first: bool,
-    /// N / σ (levels² per mm): f² = this · D.
+    level_choice: LevelChoice,
+    /// N / σ (levels² per mm): f² = this · the distance that selects.
     selection: f32,
 }
 
@@ -44,6 +49,7 @@ impl<'a> CutSurface<'a> {
             camera,
             rule: parameters.rule(),
             lumen_first: settings.lumen_first,
+            level_choice: settings.level_choice,
             selection: parameters.selection,
         }
     }
@@ -63,58 +69,21 @@ impl<'a> CutSurface<'a> {
     pub(crate) fn hierarchy(&self, level: usize) -> &'a Hierarchy {
         &self.projected[level].hierarchy
     }
-}
 
-/// The two levels that each pixel of a tile blends, and the weights of their depths.
-struct LevelBlend {
-    /// k0, as a number that compares exactly.
-    fine: [f32; PIXELS],
-    fine_weight: [f32; PIXELS],
-    /// The weight of k0 + 1; 0 where k0 = N.
-    coarse_weight: [f32; PIXELS],
-}
-
-impl LevelBlend {
-    /// Level selection at distance D: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond.
+    /// The pieces of a level in the order of its vessels.
     #[inline(always)]
-    fn select(selection: f32, coarsest: usize, distance: &[f32; PIXELS]) -> Self {
-        let zero = [0.0; PIXELS];
-        let mut blend = Self { fine: zero, fine_weight: zero, coarse_weight: zero };
-        let last = coarsest as f32;
-        for l in 0..PIXELS {
-            let f = smaller((selection * distance[l]).sqrt(), last);
-            let fine = (f as i32) as f32;
-            blend.fine[l] = fine;
-            blend.fine_weight[l] = fine + 1.0 - f;
-            blend.coarse_weight[l] = f - fine;
+    pub(crate) fn own_pieces(&self, level: usize) -> OwnPieces<'_> {
+        OwnPieces {
+            level: &self.levels[level],
+            projected: &self.projected[level].projected,
+            rule: &self.rule,
         }
-        blend
-    }
-
-    /// Bit k tells whether some pixel needs level k.
-    #[inline(always)]
-    fn needed(&self) -> u32 {
-        let (mut bits, mut all) = ([0u32; PIXELS], 0);
-        for l in 0..PIXELS {
-            let pair = if self.coarse_weight[l] > 0.0 { 3 } else { 1 };
-            bits[l] = pair << (self.fine[l] as i32);
-        }
-        for l in 0..PIXELS {
-            all |= bits[l];
-        }
-        all
-    }
-
-    /// The weight of level `k` at pixel `l`; 0 where it is not needed.
-    #[inline(always)]
-    fn weight(&self, k: f32, l: usize) -> f32 {
-        let coarse = if self.fine[l] + 1.0 == k { self.coarse_weight[l] } else { 0.0 };
-        if self.fine[l] == k { self.fine_weight[l] } else { coarse }
     }
 }
 
-/// How the winners of one level over a tile are found.
+/// How the pieces that a tile shows are found.
 pub(crate) trait Search {
+    /// The winners of one level.
     fn lowest<const LUMEN_FIRST: bool>(
         &mut self,
         level: usize,
@@ -122,9 +91,12 @@ pub(crate) trait Search {
         rule: &Rule,
         envelope: &mut Envelope,
     );
+
+    /// The pieces of one level that belong to the vessels already decided on.
+    fn own(&mut self, pieces: OwnPieces, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces);
 }
 
-/// By the walk through the hierarchy, seeded with the winners of the tile before.
+/// By the walk through the hierarchy, seeded with the winners of the tile before, and along the vessels.
 struct LowestKeySearch<'a> {
     surface: &'a CutSurface<'a>,
     seeds: [Seeds; MAX_LEVELS + 1],
@@ -143,21 +115,35 @@ impl Search for LowestKeySearch<'_> {
         lowest_keys::<LUMEN_FIRST>(hierarchy, tile, rule, &self.seeds[level], envelope);
         self.seeds[level] = Seeds::collect(envelope, &self.surface.levels[level].bundle_of_slot);
     }
+
+    #[inline(always)]
+    fn own(&mut self, pieces: OwnPieces, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces) {
+        pieces.find(tile, decision, nearest);
+    }
 }
 
-/// Writes depth (mm) and vessel id of the cut surface at each pixel of the view, given the distances.
+/// What is known of the surface beside its depth in a pixel: how its depth changes to the right and upwards (mm per mm),
+/// the radius of its vessel (mm), and how far apart along the vessel the two places are that are blended there
+/// (mm; [`crate::math::lanes::FAR`] where they belong to different vessels).
+pub type Sheet = [f32; 4];
+
+/// The images that the stage writes. `sheet` is empty where nothing reads it.
+#[derive(Debug)]
+#[allow(missing_docs)]
+pub struct DepthImages<'a> {
+    pub depth: &'a mut [f32],
+    pub vessel: &'a mut [i32],
+    pub sheet: &'a mut [Sheet],
+}
+
+/// Writes depth (mm), vessel id and sheet of the cut surface at each pixel of the view. With the level choice `nearest`
+/// it needs the distances; with `own` they may be empty.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn depth(
-    work: &Work,
-    surface: &CutSurface,
-    distance: &[f32],
-    depth: &mut [f32],
-    vessel: &mut [i32],
-) -> Result<()> {
+pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
     let seeds = [Seeds::default(); MAX_LEVELS + 1];
-    depth_by(work, surface, distance, depth, vessel, || LowestKeySearch { surface, seeds })
+    depth_by(work, surface, distance, images, || LowestKeySearch { surface, seeds })
 }
 
 /// [`depth`] with a search of its own for each row of tiles.
@@ -165,18 +151,27 @@ pub(crate) fn depth_by<S: Search>(
     work: &Work,
     surface: &CutSurface,
     distance: &[f32],
-    depth: &mut [f32],
-    vessel: &mut [i32],
+    images: DepthImages,
     search: impl Fn() -> S + Sync,
 ) -> Result<()> {
-    work.expect_whole(Image::Distance, distance);
+    let DepthImages { depth, vessel, sheet } = images;
     work.expect_whole(Image::UnfilteredDepth, depth);
     work.expect_whole(Image::Vessel, vessel);
+    if surface.level_choice == LevelChoice::Nearest {
+        work.expect_whole(Image::Distance, distance);
+    }
+    if !sheet.is_empty() {
+        work.expect_whole(Image::Sheet, sheet);
+    }
     let chunk = work.tile_row();
-    let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(distance.par_chunks(chunk));
-    rows.enumerate().try_for_each(|(row, ((depth, vessel), distance))| {
+    let mut sheets: Vec<&mut [Sheet]> = sheet.chunks_mut(chunk).collect();
+    sheets.resize_with(depth.len().div_ceil(chunk), Default::default);
+    let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets);
+    rows.enumerate().try_for_each(|(row, ((depth, vessel), sheet))| {
         work.go_on()?;
-        let (row, search) = (DepthRow { surface, row, distance, depth, vessel }, search());
+        let from = (row * chunk).min(distance.len());
+        let distance = &distance[from..(from + depth.len()).min(distance.len())];
+        let (row, search) = (DepthRow { surface, row, distance, depth, vessel, sheet }, search());
         if surface.lumen_first {
             dispatch(work.isa, DepthKernel::<S, true> { row, search });
         } else {
@@ -193,6 +188,7 @@ struct DepthRow<'a> {
     distance: &'a [f32],
     depth: &'a mut [f32],
     vessel: &'a mut [i32],
+    sheet: &'a mut [Sheet],
 }
 
 struct DepthKernel<'a, S: Search, const LUMEN_FIRST: bool> {
@@ -209,54 +205,33 @@ impl<S: Search, const LUMEN_FIRST: bool> Kernel for DepthKernel<'_, S, LUMEN_FIR
     }
 }
 
+/// The surface over one tile.
+struct TileSurface {
+    depth: [f32; PIXELS],
+    vessel: [i32; PIXELS],
+    sheet: [Sheet; PIXELS],
+}
+
 impl DepthRow<'_> {
     /// Fills the row, tile by tile.
     #[inline(always)]
     fn fill<const LUMEN_FIRST: bool>(self, search: &mut impl Search) {
-        let camera = self.surface.camera;
-        let width = camera.size()[0];
+        let (surface, camera) = (self.surface, self.surface.camera);
+        let (width, with_sheet) = (camera.size()[0], !self.sheet.is_empty());
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
-            let distance = gather(self.distance, width, column);
-            let (depth, vessel) = self.surface.blend::<LUMEN_FIRST>(&tile, &distance, search);
-            scatter(&depth, self.depth, width, column);
-            scatter(&vessel, self.vessel, width, column);
-        }
-    }
-}
-
-impl CutSurface<'_> {
-    /// Depth and vessel id over one tile.
-    #[inline(always)]
-    fn blend<const LUMEN_FIRST: bool>(
-        &self,
-        tile: &Tile,
-        distance: &[f32; PIXELS],
-        search: &mut impl Search,
-    ) -> ([f32; PIXELS], [i32; PIXELS]) {
-        let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
-        let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
-        // The slot that rules each pixel, in the level it belongs to: the one with the larger weight.
-        let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
-        // Finest first: the coarse term is added to the fine one, and a tie stays with the finer level.
-        for level in places(blend.needed()) {
-            let mut weight = [0.0; PIXELS];
-            for l in 0..PIXELS {
-                weight[l] = blend.weight(level as f32, l);
-            }
-            let mut envelope = Envelope::new(&weight);
-            search.lowest::<LUMEN_FIRST>(level, tile, &self.rule, &mut envelope);
-            for l in 0..PIXELS {
-                depth[l] += weight[l] * envelope.z[l];
-                let rules = weight[l] > ruling_weight[l];
-                ruling_weight[l] = if rules { weight[l] } else { ruling_weight[l] };
-                ruling_level[l] = if rules { level as u32 } else { ruling_level[l] };
-                slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
+            let over = match surface.level_choice {
+                LevelChoice::Own => surface.own::<LUMEN_FIRST>(&tile, with_sheet, search),
+                LevelChoice::Nearest => {
+                    let distance = gather(self.distance, width, column);
+                    surface.nearest::<LUMEN_FIRST>(&tile, &distance, with_sheet, search)
+                }
+            };
+            scatter(&over.depth, self.depth, width, column);
+            scatter(&over.vessel, self.vessel, width, column);
+            if with_sheet {
+                scatter(&over.sheet, self.sheet, width, column);
             }
         }
-        for l in 0..PIXELS {
-            vessel[l] = self.levels[ruling_level[l] as usize].vessel_of_slot[slot[l] as usize];
-        }
-        (depth, vessel)
     }
 }

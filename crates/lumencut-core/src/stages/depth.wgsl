@@ -1,11 +1,16 @@
-// The depth of the cut surface: per level the piece with the smallest cost, blended between the two levels that the
-// distance selects (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
+// The depth of the cut surface: the piece with the smallest key at each pixel, and the blend of two levels of detail (paper
+// sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
 // import math/walk
+// import math/own_pieces
 
-@group(0) @binding(4) var<storage, read> distance_image: array<f32>;
-@group(0) @binding(5) var<storage, read> vessel_of_slot: array<i32>;
-@group(0) @binding(6) var<storage, read_write> depth_image: array<f32>;
-@group(0) @binding(7) var<storage, read_write> vessel_image: array<i32>;
+// Whether the sheet is written.
+override HAS_SHEET: bool = false;
+
+@group(0) @binding(4) var<storage, read> vessel_of_slot: array<i32>;
+@group(0) @binding(5) var<storage, read_write> depth_image: array<f32>;
+@group(0) @binding(6) var<storage, read_write> vessel_image: array<i32>;
+@group(0) @binding(7) var<storage, read_write> sheet_image: array<vec4f>;
+@group(0) @binding(9) var<storage, read> distance_image: array<f32>;
 
 // The finer of the two levels that each pixel blends, and the weight of the coarser; 0 where there is none.
 var<private> fine_level: array<vec4f, MAX_QUADS>;
@@ -14,6 +19,10 @@ var<private> coarse_weight: array<vec4f, MAX_QUADS>;
 var<private> blended: array<vec4f, MAX_QUADS>;
 var<private> ruling_weight: array<vec4f, MAX_QUADS>;
 var<private> ruling_slot: array<vec4u, MAX_QUADS>;
+// The sheet so far; and of the finer of two levels the vessel, counted from 1 so that 0 is none yet, and the arc length.
+var<private> sheets: array<array<vec4f, QUAD>, MAX_QUADS>;
+var<private> finer_vessel: array<vec4u, MAX_QUADS>;
+var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
 
 // Level selection at the distances of the tile: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond. Bit k tells whether
 // some pixel needs level k.
@@ -67,8 +76,35 @@ fn blend(level: u32) {
     }
 }
 
+// Adds a level to the sheets by its weights, finest first.
+fn add_to_sheets(tile: Tile, level: u32) {
+    for (var r = 0u; r < ROWS; r++) {
+        for (var a = 0u; a < ACROSS; a++) {
+            let n = quad_of(a, r);
+            let weight = weights(n, f32(level));
+            for (var c = 0u; c < QUAD; c++) {
+                if weight[c] > 0.0 {
+                    let piece = winner_piece[n][c];
+                    let vessel = vessel_of_slot[parameters.levels[level].first_slot + piece / 2u];
+                    let q = vec2f(quad_x[a][c], row_y[r]);
+                    let found = decide(level, winner_key[n][c], piece, vessel, q);
+                    sheets[n][c] += weight[c] * vec4f(found.slope, found.radius, 0.0);
+                    let counted = u32(vessel) + 1u;
+                    if finer_vessel[n][c] != 0u {
+                        let apart = abs(found.arc_length - finer_arc_length[n][c]);
+                        sheets[n][c].w = select(FAR, apart, counted == finer_vessel[n][c]);
+                    }
+                    finer_vessel[n][c] = counted;
+                    finer_arc_length[n][c] = found.arc_length;
+                }
+            }
+        }
+    }
+}
+
+// The paper's way: at each level the piece with the smallest key, whichever vessel it belongs to.
 @compute @workgroup_size(TILES)
-fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
+fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
     let tile = tile_at(group.xy, thread);
     if !in_view(tile.pixel) {
         return;
@@ -80,6 +116,9 @@ fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) t
         begin(f32(level));
         lowest_keys(tile, level);
         blend(level);
+        if HAS_SHEET {
+            add_to_sheets(tile, level);
+        }
     }
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
@@ -88,6 +127,58 @@ fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) t
                 if in_view(pixel) {
                     depth_image[place_of(pixel)] = blended[quad_of(a, r)][c];
                     vessel_image[place_of(pixel)] = vessel_of_slot[ruling_slot[quad_of(a, r)][c]];
+                    if HAS_SHEET {
+                        sheet_image[place_of(pixel)] = sheets[quad_of(a, r)][c];
+                    }
+                }
+            }
+        }
+    }
+}
+
+// One decision: the winner on the finest level decides the vessel; the levels are those of that vessel alone.
+fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
+    let f = min(sqrt(parameters.selection * decision.beyond_wall), f32(parameters.coarsest));
+    let fine = floor(f);
+    var fine_piece = NearestPiece(0.0, 0.0, 0.0, NO_SLOT, z, decision.slope);
+    if fine > 0.0 {
+        fine_piece = nearest_piece(u32(fine), decision, q);
+    }
+    let weight = f - fine;
+    var coarse_piece = fine_piece;
+    if weight > 0.0 {
+        coarse_piece = nearest_piece(u32(fine) + 1u, decision, q);
+    }
+    depth_image[place] = (1.0 - weight) * fine_piece.z + weight * coarse_piece.z;
+    vessel_image[place] = decision.vessel;
+    if HAS_SHEET {
+        let slope = (1.0 - weight) * fine_piece.slope + weight * coarse_piece.slope;
+        sheet_image[place] = vec4f(slope, decision.radius, abs(coarse_piece.along - fine_piece.along));
+    }
+}
+
+@compute @workgroup_size(TILES)
+fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
+    let tile = tile_at(group.xy, thread);
+    if !in_view(tile.pixel) {
+        return;
+    }
+    for (var q = 0u; q < ACROSS * ROWS; q++) {
+        winner_key[q] = vec4f(UNSET);
+        winner_z[q] = vec4f(0.0);
+        winner_piece[q] = vec4u(NO_SLOT);
+    }
+    lowest_keys(tile, 0u);
+    for (var r = 0u; r < ROWS; r++) {
+        for (var a = 0u; a < ACROSS; a++) {
+            for (var c = 0u; c < QUAD; c++) {
+                let pixel = pixel_of(tile, a, r, c);
+                if in_view(pixel) {
+                    let n = quad_of(a, r);
+                    let q = vec2f(quad_x[a][c], row_y[r]);
+                    let vessel = vessel_of_slot[parameters.levels[0].first_slot + winner_piece[n][c] / 2u];
+                    let decision = decide(0u, winner_key[n][c], winner_piece[n][c], vessel, q);
+                    blend_own(place_of(pixel), decision, winner_z[n][c], q);
                 }
             }
         }

@@ -2,9 +2,10 @@
 //! (paper sections 3.1.4 and 3.2.2).
 //!
 //! Level k + 1 is the clamped cubic B-spline with uniform knots over the points of level k, evaluated at half
-//! as many parameters. The ends stay exactly where they are, so branches stay connected.
+//! as many parameters. The ends stay exactly where they are, so branches stay connected. Radii and arc lengths go
+//! through the same filter.
 
-use glam::{DVec3, DVec4};
+use glam::DVec4;
 
 use crate::vessel_tree::{Vessel, VesselTree};
 
@@ -18,12 +19,16 @@ pub fn levels(tree: &VesselTree, count: usize) -> Vec<VesselTree> {
     levels
 }
 
+/// A control point of the spline: a point (mm) with its radius (mm), and its arc length on the vessel itself (mm).
+type Control = (DVec4, f64);
+
 /// The next coarser level of one vessel.
 fn smooth(vessel: &Vessel) -> Vessel {
     let points = vessel.points();
     let count = points.len().div_ceil(2).max(2);
     let last = points.len() - 1;
-    let controls: Vec<DVec4> = (0..=last).map(|i| points[i].extend(vessel.radius_or_zero(i))).collect();
+    let control = |i: usize| (points[i].extend(vessel.radius_or_zero(i)), vessel.arc_length()[i]);
+    let controls: Vec<Control> = (0..=last).map(control).collect();
     let mut samples = Vec::with_capacity(count);
     samples.push(controls[0]);
     // Three points or fewer become the two ends: the straight line between them.
@@ -32,23 +37,34 @@ fn smooth(vessel: &Vessel) -> Vessel {
         samples.extend((1..count - 1).map(|j| spline(&controls, j as f64 / (count - 1) as f64 * spans)));
     }
     samples.push(controls[last]);
-    let radius = vessel.radius().map(|_| samples.iter().map(|s| s.w.max(0.0)).collect());
-    Vessel::from_checked(samples.iter().map(|s| DVec3::new(s.x, s.y, s.z)).collect(), radius)
+    let radius = vessel.radius().map(|_| samples.iter().map(|(s, _)| s.w.max(0.0)).collect());
+    // Rounding must not let the arc length fall: the pieces of a level are searched by it.
+    let rising = samples.iter().scan(0.0, |so_far: &mut f64, (_, arc_length)| {
+        *so_far = so_far.max(*arc_length);
+        Some(*so_far)
+    });
+    let arc_length = rising.collect();
+    Vessel::coarser(samples.iter().map(|(s, _)| s.truncate()).collect(), radius, arc_length)
 }
 
 /// The clamped cubic B-spline with uniform knots at parameter `u` in [0, n − 3] (de Boor's algorithm).
-fn spline(controls: &[DVec4], u: f64) -> DVec4 {
+fn spline(controls: &[Control], u: f64) -> Control {
     let spans = controls.len() - 3;
     let knot = |i: usize| i.saturating_sub(3).min(spans) as f64;
     // The span of u, counted among all knots: knot(span) ≤ u < knot(span + 1).
     let span = (u as usize).min(spans - 1) + 3;
-    let mut d: [DVec4; 4] = std::array::from_fn(|j| controls[span - 3 + j]);
+    let mut d: [Control; 4] = std::array::from_fn(|j| controls[span - 3 + j]);
     for round in 1..=3 {
         for j in (round..=3).rev() {
             let left = knot(span - 3 + j);
             let right = knot(span + 1 + j - round);
-            d[j] = d[j - 1].lerp(d[j], (u - left) / (right - left));
+            d[j] = between(d[j - 1], d[j], (u - left) / (right - left));
         }
     }
     d[3]
+}
+
+/// The control point at the share `t` of the way from one to another.
+fn between(from: Control, to: Control, t: f64) -> Control {
+    (from.0.lerp(to.0, t), from.1 * (1.0 - t) + to.1 * t)
 }

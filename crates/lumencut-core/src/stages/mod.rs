@@ -5,6 +5,7 @@ pub mod context;
 pub mod depth;
 pub mod depth_filter;
 pub mod distance;
+pub mod leap;
 pub mod levels;
 pub mod silhouette;
 pub mod surface;

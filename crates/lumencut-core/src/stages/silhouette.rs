@@ -1,5 +1,5 @@
-//! Silhouettes: lines where the cut surface leaps, strongest between influence zones (paper section
-//! 3.3.5).
+//! Silhouettes: lines where the cut surface leaps; or, as in the paper (section 3.3.5), where it is steep, strongest
+//! between influence zones.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -9,6 +9,7 @@ use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
+use crate::math::leaps::{DOWNWARDS, TO_THE_RIGHT};
 use crate::settings::Settings;
 
 /// How much a leap between the influence zones of two vessels counts beside one within a zone.
@@ -60,6 +61,29 @@ pub fn silhouette(
     depth_filter(work, &DepthFilterParameters::new(), &raised, strength)?;
     strength.par_chunks_mut(chunk).for_each(|slopes| dispatch(work.isa, Strength { slopes, half }));
     Ok(())
+}
+
+/// Writes the strength of the silhouette, 0 to 1, at each pixel: 1 beside every leap, smoothed.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Interrupted`].
+pub fn silhouette_of_leaps(work: &Work, leap: &[u32], strength: &mut [f32]) -> Result<()> {
+    work.expect_whole(Image::Leap, leap);
+    work.expect_whole(Image::Strength, strength);
+    let width = work.size[0];
+    let mut beside = vec![0.0; leap.len()];
+    beside.par_chunks_mut(width).enumerate().try_for_each(|(j, beside)| {
+        work.go_on()?;
+        let row = &leap[j * width..(j + 1) * width];
+        let above = &leap[j.saturating_sub(1) * width..];
+        for (i, beside) in beside.iter_mut().enumerate() {
+            let from_left = i > 0 && row[i - 1] & TO_THE_RIGHT != 0;
+            let from_above = j > 0 && above[i] & DOWNWARDS != 0;
+            *beside = f32::from(u8::from(row[i] != 0 || from_left || from_above));
+        }
+        Ok(())
+    })?;
+    depth_filter(work, &DepthFilterParameters::new(), &beside, strength)
 }
 
 /// Maps slopes to strengths.

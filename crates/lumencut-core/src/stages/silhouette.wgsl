@@ -1,6 +1,8 @@
-// Silhouettes: lines where the cut surface leaps, strongest between influence zones (paper section 3.3.5). Three passes:
-// the raised slope, the depth filter over it, and its strength.
+// Silhouettes: lines where the cut surface leaps; or, as in the paper (section 3.3.5), where it is steep, strongest between
+// influence zones. The first in two passes: what lies beside a leap, and the depth filter over it. The second in three: the
+// raised slope, the depth filter over it, and its strength.
 // import math/view
+// import math/leaps
 
 // How much a leap between the influence zones of two vessels counts beside one within a zone.
 const ZONE_BORDER: f32 = 4.0;
@@ -59,4 +61,22 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
     let place = place_of(thread.xy);
     let square = min(slopes[place] * slopes[place], STEEPEST);
     slopes[place] = square / (square + parameters.half);
+}
+
+@group(0) @binding(1) var<storage, read> leap: array<u32>;
+
+@compute @workgroup_size(16, 4)
+fn beside_leaps(@builtin(global_invocation_id) thread: vec3u) {
+    if !in_view(thread.xy) {
+        return;
+    }
+    let place = place_of(thread.xy);
+    var is_beside = leap[place] != 0u;
+    if thread.x > 0u {
+        is_beside |= (leap[place - 1u] & TO_THE_RIGHT) != 0u;
+    }
+    if thread.y > 0u {
+        is_beside |= (leap[place - view.size.x] & DOWNWARDS) != 0u;
+    }
+    slopes[place] = select(0.0, 1.0, is_beside);
 }

@@ -3,7 +3,7 @@
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Geometry;
-use crate::settings::Settings;
+use crate::settings::{LevelChoice, Settings, SilhouetteRule};
 
 /// An image of a view: one number or one vector for each pixel, in rows from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,6 +16,10 @@ pub enum Image {
     Depth,
     /// Id of the vessel whose influence zone a pixel is in, i32.
     Vessel,
+    /// Slopes, radius and blend of the cut surface before the depth filter, four f32 (`stages::depth::Sheet`).
+    Sheet,
+    /// Where the cut surface leaps, as bits of u32 (`stages::leap`).
+    Leap,
     /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
     /// Strength of the silhouettes, 0 to 1, f32.
@@ -32,11 +36,13 @@ pub enum Image {
 
 impl Image {
     /// Every image.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Distance,
         Self::UnfilteredDepth,
         Self::Depth,
         Self::Vessel,
+        Self::Sheet,
+        Self::Leap,
         Self::Value,
         Self::Strength,
         Self::Start,
@@ -125,6 +131,8 @@ pub enum Stage {
     Distance,
     /// Depth and vessel of the cut surface.
     Depth,
+    /// Neighbours between which the cut surface leaps.
+    Leap,
     /// The Gaussian over the depth.
     DepthFilter,
     /// The volume at the cut surface.
@@ -142,11 +150,12 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
         Self::Depth,
+        Self::Leap,
         Self::DepthFilter,
         Self::Surface,
         Self::Silhouette,
@@ -162,6 +171,7 @@ impl Stage {
             Self::Projection => "projection",
             Self::Distance => "distance",
             Self::Depth => "depth",
+            Self::Leap => "leap",
             Self::DepthFilter => "depth_filter",
             Self::Surface => "surface",
             Self::Silhouette => "silhouette",
@@ -176,20 +186,23 @@ impl Stage {
         match self {
             Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
             Self::Depth => &[Image::Distance],
+            Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth],
             Self::Surface => &[Image::Depth],
-            Self::Silhouette => &[Image::Depth, Image::Vessel],
+            Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap],
             Self::Context => &[Image::Depth, Image::Value],
             Self::Composite => &[Image::Value, Image::Strength, Image::Gathered],
         }
     }
 
-    /// The images that it writes, one after the other and for every pixel. A stage without images prepares for others.
+    /// The images that it writes, one after the other and for every pixel, where something needs them. A stage without
+    /// images prepares for others.
     pub const fn writes(self) -> &'static [Image] {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => &[],
             Self::Distance => &[Image::Distance],
-            Self::Depth => &[Image::UnfilteredDepth, Image::Vessel],
+            Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet],
+            Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
             Self::Surface => &[Image::Value],
             Self::Silhouette => &[Image::Strength],
@@ -198,21 +211,44 @@ impl Stage {
         }
     }
 
-    /// The stages that find where a view cuts through the projected vessels, in their order.
-    pub fn of_cut_surface(settings: &Settings) -> impl Iterator<Item = Self> + use<> {
-        let filter = settings.depth_filter.then_some(Self::DepthFilter);
-        [Self::Distance, Self::Depth].into_iter().chain(filter)
+    /// The stages that find where a view cuts through the projected vessels, in their order; `wanted` are the images that
+    /// shall come of the view.
+    pub fn of_cut_surface(settings: &Settings, wanted: ImageSet) -> Vec<Self> {
+        let own = settings.level_choice == LevelChoice::Own;
+        let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;
+        let has_leaps = wanted.has(Image::Leap) || (draws_leaps && wanted.has(Image::Picture));
+        let stages = [
+            (Self::Distance, !own || wanted.has(Image::Distance)),
+            (Self::Depth, true),
+            (Self::Leap, has_leaps),
+            (Self::DepthFilter, settings.depth_filter),
+        ];
+        needed(&stages)
+    }
+
+    /// Whether it is one of those that find the cut surface.
+    pub const fn is_of_cut_surface(self) -> bool {
+        matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter)
+    }
+
+    /// Whether the stage `depth` of such a view writes the sheet: for leaps, or where it is wanted.
+    pub fn has_sheet(settings: &Settings, wanted: ImageSet) -> bool {
+        wanted.has(Image::Sheet) || Self::of_cut_surface(settings, wanted).contains(&Self::Leap)
     }
 
     /// The stages that show what is there, in their order. `made` are the images that are there: without a depth the context
-    /// alone is shown, and silhouettes need vessels too. At places of their own, which no camera looks at, there are neither
+    /// alone is shown, and silhouettes need leaps or vessels too. At places of their own, which no camera looks at, there are neither
     /// silhouettes nor a context.
     pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet) -> Vec<Self> {
         if matches!(geometry, Geometry::Curved(_)) {
             return vec![Self::Surface, Self::Composite];
         }
         let has_surface = made.has(Image::Depth);
-        let has_silhouettes = settings.silhouettes && has_surface && made.has(Image::Vessel);
+        let drawn_from = match settings.silhouette_rule {
+            SilhouetteRule::Leap => Image::Leap,
+            SilhouetteRule::Gradient => Image::Vessel,
+        };
+        let has_silhouettes = settings.silhouettes && has_surface && made.has(drawn_from);
         let has_context = settings.context.is_some();
         let wanted = [
             (Self::Surface, has_surface),
@@ -221,6 +257,11 @@ impl Stage {
             (Self::Context, has_context),
             (Self::Composite, true),
         ];
-        wanted.into_iter().filter(|(_, is_wanted)| *is_wanted).map(|(stage, _)| stage).collect()
+        needed(&wanted)
     }
+}
+
+/// Those of some stages that are needed.
+fn needed(stages: &[(Stage, bool)]) -> Vec<Stage> {
+    stages.iter().filter(|(_, is_needed)| *is_needed).map(|(stage, _)| *stage).collect()
 }

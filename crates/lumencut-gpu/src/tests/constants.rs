@@ -7,11 +7,11 @@ use std::f32::consts;
 use lumencut_core::math::blocks::Range;
 use lumencut_core::math::context_parameters::Gathering;
 use lumencut_core::math::{
-    accumulate, blocks, hierarchy, lanes, light, projection, ray, sampling, thickness, transfer,
+    accumulate, blocks, hierarchy, lanes, leaps, light, projection, ray, sampling, thickness, transfer,
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
-use lumencut_core::stages::{context, silhouette, surface};
+use lumencut_core::stages::{context, leap, silhouette, surface};
 use naga::{Expression, Handle, Literal, Module};
 
 use crate::cut_surface;
@@ -79,6 +79,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/blocks": blocks::SIDE_BITS, Range::ALL;
         "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::SETTLED, hierarchy::NO_SLOT,
             blocks::HUGE;
+        "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS;
         "math/levels": settings::MAX_LEVELS;
         "math/light": light::AMBIENT, light::DIFFUSE, light::SPECULAR, light::STEEPEST, light::UNSHADED;
         "math/projection": projection::COLLINEAR_LENGTH, cut_surface::POINT_THREADS;
@@ -88,6 +89,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
         "stages/context": context::IN_FRONT;
+        "stages/leap": leap::SMALLEST_LEAP;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
         "stages/surface": surface::MEAN, surface::LARGEST, surface::SMALLEST;
     };

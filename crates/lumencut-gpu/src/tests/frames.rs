@@ -8,7 +8,7 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::frame::Frame;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
-use lumencut_core::settings::{Context, Opacity, Settings, Slab, SlabMode};
+use lumencut_core::settings::{Context, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode};
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, trefoil, y_junction};
 use lumencut_scenes::compare::assert_equal;
@@ -32,7 +32,28 @@ fn with(change: impl Fn(&mut Settings)) -> Settings {
 fn all_settings() -> Vec<(&'static str, Settings)> {
     vec![
         ("default", Settings::default()),
-        ("lumen first", with(|s| (s.lumen_first, s.lumen_margin) = (true, 1.0))),
+        ("the paper's", Settings::paper()),
+        ("own levels by cost", with(|s| (s.lumen_first, s.level_choice) = (false, LevelChoice::Own))),
+        ("lumen first, nearest", with(|s| (s.lumen_first, s.level_choice) = (true, LevelChoice::Nearest))),
+        (
+            "own levels, lumen first",
+            with(|s| {
+                (s.lumen_first, s.lumen_margin, s.level_choice) = (true, 1.0, LevelChoice::Own);
+                s.silhouette_rule = SilhouetteRule::Leap;
+            }),
+        ),
+        (
+            "many own levels",
+            with(|s| {
+                (s.levels, s.level_distance, s.level_choice) = (15, 1.0, LevelChoice::Own);
+            }),
+        ),
+        (
+            "leaps of nearest levels",
+            with(|s| {
+                (s.silhouette_rule, s.level_choice) = (SilhouetteRule::Leap, LevelChoice::Nearest);
+            }),
+        ),
         ("one level", with(|s| s.levels = 0)),
         ("no filter", with(|s| s.depth_filter = false)),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
@@ -172,6 +193,7 @@ fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
 /// Something of everything: a filter, a slab, silhouettes, and context behind what is transparent.
 fn everything() -> Settings {
     with(|s| {
+        (s.level_choice, s.silhouette_rule) = (LevelChoice::Own, SilhouetteRule::Leap);
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })

@@ -9,11 +9,12 @@ use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
+use lumencut_core::stages::leap::LeapParameters;
 use lumencut_core::stages::silhouette::SilhouetteParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 
-use crate::levels::{NodeBox, Point, Projected, Slot, Span};
+use crate::levels::{Along, NodeBox, Point, Projected, Slot, Span};
 use crate::shader::assemble;
 use crate::surface::CurvedPlace;
 use crate::view::{Axis, ViewParameters};
@@ -57,6 +58,9 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 selection,
                 coarsest,
                 radius_scale,
+                unknown_radius,
+                vessel_count,
+                padding,
                 origin_coarse,
                 origin_fine,
                 levels
@@ -81,8 +85,13 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
             }
         ),
         host!("math/projection", Point { coarse, radius, fine, place }),
-        host!("math/projection", Projected { point, radius, edge, padding }),
-        host!("math/projection", Span { first, end, level }),
+        host!("math/projection", Along { next, arc_length }),
+        host!(
+            "math/levels",
+            Projected { point, radius, edge, before, inverse_length, arc_length, stands, padding }
+        ),
+        host!("math/levels", Span { first, end, level }),
+        host!("stages/leap", LeapParameters { pixel_spacing }),
         host!(
             "math/sampling",
             GridParameters {

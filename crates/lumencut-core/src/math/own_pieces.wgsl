@@ -1,0 +1,153 @@
+// What the winner of a pixel decides, and the pieces of its own vessel at coarser levels: the one whose arc length is nearest
+// to the winner's. Each pixel is looked up by itself.
+// import math/lanes
+// import math/levels
+// import math/cost
+
+@group(0) @binding(8) var<storage, read> projected: array<Projected>;
+@group(0) @binding(9) var<storage, read> spans: array<Span>;
+
+// What was decided for a pixel, once, on the finest level.
+struct Decision {
+    vessel: i32,
+    // Where along the vessel the pixel looks (mm).
+    arc_length: f32,
+    // How far it lies beyond the vessel's wall (mm); 0 within.
+    beyond_wall: f32,
+    // The radius of the vessel there (mm).
+    radius: f32,
+    // How the depth changes to the right and upwards (mm per mm).
+    slope: vec2f,
+}
+
+// How a pixel lies to a stripe.
+struct Foot {
+    covered: bool,
+    // Where along the stripe its foot is, from 0 to 1 where it is covered.
+    t: f32,
+    // Its distance from the line of the stripe (mm).
+    distance: f32,
+}
+
+// How the pixel at `q` lies to the stripe from one point to the next.
+fn foot(here: Projected, next: Projected, q: vec2f) -> Foot {
+    let u = q - here.point.xy;
+    let w = q - next.point.xy;
+    let unit = here.edge * here.inverse_length;
+    let after_start = u.x * here.edge.x + u.y * here.edge.y;
+    let beyond_end = w.x * here.edge.x + w.y * here.edge.y;
+    let t = min(after_start * (here.inverse_length * here.inverse_length), 1.0);
+    return Foot(after_start >= 0.0 && beyond_end <= 0.0, t, abs(u.x * unit.y - u.y * unit.x));
+}
+
+// How the depth of the stripe from one point to the next changes to the right and upwards (mm per mm).
+fn slope_of(here: Projected, next: Projected) -> vec2f {
+    return here.edge * (here.inverse_length * here.inverse_length * (next.point.z - here.point.z));
+}
+
+// What a winner of a level decides for the pixel at `q`.
+fn decide(level: u32, key: f32, piece: u32, vessel: i32, q: vec2f) -> Decision {
+    let i = parameters.levels[level].first_slot + piece / 2u;
+    let here = projected[i];
+    let is_stripe = piece % 2u == 1u;
+    let next = projected[select(i, i + 1u, is_stripe)];
+    let at = foot(here, next, q);
+    let t = select(0.0, at.t, is_stripe);
+    let distance = select(length(q - here.point.xy), at.distance, is_stripe);
+    let radius = here.radius + t * (next.radius - here.radius);
+    let s = here.arc_length + t * (next.arc_length - here.arc_length);
+    return Decision(vessel, s, beyond_wall(key, distance, radius), radius, slope_of(here, next));
+}
+
+// The piece of a pixel's vessel so far whose arc length is nearest.
+struct NearestPiece {
+    // From the winner to the piece along the vessel (mm), and how far that is.
+    along: f32,
+    apart: f32,
+    // What the piece costs, for pieces equally far, and its order for those that cost the same.
+    cost: f32,
+    piece: u32,
+    // Its depth (mm), and how that changes to the right and upwards (mm per mm).
+    z: f32,
+    slope: vec2f,
+}
+
+// What a piece at a depth costs, at a distance from its centerline of some radius.
+fn cost_of(z: f32, d: f32, r: f32) -> f32 {
+    return z + parameters.weight * max(d - r, 0.0);
+}
+
+// The nearer of two pieces.
+fn nearer_of(a: NearestPiece, b: NearestPiece) -> NearestPiece {
+    let is_first = b.cost < a.cost || (b.cost == a.cost && b.piece < a.piece);
+    if b.apart < a.apart || (b.apart == a.apart && is_first) {
+        return b;
+    }
+    return a;
+}
+
+// The nearest piece so far, or a piece of point `i` if it is nearer and covers the pixel at `q`.
+fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiece {
+    var nearest = so_far;
+    let here = projected[i];
+    if here.inverse_length > 0.0 {
+        let next = projected[i + 1u];
+        let at = foot(here, next, q);
+        if at.covered {
+            let z = here.point.z + at.t * (next.point.z - here.point.z);
+            let cost = cost_of(z, at.distance, here.radius + at.t * (next.radius - here.radius));
+            let along = here.arc_length + at.t * (next.arc_length - here.arc_length) - s;
+            let offered = NearestPiece(along, abs(along), cost, 2u * i + 1u, z, slope_of(here, next));
+            nearest = nearer_of(nearest, offered);
+        }
+    }
+    let u = q - here.point.xy;
+    if here.stands != 0u && dot(u, here.before) >= 0.0 && dot(u, here.edge) <= 0.0 {
+        let cost = cost_of(here.point.z, length(u), here.radius);
+        let along = here.arc_length - s;
+        nearest = nearer_of(nearest, NearestPiece(along, abs(along), cost, 2u * i, here.point.z, vec2f(0.0)));
+    }
+    return nearest;
+}
+
+// The last point of a span whose arc length is no larger than `s`, or its first one.
+fn point_at(span: Span, s: f32) -> u32 {
+    var low = span.first;
+    var high = span.end;
+    while low + 1u < high {
+        let middle = (low + high) / 2u;
+        if projected[middle].arc_length <= s {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+// The piece of a vessel at a level whose arc length is nearest to `s` among those that cover the pixel at `q`: from the
+// middle outwards, until no point farther out can be nearer.
+fn nearest_piece(level: u32, decision: Decision, q: vec2f) -> NearestPiece {
+    let span = spans[level * parameters.vessel_count + u32(decision.vessel)];
+    let s = decision.arc_length;
+    let slack = 1e-6 * abs(s);
+    var nearest = NearestPiece(0.0, UNSET, 0.0, NO_SLOT, 0.0, vec2f(0.0));
+    var right = point_at(span, s);
+    var left = right;
+    loop {
+        let is_right = right < span.end && projected[right].arc_length - s <= nearest.apart + slack;
+        if is_right {
+            nearest = with_pieces_of(right, q, s, nearest);
+            right++;
+        }
+        let is_left = left > span.first && s - projected[left].arc_length <= nearest.apart + slack;
+        if is_left {
+            left--;
+            nearest = with_pieces_of(left, q, s, nearest);
+        }
+        if !(is_left || is_right) {
+            return nearest;
+        }
+    }
+    return nearest;
+}

@@ -1,0 +1,87 @@
+//! The paper's way: at each level the piece with the smallest key, whichever vessel it belongs to.
+
+use super::blend::LevelBlend;
+use super::{CutSurface, Search, Sheet, TileSurface};
+use crate::math::lanes::{FAR, PIXELS, places};
+use crate::math::own_pieces::Decision;
+use crate::math::pieces::Envelope;
+use crate::math::tile::Tile;
+
+impl CutSurface<'_> {
+    /// The surface over one tile, given the distances to the nearest vessel.
+    #[inline(always)]
+    pub(super) fn nearest<const LUMEN_FIRST: bool>(
+        &self,
+        tile: &Tile,
+        distance: &[f32; PIXELS],
+        with_sheet: bool,
+        search: &mut impl Search,
+    ) -> TileSurface {
+        let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
+        let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
+        // The slot that rules each pixel, in the level it belongs to: the one with the larger weight.
+        let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
+        let mut sheets = BlendedSheets::new();
+        // Finest first: the coarse term is added to the fine one, and a tie stays with the finer level.
+        for level in places(blend.needed()) {
+            let mut weight = [0.0; PIXELS];
+            for l in 0..PIXELS {
+                weight[l] = blend.weight(level as f32, l);
+            }
+            let mut envelope = Envelope::new(&weight);
+            search.lowest::<LUMEN_FIRST>(level, tile, &self.rule, &mut envelope);
+            for l in 0..PIXELS {
+                depth[l] += weight[l] * envelope.z[l];
+                let rules = weight[l] > ruling_weight[l];
+                ruling_weight[l] = if rules { weight[l] } else { ruling_weight[l] };
+                ruling_level[l] = if rules { level as u32 } else { ruling_level[l] };
+                slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
+            }
+            if with_sheet {
+                // Pixels without a winner at this level have no weight: any slot will do.
+                envelope.piece = envelope.piece.map(|piece| if piece == u32::MAX { 0 } else { piece });
+                let own = self.own_pieces(level);
+                let found =
+                    Decision::of::<LUMEN_FIRST>(&envelope, own.level, own.projected, tile, &self.rule);
+                sheets.add(&weight, &found);
+            }
+        }
+        for l in 0..PIXELS {
+            vessel[l] = self.levels[ruling_level[l] as usize].vessel_of_slot[slot[l] as usize];
+        }
+        TileSurface { depth, vessel, sheet: sheets.sheet }
+    }
+}
+
+/// The sheets of a tile, from the winners of each level.
+struct BlendedSheets {
+    sheet: [Sheet; PIXELS],
+    /// Vessel and arc length (mm) of the finer of two levels; vessel −1 before it is known.
+    finer: [(i32, f32); PIXELS],
+}
+
+impl BlendedSheets {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { sheet: [[0.0; 4]; PIXELS], finer: [(-1, 0.0); PIXELS] }
+    }
+
+    /// Adds what was found at a level, finest first.
+    #[inline(always)]
+    fn add(&mut self, weight: &[f32; PIXELS], found: &Decision) {
+        for l in 0..PIXELS {
+            if weight[l] > 0.0 {
+                let [x, y, radius, apart] = &mut self.sheet[l];
+                *x += weight[l] * found.slope[0][l];
+                *y += weight[l] * found.slope[1][l];
+                *radius += weight[l] * found.radius[l];
+                let (vessel, s) = self.finer[l];
+                if vessel >= 0 {
+                    let same = vessel == found.vessel[l];
+                    *apart = if same { (found.arc_length[l] - s).abs() } else { FAR };
+                }
+                self.finer[l] = (found.vessel[l], found.arc_length[l]);
+            }
+        }
+    }
+}

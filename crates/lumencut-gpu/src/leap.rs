@@ -1,0 +1,38 @@
+//! Leaps on the GPU.
+
+use lumencut_core::camera::Camera;
+use lumencut_core::stages::leap::LeapParameters;
+use wgpu::Buffer;
+
+use crate::depth_filter::GROUP;
+use crate::device::Device;
+use crate::images::Images;
+use crate::recording::Recording;
+use crate::stage::Stage;
+use crate::view::groups;
+
+/// Neighbours between which the cut surface leaps.
+#[derive(Debug)]
+pub(crate) struct Leap {
+    stage: Stage,
+    parameters: Buffer,
+}
+
+impl Leap {
+    pub fn new(device: &Device) -> Self {
+        let parameters = device.uniform::<LeapParameters>("leap parameters");
+        Self { stage: Stage::new(device, "stages/leap", &[]), parameters }
+    }
+
+    /// Tells the shader of a view.
+    pub fn write(&self, device: &Device, camera: &Camera) {
+        device.write(&self.parameters, &[LeapParameters::new(camera)]);
+    }
+
+    /// Writes the leaps of a depth before its filter.
+    pub fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
+        let buffers = [view, &self.parameters, depth, &images.sheet, &images.leap];
+        let buffers = buffers.map(Buffer::as_entire_binding);
+        recording.run(&self.stage, &buffers, groups(images.size, GROUP));
+    }
+}
