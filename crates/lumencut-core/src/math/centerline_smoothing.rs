@@ -15,7 +15,7 @@ use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 const SAME_PLACE: f64 = 1e-3;
 
 /// How many layers one Gaussian is cut into.
-const LAYERS: usize = 32;
+const LAYERS: usize = 16;
 
 /// Where the Gaussian is cut off (σ).
 const CUT_OFF: f64 = 4.0;
@@ -79,23 +79,29 @@ struct Stretch<'a> {
     arc: Vec<f64>,
     /// From the chord to each point, at equal shares of the length.
     offset: Vec<DVec3>,
+    /// Half of what the offset changes by along each segment (per mm).
+    half_slope: Vec<DVec3>,
     /// The integral of the offset from the start to each point, over arc length.
     integral: Vec<DVec3>,
 }
 
 impl<'a> Stretch<'a> {
     fn new(points: &'a [DVec3]) -> Self {
-        let mut arc = vec![0.0; points.len()];
-        for i in 1..points.len() {
+        let count = points.len();
+        let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
+        for i in 1..count {
             arc[i] = arc[i - 1] + points[i].distance(points[i - 1]);
         }
-        let mut stretch = Self { points, arc, offset: Vec::new(), integral: vec![DVec3::ZERO; points.len()] };
-        stretch.offset = (0..points.len()).map(|i| points[i] - stretch.chord(i)).collect();
-        for i in 1..points.len() {
-            let (offset, length) = (&stretch.offset, stretch.arc[i] - stretch.arc[i - 1]);
-            stretch.integral[i] = stretch.integral[i - 1] + (offset[i - 1] + offset[i]) * (0.5 * length);
+        let mut made = Self { points, arc, offset: Vec::new(), half_slope: zeros.clone(), integral: zeros };
+        made.offset = (0..count).map(|i| points[i] - made.chord(i)).collect();
+        for i in 1..count {
+            let (length, [from, to]) = (made.arc[i] - made.arc[i - 1], [made.offset[i - 1], made.offset[i]]);
+            if length > 0.0 {
+                made.half_slope[i - 1] = (to - from) / (2.0 * length);
+            }
+            made.integral[i] = made.integral[i - 1] + (from + to) * (0.5 * length);
         }
-        stretch
+        made
     }
 
     fn length(&self) -> f64 {
@@ -129,30 +135,31 @@ impl<'a> Stretch<'a> {
     /// point reflection about both of them; its integral is therefore the same on both sides of an end. `segment` is
     /// where the search begins and where it ended.
     fn integral_to(&self, s: f64, segment: &mut usize) -> DVec3 {
-        let length = self.length();
-        let s = if (0.0..=length).contains(&s) { s } else { folded(s, length) };
-        let j = self.segment(s, *segment);
-        *segment = j;
-        let (along, length) = (s - self.arc[j], self.arc[j + 1] - self.arc[j]);
-        let change = self.offset[j + 1] - self.offset[j];
-        let half = if length > 0.0 { 0.5 * along / length } else { 0.0 };
-        self.integral[j] + (self.offset[j] + change * half) * along
+        let s = folded(s, self.length());
+        *segment = self.segment(s, *segment);
+        let (j, along) = (*segment, s - self.arc[*segment]);
+        self.integral[j] + (self.offset[j] + self.half_slope[j] * along) * along
     }
 
-    /// The segment that holds arc length `s`; most often one beside `near`.
+    /// The segment that holds arc length `s`, by steps away from `near` that double.
     fn segment(&self, s: f64, near: usize) -> usize {
         let arc = &self.arc;
-        let holds = |j: &usize| *j + 1 < arc.len() && arc[*j] <= s && s <= arc[*j + 1];
-        let beside = [near, near + 1, near.saturating_sub(1)];
-        let search = || arc.partition_point(|a| *a <= s).clamp(1, arc.len() - 1) - 1;
-        beside.into_iter().find(holds).unwrap_or_else(search)
+        let (mut low, mut high, mut step) = (near, near + 1, 1);
+        while arc[low] > s {
+            (high, low, step) = (low, low.saturating_sub(step), 2 * step);
+        }
+        while arc[high] < s {
+            (low, high, step) = (high, (high + step).min(arc.len() - 1), 2 * step);
+        }
+        low + arc[low + 1..high].partition_point(|a| *a <= s)
     }
 }
 
 /// Where a walk of `s` ends that turns back at 0 and at `length`.
 fn folded(s: f64, length: f64) -> f64 {
-    let s = s.rem_euclid(2.0 * length);
-    s.min(2.0 * length - s).clamp(0.0, length)
+    let (s, turn) = (s.abs(), 2.0 * length);
+    let s = if s > turn { s % turn } else { s };
+    s.min(turn - s)
 }
 
 /// The ends of all vessels, found by their place.
