@@ -57,6 +57,7 @@ def surface_settings() -> Iterator[tuple[str, Values]]:
     yield "lumen_margin 2 alone", {"lumen_margin": 2}
     yield "lumen_first of centerlines", {"lumen_first": True, "preserve_lumen": False}
     yield "lumen_first, finest level", {"lumen_first": True, "levels": 0, "depth_filter": False}
+    yield from each("centerline_smoothing", (0.5, 2))
     yield from each("samples", (2, 3, 4))
 
 

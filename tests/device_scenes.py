@@ -22,6 +22,7 @@ SETTINGS = {
     "default": Settings(),
     "no context": Settings(context=None, silhouettes=False, depth_filter=False),
     "lumen first": Settings(lumen_first=True, lumen_margin=0.5, levels=0),
+    "quiet centerlines": Settings(centerline_smoothing=0.5),
     "centerlines": Settings(preserve_lumen=False, cost_weight=3, levels=2),
     "slab mean": Settings(slab=Slab(4, "mean"), background=(10, 200, 30, 128)),
     "slab min": Settings(slab=Slab(3, "min"), context="average"),

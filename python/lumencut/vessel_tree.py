@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import integers, numbers
-from lumencut.errors import VesselTreeError
+from lumencut._checks import integers, number, numbers
+from lumencut.errors import SettingsError, VesselTreeError
 
 
 class Vessel:
@@ -121,6 +121,31 @@ class VesselTree:
             )
             for level in made
         ]
+
+    def smoothed(self, radii: float) -> VesselTree:
+        """Return the tree with quiet centerlines, as the setting ``centerline_smoothing`` makes them.
+
+        Each vessel is smoothed along its arc length by a Gaussian whose standard deviation at each point is
+        ``radii`` times the radius there. Ends, points where another vessel ends, and points whose radius is 0
+        or not known stay where they are; radii, names and the number of points stay too.
+
+        Parameters
+        ----------
+        radii : float
+            Standard deviation in radii, 0 to 10; with 0 every point stays.
+
+        Raises
+        ------
+        SettingsError
+            For another value of ``radii``.
+        """
+        made = _lumencut.smoothed(self._arrays(), number(SettingsError, "centerline_smoothing", radii))
+        smoothed = VesselTree(
+            Vessel(points, vessel.radius, vessel.name)
+            for points, vessel in zip(made, self._vessels, strict=True)
+        )
+        smoothed._space_settled = self._space_settled
+        return smoothed
 
     @property
     def bounds(self) -> npt.NDArray[np.float64]:

@@ -6,6 +6,7 @@ use glam::DVec3;
 use lumencut_core::brute_force;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
+use lumencut_core::math::centerline_smoothing::smooth_centerlines;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::LeveledTree;
@@ -90,7 +91,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) {
     for (rule, settings) in [("paper", Settings::paper()), ("lumen first, nearest", nearest), ("own", own)] {
         for &isa in sets {
             let mut renderer = CpuRenderer::new(isa);
-            renderer.prepare(&LeveledTree::new(tree.clone()), settings.levels);
+            renderer.prepare(&LeveledTree::new(tree.clone()), &settings);
             let (fast, a) = cut_surface(&mut renderer, &camera, &settings, 31);
             let (slow, b) = by_brute_force(&renderer, &camera, &settings);
             let same = a.depth == b.depth && a.vessel == b.vessel && a.distance == b.distance;
@@ -112,7 +113,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) {
 /// The slowest of many directions against the median one.
 fn over_directions(name: &str, tree: &VesselTree) {
     let (mut renderer, settings) = (CpuRenderer::default(), Settings::default());
-    renderer.prepare(&LeveledTree::new(tree.clone()), settings.levels);
+    renderer.prepare(&LeveledTree::new(tree.clone()), &settings);
     let golden = 2.399_963;
     let mut times: Vec<f64> = (0..50)
         .map(|n| {
@@ -144,7 +145,11 @@ fn main() -> Result<()> {
     over_directions("124 vessels", &many);
     let long = random_tree(3, 100, 199, 1.0, 200.0)?;
     let made = time(11, || drop(levels(&long, 6)));
-    head("Levels of detail (ms)", &["points", "median"]);
-    row(["20000".to_owned(), format!("{:.2}", made.median)]);
+    head("Levels of detail of 20,000 points (ms)", &["what", "median"]);
+    row(["the levels".to_owned(), format!("{:.2}", made.median)]);
+    for radii in [0.5, 10.0] {
+        let smoothed = time(11, || drop(smooth_centerlines(&long, radii)));
+        row([format!("smoothing by {radii} radii before them"), format!("{:.2}", smoothed.median)]);
+    }
     Ok(())
 }

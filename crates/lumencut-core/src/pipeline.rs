@@ -96,7 +96,7 @@ impl CpuRenderer {
     /// Where the pixels of a view look: depth, vessel and distance of the cut surface.
     fn cut_surface(&mut self, tree: &LeveledTree, request: &Request) -> Result<Frame> {
         let (mut clock, mut images) = (Clock::start(), Images::default());
-        self.prepare(tree, request.settings.levels);
+        self.prepare(tree, request.settings);
         clock.lap(Stage::Levels);
         self.project(request.camera, request.settings);
         clock.lap(Stage::Projection);
@@ -131,9 +131,10 @@ impl CpuRenderer {
         Ok(images.into_frame(frame, clock.timings).keeping(request.images))
     }
 
-    /// Takes over the levels of a tree that is another one than in the view before, or shown with more levels.
-    pub fn prepare(&mut self, tree: &LeveledTree, coarsest: usize) {
-        let levels = tree.levels(coarsest);
+    /// Takes over the levels of a tree that is another one than in the view before, or smoothed in another way, or shown
+    /// with more levels.
+    pub fn prepare(&mut self, tree: &LeveledTree, settings: &Settings) {
+        let levels = tree.levels(settings.levels, settings.centerline_smoothing);
         if !Arc::ptr_eq(&self.levels, &levels) {
             self.projected = levels.iter().map(ProjectedLevel::new).collect();
             self.levels = levels;

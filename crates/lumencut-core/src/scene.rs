@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::error::Result;
 use crate::math::blocks::Blocks;
+use crate::math::centerline_smoothing::smooth_centerlines;
 use crate::math::projection::Level;
 use crate::stages::levels::levels;
 use crate::stop::Stop;
@@ -96,17 +97,22 @@ impl<'a> SharedVolume<'a> {
     }
 }
 
+/// For how many values of `centerline_smoothing` the levels of a tree are kept: one picture with it and one without can
+/// take turns, or two renderers.
+const KEPT: usize = 2;
+
 /// A tree with its levels of detail, which are made once for all renderers.
 #[derive(Debug)]
 pub struct LeveledTree {
     tree: VesselTree,
-    levels: Mutex<Arc<Vec<Level>>>,
+    /// The values of `centerline_smoothing` that were asked for last, the latest first, and their levels.
+    kept: Mutex<Vec<(f64, Arc<Vec<Level>>)>>,
 }
 
 impl LeveledTree {
     /// A tree whose levels are made when they are first needed.
     pub fn new(tree: VesselTree) -> Self {
-        Self { tree, levels: Mutex::default() }
+        Self { tree, kept: Mutex::default() }
     }
 
     /// The tree.
@@ -114,24 +120,32 @@ impl LeveledTree {
         &self.tree
     }
 
-    /// The tree's own points and at least `coarsest` levels of detail, finest first.
-    pub fn levels(&self, coarsest: usize) -> Arc<Vec<Level>> {
-        let known = self.kept(|_| ());
-        if known.len() > coarsest {
+    /// The tree's own points, smoothed by `smoothing` radii, and at least `coarsest` levels of detail, finest first.
+    ///
+    /// The levels of the two values of `smoothing` that were asked for last are kept.
+    pub fn levels(&self, coarsest: usize, smoothing: f64) -> Arc<Vec<Level>> {
+        if let Some(known) = self.latest(smoothing, None).filter(|known| known.len() > coarsest) {
             return known;
         }
         // Made outside the lock, for the reason that `SharedVolume::blocks` gives.
-        let made: Arc<Vec<_>> = Arc::new(levels(&self.tree, coarsest).par_iter().map(Level::new).collect());
-        self.kept(|kept| {
-            if kept.len() <= coarsest {
-                *kept = made;
-            }
-        })
+        let made = if smoothing > 0.0 {
+            levels(&smooth_centerlines(&self.tree, smoothing), coarsest)
+        } else {
+            levels(&self.tree, coarsest)
+        };
+        let made = Arc::new(made.par_iter().map(Level::new).collect());
+        self.latest(smoothing, Some(&made)).unwrap_or(made)
     }
 
-    fn kept(&self, update: impl FnOnce(&mut Arc<Vec<Level>>)) -> Arc<Vec<Level>> {
-        let mut kept = self.levels.lock().unwrap_or_else(PoisonError::into_inner);
-        update(&mut kept);
-        Arc::clone(&kept)
+    /// The levels of `smoothing`, which become the latest; `made` are kept where there are fewer.
+    fn latest(&self, smoothing: f64, made: Option<&Arc<Vec<Level>>>) -> Option<Arc<Vec<Level>>> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let place = kept.iter().position(|(value, _)| *value == smoothing);
+        let known = place.map(|place| kept.remove(place).1);
+        // Of equally many the known ones stay, which others may hold already: the last of them counts.
+        let most = [made, known.as_ref()].into_iter().flatten().max_by_key(|levels| levels.len()).cloned()?;
+        kept.insert(0, (smoothing, Arc::clone(&most)));
+        kept.truncate(KEPT);
+        Some(most)
     }
 }

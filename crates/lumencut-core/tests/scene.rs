@@ -80,11 +80,30 @@ fn an_exchanged_tree_leaves_what_is_known_of_the_volume() {
 #[test]
 fn levels_are_made_once_for_all_renderers() {
     let leveled = LeveledTree::new(y_junction().unwrap().tree);
-    let three = leveled.levels(3);
+    let three = leveled.levels(3, 0.0);
     assert_eq!(three.len(), 4);
-    assert!(Arc::ptr_eq(&three, &leveled.levels(2)), "fewer levels are the first of those that are there");
-    assert_eq!(leveled.levels(6).len(), 7);
-    assert!(Arc::ptr_eq(&leveled.levels(6), &leveled.levels(3)));
+    assert!(
+        Arc::ptr_eq(&three, &leveled.levels(2, 0.0)),
+        "fewer levels are the first of those that are there"
+    );
+    assert_eq!(leveled.levels(6, 0.0).len(), 7);
+    assert!(Arc::ptr_eq(&leveled.levels(6, 0.0), &leveled.levels(3, 0.0)));
+}
+
+#[test]
+fn levels_are_kept_for_two_values_of_the_smoothing() {
+    let leveled = LeveledTree::new(y_junction().unwrap().tree);
+    let (none, half) = (leveled.levels(3, 0.0), leveled.levels(3, 0.5));
+    assert!(!Arc::ptr_eq(&none, &half), "another value gives other levels");
+    for _ in 0..2 {
+        assert!(Arc::ptr_eq(&none, &leveled.levels(3, 0.0)));
+        assert!(Arc::ptr_eq(&half, &leveled.levels(2, 0.5)));
+    }
+    // The value asked for last stays beside a third one.
+    let two = leveled.levels(3, 2.0);
+    assert!(Arc::ptr_eq(&half, &leveled.levels(3, 0.5)));
+    assert!(Arc::ptr_eq(&two, &leveled.levels(3, 2.0)));
+    assert!(!Arc::ptr_eq(&none, &leveled.levels(3, 0.0)), "made anew");
 }
 
 #[test]

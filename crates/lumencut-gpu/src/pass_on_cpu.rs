@@ -40,7 +40,7 @@ impl Pass<'_> {
     fn find(&mut self, stage: Stage, images: &mut Images) -> Result<()> {
         let (Some(tree), settings) = (&self.scene.tree, self.request.settings) else { return Ok(()) };
         let renderer = &mut self.on_cpu.renderer;
-        renderer.prepare(tree, settings.levels);
+        renderer.prepare(tree, settings);
         renderer.project(self.request.camera, settings);
         renderer.pass(self.request).run(stage, images)
     }

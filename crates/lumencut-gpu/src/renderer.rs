@@ -169,7 +169,8 @@ impl GpuRenderer {
             self.volume = Some(ShownVolume { key: shared.key.downgrade(), on_device });
         }
         if let Some(tree) = &scene.tree {
-            let levels = tree.levels(request.settings.levels);
+            let settings = request.settings;
+            let levels = tree.levels(settings.levels, settings.centerline_smoothing);
             if self.tree.as_ref().is_none_or(|kept| !Arc::ptr_eq(&kept.levels, &levels)) {
                 self.tree = None;
                 let on_device = DeviceLevels::new(&self.device, &levels)?;

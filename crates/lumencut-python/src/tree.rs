@@ -1,6 +1,8 @@
 //! Vessel trees from and to lists of arrays.
 
 use glam::DVec3;
+use lumencut::math::centerline_smoothing::smooth_centerlines;
+use lumencut::settings::Settings;
 use lumencut::stages;
 use lumencut::vessel_tree::{Vessel, VesselTree};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -57,6 +59,20 @@ pub fn levels<'py>(
     let tree = tree(&vessels)?;
     let levels = py.detach(|| stages::levels::levels(&tree, count));
     levels.iter().map(|level| level.vessels().iter().map(|v| arrays(py, v)).collect()).collect()
+}
+
+/// The points of each vessel, smoothed by a Gaussian of so many radii.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn smoothed<'py>(
+    py: Python<'py>,
+    vessels: Vec<VesselArrays<'py>>,
+    radii: f64,
+) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+    Settings { centerline_smoothing: radii, ..Settings::default() }.check().map_err(to_python)?;
+    let tree = tree(&vessels)?;
+    let smoothed = py.detach(|| smooth_centerlines(&tree, radii));
+    smoothed.vessels().iter().map(|v| arrays(py, v).map(|(points, _)| points)).collect()
 }
 
 fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py>> {

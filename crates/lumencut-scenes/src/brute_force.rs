@@ -41,7 +41,7 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
 /// A renderer that has projected a tree into a view: its stages can run one by one.
 pub fn projected(tree: &VesselTree, camera: &Camera, settings: &Settings, isa: Isa) -> CpuRenderer {
     let mut renderer = CpuRenderer::new(isa);
-    renderer.prepare(&LeveledTree::new(tree.clone()), settings.levels);
+    renderer.prepare(&LeveledTree::new(tree.clone()), settings);
     renderer.project(camera, settings);
     renderer
 }

@@ -23,6 +23,8 @@ _ORIGINS = {
     "volume": "the volume fits it",
     "assumed": "assumed",
 }
+#: Of centerline smoothing: how much of it a tree is tried with (radii).
+_TRIED_SMOOTHING = 0.5
 #: Letters of the directions that grow along x, y, z in LPS, and of their opposites.
 _LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
 
@@ -100,6 +102,7 @@ def of_centerlines(
         "space": f"{report.space} ({_ORIGINS[report.space_from]})",
         "unit": f"{report.unit} ({_ORIGINS[report.unit_from]})",
         "bounds_mm": tree.bounds.round(3).tolist(),
+        "largest_shift": _largest_shift(tree),
         "decisions": [one_line(report.decision)] if report.decision else [],
         "notes": [*undecided, *report.notes, *_odd_tree(tree)],
         "_tree": tree,
@@ -201,6 +204,31 @@ def _odd_tree(tree: VesselTree) -> list[str]:
     if steps.max() > 10 * max(float(np.median(steps)), 1.0):
         notes.append(f"a gap of {steps.max():.1f} mm between neighbouring points")
     return notes
+
+
+def _largest_shift(tree: VesselTree) -> dict[str, Any] | None:
+    """How far a little centerline smoothing moves a point at most, and which; None where nothing moves."""
+    import numpy as np
+
+    smoothed = tree.smoothed(_TRIED_SMOOTHING)
+    shifts = [
+        np.linalg.norm(new.points - old.points, axis=1) for old, new in zip(tree, smoothed, strict=True)
+    ]
+    vessel = int(np.argmax([shift.max() for shift in shifts]))
+    point = int(shifts[vessel].argmax())
+    most = round(float(shifts[vessel][point]), 6)
+    if most == 0:
+        return None
+    steps = np.linalg.norm(np.diff(tree[vessel].points[: point + 1], axis=0), axis=1)
+    along = float(steps.sum())
+    where = f"vessel {vessel}, {along:.0f} mm from its start"
+    return {
+        "smoothing_radii": _TRIED_SMOOTHING,
+        "shift_mm": most,
+        "vessel": vessel,
+        "from_start_mm": round(along, 3),
+        "shown": f"{most:.2f} mm by a centerline smoothing of {_TRIED_SMOOTHING:g} radii ({where})",
+    }
 
 
 def _with(read: Iterable[str], seen: Iterable[str]) -> list[str]:

@@ -124,6 +124,8 @@ def _block(one: dict[str, Any]) -> str:
 
 def _lines(value: Any) -> list[str]:
     """A value in one line, or what is a series in a line each."""
+    if isinstance(value, dict):
+        return [str(value["shown"])]
     if isinstance(value, list) and isinstance(value[0], dict):
         return [str(one["shown"]) for one in value]
     return [_value(value)]

@@ -3,6 +3,7 @@
 pub mod accumulate;
 pub mod blocks;
 pub mod candidates;
+pub mod centerline_smoothing;
 pub mod context_parameters;
 pub mod cost;
 pub mod hierarchy;

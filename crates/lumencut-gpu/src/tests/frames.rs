@@ -54,6 +54,8 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
                 (s.silhouette_rule, s.level_choice) = (SilhouetteRule::Leap, LevelChoice::Nearest);
             }),
         ),
+        ("lumen first", with(|s| (s.lumen_first, s.lumen_margin) = (true, 1.0))),
+        ("quiet centerlines", with(|s| s.centerline_smoothing = 0.5)),
         ("one level", with(|s| s.levels = 0)),
         ("no filter", with(|s| s.depth_filter = false)),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),

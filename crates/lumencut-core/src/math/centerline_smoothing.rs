@@ -1,0 +1,196 @@
+//! Quiet centerlines: each vessel smoothed along its arc length by a Gaussian as wide as some of its radii.
+//!
+//! What is averaged is the polyline itself, not its points, so their spacing does not matter. Beyond the ends of a
+//! stretch the curve goes on by point reflection, p(−s) = 2·p(0) − p(s): its ends stay where they are, and straight
+//! stretches stay straight.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
+
+/// A point nearer than this (mm) to an end of a vessel is that end. A σ below it moves nothing.
+const SAME_PLACE: f64 = 1e-3;
+
+/// How many layers one Gaussian is cut into.
+const LAYERS: usize = 16;
+
+/// Where the Gaussian is cut off (σ).
+const CUT_OFF: f64 = 4.0;
+
+/// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there.
+///
+/// Ends, points where another vessel ends, and points whose radius is 0 or not known stay as they are to the bit.
+/// Radii stay, and so do number and order of the points.
+pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
+    if radii <= 0.0 {
+        return tree.clone();
+    }
+    let (ends, layers) = (Ends::of(tree), gaussian());
+    let smoothed = tree.vessels().par_iter().map(|vessel| smooth(vessel, radii, &ends, &layers));
+    VesselTree::from_checked(smoothed.collect())
+}
+
+/// One vessel, each stretch between two points that stay by itself.
+fn smooth(vessel: &Vessel, radii: f64, ends: &Ends, layers: &[Layer]) -> Vessel {
+    let Some(radius) = vessel.radius() else { return vessel.clone() };
+    let (points, last) = (vessel.points(), vessel.points().len() - 1);
+    let mut smoothed = points.to_vec();
+    let mut start = 0;
+    for end in (1..=last).filter(|&i| i == last || ends.hold(points[i])) {
+        let stretch = Stretch::new(&points[start..=end]);
+        for i in start + 1..end {
+            let sigma = radii * radius[i];
+            if sigma >= SAME_PLACE {
+                smoothed[i] = stretch.mean(i - start, sigma, layers);
+            }
+        }
+        start = end;
+    }
+    Vessel::from_checked(smoothed, Some(radius.to_vec()))
+}
+
+/// A part of the Gaussian with σ = 1: `height` from −`reach` to `reach`.
+#[derive(Clone, Copy, Debug)]
+struct Layer {
+    reach: f64,
+    height: f64,
+}
+
+/// The Gaussian as layers, one on top of the other: a sum of means over boxes. Its integral is 1 and its variance is 1.
+fn gaussian() -> [Layer; LAYERS] {
+    let step = CUT_OFF / LAYERS as f64;
+    // The density in the middle of each step; beyond the last one it is 0.
+    let density = |k: usize| if k < LAYERS { (-0.5 * ((k as f64 + 0.5) * step).powi(2)).exp() } else { 0.0 };
+    let layers: [Layer; LAYERS] =
+        std::array::from_fn(|k| Layer { reach: (k + 1) as f64 * step, height: density(k) - density(k + 1) });
+    let integral: f64 = layers.iter().map(|l| 2.0 * l.reach * l.height).sum();
+    let variance: f64 = layers.iter().map(|l| 2.0 * l.reach.powi(3) / 3.0 * l.height).sum::<f64>() / integral;
+    let scale = variance.sqrt();
+    layers.map(|l| Layer { reach: l.reach / scale, height: l.height * scale / integral })
+}
+
+/// A polyline between two points that stay, as its chord and what it is off the chord.
+struct Stretch<'a> {
+    points: &'a [DVec3],
+    /// Arc length from the start to each point (mm).
+    arc: Vec<f64>,
+    /// From the chord to each point, at equal shares of the length.
+    offset: Vec<DVec3>,
+    /// Half of what the offset changes by along each segment (per mm).
+    half_slope: Vec<DVec3>,
+    /// The integral of the offset from the start to each point, over arc length.
+    integral: Vec<DVec3>,
+}
+
+impl<'a> Stretch<'a> {
+    fn new(points: &'a [DVec3]) -> Self {
+        let count = points.len();
+        let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
+        for i in 1..count {
+            arc[i] = arc[i - 1] + points[i].distance(points[i - 1]);
+        }
+        let mut made = Self { points, arc, offset: Vec::new(), half_slope: zeros.clone(), integral: zeros };
+        made.offset = (0..count).map(|i| points[i] - made.chord(i)).collect();
+        for i in 1..count {
+            let (length, [from, to]) = (made.arc[i] - made.arc[i - 1], [made.offset[i - 1], made.offset[i]]);
+            if length > 0.0 {
+                made.half_slope[i - 1] = (to - from) / (2.0 * length);
+            }
+            made.integral[i] = made.integral[i - 1] + (from + to) * (0.5 * length);
+        }
+        made
+    }
+
+    fn length(&self) -> f64 {
+        self.arc[self.arc.len() - 1]
+    }
+
+    /// The place of point `i` on the straight line between the ends.
+    fn chord(&self, i: usize) -> DVec3 {
+        let share = if self.length() > 0.0 { self.arc[i] / self.length() } else { 0.0 };
+        self.points[0].lerp(self.points[self.points.len() - 1], share)
+    }
+
+    /// The mean around point `i`. That of the chord is the chord at `i`, as layers are symmetric; that of the offset is
+    /// added.
+    fn mean(&self, i: usize, sigma: f64, layers: &[Layer]) -> DVec3 {
+        if self.length() <= 0.0 {
+            return self.points[i];
+        }
+        let (s, mut before, mut after) = (self.arc[i], i - 1, i);
+        let mut mean = DVec3::ZERO;
+        for layer in layers {
+            let reach = layer.reach * sigma;
+            let there = self.integral_to(s + reach, &mut after) - self.integral_to(s - reach, &mut before);
+            mean += there * (layer.height / sigma);
+        }
+        let bound = DVec3::splat(MAX_COORDINATE);
+        (self.chord(i) + mean).clamp(-bound, bound)
+    }
+
+    /// The integral of the offset from the start to arc length `s`, which may lie beyond the ends. The offset goes on by
+    /// point reflection about both of them; its integral is therefore the same on both sides of an end. `segment` is
+    /// where the search begins and where it ended.
+    fn integral_to(&self, s: f64, segment: &mut usize) -> DVec3 {
+        let s = folded(s, self.length());
+        *segment = self.segment(s, *segment);
+        let (j, along) = (*segment, s - self.arc[*segment]);
+        self.integral[j] + (self.offset[j] + self.half_slope[j] * along) * along
+    }
+
+    /// The segment that holds arc length `s`, by steps away from `near` that double.
+    fn segment(&self, s: f64, near: usize) -> usize {
+        let arc = &self.arc;
+        let (mut low, mut high, mut step) = (near, near + 1, 1);
+        while arc[low] > s {
+            (high, low, step) = (low, low.saturating_sub(step), 2 * step);
+        }
+        while arc[high] < s {
+            (low, high, step) = (high, (high + step).min(arc.len() - 1), 2 * step);
+        }
+        low + arc[low + 1..high].partition_point(|a| *a <= s)
+    }
+}
+
+/// Where a walk of `s` ends that turns back at 0 and at `length`.
+fn folded(s: f64, length: f64) -> f64 {
+    let (s, turn) = (s.abs(), 2.0 * length);
+    let s = if s > turn { s % turn } else { s };
+    s.min(turn - s)
+}
+
+/// The ends of all vessels, found by their place.
+struct Ends {
+    cells: HashMap<[i64; 3], Vec<DVec3>>,
+}
+
+impl Ends {
+    /// Cells of ten times [`SAME_PLACE`]: most ends need one of them.
+    fn cell(point: DVec3) -> [i64; 3] {
+        (point / (10.0 * SAME_PLACE)).floor().as_i64vec3().to_array()
+    }
+
+    fn of(tree: &VesselTree) -> Self {
+        let mut cells: HashMap<_, Vec<DVec3>> = HashMap::new();
+        for points in tree.vessels().iter().map(Vessel::points) {
+            for end in [points[0], points[points.len() - 1]] {
+                let (low, high) = (Self::cell(end - SAME_PLACE), Self::cell(end + SAME_PLACE));
+                for (x, y) in (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y))) {
+                    for z in low[2]..=high[2] {
+                        cells.entry([x, y, z]).or_default().push(end);
+                    }
+                }
+            }
+        }
+        Self { cells }
+    }
+
+    /// Whether a vessel ends at `point`.
+    fn hold(&self, point: DVec3) -> bool {
+        let near = self.cells.get(&Self::cell(point));
+        near.is_some_and(|ends| ends.iter().any(|end| end.distance(point) <= SAME_PLACE))
+    }
+}
