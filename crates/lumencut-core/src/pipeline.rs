@@ -149,6 +149,7 @@ impl CpuRenderer {
         CutSurfacePass {
             work: Work { size: camera.size(), isa: self.isa, stop },
             surface: CutSurface::new(levels, projected, camera, settings),
+            settings,
         }
     }
 }

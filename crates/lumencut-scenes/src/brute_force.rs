@@ -27,13 +27,13 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
     let (mut distance, mut depth, mut vessel) = (vec![-1.0; pixels], vec![-1.0; pixels], vec![-1; pixels]);
     brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
     brute_force::depth(&pass.work, &pass.surface, &distance, &mut depth, &mut vessel).unwrap();
-    let mut images = Images { unfiltered_depth: depth, ..Images::default() };
+    let mut images = Images { unfiltered_depth: depth, vessel, ..Images::default() };
     if settings.depth_filter {
         pass.run(Stage::DepthFilter, &mut images).unwrap();
         images.unfiltered_depth = images.depth;
     }
     let geometry = Geometry::Orthographic { camera: *camera, depth: images.unfiltered_depth };
-    Frame { vessel, distance, ..Frame::of(geometry) }
+    Frame { vessel: images.vessel, distance, ..Frame::of(geometry) }
 }
 
 /// A renderer that has projected a tree into a view: its stages can run one by one.

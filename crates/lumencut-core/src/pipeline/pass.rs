@@ -22,6 +22,8 @@ pub struct CutSurfacePass<'a> {
     pub work: Work<'a>,
     /// The levels in the view.
     pub surface: CutSurface<'a>,
+    /// How the cut surface is made.
+    pub settings: &'a Settings,
 }
 
 impl CutSurfacePass<'_> {
@@ -42,13 +44,7 @@ impl CutSurfacePass<'_> {
                 let (depths, vessels) = (&mut images.unfiltered_depth, &mut images.vessel);
                 depth(work, &self.surface, &images.distance, depths, vessels)
             }
-            Stage::DepthFilter => {
-                images.depth = vec![0.0; pixels];
-                let parameters = DepthFilterParameters::new();
-                depth_filter(work, &parameters, &images.unfiltered_depth, &mut images.depth)?;
-                images.unfiltered_depth = Vec::new();
-                Ok(())
-            }
+            Stage::DepthFilter => self.depth_filter(images),
             Stage::Levels
             | Stage::Projection
             | Stage::Surface
@@ -57,6 +53,15 @@ impl CutSurfacePass<'_> {
             | Stage::Context
             | Stage::Composite => Ok(()),
         }
+    }
+
+    fn depth_filter(&self, images: &mut Images) -> Result<()> {
+        let parameters = DepthFilterParameters::of(self.settings);
+        let zones = self.settings.zone_filter.then_some(&images.vessel[..]);
+        images.depth = vec![0.0; self.work.pixels()];
+        depth_filter(&self.work, &parameters, &images.unfiltered_depth, zones, &mut images.depth)?;
+        images.unfiltered_depth = Vec::new();
+        Ok(())
     }
 }
 

@@ -176,7 +176,7 @@ impl Stage {
         match self {
             Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
             Self::Depth => &[Image::Distance],
-            Self::DepthFilter => &[Image::UnfilteredDepth],
+            Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
             Self::Surface => &[Image::Depth],
             Self::Silhouette => &[Image::Depth, Image::Vessel],
             Self::Context => &[Image::Depth, Image::Value],
