@@ -15,7 +15,7 @@ pub(crate) struct Images {
     pub depth: Buffer,
     pub vessel: Buffer,
     pub value: Buffer,
-    /// The slope that silhouettes are made of.
+    /// The slope that silhouettes are made of; before it, the depth filtered within zones along columns alone.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,

@@ -35,6 +35,11 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("lumen first", with(|s| (s.lumen_first, s.lumen_margin) = (true, 1.0))),
         ("one level", with(|s| s.levels = 0)),
         ("no filter", with(|s| s.depth_filter = false)),
+        ("filter within zones", with(|s| s.zone_filter = true)),
+        (
+            "filter within zones, lumen first",
+            with(|s| (s.zone_filter, s.depth_leap, s.lumen_first) = (true, 0.2, true)),
+        ),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
         ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
@@ -169,9 +174,10 @@ fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
     on_either().map(move |stage| (stage, others(stage)))
 }
 
-/// Something of everything: a filter, a slab, silhouettes, and context behind what is transparent.
+/// Something of everything: a filter within zones, a slab, silhouettes, and context behind what is transparent.
 fn everything() -> Settings {
     with(|s| {
+        s.zone_filter = true;
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
