@@ -73,11 +73,10 @@ pub fn depth_filter(
     smoothed.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
         work.go_on()?;
         let first = row * ROWS;
-        match vessel {
-            Some(vessel) => {
-                dispatch(work.isa, ZoneRows { parameters, image, vessel, width, first, smoothed })
-            }
-            None => dispatch(work.isa, FilterRows { image, width, first, weights, smoothed }),
+        if let Some(vessel) = vessel {
+            dispatch(work.isa, ZoneRows { parameters, image, vessel, width, first, smoothed });
+        } else {
+            dispatch(work.isa, FilterRows { image, width, first, weights, smoothed });
         }
         Ok(())
     })
