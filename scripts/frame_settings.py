@@ -50,6 +50,13 @@ def surface_settings() -> Iterator[tuple[str, Values]]:
     yield from each("levels", range(16))
     yield from each("level_distance", (0.5, 2, 20, 1000))
     yield "depth_filter False", {"depth_filter": False}
+    for first in (False, True):
+        within: Values = {"zone_filter": True, "lumen_first": first}
+        yield f"zone_filter, lumen_first {first}", within
+        yield from (
+            (f"zone_filter, lumen_first {first}, {what}", {**within, **values})
+            for what, values in each("depth_leap", (0.2, 5))
+        )
     yield "preserve_lumen False", {"preserve_lumen": False}
     yield "centerlines at a low weight", {"preserve_lumen": False, "cost_weight": 3, "levels": 2}
     yield "lumen_first", {"lumen_first": True}

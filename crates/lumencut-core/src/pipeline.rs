@@ -158,6 +158,7 @@ impl CpuRenderer {
             work: Work { size: camera.size(), isa: self.isa, stop },
             surface: CutSurface::new(levels, projected, camera, settings),
             has_sheet: Stage::has_sheet(settings, images),
+            settings,
         }
     }
 }

@@ -23,12 +23,17 @@ fn scene() -> (VesselTree, Vec<i16>, DAffine3) {
     (random_tree(11, 20, 50, 2.0, 70.0).unwrap(), voxels, affine)
 }
 
-fn render(isa: Isa) -> Frame {
+/// The filter over the whole image and within zones.
+fn both_filters() -> [Settings; 2] {
+    [false, true].map(|zone_filter| Settings { zone_filter, ..Settings::default() })
+}
+
+fn render(isa: Isa, settings: &Settings) -> Frame {
     let (tree, voxels, affine) = scene();
     let volume = Volume::new(Voxels::I16(&voxels), [50; 3], [1, 50, 2500], affine).unwrap();
     let camera = view([1.0, 0.4, -0.3], [150, 101], 1.1);
-    let (scene, settings) = (Scene::new(volume, tree), Settings::default());
-    CpuRenderer::new(isa).render(&scene, &Request::new(&camera, &settings)).unwrap()
+    let scene = Scene::new(volume, tree);
+    CpuRenderer::new(isa).render(&scene, &Request::new(&camera, settings)).unwrap()
 }
 
 fn assert_same(a: &Frame, b: &Frame, what: &str) {
@@ -39,18 +44,23 @@ fn assert_same(a: &Frame, b: &Frame, what: &str) {
 
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
-    let baseline = render(Isa::Baseline);
-    for isa in Isa::available() {
-        assert_same(&baseline, &render(isa), &format!("{isa:?}"));
+    for settings in both_filters() {
+        let baseline = render(Isa::Baseline, &settings);
+        for isa in Isa::available() {
+            assert_same(&baseline, &render(isa, &settings), &format!("{isa:?}"));
+        }
     }
 }
 
 #[test]
 fn every_number_of_threads_gives_the_same_bits() {
-    let many = render(Isa::widest());
-    for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert_same(&many, &pool.install(|| render(Isa::widest())), &format!("{threads} threads"));
+    for settings in both_filters() {
+        let many = render(Isa::widest(), &settings);
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let few = pool.install(|| render(Isa::widest(), &settings));
+            assert_same(&many, &few, &format!("{threads} threads"));
+        }
     }
 }
 

@@ -65,7 +65,7 @@ fn the_depth_filter_is_the_gaussian() {
     let mut impulse = vec![0.0; 21 * 19];
     impulse[9 * 21 + 10] = 1.0;
     let mut smoothed = vec![-1.0; 21 * 19];
-    depth_filter(&on_cpu(&camera), &DepthFilterParameters::new(), &impulse, &mut smoothed).unwrap();
+    depth_filter(&on_cpu(&camera), &DepthFilterParameters::new(), &impulse, None, &mut smoothed).unwrap();
     let variance = 8.0 * 2f64.ln() / std::f64::consts::PI.powi(2);
     let bell = |n: i32| (-f64::from(n * n) / (2.0 * variance)).exp();
     let total: f64 = (-3..=3).map(bell).sum::<f64>().powi(2);
@@ -85,7 +85,7 @@ fn the_depth_filter_keeps_constants_to_the_border() {
         let camera = view([0.0, 1.0, 0.0], size, 1.0);
         let mut out = vec![0.0; size[0] * size[1]];
         let flat = vec![7.5; size[0] * size[1]];
-        depth_filter(&on_cpu(&camera), &DepthFilterParameters::new(), &flat, &mut out).unwrap();
+        depth_filter(&on_cpu(&camera), &DepthFilterParameters::new(), &flat, None, &mut out).unwrap();
         assert!(out.iter().all(|z| CONSTANT.is_same(*z, 7.5)), "{size:?}");
     }
 }

@@ -99,5 +99,5 @@ fn what_nothing_reads_is_not_made() {
 fn images_of_another_size_are_refused() {
     let camera: Camera = front([4, 3], 1.0);
     let work = Work { size: camera.size(), isa: Isa::Baseline, stop: &|| false };
-    let _ = depth_filter(&work, &DepthFilterParameters::new(), &[0.0; 11], &mut [0.0; 12]);
+    let _ = depth_filter(&work, &DepthFilterParameters::new(), &[0.0; 11], None, &mut [0.0; 12]);
 }

@@ -1,5 +1,8 @@
 //! The depth filter on the GPU.
 
+use std::sync::OnceLock;
+
+use lumencut_core::settings::Settings;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
 use wgpu::Buffer;
 
@@ -8,18 +11,40 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// A 7×7 Gaussian.
+/// A 7×7 Gaussian, over the whole image or within zones.
 #[derive(Debug)]
 pub(crate) struct DepthFilter {
     stage: Stage,
+    /// Along columns and along rows, compiled once needed.
+    within_zones: OnceLock<[Stage; 2]>,
     parameters: Buffer,
 }
+
+/// What is filtered within zones, four bytes per pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ZoneImages<'a> {
+    /// What is filtered.
+    pub image: &'a Buffer,
+    /// The vessel of each pixel.
+    pub vessel: &'a Buffer,
+    /// Written on the way.
+    pub columns: &'a Buffer,
+    /// The result.
+    pub smoothed: &'a Buffer,
+}
+
+const ROOM: &str = "stages/depth_filter";
 
 impl DepthFilter {
     pub fn new(device: &Device) -> Self {
         let parameters = device.uniform::<DepthFilterParameters>("depth_filter parameters");
         device.write(&parameters, &[DepthFilterParameters::new()]);
-        Self { stage: Stage::new(device, "stages/depth_filter", &[]), parameters }
+        Self { stage: Stage::new(device, ROOM, &[]), within_zones: OnceLock::new(), parameters }
+    }
+
+    /// Tells the shader of the settings.
+    pub fn write(&self, device: &Device, settings: &Settings) {
+        device.write(&self.parameters, &[DepthFilterParameters::of(settings)]);
     }
 
     /// Writes the smoothed image.
@@ -38,6 +63,25 @@ impl DepthFilter {
     ) {
         let buffers = [view, &self.parameters, image, smoothed].map(Buffer::as_entire_binding);
         recording.run_as(name, &self.stage, &buffers, groups(size, GROUP));
+    }
+
+    /// Writes the image smoothed within zones: columns first, then rows.
+    pub fn record_within_zones(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        size: [usize; 2],
+        images: ZoneImages,
+    ) {
+        let device = recording.device;
+        let [down, across] = self.within_zones.get_or_init(|| {
+            [1.0, 0.0].map(|is_down| Stage::entry(device, ROOM, "within_zones", &[("DOWN", is_down)]))
+        });
+        let ZoneImages { image, vessel, columns, smoothed } = images;
+        for (stage, from, to) in [(down, image, columns), (across, columns, smoothed)] {
+            let buffers = [view, &self.parameters, from, to, vessel].map(Buffer::as_entire_binding);
+            recording.run(stage, &buffers, groups(size, GROUP));
+        }
     }
 }
 

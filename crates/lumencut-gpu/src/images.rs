@@ -17,7 +17,7 @@ pub(crate) struct Images {
     pub sheet: Buffer,
     pub leap: Buffer,
     pub value: Buffer,
-    /// The slope that silhouettes are made of.
+    /// The slope that silhouettes are made of; before it, the depth filtered within zones along columns alone.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,

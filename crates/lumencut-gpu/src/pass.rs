@@ -13,6 +13,7 @@ use wgpu::Buffer;
 use crate::composite::Layers;
 use crate::context::ContextImages;
 use crate::cut_surface::DepthRules;
+use crate::depth_filter::ZoneImages;
 use crate::device::Device;
 use crate::images::Images;
 use crate::levels::DeviceLevels;
@@ -137,9 +138,16 @@ impl<'a> Pass<'a> {
     }
 
     fn depth_filter(&mut self) {
-        let (Stages { view, depth_filter, .. }, images) = (&*self.stages, self.images);
-        let [from, to] = [&images.unfiltered_depth, &images.depth];
-        depth_filter.record(&mut self.recording, view, images.size, [from, to]);
+        let Images { size, unfiltered_depth: image, vessel, raised: columns, depth: smoothed, .. } =
+            self.images;
+        let Stages { view, depth_filter, .. } = &*self.stages;
+        if self.request.settings.zone_filter {
+            depth_filter.write(self.device, self.request.settings);
+            let images = ZoneImages { image, vessel, columns, smoothed };
+            depth_filter.record_within_zones(&mut self.recording, view, *size, images);
+        } else {
+            depth_filter.record(&mut self.recording, view, *size, [image, smoothed]);
+        }
     }
 
     fn surface(&mut self) -> Result<()> {

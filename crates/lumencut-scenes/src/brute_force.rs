@@ -29,13 +29,13 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
     brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
     let written = DepthImages { depth: &mut depth, vessel: &mut vessel, sheet: &mut [] };
     brute_force::depth(&pass.work, &pass.surface, &distance, written).unwrap();
-    let mut images = Images { unfiltered_depth: depth, ..Images::default() };
+    let mut images = Images { unfiltered_depth: depth, vessel, ..Images::default() };
     if settings.depth_filter {
         pass.run(Stage::DepthFilter, &mut images).unwrap();
         images.unfiltered_depth = images.depth;
     }
     let geometry = Geometry::Orthographic { camera: *camera, depth: images.unfiltered_depth };
-    Frame { vessel, distance, ..Frame::of(geometry) }
+    Frame { vessel: images.vessel, distance, ..Frame::of(geometry) }
 }
 
 /// A renderer that has projected a tree into a view: its stages can run one by one.

@@ -16,3 +16,4 @@ pub mod trees;
 pub mod views;
 pub mod volumes;
 pub mod workloads;
+pub mod zones;

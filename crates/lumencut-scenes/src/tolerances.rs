@@ -91,6 +91,14 @@ pub const SILHOUETTE: Tolerance = Tolerance::new(1e-5, 0.0);
 /// Filtered depths of up to 300 mm: two units of the last place of the largest, 2 · 2⁻¹⁵ mm.
 pub const FILTERED_DEPTH: Tolerance = Tolerance::new(2.0 * 256.0 * f32::EPSILON, 0.0);
 
+/// Depths of a plane of up to 300 mm, filtered within zones: each is rounded by half a unit of the last place, and so a
+/// pair lies off the straight line by two units at most, a quarter of which is added along each axis and rounded.
+pub const PLANE: Tolerance = Tolerance::new(2.0 * 256.0 * f32::EPSILON, 0.0);
+
+/// Depths filtered within zones on two machines: as [`FILTERED_DEPTH`], but for single pixels whose pair lies off a
+/// straight line by just the leap, so that the last digit of the first pass decides whether it counts.
+pub const FILTERED_IN_ZONES: Tolerance = Tolerance::new(FILTERED_DEPTH.apart, 1e-4);
+
 /// Depths and distances of up to 60 mm against their closed form (mm): some units of the last place of f32.
 pub const CLOSED_FORM: Tolerance = Tolerance::new(1e-4, 0.0);
 

@@ -25,6 +25,8 @@ pub struct CutSurfacePass<'a> {
     pub surface: CutSurface<'a>,
     /// Whether the stage `depth` writes the sheet.
     pub has_sheet: bool,
+    /// How the cut surface is made.
+    pub settings: &'a Settings,
 }
 
 impl CutSurfacePass<'_> {
@@ -52,13 +54,7 @@ impl CutSurfacePass<'_> {
                 let parameters = LeapParameters::new(self.surface.camera());
                 leap(work, &parameters, &images.unfiltered_depth, &images.sheet, &mut images.leap)
             }
-            Stage::DepthFilter => {
-                images.depth = vec![0.0; pixels];
-                let parameters = DepthFilterParameters::new();
-                depth_filter(work, &parameters, &images.unfiltered_depth, &mut images.depth)?;
-                images.unfiltered_depth = Vec::new();
-                Ok(())
-            }
+            Stage::DepthFilter => self.depth_filter(images),
             Stage::Levels
             | Stage::Projection
             | Stage::Surface
@@ -67,6 +63,15 @@ impl CutSurfacePass<'_> {
             | Stage::Context
             | Stage::Composite => Ok(()),
         }
+    }
+
+    fn depth_filter(&self, images: &mut Images) -> Result<()> {
+        let parameters = DepthFilterParameters::of(self.settings);
+        let zones = self.settings.zone_filter.then_some(&images.vessel[..]);
+        images.depth = vec![0.0; self.work.pixels()];
+        depth_filter(&self.work, &parameters, &images.unfiltered_depth, zones, &mut images.depth)?;
+        images.unfiltered_depth = Vec::new();
+        Ok(())
     }
 }
 

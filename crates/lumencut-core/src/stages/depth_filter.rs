@@ -1,5 +1,5 @@
 //! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that takes the steps of the pixel grid out of
-//! the cut surface (paper section 3.3.3).
+//! the cut surface (paper section 3.3.3), over the whole image or within influence zones.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -7,9 +7,14 @@ use rayon::prelude::*;
 use super::{Image, Work};
 use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch};
+use crate::settings::Settings;
 
 /// Pixels to each side of the middle.
 const REACH: usize = 3;
+/// Pixels along an axis that a pixel is made of.
+const SPAN: usize = 2 * REACH + 1;
+/// The zone of what is not in the image: that of no vessel.
+const OUTSIDE: i32 = i32::MIN;
 
 /// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -17,16 +22,27 @@ const REACH: usize = 3;
 pub struct DepthFilterParameters {
     /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
     pub weights: [f32; REACH + 1],
+    /// Within zones: how far a pair of neighbours may lie off a straight line (mm).
+    pub leap: f32,
+    /// Nothing; the structure ends at a multiple of 16 bytes.
+    pub padding: f32,
+    /// Nothing.
+    pub more_padding: [f32; 2],
 }
 
 impl DepthFilterParameters {
-    /// The Gaussian of the paper.
+    /// The Gaussian of the paper, over the whole image.
     pub fn new() -> Self {
         let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
         let bell: [f64; REACH + 1] =
             std::array::from_fn(|n| (-((n * n) as f64) / (2.0 * sigma * sigma)).exp());
         let sum = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
-        Self { weights: bell.map(|w| (w / sum) as f32) }
+        Self { weights: bell.map(|w| (w / sum) as f32), leap: 0.0, ..Self::zeroed() }
+    }
+
+    /// The same, and the leap that these settings name.
+    pub fn of(settings: &Settings) -> Self {
+        Self { leap: settings.depth_leap as f32, ..Self::new() }
     }
 }
 
@@ -36,7 +52,8 @@ impl Default for DepthFilterParameters {
     }
 }
 
-/// Writes the smoothed `image`, continued beyond its border by the border's own pixels.
+/// Writes the smoothed `image`: over the whole of it, continued beyond its border by the border's own pixels, or within
+/// the zones of `vessel`, where it is given.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -44,14 +61,23 @@ pub fn depth_filter(
     work: &Work,
     parameters: &DepthFilterParameters,
     image: &[f32],
+    vessel: Option<&[i32]>,
     smoothed: &mut [f32],
 ) -> Result<()> {
     work.expect_whole(Image::UnfilteredDepth, image);
+    if let Some(vessel) = vessel {
+        work.expect_whole(Image::Vessel, vessel);
+    }
     work.expect_whole(Image::Depth, smoothed);
     let (weights, width) = (parameters.weights, work.size[0]);
     smoothed.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
         work.go_on()?;
-        dispatch(work.isa, FilterRows { image, width, first: row * ROWS, weights, smoothed });
+        let first = row * ROWS;
+        if let Some(vessel) = vessel {
+            dispatch(work.isa, ZoneRows { parameters, image, vessel, width, first, smoothed });
+        } else {
+            dispatch(work.isa, FilterRows { image, width, first, weights, smoothed });
+        }
         Ok(())
     })
 }
@@ -103,5 +129,79 @@ fn set(sum: &mut [f32], weight: f32, image: &[f32]) {
 fn add(sum: &mut [f32], weight: f32, one: &[f32], other: &[f32]) {
     for ((sum, one), other) in sum.iter_mut().zip(one).zip(other) {
         *sum += weight * (one + other);
+    }
+}
+
+struct ZoneRows<'a> {
+    parameters: &'a DepthFilterParameters,
+    image: &'a [f32],
+    vessel: &'a [i32],
+    width: usize,
+    first: usize,
+    smoothed: &'a mut [f32],
+}
+
+impl Kernel for ZoneRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let width = self.width;
+        let height = self.image.len() / width;
+        let outside = vec![OUTSIDE; width];
+        // A row with what is beside it, which belongs to no zone.
+        let (mut depths, mut zones) = (vec![0.0; width + 2 * REACH], vec![OUTSIDE; width + 2 * REACH]);
+        for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
+            let row = |o: usize| (j + o).checked_sub(REACH).filter(|row| *row < height);
+            let pixels = |row: usize| row * width..(row + 1) * width;
+            let z = OFFSETS.map(|o| &self.image[pixels(row(o).unwrap_or(j))]);
+            let zone = OFFSETS.map(|o| row(o).map_or(&outside[..], |row| &self.vessel[pixels(row)]));
+            filter_within_zones(self.parameters, z, zone, &mut depths[REACH..REACH + width]);
+            zones[REACH..REACH + width].copy_from_slice(&self.vessel[pixels(j)]);
+            let (z, zone) = (OFFSETS.map(|o| &depths[o..]), OFFSETS.map(|o| &zones[o..]));
+            filter_within_zones(self.parameters, z, zone, smoothed);
+        }
+    }
+}
+
+/// The places of the pixels along an axis that a pixel is made of, itself in the middle.
+const OFFSETS: [usize; SPAN] = [0, 1, 2, 3, 4, 5, 6];
+
+/// Filters a row of pixels along one axis, within zones. Number n of `z` and `zone` holds, for each pixel of the row, the
+/// one that lies n − `REACH` beside it along that axis.
+///
+/// A pair of neighbours counts where both, and all pairs nearer in, are in the zone of the middle pixel, and where it
+/// does not leap. What is added to the middle is how far pairs lie off a straight line through it, not the pairs
+/// themselves: on a plane that is 0 but for the rounding of the depths, and where no pair counts the middle is kept to the
+/// bit. Neighbours are subtracted from the middle one by one, since close numbers have an exact difference, whereas the sum
+/// of two has lost a digit. The middle always counts, so that the sum of the weights is never 0.
+#[inline(always)]
+fn filter_within_zones(
+    parameters: &DepthFilterParameters,
+    z: [&[f32]; SPAN],
+    zone: [&[i32]; SPAN],
+    filtered: &mut [f32],
+) {
+    let &DepthFilterParameters { weights: [w0, w1, w2, w3], leap, .. } = parameters;
+    let width = filtered.len();
+    // Slices of one length, pairs without an index and choices of numbers, so that the compiler can use vectors.
+    let [a3, a2, a1, z, b1, b2, b3] = z.map(|z| &z[..width]);
+    let [u3, u2, u1, zone, v1, v2, v3] = zone.map(|zone| &zone[..width]);
+    for i in 0..width {
+        let (middle, own) = (z[i], zone[i]);
+        let pairs = [
+            (w1, [a1[i], b1[i]], [u1[i], v1[i]]),
+            (w2, [a2[i], b2[i]], [u2[i], v2[i]]),
+            (w3, [a3[i], b3[i]], [u3[i], v3[i]]),
+        ];
+        let (mut sum, mut weights, mut other_zone) = (0.0, w0, 0);
+        for (weight, [a, b], [u, v]) in pairs {
+            other_zone |= (u ^ own) | (v ^ own);
+            let bend = (a - middle) + (b - middle);
+            let counted = if (other_zone == 0) & (bend.abs() < leap) { weight } else { 0.0 };
+            sum += counted * bend;
+            weights += 2.0 * counted;
+        }
+        filtered[i] = middle + sum / weights;
     }
 }

@@ -1,14 +1,24 @@
-// The depth filter: a 7×7 Gaussian (paper section 3.3.3).
+// The depth filter: a 7×7 Gaussian (paper section 3.3.3), over the whole image in one pass, or within zones in two, one
+// along each axis.
 // import math/view
+
+// Within zones: whether this pass goes along columns; else it goes along rows.
+override DOWN: bool = true;
 
 struct DepthFilterParameters {
     // From the middle outwards.
     weights: vec4f,
+    // Within zones: how far a pair of neighbours may lie off a straight line (mm).
+    leap: f32,
+    padding: f32,
+    more_padding: vec2f,
 }
 
 @group(0) @binding(1) var<uniform> parameters: DepthFilterParameters;
 @group(0) @binding(2) var<storage, read> image: array<f32>;
 @group(0) @binding(3) var<storage, read_write> smoothed: array<f32>;
+// Read within zones alone.
+@group(0) @binding(4) var<storage, read> vessel: array<i32>;
 
 // The image, continued beyond its border by the border's own pixels.
 fn continued(column: i32, row: i32) -> f32 {
@@ -36,4 +46,35 @@ fn depth_filter(@builtin(global_invocation_id) thread: vec3u) {
         sum += parameters.weights[n] * (down(pixel.x - n, pixel.y) + down(pixel.x + n, pixel.y));
     }
     smoothed[place_of(thread.xy)] = sum;
+}
+
+// A pair of neighbours counts where both, and all pairs nearer in, are in the zone of the middle pixel, and where it does
+// not leap. How far the pairs lie off a straight line is added to the middle, as on the CPU.
+@compute @workgroup_size(16, 4)
+fn within_zones(@builtin(global_invocation_id) thread: vec3u) {
+    if !in_view(thread.xy) {
+        return;
+    }
+    let along = select(thread.x, thread.y, DOWN);
+    let last = select(view.size.x, view.size.y, DOWN) - 1u;
+    let stride = select(1u, view.size.x, DOWN);
+    let pairs = min(3u, min(along, last - along));
+    let place = place_of(thread.xy);
+    let middle = image[place];
+    let own = vessel[place];
+    var sum = 0.0;
+    var weight = parameters.weights[0];
+    for (var n = 1u; n <= pairs; n++) {
+        let one = place - n * stride;
+        let other = place + n * stride;
+        if vessel[one] != own || vessel[other] != own {
+            break;
+        }
+        let bend = (image[one] - middle) + (image[other] - middle);
+        if abs(bend) < parameters.leap {
+            sum += parameters.weights[n] * bend;
+            weight += 2.0 * parameters.weights[n];
+        }
+    }
+    smoothed[place] = middle + sum / weight;
 }

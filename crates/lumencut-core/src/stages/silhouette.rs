@@ -58,7 +58,7 @@ pub fn silhouette(
         dispatch(work.isa, SlopeRows { depth, vessel, width, first: row * ROWS, per_slope, raised });
         Ok(())
     })?;
-    depth_filter(work, &DepthFilterParameters::new(), &raised, strength)?;
+    depth_filter(work, &DepthFilterParameters::new(), &raised, None, strength)?;
     strength.par_chunks_mut(chunk).for_each(|slopes| dispatch(work.isa, Strength { slopes, half }));
     Ok(())
 }

@@ -187,7 +187,7 @@ impl Stage {
             Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
             Self::Depth => &[Image::Distance],
             Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
-            Self::DepthFilter => &[Image::UnfilteredDepth],
+            Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
             Self::Surface => &[Image::Depth],
             Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap],
             Self::Context => &[Image::Depth, Image::Value],

@@ -143,7 +143,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         ),
         host!("math/context_parameters", RiseParameters { color, opacity, start, per_intensity, padding }),
         host!("stages/composite", CompositeParameters { background, line, grey, opacity }),
-        host!("stages/depth_filter", DepthFilterParameters { weights }),
+        host!("stages/depth_filter", DepthFilterParameters { weights, leap, padding, more_padding }),
         host!("stages/silhouette", SilhouetteParameters { per_slope, half }),
         host!("stages/surface", CurvedPlace { whole, part, per_mm }),
         host!("stages/surface", SurfaceParameters { part, beside, mode, padding, exact_part }),
