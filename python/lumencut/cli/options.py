@@ -85,6 +85,14 @@ def scene_arguments(command: Command) -> Command:
     parts = (
         click.argument("volume", type=FILE),
         click.argument("centerlines", type=FILE, required=False),
+        reading_options,
+    )
+    return added(parts, command)
+
+
+def reading_options(command: Command) -> Command:
+    """Add the options that say how the files are read, and what computes."""
+    parts = (
         coordinates_option,
         unit_option,
         series_option,
