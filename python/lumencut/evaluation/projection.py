@@ -58,6 +58,12 @@ class Projection:
         """View coordinates of world points (n, 3): x right, y up, z away from the viewer (mm)."""
         return np.asarray((points - self.center) @ self.axes, np.float64)
 
+    def world(self, depth: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """World points (H, W, 3) of a depth image (mm); NaN where the depth is not finite."""
+        x, y = np.meshgrid(self.grid.x(np.arange(self.grid.width)), self.grid.y(np.arange(self.grid.height)))
+        view = np.stack([x, y, np.where(np.isfinite(depth), depth, np.nan)], axis=2)
+        return np.asarray(view @ self.axes.T + self.center, np.float64)
+
 
 def projection_of(centerline: Centerline, camera: Camera) -> Projection:
     """Return the centerline as the camera sees it."""

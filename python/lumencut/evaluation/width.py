@@ -17,6 +17,8 @@ _FORESHORTENED = 0.5
 _ROUNDING = 1e-3
 #: Beyond three radii, how far along the vessel its centerline counts for the width of a station (mm).
 _REACH = 5.0
+#: How far the width in a picture of the truth may be off where a vessel counts as a tube (pixels).
+_BEND = 1.5
 
 
 def width_amounts(truth: Truth, shown: Shown) -> Amounts:
@@ -27,8 +29,12 @@ def width_amounts(truth: Truth, shown: Shown) -> Amounts:
     pixel, within = truth.seen.grid.pixels(place[:, None] + (steps * side)[:, None] * across[:, None])
     clear = _clear(truth, stations, np.abs(steps) * side, pixel, within)
     stations, pixel, within = stations.chosen(clear), pixel[clear], within[clear]
-    inside = within & _inside(truth, stations, shown.position.reshape(-1, 3)[pixel])
-    errors = _run(inside) * side - 2 * stations.radius
+    true, found = (
+        _run(within & _inside(truth, stations, position.reshape(-1, 3)[pixel])) * side - 2 * stations.radius
+        for position in (truth.seen.world(truth.nearest.depth), shown.position)
+    )
+    # In a sharp bend even the truth is not as wide as the vessel.
+    errors = found[np.abs(true) <= _BEND * side]
     return {"errors": errors, "left out": len(truth.stations) - len(errors) + truth.stations_left_out}
 
 
