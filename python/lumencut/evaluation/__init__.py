@@ -96,8 +96,9 @@ def evaluate(
         leaps_with_line_percent, lines_elsewhere_mm_per_mm2, leaps
             Leaps of the depth with a silhouette, the length of silhouettes elsewhere (mm per mm²), and how
             many leaps there are; None as long as the engine does not tell the strength of the silhouettes.
-        crossings_in_order_percent, crossings
-            Crossings in projection at which the nearer vessel is shown, and how many there are.
+        crossings_in_order_percent, crossings, crossings_left_out
+            Crossings in projection at which the nearer vessel is shown, how many there are, and how many could
+            not be judged.
 
     Raises
     ------

@@ -59,12 +59,22 @@ def lumen_columns(amounts: Amounts) -> Columns:
 
 
 def crossing_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the crossings in the picture, and those at which the nearer vessel is shown."""
+    """Count the crossings in the picture, and those at which the nearer vessel is shown.
+
+    Crossings at which even the truth shows something else are left out: at the centre of the pixel the nearer
+    vessel may already have ended.
+    """
     crossings = truth.crossings
     pixel, within = truth.seen.grid.pixels(crossings.place)
-    error = np.abs(shown.depth.ravel()[pixel] - crossings.depth)
-    right = within & (error <= crossings.radius + _CROSSING_MARGIN)
-    return {"crossings": counted(within), "right": counted(right)}
+    true, found = (
+        within & (np.abs(depth.ravel()[pixel] - crossings.depth) <= crossings.radius + _CROSSING_MARGIN)
+        for depth in (truth.nearest.depth, shown.depth)
+    )
+    return {
+        "crossings": counted(true),
+        "right": counted(true & found),
+        "left out": counted(within & ~true),
+    }
 
 
 def crossing_columns(amounts: Amounts) -> Columns:
@@ -72,4 +82,5 @@ def crossing_columns(amounts: Amounts) -> Columns:
     return {
         "crossings_in_order_percent": percent(amounts["right"], amounts["crossings"]),
         "crossings": amounts["crossings"],
+        "crossings_left_out": amounts["left out"],
     }
