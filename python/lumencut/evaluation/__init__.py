@@ -97,8 +97,8 @@ def evaluate(
             Leaps of the depth with a silhouette, the length of silhouettes elsewhere (mm per mm²), and how
             many leaps there are; None as long as the engine does not tell the strength of the silhouettes.
         crossings_in_order_percent, crossings, crossings_left_out
-            Crossings in projection at which the nearer vessel is shown, how many there are, and how many could
-            not be judged.
+            Crossings in projection at which the nearer vessel is shown, how many there are, and how many
+            could not be judged.
 
     Raises
     ------
