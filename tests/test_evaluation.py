@@ -289,3 +289,14 @@ def test_the_command_says_what_is_wrong_before_it_works(words, message):
     assert result.exit_code in (1, 2)
     assert message in result.stderr
     assert result.stdout == ""
+
+
+def test_ctrl_c_leaves_nothing_behind(scene, tmp_path, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Renderer, "cut_surface", interrupted)
+    result = run(scene[1], "--csv", str(tmp_path / "out.csv"))
+    assert result.exit_code == 130
+    assert "interrupted" in result.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["in"]

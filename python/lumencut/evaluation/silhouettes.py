@@ -54,7 +54,8 @@ def leap_bounds(truth: Truth, shown: Shown) -> npt.NDArray[np.float64]:
     vessel whose zone the pixel is in.
     """
     line = truth.seen.centerline
-    usual = np.array([np.median(line.radius[line.vessel == vessel]) for vessel in range(len(line.lengths))])
+    starts = np.flatnonzero(np.diff(line.vessel)) + 1
+    usual = np.array([np.median(radii) for radii in np.split(line.radius, starts)])
     radius = np.where(np.isnan(truth.nearest.radius), usual[shown.vessel], truth.nearest.radius)
     bounds: npt.NDArray[np.float64] = np.maximum(2 * radius, _SMALLEST_LEAP)
     return bounds

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.camera import Camera
+from lumencut.camera import Camera, upright
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
@@ -30,12 +30,7 @@ def cameras(
     tree: VesselTree, count: int, size: tuple[int, int], pixel_spacing: float | None
 ) -> tuple[Camera, ...]:
     """Return the cameras along :func:`directions`, fitted to the tree but for a given pixel spacing (mm)."""
-    views = (Camera.fitted(tree, ahead, _upright(ahead), size) for ahead in directions(count))
+    views = (Camera.fitted(tree, ahead, upright(ahead), size) for ahead in directions(count))
     if pixel_spacing is None:
         return tuple(views)
     return tuple(replace(view, pixel_spacing=pixel_spacing) for view in views)
-
-
-def _upright(ahead: npt.NDArray[np.float64]) -> tuple[float, float, float]:
-    """The head upwards, or the patient's front where the view runs along the body."""
-    return (0.0, 0.0, 1.0) if np.hypot(*ahead[:2]) > 0.05 * abs(ahead[2]) else (0.0, -1.0, 0.0)
