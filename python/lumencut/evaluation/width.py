@@ -105,14 +105,23 @@ def _inside(truth: Truth, stations: Stations, position: npt.NDArray[np.float64])
     for part in parts(np.full(len(stations), position.shape[1]) * count):
         # Where a vessel has fewer segments than the longest one here, its last one is asked again.
         segment = first[part, None] + np.minimum(np.arange(count[part].max()), count[part, None] - 1)
-        start, edge = line.points[segment], line.points[segment + 1] - line.points[segment]
-        offset = position[part, :, None] - start[:, None]
-        t = np.clip((offset * edge[:, None]).sum(axis=3) / (edge**2).sum(axis=2)[:, None], 0, 1)
-        gap = np.linalg.norm(offset - t[..., None] * edge[:, None], axis=3)
+        # Counted from the station, squares of distances keep their digits.
+        middle = stations.points[part, None]
+        start, place = line.points[segment] - middle, position[part] - middle
+        edge = line.points[segment + 1] - line.points[segment]
+        square, along = _squares(edge), place @ edge.swapaxes(1, 2) - (start * edge).sum(axis=2)[:, None]
+        t = np.clip(along / square[:, None], 0, 1)
+        from_start = _squares(place)[:, :, None] - 2 * place @ start.swapaxes(1, 2) + _squares(start)[:, None]
         start_radius = line.radius[segment][:, None]
         radius = start_radius + t * (line.radius[segment + 1][:, None] - start_radius)
-        inside[part] = (gap <= radius + _ROUNDING).any(axis=2)
+        gap = from_start + t * (t * square[:, None] - 2 * along)
+        inside[part] = (gap <= (radius + _ROUNDING) ** 2).any(axis=2)
     return inside
+
+
+def _squares(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Squares of the lengths of vectors (n, m, 3)."""
+    return np.asarray((vectors**2).sum(axis=2))
 
 
 def _run(inside: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
