@@ -16,6 +16,7 @@ from PIL import Image
 
 from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction, Window
 from lumencut.cli import main, options
+from lumencut.cli.evaluate import evaluate
 from lumencut.cli.render import render
 from lumencut.cli.turntable import turntable
 from scene_files import LUMEN, TISSUE, bent_line, write_lines, write_volume
@@ -70,7 +71,7 @@ def one_line(result):
 # Options
 
 
-@pytest.mark.parametrize("command", [render, turntable])
+@pytest.mark.parametrize("command", [render, turntable, evaluate])
 @pytest.mark.parametrize("field", fields(Settings), ids=lambda field: field.name)
 def test_every_setting_has_an_option_that_states_its_unit_and_default(command, field):
     option = next(option for option in command.params if option.name == field.name)
@@ -339,7 +340,7 @@ def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("command", ["", "render", "turntable", "info", "demo"])
+@pytest.mark.parametrize("command", ["", "render", "turntable", "evaluate", "info", "demo"])
 def test_help_imports_nothing_heavy(command):
     code = (
         "import sys; from lumencut.cli import main; main(sys.argv[1:], standalone_mode=False); "
@@ -355,7 +356,7 @@ def test_version():
     assert re.fullmatch(r"lumencut \d+\.\d+\.\d+\S*\n", result.stdout)
 
 
-@pytest.mark.parametrize(("command", "examples"), [("render", 3), ("turntable", 2)])
+@pytest.mark.parametrize(("command", "examples"), [("render", 3), ("turntable", 2), ("evaluate", 2)])
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
     assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == examples

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
         VesselTreeError,
         VolumeError,
     )
+    from lumencut.evaluation import Evaluation, evaluate
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer, render
     from lumencut.settings import Settings
@@ -64,6 +65,7 @@ _HOME = {
         "VesselTreeError",
         "VolumeError",
     ),
+    "evaluation": ("Evaluation", "evaluate"),
     "frame": ("Frame",),
     "renderer": ("Renderer", "render"),
     "settings": ("Settings",),
@@ -83,6 +85,7 @@ __all__ = [
     "Device",
     "DeviceError",
     "DeviceWarning",
+    "Evaluation",
     "FileError",
     "FormatError",
     "Frame",
@@ -105,6 +108,7 @@ __all__ = [
     "Window",
     "__version__",
     "devices",
+    "evaluate",
     "list_series",
     "read_centerlines",
     "read_volume",

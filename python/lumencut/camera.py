@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -154,6 +156,15 @@ class Camera:
         if not np.isfinite(shift).all():
             raise CameraError("shift of the camera", f"{shift}", "finite distances in mm")
         return self._moved(_lumencut.panned(self, *shift))
+
+
+def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float, float, float]:
+    """Return what points upwards in a view along ``direction``, shape (3,).
+
+    It is the head, or the patient's front where the view runs along the body.
+    """
+    across = math.hypot(direction[0], direction[1])
+    return (0.0, 0.0, 1.0) if across > 0.05 * abs(direction[2]) else (0.0, -1.0, 0.0)
 
 
 def scene_points(scene: VesselTree | Volume) -> npt.NDArray[np.float64]:

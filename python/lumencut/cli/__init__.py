@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from lumencut.cli.demo import demo
+from lumencut.cli.evaluate import evaluate
 from lumencut.cli.info import info
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
@@ -48,5 +49,5 @@ def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
 
 
-for _command in (render, turntable, info, demo):
+for _command in (render, turntable, evaluate, info, demo):
     main.add_command(_command)

@@ -85,6 +85,14 @@ def scene_arguments(command: Command) -> Command:
     parts = (
         click.argument("volume", type=FILE),
         click.argument("centerlines", type=FILE, required=False),
+        reading_options,
+    )
+    return added(parts, command)
+
+
+def reading_options(command: Command) -> Command:
+    """Add the options that say how the files are read, and what computes."""
+    parts = (
         coordinates_option,
         unit_option,
         series_option,
@@ -149,10 +157,10 @@ def view_from(chosen: dict[str, Any]) -> Camera:
     """Return a camera with the direction, up and size that the options stand for; its place is still open."""
     import numpy as np
 
-    from lumencut.camera import VIEWS, Camera
+    from lumencut.camera import VIEWS, Camera, upright
 
     view = chosen["view"]
-    direction, up = VIEWS[view] if isinstance(view, str) else (view, _upright(view))
+    direction, up = VIEWS[view] if isinstance(view, str) else (view, upright(view))
     try:
         camera = Camera(np.zeros(3), np.array(direction), np.array(chosen["up"] or up), chosen["size"])
         camera = camera.rotated(math.radians(chosen["rotate"]), "up")
@@ -180,12 +188,6 @@ def _magnified(camera: Camera, chosen: dict[str, Any]) -> Camera:
     if chosen["pixel_spacing"] is not None:
         camera = replace(camera, pixel_spacing=chosen["pixel_spacing"])
     return camera.zoomed(chosen["zoom"])
-
-
-def _upright(direction: tuple[float, float, float]) -> tuple[float, float, float]:
-    """The head upwards, or the patient's front where the view runs along the body."""
-    across = math.hypot(direction[0], direction[1])
-    return (0.0, 0.0, 1.0) if across > 0.05 * abs(direction[2]) else (0.0, -1.0, 0.0)
 
 
 def described(camera: Camera, name: str, window: Window) -> str:

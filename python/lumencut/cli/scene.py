@@ -20,13 +20,15 @@ if TYPE_CHECKING:
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
 
 
 @dataclass(frozen=True)
 class SceneFiles:
     """The files of a picture, and how they are to be read."""
 
-    volume: Path
+    volume: Path | None
     centerlines: Path | None
     coordinates: Literal["lps", "ras"] | None
     unit: Literal["um", "mm", "cm", "dm", "m"] | None
@@ -52,29 +54,40 @@ def check_scene(files: SceneFiles, settings: Settings) -> None:
 
 def read_scene(files: SceneFiles) -> Renderer:
     """Return a renderer of the files."""
-    from lumencut.centerlines import CenterlineFile
     from lumencut.renderer import Renderer
-    from lumencut.volume_files import read_volume
+
+    # The renderer compares the tree with the volume and warns where the space looks wrong.
+    return Renderer(*read_files(files), files.device)
+
+
+def read_files(files: SceneFiles) -> tuple[Volume | None, VesselTree | None]:
+    """Return the volume and the vessel tree of the files, each None where its file is."""
+    from lumencut.centerlines import CenterlineFile
 
     start = time.perf_counter()
     # The small file first: what is wrong with it shows before gigabytes are read.
     lines = None if files.centerlines is None else CenterlineFile(files.centerlines)
-    with bar(f"reading {files.volume.name}", "slice") as told:
+    voxels = None if files.volume is None else _read_volume(files.volume, files)
+    tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
+    if tree is not None:
+        detail(f"{files.centerlines}: {tree!r}")
+    detail(f"read in {time.perf_counter() - start:.2f} s")
+    return voxels, tree
+
+
+def _read_volume(path: Path, files: SceneFiles) -> Volume:
+    from lumencut.volume_files import read_volume
+
+    with bar(f"reading {path.name}", "slice") as told:
         voxels = read_volume(
-            files.volume,
+            path,
             series=files.series,
             phase=files.phase,
             fill_gaps=files.fill_gaps,
             progress=told,
         )
-    detail(f"{files.volume}: {voxels!r}")
-    tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
-    if tree is not None:
-        detail(f"{files.centerlines}: {tree!r}")
-    # The renderer compares the tree with the volume and warns where the space looks wrong.
-    renderer = Renderer(voxels, tree, files.device)
-    detail(f"read in {time.perf_counter() - start:.2f} s")
-    return renderer
+    detail(f"{path}: {voxels!r}")
+    return voxels
 
 
 def is_empty(frame: Frame) -> bool:

@@ -1,0 +1,148 @@
+"""``lumencut evaluate``: how much of the truth methods show."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+import click
+
+from lumencut.cli import options
+from lumencut.cli.parameters import SIZE
+from lumencut.cli.report import bar, say, verbose_option
+from lumencut.cli.scene import SceneFiles, read_files, scene_from
+from lumencut.cli.settings import setting_options, settings_from
+from lumencut.errors import FileError, SettingsError
+
+if TYPE_CHECKING:
+    from lumencut.evaluation import Evaluation
+    from lumencut.vessel_tree import VesselTree
+
+
+@click.command(short_help="Measure how much of the truth methods show.")
+@click.argument("files", type=options.FILE, nargs=-1, required=True, metavar="[VOLUME] CENTERLINES")
+@options.reading_options
+@click.option(
+    "--methods",
+    default="csr,csr-paper",
+    show_default=True,
+    metavar="NAME,...",
+    help="csr: with the settings given; csr-paper: with the paper's own rules in their place.",
+)
+@click.option(
+    "--views",
+    type=click.IntRange(1, 10000),
+    default=12,
+    show_default=True,
+    help="How many views, spread evenly over the sphere.",
+)
+@click.option(
+    "--size",
+    type=SIZE,
+    default="512x512",
+    show_default=True,
+    metavar=SIZE.name,
+    help="Size of the views (pixels).",
+)
+@click.option(
+    "--pixel-spacing", type=float, metavar="MM", help="Side of a pixel (mm); default: fits the vessels."
+)
+@click.option("--csv", type=options.FILE, help="Write the table as comma-separated values.")
+@click.option("--markdown", type=options.FILE, help="Write the table as Markdown.")
+@click.option(
+    "--pictures",
+    type=options.FILE,
+    metavar="FOLDER",
+    help="Write a picture of the worst view of each method; needs VOLUME.",
+)
+@setting_options
+@verbose_option
+def evaluate(
+    files: tuple[Path, ...],
+    csv: Path | None,
+    markdown: Path | None,
+    pictures: Path | None,
+    **chosen: Any,
+) -> None:
+    """Measure how much of the truth methods show of CENTERLINES, over views from all sides.
+
+    The truth is, at each pixel, the depth of the nearest lumen along CENTERLINES as they are given. Without
+    VOLUME nothing is said of surroundings. The table is printed as Markdown where no file is named for it.
+
+    \b
+    lumencut evaluate centerlines.vtp
+    lumencut evaluate ct.nii.gz centerlines.vtp --lumen-first --csv numbers.csv --pictures worst
+    """  # noqa: D301 - click needs the control character itself
+    settings = settings_from(chosen)
+    names = _checked_methods(chosen["methods"])
+    scene = _scene(files, chosen)
+    _check_outputs(scene, csv, markdown, pictures)
+    volume, tree = read_files(scene)
+
+    from lumencut.evaluation import evaluate as library
+
+    with bar("evaluate", "frame") as told:
+        found = library(
+            volume,
+            # The arguments of the command always name centerlines.
+            cast("VesselTree", tree),
+            names,
+            chosen["views"],
+            settings,
+            chosen["size"],
+            chosen["pixel_spacing"],
+            device=scene.device,
+            progress=told,
+        )
+    _write(found, csv, markdown, pictures)
+
+
+def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
+    """The files of the scene, of which the last one holds the centerlines."""
+    if len(files) > 2:
+        raise click.UsageError(f"found {len(files)} files; expected [VOLUME] CENTERLINES")
+    volume = files[0] if len(files) == 2 else None
+    scene = scene_from({**chosen, "volume": volume, "centerlines": files[-1]})
+    if volume is None:
+        for name in ("series", "phase", "fill_gaps"):
+            if getattr(scene, name):
+                raise click.UsageError(f"--{name.replace('_', '-')} without VOLUME; it says how one is read")
+    return scene
+
+
+def _checked_methods(names: str) -> tuple[str, ...]:
+    from lumencut.evaluation.methods import checked_methods
+
+    try:
+        return checked_methods([name for name in names.split(",") if name])
+    except SettingsError as error:
+        raise click.UsageError(str(error)) from error
+
+
+def _check_outputs(scene: SceneFiles, csv: Path | None, markdown: Path | None, pictures: Path | None) -> None:
+    """Refuse outputs that cannot be written before any file is read."""
+    if pictures is not None and scene.volume is None:
+        raise click.UsageError("--pictures without VOLUME; give the volume that they are to show")
+    for path in (csv, markdown, pictures):
+        if path is not None:
+            options.check_folder(path)
+    if pictures is not None and pictures.exists() and not pictures.is_dir():
+        raise FileError(str(pictures), "a file", "a folder, or the name of a new one")
+
+
+def _write(found: Evaluation, csv: Path | None, markdown: Path | None, pictures: Path | None) -> None:
+    """Write what was asked for, or print the table."""
+    from lumencut.evaluation.result import write_text
+
+    told = f"{', '.join(found.settings)} in {len(found.cameras)} views"
+    if csv is not None:
+        found.to_csv(csv)
+        say(f"{csv}: {told}")
+    if markdown is not None:
+        write_text(markdown, found.to_markdown())
+        say(f"{markdown}: {told}")
+    if csv is None and markdown is None:
+        say(found.to_markdown().rstrip("\n"))
+    if pictures is not None:
+        for path, name in zip(found.save_pictures(pictures), found.settings, strict=True):
+            say(f"{path}: view {found.worst_view(name)}")

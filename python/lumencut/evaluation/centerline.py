@@ -1,0 +1,164 @@
+"""The centerline that is the measure of everything: one array over all vessels, and stations along it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.evaluation.ragged import parts, ragged
+
+if TYPE_CHECKING:
+    from lumencut.vessel_tree import Vessel, VesselTree
+
+#: Points nearer than this to the one before them repeat it; shorter projections have no direction (mm).
+COLLINEAR = 1e-3
+#: Stretches of one vessel that lie farther apart than this along it count as two places (mm of arc length).
+APART = 20.0
+#: Arc length between the stations at which widths are taken (mm).
+STATION_STEP = 5.0
+
+
+@dataclass(frozen=True, eq=False)
+class Centerline:
+    """All points of a tree, vessel after vessel, without those that repeat the one before.
+
+    Parameters
+    ----------
+    points : numpy.ndarray, shape (n, 3)
+        World points (mm, LPS).
+    radius : numpy.ndarray, shape (n,)
+        Radius of the lumen (mm); the unknown radius where the tree has none.
+    vessel : numpy.ndarray, shape (n,)
+        Id of the vessel.
+    arc : numpy.ndarray, shape (n,)
+        Arc length from the start of the vessel (mm).
+    """
+
+    points: npt.NDArray[np.float64]
+    radius: npt.NDArray[np.float64]
+    vessel: npt.NDArray[np.intp]
+    arc: npt.NDArray[np.float64]
+
+    @property
+    def segments(self) -> npt.NDArray[np.intp]:
+        """Indices of the points at which a segment starts, shape (m,)."""
+        return np.flatnonzero(self.vessel[:-1] == self.vessel[1:])
+
+    @property
+    def lengths(self) -> npt.NDArray[np.float64]:
+        """Arc length of each vessel (mm), shape (vessels,)."""
+        return self.arc[np.flatnonzero(np.diff(self.vessel, append=self.vessel[-1] + 1))]
+
+    def indices(self, vessel: npt.NDArray[np.intp], arc: npt.NDArray[np.float64]) -> npt.NDArray[np.intp]:
+        """Return the last point of each vessel at or before an arc length (mm), or its first one."""
+        apart = self.lengths.max() + 1.0
+        keys = self.vessel * apart + self.arc
+        wanted = vessel * apart + np.clip(arc, 0.0, self.lengths[vessel])
+        found: npt.NDArray[np.intp] = np.searchsorted(keys, wanted, side="right") - 1
+        return found
+
+    def at(self, vessel: npt.NDArray[np.intp], arc: npt.NDArray[np.float64]) -> Stations:
+        """Return what the vessels are like at these arc lengths (mm)."""
+        inner = np.minimum(self.indices(vessel, arc), self.indices(vessel, self.lengths[vessel]) - 1)
+        edge, length = self.points[inner + 1] - self.points[inner], self.arc[inner + 1] - self.arc[inner]
+        t = (arc - self.arc[inner]) / length
+        radius = self.radius[inner] + t * (self.radius[inner + 1] - self.radius[inner])
+        points = self.points[inner] + t[:, None] * edge
+        return Stations(points, edge / length[:, None], radius, vessel, arc)
+
+    def every(self, step: float) -> Stations:
+        """Return stations every ``step`` mm along each vessel, the first half a step from its start."""
+        counts = np.ceil(self.lengths / step - 0.5).astype(int)
+        vessel, number = ragged(np.zeros_like(counts), counts)
+        return self.at(vessel, np.asarray((number + 0.5) * step, np.float64))
+
+
+@dataclass(frozen=True, eq=False)
+class Stations:
+    """Places along the vessels: points (n, 3) and unit tangents (n, 3) in world, radius, vessel, arc (n,)."""
+
+    points: npt.NDArray[np.float64]
+    tangent: npt.NDArray[np.float64]
+    radius: npt.NDArray[np.float64]
+    vessel: npt.NDArray[np.intp]
+    arc: npt.NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.arc)
+
+    def chosen(self, which: npt.NDArray[np.bool_] | slice) -> Stations:
+        """Return some of the stations."""
+        return Stations(
+            self.points[which], self.tangent[which], self.radius[which], self.vessel[which], self.arc[which]
+        )
+
+
+def centerline_of(tree: VesselTree, unknown_radius: float) -> Centerline:
+    """Return the centerline of a tree; the unknown radius (mm) stands where it has none, or 0."""
+    kept = [(vessel, _kept(vessel.points)) for vessel in tree]
+    points = [vessel.points[which] for vessel, which in kept]
+    arcs = [np.append(0.0, np.cumsum(np.linalg.norm(np.diff(part, axis=0), axis=1))) for part in points]
+    radius = [_radius(vessel)[which] for vessel, which in kept]
+    known = np.concatenate(radius)
+    ids = np.repeat(np.arange(len(kept)), [len(which) for _, which in kept])
+    return Centerline(
+        np.concatenate(points), np.where(known > 0, known, unknown_radius), ids, np.concatenate(arcs)
+    )
+
+
+def width_stations(centerline: Centerline) -> tuple[Stations, int]:
+    """Return the stations at which a vessel is a tube by itself, and how many are none.
+
+    Left out are stations within two radii of an end, where the tube ends in a cap or opens into another
+    vessel, and those whose lumen touches that of another vessel, or of a stretch of the same vessel more than
+    20 mm of arc length away, where a junction has no width of its own.
+    """
+    stations = centerline.every(STATION_STEP)
+    to_end = np.minimum(stations.arc, centerline.lengths[stations.vessel] - stations.arc)
+    alone = to_end >= 2 * stations.radius
+    others = centerline.every(1.0)
+    for part in parts(np.full(len(stations), len(others))):
+        alone[part] &= ~_touches(stations.chosen(part), others)
+    return stations.chosen(alone), int((~alone).sum())
+
+
+def _touches(stations: Stations, others: Stations) -> npt.NDArray[np.bool_]:
+    """Tell which stations have a lumen that meets one of elsewhere."""
+    far = elsewhere(
+        stations.vessel[:, None], stations.arc[:, None], others.vessel[None], others.arc[None], APART
+    )
+    gap = np.linalg.norm(stations.points[:, None] - others.points[None], axis=2)
+    touching: npt.NDArray[np.bool_] = (far & (gap <= stations.radius[:, None] + others.radius[None])).any(
+        axis=1
+    )
+    return touching
+
+
+def elsewhere(
+    vessel: npt.NDArray[np.intp],
+    arc: npt.NDArray[np.float64],
+    other_vessel: npt.NDArray[np.intp],
+    other_arc: npt.NDArray[np.float64],
+    apart: npt.NDArray[np.float64] | float,
+) -> npt.NDArray[np.bool_]:
+    """Tell what belongs to another vessel, or to a stretch more than ``apart`` mm away along the same one."""
+    distant: npt.NDArray[np.bool_] = (vessel != other_vessel) | (np.abs(arc - other_arc) > apart)
+    return distant
+
+
+def _radius(vessel: Vessel) -> npt.NDArray[np.float64]:
+    return np.zeros(len(vessel)) if vessel.radius is None else vessel.radius
+
+
+def _kept(points: npt.NDArray[np.float64]) -> npt.NDArray[np.intp]:
+    """Indices of the points that do not repeat the last one that is kept."""
+    if (np.linalg.norm(np.diff(points, axis=0), axis=1) >= COLLINEAR).all():
+        return np.arange(len(points))
+    kept = [0]
+    for index in range(1, len(points)):
+        if np.linalg.norm(points[index] - points[kept[-1]]) >= COLLINEAR:
+            kept.append(index)
+    return np.array(kept)

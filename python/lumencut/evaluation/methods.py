@@ -1,0 +1,80 @@
+"""The methods that can be evaluated: with which settings, and how each makes a frame."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from lumencut._checks import choice
+from lumencut.camera import Camera
+from lumencut.errors import SettingsError
+from lumencut.frame import Frame
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+
+#: The settings in which the paper's rules differ from Lumencut's own.
+PAPER_RULES = ("lumen_first", "lumen_margin", "level_choice", "zone_filter", "silhouette_rule")
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method: a row of the table.
+
+    Parameters
+    ----------
+    settings : function of Settings
+        The settings that the method uses where the caller gives these.
+    surface : function of Renderer, Camera and Settings
+        A frame with depth and vessel, and with values where there is a volume.
+    picture : function of Renderer, Camera and Settings
+        A frame with a picture; needs a volume.
+    """
+
+    settings: Callable[[Settings], Settings]
+    surface: Callable[[Renderer, Camera, Settings], Frame]
+    picture: Callable[[Renderer, Camera, Settings], Frame]
+
+
+def _own(settings: Settings) -> Settings:
+    return settings
+
+
+def _paper(settings: Settings) -> Settings:
+    """The settings with the paper's rules in the place of those that were chosen."""
+    paper = Settings.paper()
+    return replace(settings, **{name: getattr(paper, name) for name in PAPER_RULES})
+
+
+def _surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
+    if renderer.volume is None:
+        return renderer.cut_surface(camera, settings)
+    # None of these changes depth, vessel or value, but they take time.
+    bare = replace(settings, context=None, silhouettes=False, samples=1)
+    return renderer.render(camera, bare, images=("depth", "vessel", "value"))
+
+
+def _picture(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
+    return renderer.render(camera, settings)
+
+
+#: The methods by their names.
+METHODS = {
+    "csr": Method(_own, _surface, _picture),
+    "csr-paper": Method(_paper, _surface, _picture),
+}
+
+
+def checked_methods(names: Any) -> tuple[str, ...]:
+    """Return names of methods, or refuse unknown ones, none at all, and one that is named twice."""
+    if isinstance(names, str):
+        names = (names,)
+    if not isinstance(names, Iterable):
+        raise SettingsError("methods", repr(names), f"names of {', '.join(METHODS)}")
+    found = tuple(names)
+    for name in found:
+        choice(SettingsError, "method", name, tuple(METHODS))
+    if not found or len(set(found)) < len(found):
+        told = "no method" if not found else f"{', '.join(found)}"
+        raise SettingsError("methods", told, f"some of {', '.join(METHODS)}, each once")
+    return found

@@ -1,0 +1,58 @@
+"""What is shown of the picture as a whole: blends of sheets, surroundings, and how steady it is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumencut.evaluation.amounts import Amounts, Columns, counted, percent, ratio
+from lumencut.evaluation.centerline import APART
+from lumencut.evaluation.shown import Shown
+from lumencut.evaluation.truth import Truth
+
+#: A change of depth (mm) that is a jump.
+_JUMP = 5.0
+
+
+def blend_amounts(_: Truth, shown: Shown) -> Amounts:
+    """Count the pixels that blend sheets of a vessel far apart along it."""
+    gap = shown.sheet_gap
+    return {
+        "pixels": shown.depth.size,
+        "blending": None if gap is None else counted(np.abs(gap) > APART),
+    }
+
+
+def blend_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    return {"blended_sheets_percent": percent(amounts["blending"], amounts["pixels"])}
+
+
+def surroundings_amounts(_: Truth, shown: Shown) -> Amounts:
+    """Count the pixels that show tissue: a value of the volume on the cut surface."""
+    value = shown.value
+    return {"pixels": shown.depth.size, "tissue": None if value is None else counted(~np.isnan(value))}
+
+
+def surroundings_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    return {"tissue_percent": percent(amounts["tissue"], amounts["pixels"])}
+
+
+def steadiness_amounts(_: Truth, shown: Shown) -> Amounts:
+    """Add up what changes when the camera turns by one degree."""
+    change = np.abs(shown.turned_depth.astype(float) - shown.depth)
+    return {
+        "pixels": change.size,
+        "change": float(change.sum()),
+        "jumps": counted(change > _JUMP),
+        "zones": counted(shown.turned_vessel != shown.vessel),
+    }
+
+
+def steadiness_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    return {
+        "depth_change_per_degree_mm": ratio(amounts["change"], amounts["pixels"]),
+        "jumps_per_degree_percent": percent(amounts["jumps"], amounts["pixels"]),
+        "zone_changes_per_degree_percent": percent(amounts["zones"], amounts["pixels"]),
+    }

@@ -1,0 +1,133 @@
+"""The numbers of an evaluation, and their files."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from lumencut._files import WRITABLE, checked_path, replace_whole
+from lumencut.camera import Camera
+from lumencut.errors import FileError, VolumeError
+from lumencut.evaluation.methods import METHODS
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+
+#: A row of a table: names of methods, numbers, and None where there is nothing that a number could be of.
+Row = dict[str, str | float | int | None]
+
+_WORST = "lumen_within_0.05_mm_percent"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Evaluation:
+    """What :func:`lumencut.evaluate` found.
+
+    Attributes
+    ----------
+    table : list of dict
+        A row for each method: its name under ``"method"``, and the numbers over all views.
+    views : list of dict
+        The same for each method and each view, whose number, from 0, stands under ``"view"``.
+    cameras : tuple of Camera
+        The views.
+    settings : dict of str to Settings
+        The settings of each method.
+    """
+
+    table: list[Row]
+    views: list[Row]
+    cameras: tuple[Camera, ...]
+    settings: dict[str, Settings]
+    _renderer: Renderer = field(repr=False)
+
+    def __repr__(self) -> str:
+        """Return the names of the methods and the number of views."""
+        return f"Evaluation({', '.join(self.settings)}: {len(self.cameras)} views)"
+
+    def worst_view(self, method: str) -> int:
+        """Return the number of the view in which the smallest share of lumen pixels shows the exact depth.
+
+        It is the first of several, and the first view where no pixel is in a lumen.
+        """
+        shares = [row[_WORST] for row in self.views if row["method"] == method]
+        known = [share if isinstance(share, float) else 101.0 for share in shares]
+        return known.index(min(known))
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the table as comma-separated values, a line for each method; it appears once it is whole.
+
+        Numbers are written with all their digits; what is None is empty.
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be written.
+        """
+        text = io.StringIO()
+        writer = csv.DictWriter(text, list(self.table[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(self.table)
+        write_text(path, text.getvalue())
+
+    def to_markdown(self) -> str:
+        """Return the table as Markdown: a line for each number, a column for each method."""
+        rows = [[name, *(_told(row[name]) for row in self.table)] for name in self.table[0]]
+        return _markdown(rows)
+
+    def save_pictures(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write a picture of the worst view of each method, named after the method, into a folder.
+
+        The folder is made where there is none. See :meth:`worst_view`.
+
+        Returns
+        -------
+        list of Path
+            The pictures, in the order of the methods.
+
+        Raises
+        ------
+        VolumeError
+            Where the evaluation had no volume.
+        FileError
+            Where the folder cannot be written to.
+        """
+        if self._renderer.volume is None:
+            raise VolumeError("pictures of the evaluation", "no volume", "a volume to show")
+        place = checked_path(folder, WRITABLE)
+        try:
+            place.mkdir(exist_ok=True)
+        except OSError as error:
+            raise FileError(str(place), error.strerror or str(error), "a folder to write into") from error
+        paths = []
+        for name, settings in self.settings.items():
+            camera = self.cameras[self.worst_view(name)]
+            METHODS[name].picture(self._renderer, camera, settings).save(place / f"{name}.png")
+            paths.append(place / f"{name}.png")
+        return paths
+
+
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a text that appears only once it is whole."""
+    replace_whole(checked_path(path, WRITABLE), lambda whole: whole.write_text(text, "utf-8", newline="\n"))
+
+
+def _told(value: str | float | int | None) -> str:
+    """A number with the digits that a reader wants."""
+    if value is None:
+        return "-"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def _markdown(rows: Sequence[Sequence[str]]) -> str:
+    """Return rows as a Markdown table, the first one as its head, with numbers to the right."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
+    lines = [
+        f"| {row[0]:<{widths[0]}} | " + " | ".join(map(str.rjust, row[1:], widths[1:])) + " |"
+        for row in [rows[0], rule, *rows[1:]]
+    ]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,94 @@
+"""Whether silhouettes lie where the cut surface leaps, and nowhere else."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.evaluation.amounts import Amounts, Columns, counted, percent, ratio
+from lumencut.evaluation.shown import Shown
+from lumencut.evaluation.truth import Truth
+
+#: The strength from which on a silhouette is a line.
+_LINE = 0.25
+#: The smallest leap (mm), where vessels are thinner than half of it.
+_SMALLEST_LEAP = 2.0
+
+
+def silhouette_amounts(truth: Truth, shown: Shown) -> Amounts:
+    """Count the leaps, those of them with a line, and the length of the lines elsewhere (mm)."""
+    if shown.strength is None or shown.plain_depth is None:
+        return dict.fromkeys(("leaps", "drawn", "stray", "area"))
+    side = truth.seen.grid.side
+    across, down = leaps(shown.plain_depth, leap_bounds(truth, shown))
+    line = shown.strength > _LINE
+    near = _grown(line)
+    drawn = counted(across & (near[:, :-1] | near[:, 1:])) + counted(down & (near[:-1] | near[1:]))
+    at_leap = np.zeros(line.shape, bool)
+    for first, second, leap in ((at_leap[:, :-1], at_leap[:, 1:], across), (at_leap[:-1], at_leap[1:], down)):
+        first |= leap
+        second |= leap
+    # A line may be as wide as the pixels at a leap and those beside them.
+    elsewhere = ~_grown(at_leap)
+    return {
+        "leaps": counted(across) + counted(down),
+        "drawn": drawn,
+        "stray": counted(line & elsewhere) * side,
+        "area": counted(elsewhere) * side**2,
+    }
+
+
+def silhouette_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    return {
+        "leaps_with_line_percent": percent(amounts["drawn"], amounts["leaps"]),
+        "lines_elsewhere_mm_per_mm2": ratio(amounts["stray"], amounts["area"]),
+        "leaps": amounts["leaps"],
+    }
+
+
+def leap_bounds(truth: Truth, shown: Shown) -> npt.NDArray[np.float64]:
+    """Return how high a leap is at least (mm) at each pixel, (H, W): the diameter of the vessel, or 2 mm.
+
+    The radius is that of the nearest lumen at the pixel, and beside all lumens the median radius of the
+    vessel whose zone the pixel is in.
+    """
+    line = truth.seen.centerline
+    starts = np.flatnonzero(np.diff(line.vessel)) + 1
+    usual = np.array([np.median(radii) for radii in np.split(line.radius, starts)])
+    radius = np.where(np.isnan(truth.nearest.radius), usual[shown.vessel], truth.nearest.radius)
+    bounds: npt.NDArray[np.float64] = np.maximum(2 * radius, _SMALLEST_LEAP)
+    return bounds
+
+
+def leaps(
+    depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]
+) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+    """Tell between which neighbours the depth leaps.
+
+    A pair leaps where each of the two depths is farther than the larger bound of both from where the other
+    side's own slope leads. Pairs at the border of the picture have no slope on one side and never leap.
+
+    Returns
+    -------
+    across, down : numpy.ndarray, shapes (H, W - 1) and (H - 1, W)
+        For each pixel and its neighbour to the right, and for each and the one below.
+    """
+    return _leaps_along(depth, bound), _leaps_along(depth.T, bound.T).T
+
+
+def _leaps_along(depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    height, width = depth.shape
+    leap = np.zeros((height, max(width - 1, 0)), bool)
+    if width >= 4:
+        before, left, right, after = (depth[:, i : width - 3 + i].astype(float) for i in range(4))
+        least = np.maximum(bound[:, 1:-2], bound[:, 2:-1])
+        leap[:, 1:-1] = np.abs(right - (2 * left - before)) > least
+        leap[:, 1:-1] &= np.abs(left - (2 * right - after)) > least
+    return leap
+
+
+def _grown(pixels: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """The pixels and their eight neighbours."""
+    padded = np.pad(pixels, 1)
+    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, (3, 3)).any(axis=(2, 3)))

@@ -1,0 +1,86 @@
+"""Whether the lumens that nothing hides are shown, and whether the nearer vessel is at crossings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lumencut.evaluation.amounts import Amounts, Columns, counted, percent
+from lumencut.evaluation.shown import Shown
+from lumencut.evaluation.truth import EXACT, Truth
+
+#: The bounds (mm) within which the depth of a lumen pixel counts as right.
+BOUNDS = (0.05, 0.5, 2.0)
+#: How far beyond its radius the nearer vessel of a crossing may lie from what is shown (mm).
+_CROSSING_MARGIN = 0.5
+
+
+def centerline_amounts(truth: Truth, shown: Shown) -> Amounts:
+    """Count the points of the centerline that no nearer lumen hides, and those of them that are shown."""
+    pixel, within = truth.seen.grid.pixels(truth.seen.place)
+    nearest = truth.nearest.depth.ravel()[pixel]
+    lumen = np.isfinite(nearest)
+    judged = within & ~truth.hidden & lumen
+    exact = np.abs(shown.depth.ravel()[pixel] - nearest) <= EXACT
+    return {
+        "points": counted(judged),
+        "visible": counted(judged & exact),
+        "hidden": counted(within & truth.hidden),
+        "without lumen": counted(within & ~truth.hidden & ~lumen),
+        "outside": counted(~within),
+    }
+
+
+def centerline_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    return {
+        "visible_centerline_percent": percent(amounts["visible"], amounts["points"]),
+        "centerline_points": amounts["points"],
+        "hidden_centerline_points": amounts["hidden"],
+        "centerline_points_off_lumen": amounts["without lumen"],
+        "centerline_points_outside": amounts["outside"],
+    }
+
+
+def lumen_amounts(truth: Truth, shown: Shown) -> Amounts:
+    """Count the pixels whose centre lies in a lumen, and those that show the nearest one within bounds."""
+    lumen = np.isfinite(truth.nearest.depth)
+    error = np.abs(shown.depth[lumen] - truth.nearest.depth[lumen])
+    within = {f"within {bound:g}": counted(error <= bound) for bound in BOUNDS}
+    return {"pixels": len(error), **within}
+
+
+def lumen_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    shares: Columns = {
+        f"lumen_within_{bound:g}_mm_percent": percent(amounts[f"within {bound:g}"], amounts["pixels"])
+        for bound in BOUNDS
+    }
+    return {**shares, "lumen_pixels": amounts["pixels"]}
+
+
+def crossing_amounts(truth: Truth, shown: Shown) -> Amounts:
+    """Count the crossings in the picture, and those at which the nearer vessel is shown.
+
+    Crossings at which even the truth shows something else are left out: at the centre of the pixel the nearer
+    vessel may already have ended.
+    """
+    crossings = truth.crossings
+    pixel, within = truth.seen.grid.pixels(crossings.place)
+    true, found = (
+        within & (np.abs(depth.ravel()[pixel] - crossings.depth) <= crossings.radius + _CROSSING_MARGIN)
+        for depth in (truth.nearest.depth, shown.depth)
+    )
+    return {
+        "crossings": counted(true),
+        "right": counted(true & found),
+        "left out": counted(within & ~true),
+    }
+
+
+def crossing_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    return {
+        "crossings_in_order_percent": percent(amounts["right"], amounts["crossings"]),
+        "crossings": amounts["crossings"],
+        "crossings_left_out": amounts["left out"],
+    }

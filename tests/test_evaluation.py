@@ -1,0 +1,302 @@
+"""`evaluate`, what it gives back, and `lumencut evaluate`."""
+
+import csv
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+import lumencut
+from evaluation_scenes import EXACT, crossing_tubes, tube
+from lumencut import (
+    CameraError,
+    Renderer,
+    Settings,
+    SettingsError,
+    Vessel,
+    VesselTree,
+    VesselTreeError,
+    Volume,
+    VolumeError,
+    _lumencut,
+    evaluate,
+)
+from lumencut.cli import main
+from lumencut.evaluation import engine
+from lumencut.evaluation.methods import METHODS, PAPER_RULES
+from scene_files import write_lines, write_volume
+from scenes import wandering
+
+SMALL = {"views": 4, "size": (96, 96)}
+
+
+@pytest.fixture(scope="module")
+def block():
+    """A volume around the crossing tubes, in which every voxel has a value."""
+    return Volume(np.full((8, 8, 8), 100, np.int16), spacing=(10, 10, 10), origin=(-35, -30, -35))
+
+
+def alone(volume=None, tree=None, settings=EXACT, **more):
+    """The row of the method csr."""
+    (row,) = evaluate(
+        volume, tree or crossing_tubes(), ("csr",), settings=settings, **{**SMALL, **more}
+    ).table
+    return row
+
+
+# Numbers
+
+
+def test_a_straight_tube_is_shown_as_it_is():
+    # 19 pixels and a half across: 19 or 20 of them, wherever the tube lies between their centres.
+    row = alone(tree=VesselTree([tube(4.875)]), pixel_spacing=0.5, size=(200, 200))
+    for name in ("visible_centerline", "lumen_within_0.05_mm", "lumen_within_0.5_mm", "lumen_within_2_mm"):
+        assert row[f"{name}_percent"] == 100, name
+    assert row["width_error_mean_mm"] <= 0.26
+    assert row["width_stations"] > 10
+    assert row["crossings"] == row["hidden_centerline_points"] == 0
+    assert row["crossings_in_order_percent"] is None
+    assert row["zone_changes_per_degree_percent"] == 0
+
+
+def test_without_levels_and_filter_lumen_first_shows_every_lumen():
+    tree = wandering(4, vessels=12)
+    row = alone(tree=tree)
+    assert row["visible_centerline_percent"] > 99.9
+    assert row["lumen_within_0.05_mm_percent"] > 99.9
+    assert row["crossings_in_order_percent"] == 100
+    assert row["crossings"] > 5
+    paper = alone(tree=tree, settings=Settings.paper())
+    assert paper["lumen_within_0.05_mm_percent"] < 95
+    assert paper["visible_centerline_percent"] < row["visible_centerline_percent"]
+
+
+def test_crossing_tubes_by_cost_show_less_of_the_one_behind():
+    """By cost the front tube reaches 20 mm / λ = 2 mm beyond its wall, where the other one is lumen."""
+    front = {"views": 1, "size": (401, 401), "pixel_spacing": 0.2}
+    cost = alone(settings=replace(EXACT, lumen_first=False), **front)
+    assert alone(settings=EXACT, **front)["lumen_within_0.05_mm_percent"] == 100
+    # Two bands of 2 mm by 6 mm of: both tubes with their round ends, less what the front one hides.
+    lumen = 60 * 8 + np.pi * 16 + 60 * 6 + np.pi * 9 - 8 * 6
+    assert cost["lumen_within_0.05_mm_percent"] == pytest.approx(100 * (1 - 2 * 2 * 6 / lumen), abs=0.3)
+    assert cost["visible_centerline_percent"] == pytest.approx(100 * (1 - 4 / (122 - 9)))
+
+
+def test_surroundings_are_where_the_volume_is(block):
+    front = {"views": 1, "size": (100, 100), "pixel_spacing": 2.0}
+    # 80 mm of 200 mm along both axes.
+    assert alone(block, **front)["tissue_percent"] == pytest.approx(16, abs=1)
+    assert alone(None, **front)["tissue_percent"] is None
+
+
+@pytest.mark.parametrize("radius", [None, 0.0])
+def test_vessels_without_radius(radius):
+    tree = VesselTree([Vessel(vessel.points, radius) for vessel in crossing_tubes()])
+    thin, thick = (alone(tree=tree, settings=replace(EXACT, unknown_radius=r)) for r in (1.0, 5.0))
+    assert thick["lumen_pixels"] > 3 * thin["lumen_pixels"]
+    assert thin["visible_centerline_percent"] > 90
+    assert alone(tree=tree, settings=replace(EXACT, unknown_radius=0))["lumen_pixels"] < 200
+
+
+def test_one_pixel_and_a_vessel_along_the_view():
+    row = alone(tree=VesselTree([Vessel([(0, -30, 0), (0, 30, 0)], 3.0)]), views=1, size=(1, 1))
+    assert row["lumen_within_0.05_mm_percent"] == 100
+    assert row["width_stations"] == 0
+
+
+def test_images_that_the_engine_gives_become_numbers(monkeypatch):
+    shape = SMALL["size"]
+    monkeypatch.setattr(engine, "_strength", lambda *_: np.ones(shape, np.float32))
+    monkeypatch.setattr(engine, "_sheet_gap", lambda *_: np.full(shape, 30, np.float32))
+    row = alone()
+    assert row["leaps"] > 50
+    assert row["leaps_with_line_percent"] == row["blended_sheets_percent"] == 100
+
+
+# Arguments
+
+
+def test_methods_differ_in_their_settings_alone():
+    chosen = Settings(lumen_first=True, lumen_margin=3, cost_weight=20, levels=2)
+    found = evaluate(None, crossing_tubes(), settings=chosen, **SMALL)
+    assert found.settings["csr"] == chosen
+    assert found.settings["csr-paper"] == Settings.paper(cost_weight=20, levels=2)
+    assert set(_lumencut.PAPER) <= set(PAPER_RULES)
+    only = evaluate(None, crossing_tubes(), methods="csr-paper", settings=chosen, **SMALL)
+    assert only.table == found.table[1:]
+
+
+def test_there_is_a_row_for_each_method_and_for_each_view():
+    found = evaluate(None, crossing_tubes(), **SMALL)
+    assert [row["method"] for row in found.table] == list(METHODS)
+    assert [row["views"] for row in found.table] == [4, 4]
+    assert [(row["method"], row["view"]) for row in found.views] == [
+        (m, v) for m in METHODS for v in range(4)
+    ]
+    assert len(found.cameras) == 4
+    pixels = sum(row["lumen_pixels"] for row in found.views if row["method"] == "csr")
+    assert pixels == found.table[0]["lumen_pixels"]
+    worst = [row["lumen_within_0.05_mm_percent"] for row in found.views[:4]]
+    assert found.worst_view("csr") == worst.index(min(worst))
+    assert repr(found) == "Evaluation(csr, csr-paper: 4 views)"
+    again = evaluate(None, crossing_tubes(), **SMALL)
+    assert (again.table, again.views) == (found.table, found.views)
+
+
+def test_pixels_have_the_given_spacing():
+    found = evaluate(None, crossing_tubes(), views=3, size=(40, 30), pixel_spacing=0.4)
+    assert {(camera.size, camera.pixel_spacing) for camera in found.cameras} == {((40, 30), 0.4)}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "words"),
+    [
+        ({"methods": ("csr", "cpr")}, SettingsError, "found 'cpr'; expected one of 'csr', 'csr-paper'"),
+        ({"methods": ()}, SettingsError, "no method"),
+        ({"methods": ("csr", "csr")}, SettingsError, "csr, csr"),
+        ({"methods": 3}, SettingsError, "methods: found 3"),
+        ({"views": 0}, SettingsError, "views: found"),
+        ({"views": 2.5}, SettingsError, "views: found"),
+        ({"settings": {}}, SettingsError, "dict"),
+        ({"size": (0, 5)}, CameraError, "size"),
+        ({"pixel_spacing": -1}, CameraError, "pixel_spacing"),
+        ({"tree": None}, VesselTreeError, "NoneType"),
+        ({"volume": "ct.nii"}, VolumeError, "found builtins.str"),
+        ({"device": "tpu"}, SettingsError, "tpu"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, error, words):
+    with pytest.raises(error, match=re.escape(words)):
+        evaluate(**{"volume": None, "tree": crossing_tubes(), **arguments})
+
+
+def test_progress_and_cancelling():
+    told = []
+
+    def stop(done, total):
+        told.append((done, total))
+        if done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        evaluate(None, crossing_tubes(), progress=stop, **SMALL)
+    assert told == [(1, 8), (2, 8), (3, 8)]
+
+
+# Files
+
+
+@pytest.fixture
+def found(block):
+    return evaluate(block, crossing_tubes(), **SMALL)
+
+
+def test_the_table_as_csv(found, tmp_path):
+    found.to_csv(tmp_path / "table.csv")
+    with (tmp_path / "table.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["method"] for row in rows] == ["csr", "csr-paper"]
+    assert float(rows[0]["tissue_percent"]) == found.table[0]["tissue_percent"]
+    assert rows[0]["leaps"] == ""
+    with pytest.raises(lumencut.FileError, match="nowhere"):
+        found.to_csv(tmp_path / "nowhere" / "table.csv")
+    assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]
+
+
+def test_the_table_as_markdown(found):
+    lines = found.to_markdown().splitlines()
+    assert re.fullmatch(r"\| method +\| +csr \| csr-paper \|", lines[0])
+    assert re.fullmatch(r"\| -+ \| -+: \| -+: \|", lines[1])
+    assert len({len(line) for line in lines}) == 1
+    assert len(lines) == 1 + len(found.table[0])
+    assert [line.split("|")[1].strip() for line in lines[2:]] == list(found.table[0])[1:]
+    assert re.search(r"\| leaps +\| +- \| +- \|", lines[-4])
+
+
+def test_pictures_of_the_worst_views(found, block, tmp_path):
+    paths = found.save_pictures(tmp_path / "worst")
+    assert [path.name for path in paths] == ["csr.png", "csr-paper.png"]
+    expected = Renderer(block, crossing_tubes()).render(found.cameras[found.worst_view("csr")], Settings())
+    assert np.array_equal(np.asarray(Image.open(paths[0])), expected.image)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(lumencut.FileError, match="file"):
+        found.save_pictures(tmp_path / "file")
+    with pytest.raises(VolumeError, match="no volume"):
+        evaluate(None, crossing_tubes(), **SMALL).save_pictures(tmp_path / "none")
+    assert not (tmp_path / "none").exists()
+
+
+# The command
+
+
+@pytest.fixture
+def scene(tmp_path):
+    (tmp_path / "in").mkdir()
+    return [str(write_volume(tmp_path / "in/ct.nii.gz")), str(write_lines(tmp_path / "in/lines.vtk"))]
+
+
+def run(*words):
+    return CliRunner().invoke(main, ["evaluate", *words, "--views", "2", "--size", "32x32"])
+
+
+def test_the_command_prints_markdown(scene):
+    for files, tissue in ((scene, r"\d"), (scene[1:], "-")):
+        result = run(*files, "--levels", "0", "--methods", "csr")
+        assert result.exit_code == 0, result.output
+        assert result.stdout.startswith("| method ")
+        assert re.search(rf"\| tissue_percent +\| +{tissue}", result.stdout)
+
+
+def test_the_command_writes_files(scene, tmp_path):
+    names = [tmp_path / name for name in ("out.csv", "out.md", "worst")]
+    result = run(
+        *scene,
+        "--csv",
+        str(names[0]),
+        "--markdown",
+        str(names[1]),
+        "--pictures",
+        str(names[2]),
+        "--lumen-first",
+    )
+    assert result.exit_code == 0, result.output
+    assert names[0].read_text().startswith("method,views,visible_centerline_percent,")
+    assert names[1].read_text().startswith("| method ")
+    assert sorted(path.name for path in names[2].iterdir()) == ["csr-paper.png", "csr.png"]
+    assert [line.partition(":")[0] for line in result.stdout.splitlines()[:2]] == list(map(str, names[:2]))
+    assert "| method" not in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["a", "b", "c"], "found 3 files; expected [VOLUME] CENTERLINES"),
+        (["a", "--methods", "csr,cpr"], "found 'cpr'"),
+        (["a", "--methods", ","], "no method"),
+        (["a", "--pictures", "x"], "--pictures without VOLUME"),
+        (["a", "--fill-gaps"], "--fill-gaps without VOLUME"),
+        (["a", "--series", "1"], "--series without VOLUME"),
+        (["a", "--csv", "nowhere/x.csv"], "no folder nowhere"),
+        (["a", "--levels", "99"], "levels"),
+        (["nowhere.vtp"], "nowhere.vtp: found No such file"),
+    ],
+)
+def test_the_command_says_what_is_wrong_before_it_works(words, message):
+    result = run(*words)
+    assert result.exit_code in (1, 2)
+    assert message in result.stderr
+    assert result.stdout == ""
+
+
+def test_ctrl_c_leaves_nothing_behind(scene, tmp_path, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Renderer, "cut_surface", interrupted)
+    result = run(scene[1], "--csv", str(tmp_path / "out.csv"))
+    assert result.exit_code == 130
+    assert "interrupted" in result.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["in"]
