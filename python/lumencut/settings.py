@@ -29,16 +29,16 @@ class Settings(CheckedSettings):
     preserve_lumen : bool, default True
         Measure distance from the wall, or from the centerline. Without radii it is measured from the
         centerline.
-    lumen_first : bool, default False
+    lumen_first : bool, default True
         Show every lumen unless a nearer lumen hides it: lumen before wall before surroundings, whatever the
         depth.
-    lumen_margin : float, 0 to 10000, default 0
+    lumen_margin : float, 0 to 10000, default 1
         How thick the wall around a lumen is taken to be (mm). With ``lumen_first`` the wall comes after
         every lumen and before all surroundings. With the level choice ``own`` the levels of detail are
         counted from its outside.
     unknown_radius : float, 0 to 10000, default 1
         Radius that ``lumen_first`` takes for vessels without radius, or where it is 0 (mm).
-    level_choice : {"own", "nearest"}, default "nearest"
+    level_choice : {"own", "nearest"}, default "own"
         Which vessel the levels of detail of a pixel belong to (name): the one that wins the pixel at the
         finest level, or whichever wins at each level, as in the paper.
     centerline_smoothing : float, 0 to 10, default 0
@@ -52,7 +52,7 @@ class Settings(CheckedSettings):
         is N.
     depth_filter : bool, default True
         Smooth the depth with a Gaussian of 7 × 7 pixels.
-    zone_filter : bool, default False
+    zone_filter : bool, default True
         Let the depth filter mix only depths of one vessel that lie on an even surface.
     depth_leap : float, 0 to 1000000, default 1
         How far a pair of neighbours may lie off a straight line before ``zone_filter`` leaves it out (mm).
@@ -68,7 +68,7 @@ class Settings(CheckedSettings):
         given: all opaque.
     silhouettes : bool, default True
         Draw lines where the cut surface leaps.
-    silhouette_rule : {"leap", "gradient"}, default "gradient"
+    silhouette_rule : {"leap", "gradient"}, default "leap"
         Where silhouettes are drawn (name): where the surface leaps, or where the depth is steep, as in the
         paper.
     silhouette_slope : float, 0.001 to 1000000, default 24
@@ -112,21 +112,21 @@ class Settings(CheckedSettings):
 
     cost_weight: float = 10.0
     preserve_lumen: bool = True
-    lumen_first: bool = False
-    lumen_margin: float = 0.0
+    lumen_first: bool = True
+    lumen_margin: float = 1.0
     unknown_radius: float = 1.0
-    level_choice: LevelChoiceName = "nearest"
+    level_choice: LevelChoiceName = "own"
     centerline_smoothing: float = 0.0
     levels: int = 6
     level_distance: float = 8.0
     depth_filter: bool = True
-    zone_filter: bool = False
+    zone_filter: bool = True
     depth_leap: float = 1.0
     samples: int = 1
     window: Window | None = None
     opacity: Opacity | None = None
     silhouettes: bool = True
-    silhouette_rule: SilhouetteRuleName = "gradient"
+    silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)

@@ -4,6 +4,7 @@
 //! way brings its own geometry and shares `look`.
 
 mod clock;
+mod details;
 mod images;
 mod pass;
 
@@ -12,6 +13,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use self::clock::Clock;
+pub use self::details::SurfaceDetails;
 pub use self::images::Images;
 pub use self::pass::{CutSurfacePass, LookPass};
 use crate::camera::Camera;

@@ -70,7 +70,7 @@ fn lumen_first_shows_the_lumen_that_a_near_surrounding_hides() {
     let far_tube = vessel(&[[-50., 200., 0.], [50., 200., 0.]], 4.0);
     let scene = tree(vec![near_tube, far_tube]);
     let camera = front([16, 400], 0.1);
-    let hidden = by_hierarchy(&scene, &camera, &unfiltered());
+    let hidden = by_hierarchy(&scene, &camera, &Settings::paper());
     assert_eq!(hidden.vessel[pixel(&hidden, 0.05, 0.05)], 0);
     let margin = Settings { lumen_first: true, lumen_margin: 1.0, ..unfiltered() };
     let shown = by_hierarchy(&scene, &camera, &margin);

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::geometry::{Curved, Geometry};
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::settings::{LevelChoice, Settings, SilhouetteRule};
+use lumencut_core::settings::{Settings, SilhouetteRule};
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use lumencut_core::stages::{Image, ImageSet, Stage, Work};
@@ -52,8 +52,7 @@ fn stages_run_in_the_order_of_the_table() {
 #[test]
 fn every_image_is_written_before_it_is_read() {
     let mut made = ImageSet::of(&[]);
-    let settings = Settings { silhouette_rule: SilhouetteRule::Leap, ..Settings::default() };
-    for stage in whole(&settings) {
+    for stage in whole(&Settings::default()) {
         for image in stage.reads() {
             assert!(made.has(*image), "{stage:?} reads {image:?} before it is there");
         }
@@ -79,8 +78,8 @@ fn what_is_not_wanted_is_not_run() {
 
 #[test]
 fn what_nothing_reads_is_not_made() {
-    let own = Settings { level_choice: LevelChoice::Own, depth_filter: false, ..Settings::default() };
-    let leaps = Settings { silhouette_rule: SilhouetteRule::Leap, ..own.clone() };
+    let leaps = Settings { depth_filter: false, ..Settings::default() };
+    let own = Settings { silhouette_rule: SilhouetteRule::Gradient, ..leaps.clone() };
     let stages = |settings: &Settings, wanted: &[Image]| {
         let wanted = ImageSet::of(wanted);
         (Stage::of_cut_surface(settings, wanted), Stage::has_sheet(settings, wanted))

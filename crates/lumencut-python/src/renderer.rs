@@ -9,7 +9,8 @@ use lumencut::devices::Wanted;
 use lumencut::error::Error;
 use lumencut::frame::Frame;
 use lumencut::geometry::Geometry;
-use lumencut::pipeline::Request;
+use lumencut::math::lanes::FAR;
+use lumencut::pipeline::{CpuRenderer, Request};
 use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
 use lumencut::stages::{Image, ImageSet};
 use lumencut::stop::Stop;
@@ -60,6 +61,30 @@ impl Renderer {
     #[getter]
     fn device(&self, py: Python<'_>) -> String {
         py.detach(|| self.backend.lock().unwrap_or_else(PoisonError::into_inner).name().to_owned())
+    }
+
+    /// What else is known of the cut surface of a view, by name: the arc length between the two places that each pixel blends
+    /// (mm, infinite between different vessels), and the strength of the silhouettes. The CPU computes it.
+    #[allow(clippy::needless_pass_by_value)]
+    fn details<'py>(
+        &self,
+        py: Python<'py>,
+        camera: CameraArgument,
+        settings: &Bound<'py, Checked>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (camera, Checked(settings)) = (camera.camera()?, settings.get());
+        let all = PyDict::new(py);
+        let Some(tree) = &self.tree else { return Ok(all) };
+        let details = interruptible(py, |stop| {
+            let request = Request { stop, ..Request::new(&camera, settings) };
+            pool::install(|| CpuRenderer::default().details(tree, &request))?.map_err(to_python)
+        })?;
+        let [width, height] = camera.size();
+        let gap = details.sheet.iter().map(|sheet| if sheet[3] < FAR { sheet[3] } else { f32::INFINITY });
+        for (name, numbers) in [("sheet_gap", gap.collect()), ("strength", details.strength)] {
+            all.set_item(name, PyArray1::from_vec(py, numbers).reshape([height, width])?)?;
+        }
+        Ok(all)
     }
 
     /// The buffers of one view by name, those that are asked for: those of the cut surface where there are vessels, those

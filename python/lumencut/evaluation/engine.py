@@ -1,12 +1,9 @@
-"""What a method shows of a view, and the images that the engine does not hand out yet."""
+"""What a method shows of a view."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-
-import numpy as np
-import numpy.typing as npt
 
 from lumencut.camera import Camera
 from lumencut.evaluation.methods import Method
@@ -19,9 +16,8 @@ def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Setti
     """Render all images of a view that the measures read."""
     frame = method.surface(renderer, camera, settings)
     turned = method.surface(renderer, camera.rotated(math.radians(1.0), "up"), settings)
-    strength, plain = _strength(renderer, camera, settings), None
-    if strength is not None:
-        plain = method.surface(renderer, camera, replace(settings, depth_filter=False)).depth
+    plain = method.surface(renderer, camera, replace(settings, depth_filter=False))
+    details = method.details(renderer, camera, settings)
     return Shown(
         depth=frame.depth,
         vessel=frame.vessel,
@@ -29,17 +25,7 @@ def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Setti
         turned_depth=turned.depth,
         turned_vessel=turned.vessel,
         value=frame.value if frame.has("value") else None,
-        plain_depth=plain,
-        strength=strength,
-        sheet_gap=_sheet_gap(renderer, camera, settings),
+        plain_depth=plain.depth,
+        strength=details.get("strength"),
+        sheet_gap=details.get("sheet_gap"),
     )
-
-
-def _sheet_gap(_: Renderer, __: Camera, ___: Settings) -> npt.NDArray[np.float32] | None:
-    """Arc length between the sheets that each pixel blends (mm), (H, W); the engine does not tell it yet."""
-    return None
-
-
-def _strength(_: Renderer, __: Camera, ___: Settings) -> npt.NDArray[np.float32] | None:
-    """Strength of the silhouettes, (H, W); the engine does not hand it out yet."""
-    return None

@@ -6,15 +6,17 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checked_settings import checked
 from lumencut._checks import choice
 from lumencut.camera import Camera
 from lumencut.errors import SettingsError
 from lumencut.frame import Frame
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
-
-#: The settings in which the paper's rules differ from Lumencut's own.
-PAPER_RULES = ("lumen_first", "lumen_margin", "level_choice", "zone_filter", "silhouette_rule")
 
 
 @dataclass(frozen=True)
@@ -29,11 +31,15 @@ class Method:
         A frame with depth and vessel, and with values where there is a volume.
     picture : function of Renderer, Camera and Settings
         A frame with a picture; needs a volume.
+    details : function of Renderer, Camera and Settings
+        Of ``"sheet_gap"``, the arc length between the places that a pixel blends (mm), and ``"strength"``, that
+        of the silhouettes (0 to 1), those that the method has.
     """
 
     settings: Callable[[Settings], Settings]
     surface: Callable[[Renderer, Camera, Settings], Frame]
     picture: Callable[[Renderer, Camera, Settings], Frame]
+    details: Callable[[Renderer, Camera, Settings], dict[str, npt.NDArray[np.float32]]]
 
 
 def _own(settings: Settings) -> Settings:
@@ -42,8 +48,7 @@ def _own(settings: Settings) -> Settings:
 
 def _paper(settings: Settings) -> Settings:
     """The settings with the paper's rules in the place of those that were chosen."""
-    paper = Settings.paper()
-    return replace(settings, **{name: getattr(paper, name) for name in PAPER_RULES})
+    return replace(settings, **_lumencut.PAPER)
 
 
 def _surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
@@ -58,10 +63,14 @@ def _picture(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
     return renderer.render(camera, settings)
 
 
+def _details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str, npt.NDArray[np.float32]]:
+    return renderer._core.details(camera, checked(settings))
+
+
 #: The methods by their names.
 METHODS = {
-    "csr": Method(_own, _surface, _picture),
-    "csr-paper": Method(_paper, _surface, _picture),
+    "csr": Method(_own, _surface, _picture, _details),
+    "csr-paper": Method(_paper, _surface, _picture, _details),
 }
 
 

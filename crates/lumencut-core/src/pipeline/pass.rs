@@ -1,6 +1,7 @@
 //! The stages of one view, each with the parameters and the images that it reads.
 
 use super::images::Images;
+use crate::camera::Camera;
 use crate::error::Result;
 use crate::geometry::Geometry;
 use crate::math::context_parameters::StartParameters;
@@ -122,12 +123,9 @@ impl LookPass<'_> {
 
     fn silhouette(&self, images: &mut Images) -> Result<()> {
         let Some(camera) = self.geometry.camera() else { return Ok(()) };
-        images.strength = vec![0.0; self.work.pixels()];
-        if self.settings.silhouette_rule == SilhouetteRule::Leap {
-            return silhouette_of_leaps(&self.work, self.leap, &mut images.strength);
-        }
-        let parameters = SilhouetteParameters::new(self.settings, camera);
-        silhouette(&self.work, &parameters, self.geometry.depth(), self.vessel, &mut images.strength)
+        let lines = Lines { depth: self.geometry.depth(), vessel: self.vessel, leap: self.leap };
+        images.strength = lines.strength(&self.work, self.settings, camera)?;
+        Ok(())
     }
 
     /// Where the rays start, and the volume's blocks, where any ray does.
@@ -178,6 +176,28 @@ impl LookPass<'_> {
         };
         images.picture = vec![[0; 4]; pixels];
         composite(&self.work, &CompositeParameters::new(self.settings), &layers, &mut images.picture)
+    }
+}
+
+/// What silhouettes are drawn from.
+pub(super) struct Lines<'a> {
+    pub depth: &'a [f32],
+    pub vessel: &'a [i32],
+    pub leap: &'a [u32],
+}
+
+impl Lines<'_> {
+    /// The strength of the silhouettes by the rule of the settings.
+    pub fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
+        let mut strength = vec![0.0; work.pixels()];
+        match settings.silhouette_rule {
+            SilhouetteRule::Leap => silhouette_of_leaps(work, self.leap, &mut strength)?,
+            SilhouetteRule::Gradient => {
+                let parameters = SilhouetteParameters::new(settings, camera);
+                silhouette(work, &parameters, self.depth, self.vessel, &mut strength)?;
+            }
+        }
+        Ok(strength)
     }
 }
 

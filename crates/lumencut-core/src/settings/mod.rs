@@ -5,6 +5,7 @@ mod context;
 mod field;
 mod limits;
 mod named;
+mod paper;
 mod rules;
 mod setting;
 mod slab;

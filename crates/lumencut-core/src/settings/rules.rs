@@ -1,8 +1,6 @@
-//! The rules of the cut surface that are chosen by name, and the settings that the paper's own rules stand for.
+//! The rules of the cut surface that are chosen by name.
 
 use super::named::Named;
-use super::table::Settings;
-use super::value::Value;
 
 /// Which vessel the levels of detail of a pixel belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,30 +26,4 @@ pub enum SilhouetteRule {
 
 impl Named for SilhouetteRule {
     const NAMES: &'static [(&'static str, Self)] = &[("leap", Self::Leap), ("gradient", Self::Gradient)];
-}
-
-impl Settings {
-    /// The paper's own rules, with the defaults of all other settings.
-    pub fn paper() -> Self {
-        Self {
-            lumen_first: false,
-            lumen_margin: 0.0,
-            level_choice: LevelChoice::Nearest,
-            zone_filter: false,
-            silhouette_rule: SilhouetteRule::Gradient,
-            ..Self::default()
-        }
-    }
-
-    /// The settings in which [`Settings::paper`] differs from the defaults, with the paper's values.
-    pub fn paper_values() -> Vec<(&'static str, Value)> {
-        let defaults = Self::default().values();
-        Self::paper()
-            .values()
-            .into_iter()
-            .zip(defaults)
-            .filter(|(paper, own)| paper != own)
-            .map(|(paper, _)| paper)
-            .collect()
-    }
 }

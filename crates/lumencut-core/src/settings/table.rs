@@ -30,20 +30,20 @@ settings! {
         preserve_lumen: bool = true;
 
         /// Show every lumen unless a nearer lumen hides it: lumen before wall before surroundings, whatever the depth.
-        lumen_first: bool = false;
+        lumen_first: bool = true;
 
         /// How thick the wall around a lumen is taken to be (mm).
         ///
         /// With `lumen_first` the wall comes after every lumen and before all surroundings. With the level choice `own`
         /// the levels of detail are counted from its outside.
-        lumen_margin: f64 = 0.0, range(0.0, 1e4, "mm");
+        lumen_margin: f64 = 1.0, range(0.0, 1e4, "mm");
 
         /// Radius that `lumen_first` takes for vessels without radius, or where it is 0 (mm).
         unknown_radius: f64 = 1.0, range(0.0, 1e4, "mm");
 
         /// Which vessel the levels of detail of a pixel belong to (name): the one that wins the pixel at the finest level,
         /// or whichever wins at each level, as in the paper.
-        level_choice: LevelChoice = LevelChoice::Nearest;
+        level_choice: LevelChoice = LevelChoice::Own;
 
         /// Smooth each centerline along its length by a Gaussian of this many radii (radii, 0 to 10).
         ///
@@ -63,7 +63,7 @@ settings! {
         depth_filter: bool = true;
 
         /// Let the depth filter mix only depths of one vessel that lie on an even surface.
-        zone_filter: bool = false;
+        zone_filter: bool = true;
 
         /// How far a pair of neighbours may lie off a straight line before `zone_filter` leaves it out (mm).
         depth_leap: f64 = 1.0, range(0.0, 1e6, "mm");
@@ -84,7 +84,7 @@ settings! {
         silhouettes: bool = true;
 
         /// Where silhouettes are drawn (name): where the surface leaps, or where the depth is steep, as in the paper.
-        silhouette_rule: SilhouetteRule = SilhouetteRule::Gradient;
+        silhouette_rule: SilhouetteRule = SilhouetteRule::Leap;
 
         /// Slope at which a silhouette of the rule `gradient` has half its strength (mm of depth per mm).
         silhouette_slope: f64 = 24.0, range(1e-3, 1e6, "mm per mm");

@@ -83,7 +83,7 @@ pub fn silhouette_of_leaps(work: &Work, leap: &[u32], strength: &mut [f32]) -> R
         }
         Ok(())
     })?;
-    depth_filter(work, &DepthFilterParameters::new(), &beside, strength)
+    depth_filter(work, &DepthFilterParameters::new(), &beside, None, strength)
 }
 
 /// Maps slopes to strengths.
