@@ -91,7 +91,8 @@ def test_phantoms(name, direction, rule):
 def test_runs_of_collinear_segments(seed, direction, levels, rule):
     # The center is odd, so that no pixel lies on the border of a piece.
     camera = Camera((0.1313, 0.2777, 0.3177), direction, (0, 0, 1), (47, 33), 1.37)
-    assert_same(lattice(seed), camera, replace(RULES[rule], levels=levels))
+    # Vessels that turn back on themselves have places that lie equally far along from the winner's.
+    assert_same(lattice(seed), camera, replace(RULES[rule], levels=levels), most_unsure=0.02)
 
 
 @pytest.mark.parametrize("rule", ["default", "paper"])
@@ -236,7 +237,7 @@ def test_on_a_tie_the_earlier_piece_wins(deep_first, link):
     lines = lines[::-1] if deep_first else lines
     tree = VesselTree([Vessel(np.concatenate(lines))] if link else [Vessel(line) for line in lines])
     camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (2, 8), 1.0)
-    frame = Renderer(None, tree).cut_surface(camera, replace(PLAIN, levels=0))
+    frame = Renderer(None, tree).cut_surface(camera, replace(PAPER, levels=0))
     deep = 0 if link else 1 - deep_first
     np.testing.assert_array_equal(frame.depth[[1, 2, 3], 0], [10, 10 * deep_first, 0])
     np.testing.assert_array_equal(frame.vessel[[1, 2, 3], 0], [deep, 0, 0 if link else 1 - deep])
@@ -306,8 +307,10 @@ def test_the_filter_within_zones(rule, size, leap):
     renderer, camera = Renderer(None, wandering(2)), fitted(wandering(2), "oblique", size)
     filtered = replace(rule, depth_filter=True, zone_filter=True, depth_leap=leap)
     raw, smooth = renderer.cut_surface(camera, rule), renderer.cut_surface(camera, filtered)
-    expected, doubt = reference_images.zone_filter(raw.depth.astype(float), raw.vessel, leap, 1e-4)
-    assert doubt.mean() < (0.01 if leap else 0.5)
+    # Where no pair counts, none is in doubt.
+    tolerance = 1e-4 if leap else -1.0
+    expected, doubt = reference_images.zone_filter(raw.depth.astype(float), raw.vessel, leap, tolerance)
+    assert doubt.mean() < 0.02
     np.testing.assert_allclose(smooth.depth[~doubt], expected[~doubt], rtol=0, atol=1e-4)
     np.testing.assert_array_equal(smooth.vessel, raw.vessel)
     if size == (53, 37) and leap in (0.05, 1.0):
