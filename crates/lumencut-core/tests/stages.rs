@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::geometry::Geometry;
+use lumencut_core::math::leaps::TO_THE_RIGHT;
 use lumencut_core::settings::{Opacity, Settings, Slab, SlabMode, Window};
 use lumencut_core::stages::Stage;
 use lumencut_core::stages::composite::{CompositeParameters, Layers, composite};
