@@ -100,11 +100,8 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     # It acts under this rule alone.
     yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
     yield from each("silhouette_color", ((255, 0, 128), (0, 0, 0)))
-    yield "silhouettes on a filter-free surface", {
-        "depth_filter": False,
-        "silhouette_rule": "gradient",
-        "silhouette_slope": 4,
-    }
+    slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
+    yield "silhouettes on a filter-free surface", slope
     backgrounds = [(10, 200, 30, 128), (255, 255, 255, 0), (20, 40, 60, 255), (0, 0, 0, 1)]
     yield from each("background", backgrounds, context=None, opacity=SEE_THROUGH)
     for background in backgrounds[:2]:

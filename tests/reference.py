@@ -142,8 +142,8 @@ class Candidates:
 def candidates(pieces, q):
     """Evaluate every piece at every pixel.
 
-    The errors are what the slope of a stripe makes of ends that rounding has moved: much where it is short and
-    steep, as it turns about its ends.
+    The errors are what the slope of a stripe makes of ends that rounding has moved: much where it is short
+    and steep, as it turns about its ends.
     """
     offset = q[:, None] - pieces.start
     length = np.linalg.norm(pieces.edge, axis=1)

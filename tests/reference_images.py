@@ -52,8 +52,8 @@ def pairs_along(depth, vessel, leap, tolerance):
 def silhouettes(surface, camera, tolerance):
     """The strength of silhouettes of the rule leap, and where rounding may make a leap or not.
 
-    Two neighbours leap where the depth differs from what the slope of either of them alone makes it, each time
-    by more than the diameter of the vessel, and by more than 2 mm.
+    Two neighbours leap where the depth differs from what the slope of either of them alone makes it, each
+    time by more than the diameter of the vessel, and by more than 2 mm.
     """
     side, beside = camera.pixel_spacing, np.zeros(surface.depth.shape)
     doubt = surface.unsure_depth | surface.unsure_vessel

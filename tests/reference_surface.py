@@ -53,7 +53,7 @@ class Winners:
 
 
 def key(found, settings, slack=0.0):
-    """What orders the pieces: under `lumen_first` lumen, then wall, then surroundings; else the cost alone."""
+    """What orders the pieces: under `lumen_first` lumen, wall, surroundings; else the cost alone."""
     beyond = found.d - found.r
     cost = found.z + settings.cost_weight * np.maximum(beyond, 0)
     if not settings.lumen_first:

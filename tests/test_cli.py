@@ -18,7 +18,6 @@ from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction,
 from lumencut.cli import main, options
 from lumencut.cli.evaluate import evaluate
 from lumencut.cli.render import render
-from lumencut.cli.settings import settings_from
 from lumencut.cli.turntable import turntable
 from scene_files import LUMEN, TISSUE, bent_line, write_lines, write_volume
 
@@ -91,7 +90,8 @@ def test_every_setting_has_an_option_that_states_its_unit_and_default(command, f
     else:
         stated = f"default {default:g}."
     assert stated in option.help
-    assert re.search(r"\((mm|radii|count|name|number|yes or no|hexadecimal|unit of the volume)\b", option.help)
+    units = "mm|radii|count|name|number|yes or no|hexadecimal|unit of the volume"
+    assert re.search(rf"\(({units})\b", option.help)
 
 
 def test_view_names_are_those_of_the_library():
@@ -136,53 +136,6 @@ def test_every_option_ends_in_its_setting(rendered):
         context_preview=True,
     )
     assert rendered(*given.split())[1] == expected
-
-
-@pytest.mark.parametrize(
-    ("given", "expected"),
-    [
-        ("--paper", Settings.paper()),
-        ("--paper --levels 3 --window 900/300", Settings.paper(levels=3, window=Window(300, 900))),
-        ("--zone-filter --paper --lumen-margin 2", Settings.paper(zone_filter=True, lumen_margin=2)),
-        ("--paper --lumen-first --silhouette-rule leap", Settings.paper(lumen_first=True, silhouette_rule="leap")),
-    ],
-)
-def test_the_rules_of_the_paper_are_a_start(rendered, given, expected):
-    assert rendered(*given.split())[1] == expected
-
-
-@pytest.mark.parametrize("command", [render, turntable])
-def test_the_help_names_what_the_rules_of_the_paper_are(command):
-    option = next(option for option in command.params if option.name == "paper")
-    for words in ("--no-lumen-first", "--lumen-margin 0", "--level-choice nearest", "--no-zone-filter"):
-        assert words in option.help
-    # As they are written they give the same settings.
-    rules = option.help.partition(": ")[2].partition(".")[0].split()
-    arguments = ["volume", "lines", "-o", "out.png"]
-    chosen = [
-        command.make_context("x", [*arguments, *words]).params for words in (["--paper"], rules)
-    ]
-    assert settings_from(chosen[0]) == settings_from(chosen[1]) == Settings.paper()
-
-
-def test_a_turntable_starts_from_the_rules_of_the_paper_too(files, tmp_path, monkeypatch):
-    asked = []
-    original = Renderer.render
-
-    def watched(self, camera=None, settings=None):
-        asked.append(settings)
-        return original(self, camera, settings)
-
-    monkeypatch.setattr(Renderer, "render", watched)
-    words = ["turntable", *files, "-o", str(tmp_path / "turn.png"), "--frames", "2", "--size", "9x8", "--paper"]
-    assert CliRunner().invoke(main, words).exit_code == 0
-    assert asked == [Settings.paper()] * 2
-
-
-def test_an_evaluation_names_the_rules_of_the_paper_as_a_method(files):
-    assert "csr-paper" in CliRunner().invoke(main, ["evaluate", "--help"]).output
-    result = CliRunner().invoke(main, ["evaluate", *files, "--paper"])
-    assert (result.exit_code, "No such option" in result.stderr) == (2, True)
 
 
 def test_a_background_without_opacity_is_opaque(rendered):

@@ -115,7 +115,8 @@ def test_vessels_of_few_points(seed, rule):
 @pytest.mark.parametrize("known", ["none", "every second", "not at some points"])
 def test_vessels_without_radius_count_as_lumen(known, unknown_radius):
     tree = VesselTree(
-        Vessel(one.points, known_radius(one.radius, known if n % 2 else "none")) for n, one in enumerate(wandering(2))
+        Vessel(one.points, known_radius(one.radius, known if n % 2 else "none"))
+        for n, one in enumerate(wandering(2))
     )
     assert_same(tree, fitted(tree, "oblique"), replace(PLAIN, unknown_radius=unknown_radius))
 
@@ -214,9 +215,13 @@ def test_the_comparison_sees_a_wrong_tree_and_a_wrong_view():
     frame = Renderer(None, tree).cut_surface(camera, PLAIN)
     moved = VesselTree([Vessel(v.points + np.array([0, 0.01, 0]), v.radius) for v in tree])
     swapped = VesselTree(list(tree)[::-1])
-    assert differences(frame, reference_surface.cut_surface(moved, camera, PLAIN))["depth"] > 1000
-    assert differences(frame, reference_surface.cut_surface(swapped, camera, PLAIN))["vessel"] > 1000
-    assert differences(frame, reference_surface.cut_surface(tree, camera.panned(0.05, 0), PLAIN))["distance"] > 1000
+    scenes = {
+        "depth": (moved, camera),
+        "vessel": (swapped, camera),
+        "distance": (tree, camera.panned(0.05, 0)),
+    }
+    for what, (other, view) in scenes.items():
+        assert differences(frame, reference_surface.cut_surface(other, view, PLAIN))[what] > 1000
 
 
 def test_on_a_tie_the_smaller_id_wins_to_the_bit():
@@ -369,7 +374,8 @@ def test_from_end_to_end(direction, rule):
     unsure = (surface.unsure_depth | (surface.unsure_vessel & rule.zone_filter)).astype(float)
     near_unsure = reference_images.depth_filter(unsure) > 0
     if rule.zone_filter:
-        depth, doubt = reference_images.zone_filter(surface.depth, surface.vessel, rule.depth_leap, 4 * TOLERANCE)
+        leap = rule.depth_leap
+        depth, doubt = reference_images.zone_filter(surface.depth, surface.vessel, leap, 4 * TOLERANCE)
         near_unsure |= doubt
     else:
         depth = reference_images.depth_filter(surface.depth)

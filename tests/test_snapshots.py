@@ -21,7 +21,7 @@ SNAPSHOTS = Path(__file__).parent / "snapshots"
 #: A rounding step of one grey value may differ on another platform; more may not, and not in many pixels.
 TOLERANCE, PIXELS = 1.0, 4
 
-#: Pictures of the cut surface alone, and two with what is behind it; all by the defaults, unless named after the paper.
+#: Pictures of the cut surface alone, and two with what is behind it. Those named after the paper are its own.
 BARE, GRADED = Settings(context=None), Settings(context_window=Window(350.0, 900.0))
 
 SCENES = {

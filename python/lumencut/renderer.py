@@ -181,15 +181,15 @@ class Renderer:
         self, volume: Volume | None, camera: Camera, settings: Settings, asked: list[str] | None
     ) -> Frame:
         """Render the images that are asked for, or all, of which the distance may come later."""
-        core, names, later = self._core, asked, {}
-        if asked is None and self._tree is not None and settings.level_choice == "own":
-            # Nothing but its own image needs the distance, and few look at that.
-            names = [name for name in IMAGES if name != "distance"]
-            later = {"_distance": lambda: core.render(None, camera, checked(settings), ["distance"])["distance"]}
-        buffers = core.render(volume, camera, checked(settings), names)
-        arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
-        told = None if asked is None else tuple(asked)
-        return Frame(camera, buffers["timings"], **arrays, **later, _asked=told)
+        # Nothing but its own image needs the distance then, and few look at that.
+        is_late = asked is None and self._tree is not None and settings.level_choice == "own"
+        names = [name for name in IMAGES if name != "distance"] if is_late else asked
+        render = functools.partial(self._core.render, camera=camera, settings=checked(settings))
+        buffers = render(volume, images=names)
+        arrays: dict[str, Any] = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
+        if is_late:
+            arrays["_distance"] = lambda: render(None, images=["distance"])["distance"]
+        return Frame(camera, buffers["timings"], **arrays, _asked=None if asked is None else tuple(asked))
 
     def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
         """The camera and the settings, or their defaults."""

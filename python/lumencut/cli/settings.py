@@ -31,7 +31,7 @@ _WRITTEN = {"flag": " (yes or no)", "color": " (hexadecimal)", "slab": ", such a
 def paper_option(command: Command) -> Command:
     """Add the flag that starts from the paper's own rules."""
     rules = " ".join(_words(name, value) for name, value in PAPER.items())
-    text = f"Start from the rules of the CSR paper (2013): {rules}. Options given beside it change them further."
+    text = f"Start from the rules of the CSR paper (2013): {rules}. Options beside it change them further."
     return click.option("--paper", is_flag=True, help=text)(command)
 
 
@@ -101,7 +101,7 @@ def _default(setting: Setting) -> str:
 
 
 def settings_from(chosen: dict[str, Any]) -> Settings:
-    """Return the settings that the options stand for; what was not given keeps its default, or the paper's."""
+    """Return the settings that the options stand for; the others are the defaults, or the paper's."""
     from lumencut.settings import Settings
 
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
