@@ -158,7 +158,10 @@ class Renderer:
             mend = "give the renderer a tree, or the settings a context such as 'mida'"
             raise SettingsError("context", "None without a vessel tree", "something to show", mend)
         asked = None if images is None else _names(images)
-        return self._frame(self._volume, camera, self.windowed(settings), asked)
+        settings = self.windowed(settings)
+        names = asked if asked is not None else self._at_once(settings)
+        buffers = self._core.render(self._volume, camera, checked(settings), names)
+        return self._frame(camera, settings, buffers, asked)
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
@@ -175,20 +178,26 @@ class Renderer:
                 "tree of the renderer", "None", "a tree to cut along", "use render for the context alone"
             )
         camera, settings = self._view(camera, settings)
-        return self._frame(None, camera, settings, None)
+        buffers = self._core.render(None, camera, checked(settings), self._at_once(settings))
+        return self._frame(camera, settings, buffers, None)
+
+    def _at_once(self, settings: Settings) -> list[str] | None:
+        """The images that are made where none are named; None stands for all."""
+        if self._tree is None or settings.level_choice != "own":
+            return None
+        # Nothing but its own image needs the distance then, and few look at that.
+        return [name for name in IMAGES if name != "distance"]
 
     def _frame(
-        self, volume: Volume | None, camera: Camera, settings: Settings, asked: list[str] | None
+        self, camera: Camera, settings: Settings, buffers: dict[str, Any], asked: list[str] | None
     ) -> Frame:
-        """Render the images that are asked for, or all, of which the distance may come later."""
-        # Nothing but its own image needs the distance then, and few look at that.
-        is_late = asked is None and self._tree is not None and settings.level_choice == "own"
-        names = [name for name in IMAGES if name != "distance"] if is_late else asked
-        render = functools.partial(self._core.render, camera=camera, settings=checked(settings))
-        buffers = render(volume, images=names)
-        arrays: dict[str, Any] = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
-        if is_late:
-            arrays["_distance"] = lambda: render(None, images=["distance"])["distance"]
+        """The frame of some images, with a distance that comes later where it was left out."""
+        arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
+        if asked is None and self._at_once(settings) is not None:
+            core = self._core
+            arrays["_distance"] = lambda: core.render(None, camera, checked(settings), ["distance"])[
+                "distance"
+            ]
         return Frame(camera, buffers["timings"], **arrays, _asked=None if asked is None else tuple(asked))
 
     def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
