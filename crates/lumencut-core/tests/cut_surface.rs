@@ -4,9 +4,10 @@
 use glam::{DQuat, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::settings::Settings;
-use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_core::vessel_tree::Vessel;
 use lumencut_scenes::brute_force::by_hierarchy;
 use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::lumen::nearest_lumen;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::settings::unfiltered;
 use lumencut_scenes::tolerances::{CLOSED_FORM, LUMEN, REORDERED_DEPTH, REORDERED_VESSEL, SYMMETRIC, TURNED};
@@ -172,35 +173,6 @@ fn turning_scene_and_camera_together_changes_nothing() {
     TURNED.assert_same(a.depth(), b.depth(), "depths");
 }
 
-/// The nearest lumen at view (x, y): the smallest depth among the pieces that cover it with d ≤ r.
-fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> f64 {
-    let mut nearest = f64::MAX;
-    for vessel in scene.vessels() {
-        let points: Vec<DVec3> = vessel.points().iter().map(|p| camera.view_from_world(*p)).collect();
-        let to = |i: usize| glam::DVec2::new(x, y) - points[i].truncate();
-        let edge = |i: usize| (points[i + 1] - points[i]).truncate();
-        for i in 0..points.len() {
-            let last = i + 1 == points.len();
-            let after_before = i == 0 || to(i).dot(edge(i - 1)) >= 0.0;
-            if after_before
-                && (last || to(i).dot(edge(i)) <= 0.0)
-                && to(i).length() <= vessel.radius_or_zero(i)
-            {
-                nearest = nearest.min(points[i].z);
-            }
-            if !last {
-                let t = to(i).dot(edge(i)) / edge(i).length_squared();
-                let distance = (to(i) - t * edge(i)).length();
-                let radius = vessel.radius_or_zero(i) * (1.0 - t) + vessel.radius_or_zero(i + 1) * t;
-                if (0.0..=1.0).contains(&t) && distance <= radius {
-                    nearest = nearest.min(points[i].z + t * (points[i + 1].z - points[i].z));
-                }
-            }
-        }
-    }
-    nearest
-}
-
 #[test]
 fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
     let scene = random_tree(24, 10, 50, 2.0, 50.0).unwrap();
@@ -211,8 +183,7 @@ fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
     let (mut lumens, mut behind, mut other) = (0, 0, 0);
     for p in 0..cost.depth().len() {
         let (x, y) = (camera.view_x(p % 80), camera.view_y(p / 80));
-        let nearest = nearest_lumen(&scene, &camera, x, y);
-        if nearest < f64::MAX {
+        if let Some(nearest) = nearest_lumen(&scene, &camera, x, y) {
             lumens += 1;
             let apart = |depth: f32| f64::from(depth) - nearest;
             behind += usize::from(apart(cost.depth()[p]) > f64::from(LUMEN.apart));
