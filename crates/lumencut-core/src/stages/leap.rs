@@ -71,11 +71,12 @@ impl Kernel for LeapRows<'_> {
                 let start = j * width;
                 (&self.depth[start..start + width], &self.sheet[start..start + width])
             };
-            // The last row and the last column are their own neighbours, and so have no leap there.
+            // The last row and the last column have no neighbour, and so no leap.
             let last_row = self.depth.len() / width - 1;
             let ((z, sheet), (z_below, sheet_below)) = (row(j), row((j + 1).min(last_row)));
+            let has_below = j < last_row;
             for (i, leap) in leap.iter_mut().enumerate() {
-                let down = leaps(z[i], &sheet[i], z_below[i], &sheet_below[i], [0.0, -side]);
+                let down = has_below & leaps(z[i], &sheet[i], z_below[i], &sheet_below[i], [0.0, -side]);
                 *leap = if down { DOWNWARDS } else { 0 };
             }
             for (i, leap) in leap.iter_mut().enumerate().take(width - 1) {

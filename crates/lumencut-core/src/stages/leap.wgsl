@@ -33,11 +33,14 @@ fn leap(@builtin(global_invocation_id) thread: vec3u) {
         return;
     }
     let here = place_of(thread.xy);
-    // The last column and the last row are their own neighbours, and so have no leap there.
-    let right = place_of(vec2u(min(thread.x + 1u, view.size.x - 1u), thread.y));
-    let below = place_of(vec2u(thread.x, min(thread.y + 1u, view.size.y - 1u)));
+    // The last column and the last row have no neighbour, and so no leap.
     let side = parameters.pixel_spacing;
-    var bits = select(0u, DOWNWARDS, leaps(here, below, vec2f(0.0, -side)));
-    bits |= select(0u, TO_THE_RIGHT, leaps(here, right, vec2f(side, 0.0)));
+    var bits = 0u;
+    if thread.x + 1u < view.size.x && leaps(here, here + 1u, vec2f(side, 0.0)) {
+        bits |= TO_THE_RIGHT;
+    }
+    if thread.y + 1u < view.size.y && leaps(here, here + view.size.x, vec2f(0.0, -side)) {
+        bits |= DOWNWARDS;
+    }
     leap_image[here] = bits;
 }
