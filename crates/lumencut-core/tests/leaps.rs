@@ -52,7 +52,8 @@ fn a_near_tube_before_a_far_one_leaps_exactly_along_its_border() {
 fn leaps_to_the_right_are_those_downwards_of_the_view_turned_by_a_right_angle() {
     let scene = random_tree(71, 12, 50, 2.0, 50.0).unwrap();
     let tall = Camera::new(glam::DVec3::ZERO, glam::DVec3::Y, glam::DVec3::Z, SIZE, 1.5).unwrap();
-    let wide = Camera::new(glam::DVec3::ZERO, glam::DVec3::Y, glam::DVec3::X, [SIZE[1], SIZE[0]], 1.5).unwrap();
+    let wide =
+        Camera::new(glam::DVec3::ZERO, glam::DVec3::Y, glam::DVec3::X, [SIZE[1], SIZE[0]], 1.5).unwrap();
     // Up is what was right: rows from the top are columns from the right, and columns are rows.
     let (a, b) = (leaps(&scene, &tall), leaps(&scene, &wide));
     let turned = |i: usize, j: usize| b[(SIZE[0] - 1 - i) * SIZE[1] + j];
@@ -89,7 +90,9 @@ fn vessels_that_meet_end_to_end_have_a_border_without_leap() {
 
 #[test]
 fn a_leap_is_more_than_the_larger_diameter_and_more_than_two_mm() {
-    for (radii, largest_step) in [([0.5, 0.5], 2.0), ([0.0, 0.0], 2.0), ([3.0, 3.0], 6.0), ([3.0, 1.0], 6.0), ([1.0, 4.0], 8.0)] {
+    for (radii, largest_step) in
+        [([0.5, 0.5], 2.0), ([0.0, 0.0], 2.0), ([3.0, 3.0], 6.0), ([3.0, 1.0], 6.0), ([1.0, 4.0], 8.0)]
+    {
         for apart in [-1.01, -0.99, 0.99, 1.01] {
             let depth: f64 = apart * largest_step;
             let scene = tree(vec![tube(8.0, 0.0, radii[0]), tube(-8.0, depth, radii[1])]);
@@ -156,10 +159,17 @@ fn the_leap_image_is_the_rule_applied_pixel_by_pixel_at_any_size() {
         assert!(Isa::available().into_iter().all(|isa| by(isa) == found), "{size:?}");
         for (p, leap) in found.iter().enumerate() {
             assert_eq!(leap & !(TO_THE_RIGHT | DOWNWARDS), 0);
-            let ways = [(TO_THE_RIGHT, p % width + 1 < width, 1, [0.7, 0.0]), (DOWNWARDS, p / width + 1 < height, width, [0.0, -0.7])];
+            let ways = [
+                (TO_THE_RIGHT, p % width + 1 < width, 1, [0.7, 0.0]),
+                (DOWNWARDS, p / width + 1 < height, width, [0.0, -0.7]),
+            ];
             for (bit, has_neighbour, ahead, step) in ways {
                 let to = if has_neighbour { p + ahead } else { p };
-                let rule = if has_neighbour { stated(depth[to] - depth[p], [sheet[p], sheet[to]], step) } else { Some(false) };
+                let rule = if has_neighbour {
+                    stated(depth[to] - depth[p], [sheet[p], sheet[to]], step)
+                } else {
+                    Some(false)
+                };
                 assert!(rule.is_none_or(|rule| rule == (leap & bit != 0)), "{size:?}, pixel {p}, bit {bit}");
             }
         }

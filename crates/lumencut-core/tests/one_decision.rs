@@ -43,7 +43,11 @@ fn every_pixel_in_a_lumen_shows_the_nearest_lumen_with_any_number_of_levels() {
             for settings in [0, 6, 15].map(|levels| Settings { levels, ..unfiltered() }) {
                 let frame = by_hierarchy(&scene, &camera, &settings);
                 let found: Vec<f32> = lumens.iter().map(|(p, _)| frame.depth()[*p]).collect();
-                LUMEN.assert_same(&found, &nearest, &format!("{} levels along {direction:?}", settings.levels));
+                LUMEN.assert_same(
+                    &found,
+                    &nearest,
+                    &format!("{} levels along {direction:?}", settings.levels),
+                );
             }
         }
     }
@@ -125,7 +129,9 @@ fn by_the_papers_rule_other_vessels_change_the_depth() {
 
 #[test]
 fn arc_lengths_never_fall_and_end_with_the_length_of_the_vessel() {
-    for scene in [random_tree(64, 20, 97, 2.0, 50.0).unwrap(), trefoil(333), random_tree(65, 9, 3, 9.0, 50.0).unwrap()] {
+    for scene in
+        [random_tree(64, 20, 97, 2.0, 50.0).unwrap(), trefoil(333), random_tree(65, 9, 3, 9.0, 50.0).unwrap()]
+    {
         let all = levels(&scene, 15);
         for (id, vessel) in scene.vessels().iter().enumerate() {
             let length: f64 = vessel.points().windows(2).map(|p| p[0].distance(p[1])).sum();
@@ -191,5 +197,8 @@ fn the_distance_is_measured_only_where_it_is_asked_for() {
     assert!(stages.contains(&"distance") && !paper.distance.is_empty());
     assert!(paper.distance.iter().zip(&with.distance).all(|(a, b)| a.to_bits() == b.to_bits()));
     let (paper, stages) = asked(&scene, &Settings::paper(), &[Image::Depth]);
-    assert!(stages.contains(&"distance") && paper.distance.is_empty(), "the paper's levels need it: {stages:?}");
+    assert!(
+        stages.contains(&"distance") && paper.distance.is_empty(),
+        "the paper's levels need it: {stages:?}"
+    );
 }

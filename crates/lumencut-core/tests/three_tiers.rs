@@ -75,19 +75,28 @@ fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
     // The lumen reaches to 2, its wall to 3; the nearer tube's from 4 and 3.5 on; the nearest one is a thin line far above.
     let tubes = [tube(0.0, 1000.0, 2.0), tube(5.0, 500.0, 1.5), tube(12.0, -900.0, 0.5)];
     let thin_wall = Settings { lumen_margin: 0.75, ..unfiltered() };
-    assert_eq!(at(&tubes, &thin_wall, &[0.05, 1.95, 2.65, 3.15, 3.55, 6.45, 11.55, 12.55]), [0, 0, 0, 1, 1, 1, 2, 2]);
+    assert_eq!(
+        at(&tubes, &thin_wall, &[0.05, 1.95, 2.65, 3.15, 3.55, 6.45, 11.55, 12.55]),
+        [0, 0, 0, 1, 1, 1, 2, 2]
+    );
     assert_eq!(at(&tubes, &thin_wall, &[7.15, 7.35, -2.65, -2.85]), [1, 2, 0, 2]);
     // Their walls overlap between 2.5 and 3: the nearer one wins; the farther lumen beats the nearer wall.
     let wall = Settings { lumen_margin: 1.0, ..unfiltered() };
     assert_eq!(at(&tubes, &wall, &[2.45, 2.55, 2.95]), [0, 1, 1]);
     let thick_wall = Settings { lumen_margin: 6.0, ..unfiltered() };
-    assert_eq!(at(&tubes, &thick_wall, &[1.95, 2.05, 3.45, 3.55, 5.45, 5.55, 6.45, 6.55]), [0, 1, 1, 1, 1, 1, 1, 2]);
+    assert_eq!(
+        at(&tubes, &thick_wall, &[1.95, 2.05, 3.45, 3.55, 5.45, 5.55, 6.45, 6.55]),
+        [0, 1, 1, 1, 1, 1, 1, 2]
+    );
 }
 
 #[test]
 fn within_lumen_and_within_wall_the_nearest_wins() {
     let tubes = [tube(0.0, 40.0, 8.0), tube(1.0, -40.0, 3.0), tube(-1.0, 0.0, 5.0)];
-    assert_eq!(at(&tubes, &unfiltered(), &[3.95, 0.05, -1.95, -2.05, -5.95, -6.05, -7.95]), [1, 1, 1, 2, 2, 0, 0]);
+    assert_eq!(
+        at(&tubes, &unfiltered(), &[3.95, 0.05, -1.95, -2.05, -5.95, -6.05, -7.95]),
+        [1, 1, 1, 2, 2, 0, 0]
+    );
     // Above 9 there is no lumen, and the walls reach to 12, 13 and 12.5.
     let walls = Settings { lumen_margin: 4.0, ..unfiltered() };
     let above = [tube(0.0, 40.0, 8.0), tube(6.0, 0.0, 3.0), tube(6.0, -40.0, 2.5)];

@@ -19,7 +19,8 @@ pub fn certain_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Opt
 
 /// The nearest lumen where all radii are larger by `more` (mm).
 fn lumen_within(scene: &VesselTree, camera: &Camera, at: [f64; 2], more: f64) -> Option<f64> {
-    let lumens = scene.vessels().iter().filter_map(|vessel| lumen_of(vessel, camera, DVec2::from_array(at), more));
+    let lumens =
+        scene.vessels().iter().filter_map(|vessel| lumen_of(vessel, camera, DVec2::from_array(at), more));
     lumens.min_by(f64::total_cmp)
 }
 

@@ -56,6 +56,9 @@ pub const MOST_TOGETHER: usize = 16;
 /// same the last digit decides, which happens along the thin lines where zones meet.
 pub const DEPTH: Tolerance = Tolerance::new(1e-3, 1e-3);
 
+/// Pixels around joints that may belong to either of the vessels that end there.
+pub const TIED: Tolerance = Tolerance::new(0.0, 0.02);
+
 /// Colours of whole frames, in steps of 255: rounding moves a channel by one step, more only where a depth is another.
 pub const COLOR: Tolerance = Tolerance::new(1.0, 5e-4);
 
@@ -118,6 +121,15 @@ pub const REORDERED_DEPTH: Tolerance = Tolerance::new(0.0, 5e-3);
 
 /// Vessels of the same vessels in another order: of those that tie around a shared end point another one is named.
 pub const REORDERED_VESSEL: Tolerance = Tolerance::new(0.0, 5e-2);
+
+/// Slopes of sheets on two machines (mm per mm).
+pub const SHEET_SLOPE: Tolerance = Tolerance::new(1e-3, 1e-3);
+
+/// Radii of sheets on two machines (mm).
+pub const SHEET_RADIUS: Tolerance = Tolerance::new(1e-4, 1e-3);
+
+/// Gaps of sheets on two machines (mm).
+pub const SHEET_GAP: Tolerance = Tolerance::new(1e-3, 1e-3);
 
 /// Values of a volume of up to 700 against their closed form, and those of wider types of voxels, which are computed in
 /// f64 instead of f32: some units of the last place of f32.
