@@ -23,9 +23,10 @@ fn scene() -> (VesselTree, Vec<i16>, DAffine3) {
     (random_tree(11, 20, 50, 2.0, 70.0).unwrap(), voxels, affine)
 }
 
-/// The filter over the whole image and within zones.
-fn both_filters() -> [Settings; 2] {
-    [false, true].map(|zone_filter| Settings { zone_filter, ..Settings::default() })
+/// The default, the paper's rules, and own levels by cost with many levels.
+fn rules() -> [Settings; 3] {
+    let by_cost = Settings { lumen_first: false, levels: 15, level_distance: 1.0, ..Settings::default() };
+    [Settings::default(), Settings::paper(), by_cost]
 }
 
 fn render(isa: Isa, settings: &Settings) -> Frame {
@@ -44,7 +45,7 @@ fn assert_same(a: &Frame, b: &Frame, what: &str) {
 
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
-    for settings in both_filters() {
+    for settings in rules() {
         let baseline = render(Isa::Baseline, &settings);
         for isa in Isa::available() {
             assert_same(&baseline, &render(isa, &settings), &format!("{isa:?}"));
@@ -54,7 +55,7 @@ fn every_instruction_set_gives_the_same_bits() {
 
 #[test]
 fn every_number_of_threads_gives_the_same_bits() {
-    for settings in both_filters() {
+    for settings in rules() {
         let many = render(Isa::widest(), &settings);
         for threads in [1, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

@@ -30,36 +30,21 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
     vec![
         ("default", Settings::default()),
         ("the paper's", Settings::paper()),
-        ("own levels by cost", with(|s| (s.lumen_first, s.level_choice) = (false, LevelChoice::Own))),
-        ("lumen first, nearest", with(|s| (s.lumen_first, s.level_choice) = (true, LevelChoice::Nearest))),
+        ("own levels by cost", with(|s| s.lumen_first = false)),
+        ("lumen first, nearest", with(|s| s.level_choice = LevelChoice::Nearest)),
+        ("many own levels", with(|s| (s.levels, s.level_distance) = (15, 1.0))),
+        ("no wall, no radius", with(|s| (s.lumen_margin, s.preserve_lumen) = (0.0, false))),
+        ("gradients of own levels", with(|s| s.silhouette_rule = SilhouetteRule::Gradient)),
         (
-            "own levels, lumen first",
-            with(|s| {
-                (s.lumen_first, s.lumen_margin, s.level_choice) = (true, 1.0, LevelChoice::Own);
-                s.silhouette_rule = SilhouetteRule::Leap;
-            }),
+            "leaps of the paper's levels",
+            Settings { silhouette_rule: SilhouetteRule::Leap, ..Settings::paper() },
         ),
-        (
-            "many own levels",
-            with(|s| {
-                (s.levels, s.level_distance, s.level_choice) = (15, 1.0, LevelChoice::Own);
-            }),
-        ),
-        (
-            "leaps of nearest levels",
-            with(|s| {
-                (s.silhouette_rule, s.level_choice) = (SilhouetteRule::Leap, LevelChoice::Nearest);
-            }),
-        ),
-        ("lumen first", with(|s| (s.lumen_first, s.lumen_margin) = (true, 1.0))),
         ("quiet centerlines", with(|s| s.centerline_smoothing = 0.5)),
         ("one level", with(|s| s.levels = 0)),
         ("no filter", with(|s| s.depth_filter = false)),
-        ("filter within zones", with(|s| s.zone_filter = true)),
-        (
-            "filter within zones, lumen first",
-            with(|s| (s.zone_filter, s.depth_leap, s.lumen_first) = (true, 0.2, true)),
-        ),
+        ("filter over the whole image", with(|s| s.zone_filter = false)),
+        ("filter within the paper's zones", Settings { zone_filter: true, ..Settings::paper() }),
+        ("small leaps", with(|s| s.depth_leap = 0.2)),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
         ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
@@ -125,8 +110,6 @@ fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
 /// Something of everything: a filter within zones, a slab, silhouettes, and context behind what is transparent.
 fn everything() -> Settings {
     with(|s| {
-        (s.level_choice, s.silhouette_rule) = (LevelChoice::Own, SilhouetteRule::Leap);
-        s.zone_filter = true;
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
@@ -282,7 +265,7 @@ fn a_view_leaves_nothing_behind_for_the_next() {
     let views = [
         (view([0.3, 1.0, 0.2], SIZE, 0.8), few_levels),
         (view([-0.5, 1.0, 0.4], [70, 90], 0.6), everything()),
-        (front([96, 33], 1.3), with(|s| (s.lumen_first, s.silhouettes, s.context) = (true, false, None))),
+        (front([96, 33], 1.3), Settings { silhouettes: false, context: None, ..Settings::paper() }),
         (front(SIZE, 0.8), Settings::default()),
     ];
     for (camera, settings) in &views {
