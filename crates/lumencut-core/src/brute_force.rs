@@ -6,7 +6,7 @@ use crate::math::cost::Rule;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
 use crate::math::lanes::{ABSENT, FAN, PIXELS};
 use crate::math::nearest::lower_distance;
-use crate::math::own_pieces::{Decision, NearestPieces, OwnPieces};
+use crate::math::own_pieces::{NearestPieces, OwnPieces, Part};
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 use crate::stages::Work;
@@ -59,8 +59,8 @@ impl Search for EveryPiece<'_> {
     }
 
     #[inline(always)]
-    fn own(&mut self, pieces: OwnPieces, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces) {
-        pieces.offer_all(tile, decision, nearest);
+    fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces) {
+        pieces.offer_all::<SHEET>(part, nearest);
     }
 }
 

@@ -3,10 +3,10 @@
 
 use super::candidates::Cover;
 use super::cost::Rule;
-use super::lanes::{PIXELS, SETTLED, UNSET, larger, largest};
-use super::pieces::{Envelope, Foot};
+use super::lanes::{PART_PIXELS, PIXELS, SETTLED, UNSET, larger, largest};
+use super::pieces::{Envelope, Foot, Stripe, Wedge};
 use super::projection::{Level, Projected};
-use super::tile::Tile;
+use super::tile::{Area, Tile};
 
 /// How many slots to each side of the first one are searched for a whole group of pixels.
 const GROUP_SLOTS: usize = 8;
@@ -28,11 +28,10 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// What the winners of the finest level decide.
+    /// What the winners of a level decide.
     #[inline(always)]
     pub fn of<const LUMEN_FIRST: bool>(
         winners: &Envelope,
-        level: &Level,
         projected: &[Projected],
         tile: &Tile,
         rule: &Rule,
@@ -40,62 +39,130 @@ impl Decision {
         let zero = [0.0; PIXELS];
         let mut decision =
             Self { vessel: [0; PIXELS], arc_length: zero, beyond_wall: zero, radius: zero, slope: [zero; 2] };
+        // First all that is read from here and there, then all that is computed: the second in vectors.
+        let (mut starts, mut ends) = (Gathered::new(), Gathered::new());
         for l in 0..PIXELS {
-            let (slot, is_stripe) = ((winners.piece[l] / 2) as usize, winners.piece[l] % 2 == 1);
-            let (x, y, here) = (tile.x[l], tile.y[l], &projected[slot]);
-            decision.vessel[l] = level.vessel_of_slot[slot];
-            let (distance, t, next) = if is_stripe {
-                let Foot { t, distance, .. } = here.stripe(&projected[slot + 1]).foot(x, y);
-                (distance, t, slot + 1)
-            } else {
-                (here.wedge().cover(x, y).1, 0.0, slot)
-            };
-            let end = &projected[next];
-            let slope = here.slope(end);
-            let radius = here.radius + t * (end.radius - here.radius);
+            let (slot, is_stripe) = (winners.piece[l] / 2, winners.piece[l] % 2);
+            let here = &projected[slot as usize];
+            decision.vessel[l] = here.vessel;
+            starts.put(l, here);
+            // What stands at a point ends where it starts.
+            ends.put(l, &projected[(slot + is_stripe) as usize]);
+        }
+        for l in 0..PIXELS {
+            let is_stripe = winners.piece[l] % 2 == 1;
+            let (x, y, edge) = (tile.x[l], tile.y[l], [starts.edge[0][l], starts.edge[1][l]]);
+            let [start, end] = [&starts, &ends].map(|g| [g.x[l], g.y[l]]);
+            let inverse = starts.inverse_length[l];
+            let foot = Stripe::new(start, end, edge, inverse).foot(x, y);
+            let (_, from_point) = Wedge { point: start, before: [0.0; 2], edge }.cover(x, y);
+            let t = if is_stripe { foot.t } else { 0.0 };
+            let distance = if is_stripe { foot.distance } else { from_point };
+            let radius = starts.radius[l] + t * (ends.radius[l] - starts.radius[l]);
+            let per_mm = inverse * inverse * (ends.z[l] - starts.z[l]);
             decision.radius[l] = radius;
             decision.beyond_wall[l] = rule.beyond_wall::<LUMEN_FIRST>(winners.key[l], distance, radius);
-            decision.arc_length[l] =
-                level.arc_length[slot] + t * (level.arc_length[next] - level.arc_length[slot]);
-            (decision.slope[0][l], decision.slope[1][l]) = (slope[0], slope[1]);
+            decision.arc_length[l] = starts.arc_length[l] + t * (ends.arc_length[l] - starts.arc_length[l]);
+            decision.slope[0][l] = edge[0] * per_mm;
+            decision.slope[1][l] = edge[1] * per_mm;
         }
         decision
     }
 }
 
-/// For each pixel of a tile, the piece of its own vessel at a level so far whose arc length is nearest.
+/// One point for each pixel of a tile, field by field.
+#[repr(C, align(64))]
+struct Gathered {
+    x: [f32; PIXELS],
+    y: [f32; PIXELS],
+    z: [f32; PIXELS],
+    radius: [f32; PIXELS],
+    edge: [[f32; PIXELS]; 2],
+    inverse_length: [f32; PIXELS],
+    arc_length: [f32; PIXELS],
+}
+
+impl Gathered {
+    #[inline(always)]
+    fn new() -> Self {
+        let zero = [0.0; PIXELS];
+        Self {
+            x: zero,
+            y: zero,
+            z: zero,
+            radius: zero,
+            edge: [zero; 2],
+            inverse_length: zero,
+            arc_length: zero,
+        }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, l: usize, p: &Projected) {
+        (self.x[l], self.y[l], self.z[l]) = (p.point[0], p.point[1], p.point[2]);
+        (self.radius[l], self.arc_length[l]) = (p.radius, p.arc_length);
+        (self.edge[0][l], self.edge[1][l]) = (p.edge[0], p.edge[1]);
+        self.inverse_length[l] = p.inverse_length;
+    }
+}
+
+/// The pixels of a part of a tile, and what was decided for them.
+#[derive(Clone, Copy)]
+pub struct Part<'a> {
+    area: &'a Area,
+    x: &'a [f32; PART_PIXELS],
+    y: &'a [f32; PART_PIXELS],
+    vessel: &'a [i32; PART_PIXELS],
+    arc_length: &'a [f32; PART_PIXELS],
+}
+
+impl Decision {
+    /// Part `p` of the tile.
+    #[inline(always)]
+    pub fn part<'a>(&'a self, tile: &'a Tile, p: usize) -> Part<'a> {
+        Part {
+            area: &tile.parts[p],
+            x: &tile.x.as_chunks().0[p],
+            y: &tile.y.as_chunks().0[p],
+            vessel: &self.vessel.as_chunks().0[p],
+            arc_length: &self.arc_length.as_chunks().0[p],
+        }
+    }
+}
+
+/// For each pixel of a part, the piece of its own vessel at a level so far whose arc length is nearest.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct NearestPieces {
     /// How far the piece is from the winner along the vessel (mm).
-    apart: [f32; PIXELS],
+    apart: [f32; PART_PIXELS],
     /// From the winner to the piece along the vessel (mm).
-    pub along: [f32; PIXELS],
+    pub along: [f32; PART_PIXELS],
     /// What the piece costs, for pieces equally far.
-    cost: [f32; PIXELS],
+    cost: [f32; PART_PIXELS],
     /// Twice its slot, plus 1 for the stripe: the order of the pieces that cost the same.
-    piece: [u32; PIXELS],
+    piece: [u32; PART_PIXELS],
     /// Its depth (mm).
-    pub z: [f32; PIXELS],
-    /// How the depth changes to the right and upwards (mm per mm).
-    pub slope: [[f32; PIXELS]; 2],
+    pub z: [f32; PART_PIXELS],
+    /// How the depth changes to the right and upwards (mm per mm), where a sheet is made.
+    pub slope: [[f32; PART_PIXELS]; 2],
 }
 
 impl NearestPieces {
     /// None yet where the level has weight; nothing is looked for elsewhere.
     #[inline(always)]
-    pub fn new(weight: &[f32; PIXELS]) -> Self {
-        let zero = [0.0; PIXELS];
+    pub fn new(weight: &[f32; PART_PIXELS]) -> Self {
+        let zero = [0.0; PART_PIXELS];
         let mut apart = zero;
-        for l in 0..PIXELS {
+        for l in 0..PART_PIXELS {
             apart[l] = if weight[l] > 0.0 { UNSET } else { SETTLED };
         }
-        Self { apart, along: zero, cost: zero, piece: [u32::MAX; PIXELS], z: zero, slope: [zero; 2] }
+        Self { apart, along: zero, cost: zero, piece: [u32::MAX; PART_PIXELS], z: zero, slope: [zero; 2] }
     }
 
     /// Takes a piece at pixel `l` where it is covered and nearer than the one so far.
     #[inline(always)]
-    fn offer(&mut self, l: usize, covered: bool, offered: Offered) {
+    fn offer<const SHEET: bool>(&mut self, l: usize, covered: bool, offered: Offered) {
         let Offered { along, cost, piece, z, slope } = offered;
         let apart = along.abs();
         let first = (cost < self.cost[l]) | ((cost == self.cost[l]) & (piece < self.piece[l]));
@@ -105,8 +172,24 @@ impl NearestPieces {
         self.cost[l] = if wins { cost } else { self.cost[l] };
         self.piece[l] = if wins { piece } else { self.piece[l] };
         self.z[l] = if wins { z } else { self.z[l] };
-        self.slope[0][l] = if wins { slope[0] } else { self.slope[0][l] };
-        self.slope[1][l] = if wins { slope[1] } else { self.slope[1][l] };
+        if SHEET {
+            self.slope[0][l] = if wins { slope[0] } else { self.slope[0][l] };
+            self.slope[1][l] = if wins { slope[1] } else { self.slope[1][l] };
+        }
+    }
+
+    /// Between which arc lengths (mm) a piece can still be nearer to a member, and a little more than rounding.
+    #[inline(always)]
+    fn reach(&self, part: &Part, is_member: &[bool; PART_PIXELS]) -> [f32; 2] {
+        let (mut low, mut high) = ([SETTLED; PART_PIXELS], [SETTLED; PART_PIXELS]);
+        for l in 0..PART_PIXELS {
+            let (s, apart) = (part.arc_length[l], self.apart[l]);
+            low[l] = if is_member[l] { apart - s } else { SETTLED };
+            high[l] = if is_member[l] { apart + s } else { SETTLED };
+        }
+        let (low, high) = (largest(&low), largest(&high));
+        let slack = 1e-6 * larger(low.abs(), high.abs());
+        [-low - slack, high + slack]
     }
 }
 
@@ -117,6 +200,19 @@ struct Offered {
     piece: u32,
     z: f32,
     slope: [f32; 2],
+}
+
+/// Pixels of one vessel that look at about the same place on it.
+struct Group {
+    vessel: i32,
+    /// The first slot of the vessel, and the one after its last.
+    first: usize,
+    end: usize,
+    /// The slot that the search begins at.
+    middle: usize,
+    /// The arc lengths that belong to the group (mm).
+    low: f32,
+    high: f32,
 }
 
 /// The pieces of all vessels at one level, in their order.
@@ -133,30 +229,30 @@ pub struct OwnPieces<'a> {
 impl OwnPieces<'_> {
     /// Finds for every wanted pixel the piece of its own vessel whose arc length is nearest.
     #[inline(always)]
-    pub fn find(&self, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces) {
-        let mut is_open = [false; PIXELS];
-        for l in 0..PIXELS {
+    pub fn find<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
+        let mut is_open = [false; PART_PIXELS];
+        for l in 0..PART_PIXELS {
             is_open[l] = nearest.apart[l] > 0.0;
         }
         while let Some(seed) = is_open.iter().position(|is_open| *is_open) {
-            let group = self.group(decision, seed);
-            let mut is_member = [false; PIXELS];
-            for l in 0..PIXELS {
-                let (vessel, s) = (decision.vessel[l], decision.arc_length[l]);
+            let group = self.group(part, seed);
+            let mut is_member = [false; PART_PIXELS];
+            for l in 0..PART_PIXELS {
+                let (vessel, s) = (part.vessel[l], part.arc_length[l]);
                 is_member[l] = is_open[l] & (vessel == group.vessel) & (s >= group.low) & (s <= group.high);
                 is_open[l] &= !is_member[l];
             }
             // Whatever the rounding at the ends of the group.
             is_member[seed] = true;
             is_open[seed] = false;
-            self.search(tile, decision, &group, &is_member, nearest);
+            self.search::<SHEET>(part, &group, &is_member, nearest);
         }
     }
 
     /// The slots around the place of one pixel on its vessel.
     #[inline(always)]
-    fn group(&self, decision: &Decision, seed: usize) -> Group {
-        let (vessel, s) = (decision.vessel[seed], decision.arc_length[seed]);
+    fn group(&self, part: &Part, seed: usize) -> Group {
+        let (vessel, s) = (part.vessel[seed], part.arc_length[seed]);
         let [first, end] = [vessel, vessel + 1].map(|id| self.level.first_slot[id as usize] as usize);
         let arc_length = &self.level.arc_length[first..end];
         let middle = first + arc_length.partition_point(|at| *at <= s).saturating_sub(1);
@@ -168,16 +264,15 @@ impl OwnPieces<'_> {
 
     /// Offers slots from the middle of a group outwards, until no slot farther out can be nearer to any member.
     #[inline(always)]
-    fn search(
+    fn search<const SHEET: bool>(
         &self,
-        tile: &Tile,
-        decision: &Decision,
+        part: &Part,
         group: &Group,
-        is_member: &[bool; PIXELS],
+        is_member: &[bool; PART_PIXELS],
         nearest: &mut NearestPieces,
     ) {
         let arc_length = &self.level.arc_length;
-        let mut reach = nearest.reach(decision, is_member);
+        let mut reach = [-UNSET, UNSET];
         // What is left: the slots before `left`, and those from `right` on.
         let (mut left, mut right) = (group.middle, group.middle);
         loop {
@@ -188,119 +283,81 @@ impl OwnPieces<'_> {
             }
             let mut was_offered = false;
             if is_right {
-                was_offered |= self.offer_within(tile, decision, right, nearest);
+                was_offered |= self.offer_within::<SHEET>(part, right, nearest);
                 right += 1;
             }
             if is_left {
                 left -= 1;
-                was_offered |= self.offer_within(tile, decision, left, nearest);
+                was_offered |= self.offer_within::<SHEET>(part, left, nearest);
             }
             if was_offered {
-                reach = nearest.reach(decision, is_member);
+                reach = nearest.reach(part, is_member);
             }
         }
     }
 
-    /// Offers those pieces of a slot that may cover a pixel of the tile; tells whether there was one.
+    /// Offers those pieces of a slot that may cover a pixel of the part; tells whether there was one.
     #[inline(always)]
-    fn offer_within(
-        &self,
-        tile: &Tile,
-        decision: &Decision,
-        slot: usize,
-        nearest: &mut NearestPieces,
-    ) -> bool {
+    fn offer_within<const SHEET: bool>(&self, part: &Part, slot: usize, nearest: &mut NearestPieces) -> bool {
         let here = &self.projected[slot];
         let end = &self.projected[slot + usize::from(here.has_stripe())];
         let ends = [here, end].map(|p| [p.point[0], p.point[1]]);
-        let cover = Cover::new(&tile.area, ends, here.edge, here.before);
+        let cover = Cover::new(part.area, ends, here.edge, here.before);
         let (stripe, wedge) = (here.has_stripe() & cover.in_stripe, here.stands & cover.in_wedge);
         if stripe {
-            self.offer_stripe(tile, decision, slot, nearest);
+            self.offer_stripe::<SHEET>(part, slot, nearest);
         }
         if wedge {
-            self.offer_wedge(tile, decision, slot, nearest);
+            self.offer_wedge::<SHEET>(part, slot, nearest);
         }
         stripe | wedge
     }
 
     /// Offers every piece of every slot: the reference.
     #[inline(always)]
-    pub fn offer_all(&self, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces) {
-        for slot in 0..self.projected.len() {
-            let (here, vessel) = (&self.projected[slot], self.level.vessel_of_slot[slot]);
+    pub fn offer_all<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
+        for (slot, here) in self.projected.iter().enumerate() {
             let mut is_wanted = false;
-            for l in 0..PIXELS {
-                is_wanted |= decision.vessel[l] == vessel;
+            for l in 0..PART_PIXELS {
+                is_wanted |= part.vessel[l] == here.vessel;
             }
             if is_wanted & here.has_stripe() {
-                self.offer_stripe(tile, decision, slot, nearest);
+                self.offer_stripe::<SHEET>(part, slot, nearest);
             }
             if is_wanted & here.stands {
-                self.offer_wedge(tile, decision, slot, nearest);
+                self.offer_wedge::<SHEET>(part, slot, nearest);
             }
         }
     }
 
     #[inline(always)]
-    fn offer_stripe(&self, tile: &Tile, decision: &Decision, slot: usize, nearest: &mut NearestPieces) {
+    fn offer_stripe<const SHEET: bool>(&self, part: &Part, slot: usize, nearest: &mut NearestPieces) {
         let (here, end) = (&self.projected[slot], &self.projected[slot + 1]);
         let (stripe, slope) = (here.stripe(end), here.slope(end));
         let (z0, dz) = (here.point[2], end.point[2] - here.point[2]);
         let (r0, dr) = (here.radius, end.radius - here.radius);
-        let s0 = self.level.arc_length[slot];
-        let ds = self.level.arc_length[slot + 1] - s0;
-        let (vessel, piece) = (self.level.vessel_of_slot[slot], slot as u32 * 2 + 1);
-        for l in 0..PIXELS {
-            let Foot { covered, t, distance } = stripe.foot(tile.x[l], tile.y[l]);
+        let (s0, ds) = (here.arc_length, end.arc_length - here.arc_length);
+        let piece = slot as u32 * 2 + 1;
+        for l in 0..PART_PIXELS {
+            let Foot { covered, t, distance } = stripe.foot(part.x[l], part.y[l]);
             let z = z0 + t * dz;
             let cost = self.rule.key::<false>(z, distance, r0 + t * dr);
-            let along = (s0 + t * ds) - decision.arc_length[l];
-            let is_own = decision.vessel[l] == vessel;
-            nearest.offer(l, covered & is_own, Offered { along, cost, piece, z, slope });
+            let along = (s0 + t * ds) - part.arc_length[l];
+            let is_own = part.vessel[l] == here.vessel;
+            nearest.offer::<SHEET>(l, covered & is_own, Offered { along, cost, piece, z, slope });
         }
     }
 
     #[inline(always)]
-    fn offer_wedge(&self, tile: &Tile, decision: &Decision, slot: usize, nearest: &mut NearestPieces) {
+    fn offer_wedge<const SHEET: bool>(&self, part: &Part, slot: usize, nearest: &mut NearestPieces) {
         let (here, wedge) = (&self.projected[slot], self.projected[slot].wedge());
-        let (z, s, slope) = (here.point[2], self.level.arc_length[slot], [0.0; 2]);
-        let (vessel, piece) = (self.level.vessel_of_slot[slot], slot as u32 * 2);
-        for l in 0..PIXELS {
-            let (covered, distance) = wedge.cover(tile.x[l], tile.y[l]);
+        let (z, slope, piece) = (here.point[2], [0.0; 2], slot as u32 * 2);
+        for l in 0..PART_PIXELS {
+            let (covered, distance) = wedge.cover(part.x[l], part.y[l]);
             let cost = self.rule.key::<false>(z, distance, here.radius);
-            let along = s - decision.arc_length[l];
-            let is_own = decision.vessel[l] == vessel;
-            nearest.offer(l, covered & is_own, Offered { along, cost, piece, z, slope });
+            let along = here.arc_length - part.arc_length[l];
+            let is_own = part.vessel[l] == here.vessel;
+            nearest.offer::<SHEET>(l, covered & is_own, Offered { along, cost, piece, z, slope });
         }
-    }
-}
-
-/// Pixels of one vessel that look at about the same place on it.
-struct Group {
-    vessel: i32,
-    /// The first slot of the vessel, and the one after its last.
-    first: usize,
-    end: usize,
-    /// The slot that the search begins at.
-    middle: usize,
-    /// The arc lengths that belong to the group (mm).
-    low: f32,
-    high: f32,
-}
-
-impl NearestPieces {
-    /// Between which arc lengths (mm) a piece can still be nearer to a member, and a little more than rounding.
-    #[inline(always)]
-    fn reach(&self, decision: &Decision, is_member: &[bool; PIXELS]) -> [f32; 2] {
-        let (mut low, mut high) = ([SETTLED; PIXELS], [SETTLED; PIXELS]);
-        for l in 0..PIXELS {
-            let (s, apart) = (decision.arc_length[l], self.apart[l]);
-            low[l] = if is_member[l] { apart - s } else { SETTLED };
-            high[l] = if is_member[l] { apart + s } else { SETTLED };
-        }
-        let (low, high) = (largest(&low), largest(&high));
-        let slack = 1e-6 * larger(low.abs(), high.abs());
-        [-low - slack, high + slack]
     }
 }

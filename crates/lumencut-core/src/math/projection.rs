@@ -82,6 +82,10 @@ pub struct Projected {
     pub before: [f32; 2],
     /// 1 / |e|, zero with e.
     pub inverse_length: f32,
+    /// Where along its vessel the point is (mm).
+    pub arc_length: f32,
+    /// The vessel.
+    pub vessel: i32,
     /// Whether a wedge, a half-plane or a plane stands there.
     pub stands: bool,
 }
@@ -149,7 +153,13 @@ pub struct ProjectedLevel {
 impl ProjectedLevel {
     /// Buffers for `level`.
     pub fn new(level: &Level) -> Self {
-        let projected = vec![Projected::default(); level.points.len()];
+        let along = level.arc_length.iter().zip(&level.vessel_of_slot);
+        let place = |(arc_length, vessel): (&f32, &i32)| Projected {
+            arc_length: *arc_length,
+            vessel: *vessel,
+            ..Projected::default()
+        };
+        let projected = along.map(place).collect();
         Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
     }
 

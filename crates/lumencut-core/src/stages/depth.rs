@@ -14,7 +14,7 @@ use crate::math::cost::Rule;
 use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, dispatch};
 use crate::math::levels::CutSurfaceParameters;
-use crate::math::own_pieces::{Decision, NearestPieces, OwnPieces};
+use crate::math::own_pieces::{NearestPieces, OwnPieces, Part};
 use crate::math::pieces::Envelope;
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::tile::{Tile, gather, scatter};
@@ -93,7 +93,7 @@ pub(crate) trait Search {
     );
 
     /// The pieces of one level that belong to the vessels already decided on.
-    fn own(&mut self, pieces: OwnPieces, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces);
+    fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces);
 }
 
 /// By the walk through the hierarchy, seeded with the winners of the tile before, and along the vessels.
@@ -117,8 +117,8 @@ impl Search for LowestKeySearch<'_> {
     }
 
     #[inline(always)]
-    fn own(&mut self, pieces: OwnPieces, tile: &Tile, decision: &Decision, nearest: &mut NearestPieces) {
-        pieces.find(tile, decision, nearest);
+    fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces) {
+        pieces.find::<SHEET>(part, nearest);
     }
 }
 
@@ -221,7 +221,8 @@ impl DepthRow<'_> {
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
             let over = match surface.level_choice {
-                LevelChoice::Own => surface.own::<LUMEN_FIRST>(&tile, with_sheet, search),
+                LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search),
+                LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search),
                 LevelChoice::Nearest => {
                     let distance = gather(self.distance, width, column);
                     surface.nearest::<LUMEN_FIRST>(&tile, &distance, with_sheet, search)

@@ -41,8 +41,7 @@ impl CutSurface<'_> {
                 // Pixels without a winner at this level have no weight: any slot will do.
                 envelope.piece = envelope.piece.map(|piece| if piece == u32::MAX { 0 } else { piece });
                 let own = self.own_pieces(level);
-                let found =
-                    Decision::of::<LUMEN_FIRST>(&envelope, own.level, own.projected, tile, &self.rule);
+                let found = Decision::of::<LUMEN_FIRST>(&envelope, own.projected, tile, &self.rule);
                 sheets.add(&weight, &found);
             }
         }

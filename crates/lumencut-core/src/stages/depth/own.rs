@@ -2,7 +2,7 @@
 
 use super::blend::LevelBlend;
 use super::{CutSurface, Search, TileSurface};
-use crate::math::lanes::{PIXELS, places};
+use crate::math::lanes::{PART_PIXELS, PIXELS, places};
 use crate::math::own_pieces::{Decision, NearestPieces};
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
@@ -10,34 +10,33 @@ use crate::math::tile::Tile;
 impl CutSurface<'_> {
     /// The surface over one tile.
     #[inline(always)]
-    pub(super) fn own<const LUMEN_FIRST: bool>(
+    pub(super) fn own<const LUMEN_FIRST: bool, const SHEET: bool>(
         &self,
         tile: &Tile,
-        with_sheet: bool,
         search: &mut impl Search,
     ) -> TileSurface {
         let mut winners = Envelope::new(&[1.0; PIXELS]);
         search.lowest::<LUMEN_FIRST>(0, tile, &self.rule, &mut winners);
         let finest = self.own_pieces(0);
-        let decision =
-            Decision::of::<LUMEN_FIRST>(&winners, finest.level, finest.projected, tile, &self.rule);
+        let decision = Decision::of::<LUMEN_FIRST>(&winners, finest.projected, tile, &self.rule);
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, &decision.beyond_wall);
-        let mut sum = Sum::new();
-        for level in places(blend.needed()) {
+        let mut sum = Sum::of_winners(&blend, &winners, &decision);
+        // Finest first: the coarse term is added to the fine one.
+        for level in places(blend.needed() & !1) {
             let mut weight = [0.0; PIXELS];
             for l in 0..PIXELS {
                 weight[l] = blend.weight(level as f32, l);
             }
-            if level == 0 {
-                sum.add(&weight, &winners.z, &decision.slope, &[0.0; PIXELS]);
-            } else {
-                let mut nearest = NearestPieces::new(&weight);
-                search.own(self.own_pieces(level), tile, &decision, &mut nearest);
-                sum.add(&weight, &nearest.z, &nearest.slope, &nearest.along);
+            for (p, weight) in weight.as_chunks::<PART_PIXELS>().0.iter().enumerate() {
+                if weight.iter().any(|weight| *weight > 0.0) {
+                    let mut nearest = NearestPieces::new(weight);
+                    search.own::<SHEET>(self.own_pieces(level), &decision.part(tile, p), &mut nearest);
+                    sum.add::<SHEET>(p, weight, &nearest);
+                }
             }
         }
         let mut sheet = [[0.0; 4]; PIXELS];
-        if with_sheet {
+        if SHEET {
             for l in 0..PIXELS {
                 sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.radius[l], sum.apart(l)];
             }
@@ -50,43 +49,53 @@ impl CutSurface<'_> {
 struct Sum {
     depth: [f32; PIXELS],
     slope: [[f32; PIXELS]; 2],
-    /// Where along the vessel the levels lie, from the winner on (mm).
-    nearest: [f32; PIXELS],
-    farthest: [f32; PIXELS],
+    /// Where along the vessel the finer and the coarser level lie, from the winner on (mm).
+    finer: [f32; PIXELS],
+    coarser: [f32; PIXELS],
     has_any: [bool; PIXELS],
 }
 
 impl Sum {
+    /// The finest level by its weights, which is that of the winners themselves.
     #[inline(always)]
-    fn new() -> Self {
+    fn of_winners(blend: &LevelBlend, winners: &Envelope, decision: &Decision) -> Self {
         let zero = [0.0; PIXELS];
-        Self { depth: zero, slope: [zero; 2], nearest: zero, farthest: zero, has_any: [false; PIXELS] }
+        let mut sum =
+            Self { depth: zero, slope: [zero; 2], finer: zero, coarser: zero, has_any: [false; PIXELS] };
+        for l in 0..PIXELS {
+            let weight = blend.weight(0.0, l);
+            sum.depth[l] = weight * winners.z[l];
+            sum.slope[0][l] = weight * decision.slope[0][l];
+            sum.slope[1][l] = weight * decision.slope[1][l];
+            sum.has_any[l] = weight > 0.0;
+        }
+        sum
     }
 
-    /// Adds a level by its weights, finest first.
+    /// Adds a coarser level by its weights in part `p`.
     #[inline(always)]
-    fn add(
-        &mut self,
-        weight: &[f32; PIXELS],
-        z: &[f32; PIXELS],
-        slope: &[[f32; PIXELS]; 2],
-        along: &[f32; PIXELS],
-    ) {
-        for l in 0..PIXELS {
-            let w = weight[l];
-            self.depth[l] += w * z[l];
-            self.slope[0][l] += w * slope[0][l];
-            self.slope[1][l] += w * slope[1][l];
+    fn add<const SHEET: bool>(&mut self, p: usize, weight: &[f32; PART_PIXELS], nearest: &NearestPieces) {
+        let depth = &mut self.depth.as_chunks_mut::<PART_PIXELS>().0[p];
+        for l in 0..PART_PIXELS {
+            depth[l] += weight[l] * nearest.z[l];
+        }
+        if !SHEET {
+            return;
+        }
+        for l in 0..PART_PIXELS {
+            let (w, at) = (weight[l], p * PART_PIXELS + l);
+            self.slope[0][at] += w * nearest.slope[0][l];
+            self.slope[1][at] += w * nearest.slope[1][l];
             let counts = w > 0.0;
-            self.nearest[l] = if counts & !self.has_any[l] { along[l] } else { self.nearest[l] };
-            self.farthest[l] = if counts { along[l] } else { self.farthest[l] };
-            self.has_any[l] |= counts;
+            self.finer[at] = if counts & !self.has_any[at] { nearest.along[l] } else { self.finer[at] };
+            self.coarser[at] = if counts { nearest.along[l] } else { self.coarser[at] };
+            self.has_any[at] |= counts;
         }
     }
 
     /// How far apart along the vessel the two levels lie in a pixel (mm).
     #[inline(always)]
     fn apart(&self, l: usize) -> f32 {
-        (self.farthest[l] - self.nearest[l]).abs()
+        (self.coarser[l] - self.finer[l]).abs()
     }
 }
