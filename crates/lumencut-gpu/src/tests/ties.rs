@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::frame::Frame;
-use lumencut_core::geometry::Geometry;
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_scenes::pictures::depth_of;
@@ -80,7 +79,6 @@ pub(crate) fn excuse(gpu: &mut Frame, cpu: &Frame, tree: &VesselTree, settings: 
     assert!(TIED.allows(count, cpu.vessel.len()), "{count} of {} pixels are said to tie", cpu.vessel.len());
 }
 
-#[cfg(test)]
 mod tests {
     use lumencut_core::pipeline::{CpuRenderer, Request};
     use lumencut_core::scene::Scene;
