@@ -12,8 +12,10 @@ use lumencut_core::stages::depth::Sheet;
 use lumencut_core::stages::leap::{LeapParameters, leap};
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_scenes::brute_force::by_hierarchy;
+use lumencut_scenes::lumen::certain_lumen;
 use lumencut_scenes::random::Random;
 use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::tolerances::CLOSED_FORM;
 use lumencut_scenes::trees::{tree, vessel};
 use lumencut_scenes::views::{front, view};
 
@@ -64,6 +66,32 @@ fn leaps_to_the_right_are_those_downwards_of_the_view_turned_by_a_right_angle() 
         assert_eq!(down, turned(i, j) & TO_THE_RIGHT != 0, "at {i}, {j}");
     }
     assert!(seen > 50, "only {seen} leaps");
+}
+
+#[test]
+fn the_sheet_of_a_straight_tube_is_its_slope_and_radius_without_a_gap() {
+    // 40 mm of depth over 80 mm to the right and 40 mm upwards: (80, 40) · 40 / (80² + 40²).
+    let slanted = tree(vec![vessel(&[[-80., -40., -40.], [0.; 3], [80., 40., 40.]], 3.0)]);
+    let slope = [0.4f32, 0.2];
+    for level_choice in [LevelChoice::Own, LevelChoice::Nearest] {
+        let settings = Settings { level_choice, ..Settings::default() };
+        for sheet in details(&slanted, &front(SIZE, 1.0), &settings).sheet {
+            CLOSED_FORM.assert_same(&sheet, &[slope[0], slope[1], 3.0, 0.0], "sheet");
+        }
+    }
+}
+
+#[test]
+fn within_lumen_and_wall_nothing_is_blended() {
+    let scene = random_tree(74, 9, 50, 2.0, 50.0).unwrap();
+    let camera = view([0.3, 1.0, 0.2], SIZE, 1.8);
+    let gaps = details(&scene, &camera, &Settings::default()).sheet;
+    let lumens = (0..SIZE[0] * SIZE[1]).filter(|p| {
+        let (x, y) = (camera.view_x(p % SIZE[0]), camera.view_y(p / SIZE[0]));
+        certain_lumen(&scene, &camera, x, y).is_some()
+    });
+    assert!(lumens.clone().count() > 200 && lumens.clone().all(|p| gaps[p][3] == 0.0));
+    assert!(gaps.iter().any(|sheet| sheet[3] > 1.0), "nothing is blended anywhere");
 }
 
 #[test]

@@ -15,7 +15,7 @@ use lumencut_scenes::lumen::{certain_lumen, nearest_lumen};
 use lumencut_scenes::random::Random;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::settings::unfiltered;
-use lumencut_scenes::tolerances::{CLOSED_FORM, LUMEN};
+use lumencut_scenes::tolerances::{CLOSED_FORM, FILTERED_LUMEN, LUMEN};
 use lumencut_scenes::trees::{tree, trefoil};
 use lumencut_scenes::views::{front, view};
 
@@ -50,6 +50,30 @@ fn every_pixel_in_a_lumen_shows_the_nearest_lumen_with_any_number_of_levels() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn the_filter_within_zones_leaves_the_lumen_where_it_is() {
+    let scene = random_tree(61, 30, 50, 2.0, 50.0).unwrap();
+    for direction in DIRECTIONS {
+        let camera = view(direction, [96, 90], 0.9);
+        let lumens = lumens(&scene, &camera);
+        let nearest: Vec<f32> = lumens.iter().map(|(_, depth)| *depth as f32).collect();
+        let shown = |settings: &Settings| {
+            let frame = by_hierarchy(&scene, &camera, settings);
+            lumens.iter().map(|(p, _)| frame.depth()[*p]).collect::<Vec<_>>()
+        };
+        let (found, plain) =
+            (shown(&Settings::default()), shown(&Settings { zone_filter: false, ..Settings::default() }));
+        FILTERED_LUMEN.assert_same(&found, &nearest, &format!("along {direction:?}"));
+        let is_off = |pair: &(&f32, &f32)| !FILTERED_LUMEN.is_same(*pair.0, *pair.1);
+        let off = plain.iter().zip(&nearest).filter(is_off).count();
+        assert!(
+            !FILTERED_LUMEN.allows(off, nearest.len()),
+            "a filter over all moves {off} of {}",
+            nearest.len()
+        );
     }
 }
 
