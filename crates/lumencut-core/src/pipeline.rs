@@ -24,7 +24,7 @@ use crate::math::lanes::Isa;
 use crate::math::projection::{Level, ProjectedLevel, Radii};
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::Settings;
-use crate::stages::depth::CutSurface;
+use crate::stages::depth::{CutSurface, Sheet};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
 
@@ -61,6 +61,8 @@ impl<'a> Request<'a> {
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
+    /// The sheet of the view before: the largest of the images that no frame keeps.
+    sheet: Vec<Sheet>,
     isa: Isa,
 }
 
@@ -73,7 +75,7 @@ impl Default for CpuRenderer {
 impl CpuRenderer {
     /// A renderer with the kernels for `isa`; the pictures are the same to the bit.
     pub fn new(isa: Isa) -> Self {
-        Self { levels: Arc::default(), projected: Vec::new(), isa }
+        Self { levels: Arc::default(), projected: Vec::new(), sheet: Vec::new(), isa }
     }
 
     /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
@@ -108,7 +110,8 @@ impl CpuRenderer {
 
     /// Where the pixels of a view look: depth, vessel and distance of the cut surface.
     fn cut_surface(&mut self, tree: &LeveledTree, request: &Request) -> Result<Frame> {
-        let (mut clock, mut images) = (Clock::start(), Images::default());
+        let mut clock = Clock::start();
+        let mut images = Images { sheet: std::mem::take(&mut self.sheet), ..Images::default() };
         self.prepare(tree, request.settings);
         clock.lap(Stage::Levels);
         self.project(request.camera, request.settings);
@@ -118,6 +121,7 @@ impl CpuRenderer {
             pass.run(stage, &mut images)?;
             clock.lap(stage);
         }
+        self.sheet = std::mem::take(&mut images.sheet);
         Ok(images.into_cut_surface(*request.camera, clock.timings))
     }
 

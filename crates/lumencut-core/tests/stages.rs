@@ -5,10 +5,12 @@ use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::geometry::Geometry;
+use lumencut_core::math::leaps::TO_THE_RIGHT;
 use lumencut_core::settings::{Opacity, Settings, Slab, SlabMode, Window};
 use lumencut_core::stages::Stage;
 use lumencut_core::stages::composite::{CompositeParameters, Layers, composite};
 use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
+use lumencut_core::stages::leap::{LeapParameters, leap};
 use lumencut_core::stages::levels::levels;
 use lumencut_core::stages::silhouette::{SilhouetteParameters, silhouette};
 use lumencut_core::stages::surface::{SurfaceParameters, surface};
@@ -243,4 +245,25 @@ fn a_slab_of_too_many_voxels_is_refused_and_one_beyond_the_volume_is_not() {
     let error = thick(1e-6, 1000.0).unwrap_err();
     assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "slab thickness"));
     assert_eq!(thick(1.0, 1000.0).unwrap(), [7.0; 6]);
+}
+
+#[test]
+fn leaps_are_where_neither_side_goes_on_and_never_beyond_the_image() {
+    // A steep plane, 90 mm for each mm to the right and 70 upwards, with a step of 5 mm after the third column; and one
+    // of 3 mm after the second row, which a vessel of 2 mm radius bridges.
+    let size = [19, 7];
+    let camera = view([0.0, 1.0, 0.0], size, 0.5);
+    let place = |p: usize| (p % size[0], p / size[0]);
+    let depth = |p: usize| {
+        let (i, j) = place(p);
+        let steps = if i > 2 { 5.0 } else { 0.0 } + if j > 1 { 3.0 } else { 0.0 };
+        45.0 * i as f32 - 35.0 * j as f32 + steps
+    };
+    let depths: Vec<f32> = (0..19 * 7).map(depth).collect();
+    let sheets = vec![[90.0, 70.0, 2.0, 0.0]; depths.len()];
+    let mut found = vec![9; depths.len()];
+    leap(&on_cpu(&camera), &LeapParameters::new(&camera), &depths, &sheets, &mut found).unwrap();
+    for (p, bits) in found.iter().enumerate() {
+        assert_eq!(*bits, if place(p).0 == 2 { TO_THE_RIGHT } else { 0 }, "at {:?}", place(p));
+    }
 }

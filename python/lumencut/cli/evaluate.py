@@ -71,7 +71,7 @@ def evaluate(
 
     \b
     lumencut evaluate centerlines.vtp
-    lumencut evaluate ct.nii.gz centerlines.vtp --lumen-first --csv numbers.csv --pictures worst
+    lumencut evaluate ct.nii.gz centerlines.vtp --views 50 --csv numbers.csv --pictures worst
     """  # noqa: D301 - click needs the control character itself
     settings = settings_from(chosen)
     names = _checked_methods(chosen["methods"])

@@ -188,6 +188,7 @@ def _odd_grid(affine: npt.NDArray[np.float64], low_high: list[float] | None) -> 
 def _odd_tree(tree: VesselTree) -> list[str]:
     import numpy as np
 
+    from lumencut._lumencut import SETTINGS
     from lumencut.placement import LARGEST, SMALLEST
 
     notes = []
@@ -195,11 +196,12 @@ def _odd_tree(tree: VesselTree) -> list[str]:
     if not SMALLEST <= extent <= LARGEST:
         notes.append(f"the tree is {extent:.3g} mm long from corner to corner; perhaps its unit is not mm")
     bare = sum(vessel.radius is None for vessel in tree)
+    taken = f"taken as {SETTINGS['unknown_radius'].default:g} mm where lumen comes first (--unknown-radius)"
     if bare:
-        notes.append(f"{bare} of {len(tree)} vessels have no radius; their lumen is not preserved")
+        notes.append(f"{bare} of {len(tree)} vessels have no radius: {taken}")
     zero = sum(int((vessel.radius == 0).sum()) for vessel in tree if vessel.radius is not None)
     if zero:
-        notes.append(f"{zero} points have radius 0")
+        notes.append(f"{zero} points have radius 0: {taken}")
     steps = np.concatenate([np.linalg.norm(np.diff(vessel.points, axis=0), axis=1) for vessel in tree])
     if steps.max() > 10 * max(float(np.median(steps)), 1.0):
         notes.append(f"a gap of {steps.max():.1f} mm between neighbouring points")

@@ -86,8 +86,8 @@ def evaluate(
             Mean, 95th percentile and maximum of the absolute error of the width of vessels (mm), and the mean
             of the signed one, at width_stations stations; width_stations_left_out could not be judged.
         blended_sheets_percent
-            Pixels that blend sheets of a vessel more than 20 mm of arc length apart; None as long as the
-            engine does not tell.
+            Pixels that blend sheets of different vessels, or of one vessel more than 20 mm of arc length
+            apart.
         tissue_percent
             Pixels that show a value of the volume on the cut surface; None without a volume.
         depth_change_per_degree_mm, jumps_per_degree_percent, zone_changes_per_degree_percent
@@ -95,7 +95,7 @@ def evaluate(
             more than 5 mm, and pixels that come into the zone of another vessel.
         leaps_with_line_percent, lines_elsewhere_mm_per_mm2, leaps
             Leaps of the depth with a silhouette, the length of silhouettes elsewhere (mm per mm²), and how
-            many leaps there are; None as long as the engine does not tell the strength of the silhouettes.
+            many leaps there are; None for methods without silhouettes.
         crossings_in_order_percent, crossings, crossings_left_out
             Crossings in projection at which the nearer vessel is shown, how many there are, and how many
             could not be judged.

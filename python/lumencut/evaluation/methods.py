@@ -32,8 +32,8 @@ class Method:
     picture : function of Renderer, Camera and Settings
         A frame with a picture; needs a volume.
     details : function of Renderer, Camera and Settings
-        Of ``"sheet_gap"``, the arc length between the places that a pixel blends (mm), and ``"strength"``, that
-        of the silhouettes (0 to 1), those that the method has.
+        Of ``"sheet_gap"``, the arc length between the places that a pixel blends (mm), and ``"strength"``,
+        that of the silhouettes (0 to 1), those that the method has.
     """
 
     settings: Callable[[Settings], Settings]

@@ -45,7 +45,8 @@ impl CutSurfacePass<'_> {
             Stage::Depth => {
                 images.unfiltered_depth = vec![0.0; pixels];
                 images.vessel = vec![0; pixels];
-                images.sheet = vec![[0.0; 4]; if self.has_sheet { pixels } else { 0 }];
+                // What is there from another view is written anew.
+                images.sheet.resize(if self.has_sheet { pixels } else { 0 }, [0.0; 4]);
                 let Images { unfiltered_depth, vessel, sheet, .. } = images;
                 let written = DepthImages { depth: unfiltered_depth, vessel, sheet };
                 depth(work, &self.surface, &images.distance, written)

@@ -7,7 +7,7 @@ use super::depth::Sheet;
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
-use crate::math::lanes::{Kernel, ROWS, dispatch, larger};
+use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, larger};
 use crate::math::leaps::{DOWNWARDS, TO_THE_RIGHT};
 
 /// The smallest leap (mm), for vessels whose diameter is smaller.
@@ -46,15 +46,22 @@ pub fn leap(
     let (side, width) = (parameters.pixel_spacing, work.size[0]);
     leap.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, leap)| {
         work.go_on()?;
-        dispatch(work.isa, LeapRows { depth, sheet, width, first: row * ROWS, side, leap });
+        let surface = Surface { depth, sheet, width };
+        dispatch(work.isa, LeapRows { surface, first: row * ROWS, side, leap });
         Ok(())
     })
 }
 
-struct LeapRows<'a> {
+/// The surface whose leaps are looked for.
+#[derive(Clone, Copy)]
+struct Surface<'a> {
     depth: &'a [f32],
     sheet: &'a [Sheet],
     width: usize,
+}
+
+struct LeapRows<'a> {
+    surface: Surface<'a>,
     first: usize,
     side: f32,
     leap: &'a mut [u32],
@@ -65,35 +72,85 @@ impl Kernel for LeapRows<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let (width, side) = (self.width, self.side);
+        let (surface, side) = (self.surface, self.side);
+        let width = surface.width;
+        let last_row = surface.depth.len() / width - 1;
         for (j, leap) in (self.first..).zip(self.leap.chunks_mut(width)) {
-            let row = |j: usize| {
-                let start = j * width;
-                (&self.depth[start..start + width], &self.sheet[start..start + width])
-            };
-            // The last row and the last column have no neighbour, and so no leap.
-            let last_row = self.depth.len() / width - 1;
-            let ((z, sheet), (z_below, sheet_below)) = (row(j), row((j + 1).min(last_row)));
-            let has_below = j < last_row;
-            for (i, leap) in leap.iter_mut().enumerate() {
-                let down = has_below & leaps(z[i], &sheet[i], z_below[i], &sheet_below[i], [0.0, -side]);
-                *leap = if down { DOWNWARDS } else { 0 };
-            }
-            for (i, leap) in leap.iter_mut().enumerate().take(width - 1) {
-                let right = leaps(z[i], &sheet[i], z[i + 1], &sheet[i + 1], [side, 0.0]);
-                *leap |= if right { TO_THE_RIGHT } else { 0 };
+            for (n, leap) in leap.chunks_mut(FAN).enumerate() {
+                let i = n * FAN;
+                // Beyond the last column and the last row there is nothing to leap to.
+                let here = surface.strip(i, j);
+                let down = here.leaps_to(&surface.strip(i, (j + 1).min(last_row)), [0.0, -side]);
+                let right = here.leaps_to(&surface.strip(i + 1, j), [side, 0.0]);
+                for (l, leap) in leap.iter_mut().enumerate() {
+                    let (down, right) = (down[l] & (j < last_row), right[l] & (i + l + 1 < width));
+                    *leap = if down { DOWNWARDS } else { 0 } | if right { TO_THE_RIGHT } else { 0 };
+                }
             }
         }
     }
 }
 
-/// Whether the depth leaps from one pixel to another, which lies `step` (view x and y, mm) from it.
+impl Surface<'_> {
+    /// Sixteen pixels of row `j` from column `i` on; beyond the row its last pixel repeats.
+    #[inline(always)]
+    fn strip(&self, i: usize, j: usize) -> Strip {
+        let row = j * self.width..(j + 1) * self.width;
+        let (depth, sheet) = (&self.depth[row.clone()], &self.sheet[row]);
+        let mut strip = Strip { z: [0.0; FAN], slope: [[0.0; FAN]; 2], threshold: [0.0; FAN] };
+        if let (Some(depth), Some(sheet)) = (whole(depth, i), whole(sheet, i)) {
+            strip.put(depth, sheet);
+        } else {
+            let pixel = |l: usize| (i + l).min(self.width - 1);
+            let depth = std::array::from_fn(|l| depth[pixel(l)]);
+            let sheet = std::array::from_fn(|l| sheet[pixel(l)]);
+            strip.put(&depth, &sheet);
+        }
+        strip
+    }
+}
+
+/// Sixteen entries of a row from column `i` on, where it has so many.
 #[inline(always)]
-fn leaps(from: f32, here: &Sheet, to: f32, there: &Sheet, step: [f32; 2]) -> bool {
-    let change = to - from;
-    let off = |sheet: &Sheet| {
-        let expected = sheet[0] * step[0] + sheet[1] * step[1];
-        (change - expected).abs() > larger(2.0 * sheet[2], SMALLEST_LEAP)
-    };
-    off(here) & off(there)
+fn whole<T>(row: &[T], i: usize) -> Option<&[T; FAN]> {
+    row.get(i..).and_then(|rest| rest.first_chunk())
+}
+
+/// Sixteen pixels of a row, field by field.
+struct Strip {
+    z: [f32; FAN],
+    slope: [[f32; FAN]; 2],
+    /// From how much on a change counts as a leap (mm).
+    threshold: [f32; FAN],
+}
+
+impl Strip {
+    #[inline(always)]
+    fn put(&mut self, depth: &[f32; FAN], sheet: &[Sheet; FAN]) {
+        self.z = *depth;
+        for l in 0..FAN {
+            let [slope_x, slope_y, radius, _] = sheet[l];
+            (self.slope[0][l], self.slope[1][l]) = (slope_x, slope_y);
+            self.threshold[l] = larger(2.0 * radius, SMALLEST_LEAP);
+        }
+    }
+
+    /// Whether the depth leaps from each of these pixels to one of the others, which lies `step` (view x and y, mm) from
+    /// it.
+    #[inline(always)]
+    fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [bool; FAN] {
+        let mut leaps = [false; FAN];
+        for l in 0..FAN {
+            let change = others.z[l] - self.z[l];
+            leaps[l] = self.is_off(l, change, step) & others.is_off(l, change, step);
+        }
+        leaps
+    }
+
+    /// Whether a change of depth over a step is another than the slope of pixel `l` makes it.
+    #[inline(always)]
+    fn is_off(&self, l: usize, change: f32, step: [f32; 2]) -> bool {
+        let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];
+        (change - expected).abs() > self.threshold[l]
+    }
 }

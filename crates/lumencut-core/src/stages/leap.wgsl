@@ -33,14 +33,14 @@ fn leap(@builtin(global_invocation_id) thread: vec3u) {
         return;
     }
     let here = place_of(thread.xy);
-    // The last column and the last row have no neighbour, and so no leap.
     let side = parameters.pixel_spacing;
+    // Beyond the last column and the last row there is nothing to leap to.
     var bits = 0u;
-    if thread.x + 1u < view.size.x && leaps(here, here + 1u, vec2f(side, 0.0)) {
-        bits |= TO_THE_RIGHT;
-    }
     if thread.y + 1u < view.size.y && leaps(here, here + view.size.x, vec2f(0.0, -side)) {
         bits |= DOWNWARDS;
+    }
+    if thread.x + 1u < view.size.x && leaps(here, here + 1u, vec2f(side, 0.0)) {
+        bits |= TO_THE_RIGHT;
     }
     leap_image[here] = bits;
 }
