@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +19,9 @@ from lumencut.volume import Volume
 
 #: The six views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = _lumencut.VIEWS
+
+#: A tree, a volume, or whatever else `render` takes as a volume.
+Scene: TypeAlias = VesselTree | Volume | Any
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,52 +81,70 @@ class Camera:
     @classmethod
     def fitted(
         cls,
-        scene: VesselTree | Volume,
+        scene: Scene,
         direction: npt.ArrayLike,
         up: npt.ArrayLike,
         size: tuple[int, int] = (512, 512),
     ) -> Camera:
-        """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels."""
-        if not isinstance(scene, (VesselTree, Volume)):
-            raise CameraError("scene of the view", type(scene).__name__, "a VesselTree or a Volume")
+        """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels.
+
+        Parameters
+        ----------
+        scene : VesselTree, Volume, or whatever else :func:`lumencut.render` takes as a volume
+            What is to fit.
+        direction : array_like, shape (3,)
+            From the viewer into the scene; any length.
+        up : array_like, shape (3,)
+            Upwards in the image.
+        size : (int, int), default (512, 512)
+            Width and height (pixels).
+
+        Raises
+        ------
+        CameraError
+            For a scene of another kind, or vectors or a size that make no camera.
+        VolumeError
+            For an image that is no volume, such as one of several time points.
+        """
+        points = scene_points(scene)
         ahead = numbers(CameraError, "direction of the camera", direction, (3,))
         view = cls(np.zeros(3), ahead, numbers(CameraError, "up of the camera", up, (3,)), size)
-        return view._moved(_lumencut.fitted(view, scene_points(scene)))
+        return view._moved(_lumencut.fitted(view, points))
 
     @classmethod
-    def named(cls, name: str, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def named(cls, name: str, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view of this name, one of :data:`VIEWS`."""
         if not (isinstance(name, str) and name in VIEWS):
             raise CameraError("name of the view", repr(name), "one of " + ", ".join(VIEWS))
         return cls.fitted(scene, *VIEWS[name], size)
 
     @classmethod
-    def anterior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def anterior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from the front; the patient's left is on the right of the image."""
         return cls.named("anterior", scene, size)
 
     @classmethod
-    def posterior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def posterior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from behind."""
         return cls.named("posterior", scene, size)
 
     @classmethod
-    def left(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def left(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from the patient's left."""
         return cls.named("left", scene, size)
 
     @classmethod
-    def right(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def right(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from the patient's right."""
         return cls.named("right", scene, size)
 
     @classmethod
-    def superior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def superior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from above, the patient's front on top."""
         return cls.named("superior", scene, size)
 
     @classmethod
-    def inferior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def inferior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from below, the patient's front on top, as axial slices are shown."""
         return cls.named("inferior", scene, size)
 
@@ -167,9 +188,18 @@ def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float
     return (0.0, 0.0, 1.0) if across > 0.05 * abs(direction[2]) else (0.0, -1.0, 0.0)
 
 
-def scene_points(scene: VesselTree | Volume) -> npt.NDArray[np.float64]:
+def scene_points(scene: Scene) -> npt.NDArray[np.float64]:
     """Return the points (mm, LPS) that a view shows all of when it shows all of ``scene``, shape (n, 3)."""
-    return scene.points if isinstance(scene, VesselTree) else scene.corners
+    if isinstance(scene, VesselTree):
+        return scene.points
+    from lumencut.volume_files.memory import as_volume, is_image
+
+    if not is_image(scene):
+        found = (
+            f"a bare array of shape {scene.shape}" if isinstance(scene, np.ndarray) else type(scene).__name__
+        )
+        raise CameraError("scene of the view", found, "a VesselTree, a Volume or an image that render takes")
+    return as_volume(scene).corners
 
 
 def checked_axis(axis: Any, names: tuple[str, ...]) -> str | npt.NDArray[np.float64]:
