@@ -102,14 +102,16 @@ def test_renderers(make):
 def test_what_is_no_volume_is_refused_as_such(tmp_path):
     (tmp_path / "line.csv").write_text("0,0,0\n1,2,3\n")
     for thing in ("ct.nii", np.zeros((3, 3, 3)), [], [1, 2], [*STACK, None]):
-        with pytest.raises(CameraError, match="scene of the view: found .*; expected a VesselTree, a Volume"):
+        with pytest.raises(
+            CameraError, match=r"scene of the view: found .*; expected a VesselTree, a Volume"
+        ):
             Camera.anterior(thing)
         for take in (Window.whole, Window.from_data, as_volume):
-            with pytest.raises(VolumeError, match="image: found .*; expected a lumencut.Volume, SimpleITK"):
+            with pytest.raises(VolumeError, match=r"image: found .*; expected a lumencut\.Volume, SimpleITK"):
                 take(thing)
-        with pytest.raises(VolumeError, match="image: found"):
+        with pytest.raises(VolumeError, match=r"image: found"):
             lumencut.read_centerlines(tmp_path / "line.csv", volume=thing)
-    with pytest.raises(VolumeError, match="4 dimensions"):
+    with pytest.raises(VolumeError, match=r"4 dimensions"):
         Camera.anterior(nibabel.Nifti1Image(np.zeros((3, 3, 3, 2)), np.eye(4)))
 
 
@@ -154,9 +156,9 @@ def test_poly_data_in_ras_and_without_lines():
     sphere = vtk.vtkSphereSource()
     sphere.Update()
     for empty in (vtk.vtkPolyData(), sphere.GetOutput()):
-        with pytest.raises(lumencut.FormatError, match="vtkPolyData"):
+        with pytest.raises(lumencut.FormatError, match=r"vtkPolyData"):
             lumencut.read_centerlines(empty)
-    with pytest.raises(lumencut.FormatError, match="path: found vtkImageData"):
+    with pytest.raises(lumencut.FormatError, match=r"path: found \w*ImageData"):
         lumencut.read_centerlines(vtk.vtkImageData())
     written = lumencut.read_centerlines(poly_data())
     assert isinstance(lumencut.Renderer(None, written).cut_surface(), lumencut.Frame)
@@ -177,22 +179,22 @@ def test_a_dataset_alone_and_datasets_of_no_file():
 
 
 def test_datasets_that_are_no_volume():
-    with pytest.raises(VolumeError, match="DICOM datasets: found .*missing slice"):
+    with pytest.raises(VolumeError, match=r"DICOM datasets: found .*missing slice"):
         as_volume([*STACK[:4], *STACK[6:]])
     other = [single(image, 50 + number, series=7) for number, image in enumerate(images(axial()))]
-    with pytest.raises(VolumeError, match="2 series.*give the datasets of one series"):
+    with pytest.raises(VolumeError, match=r"2 series.*give the datasets of one series"):
         as_volume([*STACK, *other])
     headless = pydicom.Dataset()
     headless.SOPClassUID = STACK[0].SOPClassUID
-    with pytest.raises(VolumeError, match="dataset 0: found an image without rows and columns"):
+    with pytest.raises(VolumeError, match=r"dataset 0: found an image without rows and columns"):
         as_volume([headless])
     without_pixels = [single(image, number) for number, image in enumerate(images(axial()))]
     for data in without_pixels:
         del data.PixelData
-    with pytest.raises(VolumeError, match="dataset .*: found no pixels"):
+    with pytest.raises(VolumeError, match=r"dataset .*: found no pixels"):
         as_volume(without_pixels)
 
 
 def test_volumes_are_no_arrays_of_voxels():
-    with pytest.raises(VolumeError, match="array of the volume: found a Volume"):
+    with pytest.raises(VolumeError, match=r"array of the volume: found a Volume"):
         Volume(VOLUME)

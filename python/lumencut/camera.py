@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
+from lumencut._values import Value, content_of
 from lumencut.errors import CameraError
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -25,8 +26,8 @@ Scene: TypeAlias = VesselTree | Volume | Any
 
 
 @dataclass(frozen=True, eq=False)
-class Camera:
-    """An orthographic view.
+class Camera(Value):
+    """An orthographic view; cameras with the same place, size and pixels are equal.
 
     Parameters
     ----------
@@ -66,6 +67,10 @@ class Camera:
         self._set("pixel_spacing", number(CameraError, "pixel_spacing of the camera", self.pixel_spacing))
         for name, vector in zip(("direction", "right_axis", "up"), _lumencut.check_camera(self), strict=True):
             self._set(name, numbers(CameraError, name, vector, (3,)))
+
+    def _content(self) -> tuple[Any, ...]:
+        vectors = (self.center, self.direction, self.up, self.right_axis)
+        return (*map(content_of, vectors), self.size, self.pixel_spacing)
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
@@ -149,7 +154,11 @@ class Camera:
         return cls.named("inferior", scene, size)
 
     def rotated(
-        self, angle: float, axis: Literal["up", "right", "direction"] | npt.ArrayLike = "up"
+        self,
+        angle: float | None = None,
+        axis: Literal["up", "right", "direction"] | npt.ArrayLike = "up",
+        *,
+        degrees: float | None = None,
     ) -> Camera:
         """Return the view turned about its center.
 
@@ -159,7 +168,19 @@ class Camera:
             Angle (radians), counterclockwise as seen against the axis.
         axis : {"up", "right", "direction"} or array_like of shape (3,), default "up"
             An axis of the view, or a vector in world space (LPS).
+        degrees : float
+            The angle in degrees, in the place of ``angle``.
+
+        Raises
+        ------
+        CameraError
+            For both angles or neither, one that is no number, or an axis that is no direction.
         """
+        if (angle is None) == (degrees is None):
+            found = "neither" if angle is None else "an angle in radians and one in degrees"
+            raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
+        if degrees is not None:
+            angle = math.radians(number(CameraError, "degrees of the rotation", degrees))
         angle = number(CameraError, "angle of the rotation", angle)
         about = checked_axis(axis, ("up", "right", "direction"))
         return self._moved(_lumencut.rotated(self, angle, about))
@@ -177,6 +198,40 @@ class Camera:
         if not np.isfinite(shift).all():
             raise CameraError("shift of the camera", f"{shift}", "finite distances in mm")
         return self._moved(_lumencut.panned(self, *shift))
+
+    def project(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return where world points are seen.
+
+        The inverse of ``Frame.position``: a point that a frame shows in row j and column i is projected to
+        (i, j) and the depth there.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3) or (3,)
+            World points (mm, LPS).
+
+        Returns
+        -------
+        numpy.ndarray, shape (n, 3)
+            For each point its column and its row (pixels, with fractions), and its depth (mm), which grows
+            away from the viewer and is 0 at the camera's center. The centre of the pixel in column i and row
+            j is at (i, j), the first one at (0, 0): the image reaches from -0.5 to its width and height less
+            0.5. Points beyond it are projected too.
+
+        Raises
+        ------
+        CameraError
+            For points of another shape, or that are no numbers.
+        """
+        try:
+            shape = (3,) if np.ndim(points) == 1 else (-1, 3)
+        except ValueError:  # lists of several lengths
+            shape = (-1, 3)
+        offset = numbers(CameraError, "points to project", points, shape).reshape(-1, 3) - self.center
+        width, height = self.size
+        column = offset @ self.right_axis / self.pixel_spacing + (width - 1) / 2
+        row = (height - 1) / 2 - offset @ self.up / self.pixel_spacing
+        return np.stack([column, row, offset @ self.direction], axis=1)
 
 
 def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float, float, float]:

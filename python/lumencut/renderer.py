@@ -100,6 +100,9 @@ class Renderer:
             vars(other).update({name: vars(self)[name] for name in ("_whole_window",) if name in vars(self)})
         return other
 
+    def __repr__(self) -> str:
+        return f"Renderer({self._volume!r}, {self._tree!r}, on {self.device!r})"
+
     @property
     def volume(self) -> Volume | None:
         """The angiography."""
