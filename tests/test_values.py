@@ -29,6 +29,7 @@ from lumencut import (
     VesselTreeError,
     Volume,
     Window,
+    turntables,
 )
 
 LINE = [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0], [4.0, 4.0, 4.0]]
@@ -103,10 +104,10 @@ def test_the_two_zeros_are_one_number():
 
 
 def arrays_of(thing):
-    found = {name: value for name, value in vars(thing).items() if isinstance(value, np.ndarray)}
-    for child in (*vars(thing).get("_vessels", ()), *([thing.camera] if isinstance(thing, Frame) else [])):
-        found |= {f"{id(child)}.{name}": value for name, value in arrays_of(child).items()}
-    return list(found.values())
+    """The arrays that it and its parts hold."""
+    parts = [*vars(thing).get("_vessels", ()), *([thing.camera] if isinstance(thing, Frame) else [])]
+    own = [value for value in vars(thing).values() if isinstance(value, np.ndarray)]
+    return own + [array for part in parts for array in arrays_of(part)]
 
 
 @pytest.mark.parametrize("make", [vessel, tree, camera, chosen, volume, frame, lambda: Window(3, 4)])
@@ -117,7 +118,8 @@ def test_pickles_keep_what_they_are(make, protocol):
         assert type(again) is type(made)
         assert repr(again) == repr(made)
         pairs = list(zip(arrays_of(again), arrays_of(made), strict=True))
-        assert all(np.array_equal(a, b) for a, b in pairs)
+        for a, b in pairs:
+            np.testing.assert_array_equal(a, b)
         assert [a.flags.writeable for a, _ in pairs] == [b.flags.writeable for _, b in pairs]
         if not isinstance(made, (Volume, Frame)):
             assert again == made
@@ -175,7 +177,7 @@ def test_vessels_by_name():
     assert made[-1] is made[3]
     assert made[1:3] == (made[1], made[2])
     with pytest.raises(
-        VesselTreeError, match="vessel 'D1': found 2 vessels of this name: 1, 2; .* by its id"
+        VesselTreeError, match=r"vessel 'D1': found 2 vessels of this name: 1, 2; .* by its id"
     ):
         made["D1"]
     for kind in (VesselTreeError, KeyError, ValueError):
@@ -233,7 +235,7 @@ def test_projected_points(points):
     right = (found[:, :1] + 0.5 - width / 2) * view.pixel_spacing * view.right_axis
     up = (height / 2 - 0.5 - found[:, 1:2]) * view.pixel_spacing * view.up
     np.testing.assert_allclose(view.center + right + up + found[:, 2:] * view.direction, array, atol=1e-9)
-    np.testing.assert_array_equal(view.project(points[0]), found[:1])
+    np.testing.assert_allclose(view.project(points[0]), found[:1], atol=1e-9)
 
 
 def test_positions_are_projected_to_their_pixels():
@@ -248,7 +250,7 @@ def test_positions_are_projected_to_their_pixels():
 
 @pytest.mark.parametrize("wrong", [None, "abc", [1, 2], [[1, 2]], [1, [2, 3]], np.zeros((2, 2, 3)), 5, {}])
 def test_what_cannot_be_projected(wrong):
-    with pytest.raises(CameraError, match="points to project: found .*; expected numbers of shape"):
+    with pytest.raises(CameraError, match=r"(?s)points to project: found .*; expected numbers"):
         camera().project(wrong)
 
 
@@ -262,6 +264,4 @@ def test_turntables_are_reachable():
     renderer = Renderer(volume(), tree(), "cpu")
     frames = list(lumencut.turntable(renderer, camera(), frames=3))
     assert [one.camera.size for one in frames] == [(6, 4)] * 3
-    import lumencut.turntables  # the function keeps its name beside the module
-
-    assert callable(lumencut.turntable)
+    assert lumencut.turntable is turntables.turntable
