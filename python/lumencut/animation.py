@@ -15,6 +15,7 @@ import numpy as np
 
 from lumencut._checks import number
 from lumencut._files import WRITABLE, checked_path, move, private_folder, replace_whole
+from lumencut._wording import a
 from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
     for frame in frames:
         size = getattr(getattr(frame, "camera", None), "size", None)
         if size is None:
-            raise FormatError("frames", f"a {type(frame).__name__}", "Frame objects")
+            raise FormatError("frames", a(type(frame).__name__), "Frame objects")
         if size != (first := first or size):
             found = f"frames of {first[0]} × {first[1]} and {size[0]} × {size[1]} pixels"
             raise FormatError(str(path), found, "frames of one size")

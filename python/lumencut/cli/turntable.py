@@ -84,7 +84,7 @@ def turntable(
     _check_turn(view, frames, degrees, axis)
     renderer = read_scene(files)
 
-    from lumencut import turntable as library
+    from lumencut import turntables as library
 
     camera = options.placed_like(library.fitted_turn(view, renderer.scene, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
@@ -110,7 +110,7 @@ def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[
 
 def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
     """Refuse a turn that cannot be made before any file is read."""
-    from lumencut.turntable import frame_angles
+    from lumencut.turntables import frame_angles
 
     try:
         frame_angles(frames, degrees)

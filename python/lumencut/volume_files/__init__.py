@@ -110,7 +110,8 @@ def read_volume(
     Returns
     -------
     Volume
-        The voxels on their grid in world space (mm, LPS). What was assumed is logged as a warning.
+        The voxels on their grid in world space (mm, LPS), integers wherever scaling leaves them exact, else
+        float32 (float64 where they are stored so). What was assumed is logged as a warning.
 
     Raises
     ------
@@ -128,6 +129,8 @@ def read_volume(
         told(volume.size[2], volume.size[2])
     for note in file.notes:
         _log.warning("%s: %s", file.path, note)
+    for remark in file.remarks:
+        _log.info("%s: %s", file.path, remark)
     return volume
 
 
@@ -178,7 +181,7 @@ def inspect_volume(
         value_range=value_range,
         details=file.details,
         filled_slices=file.filled,
-        notes=tuple(file.notes),
+        notes=(*file.notes, *file.remarks),
     )
 
 

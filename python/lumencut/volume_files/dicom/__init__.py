@@ -5,6 +5,7 @@ Pixels are decoded by pydicom and its plugins; geometry and rescaling are ours.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,7 @@ from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing, shown
 from lumencut.volume_files.rescale import is_integral
 
-__all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom"]
+__all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
 
 
 @dataclass(frozen=True)
@@ -37,9 +38,14 @@ class Wanted:
 
 def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
     """Read the headers of a DICOM series; `progress` counts the files looked into."""
+    return opened(path, wanted, lambda notes: read_images(path, notes, progress))
+
+
+def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], list[Image]]) -> VolumeFile:
+    """Make one volume of the images that `read` gives, which takes the notes; `path` names them."""
     notes: list[str] = []
     with refusing(path, "DICOM", notes):
-        one = chosen(path, grouped(read_images(path, notes, progress)), wanted.series, notes)
+        one = chosen(path, grouped(read(notes)), wanted.series, notes)
         slices = one.slices(str(path), notes)
         if wanted.phase is not None:
             slices = of_phase(str(path), slices, wanted.phase)
