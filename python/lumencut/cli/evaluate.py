@@ -104,7 +104,7 @@ def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
     volume = files[0] if len(files) == 2 else None
     scene = scene_from({**chosen, "volume": volume, "centerlines": files[-1]})
     if volume is None:
-        for name in ("series", "phase", "fill_gaps"):
+        for name in ("series", "phase", "fill_gaps", "resample_slices"):
             if getattr(scene, name):
                 raise click.UsageError(f"--{name.replace('_', '-')} without VOLUME; it says how one is read")
     return scene

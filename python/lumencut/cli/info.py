@@ -13,6 +13,7 @@ from lumencut.cli.options import (
     coordinates_option,
     fill_gaps_option,
     phase_option,
+    resample_slices_option,
     series_option,
     unit_option,
 )
@@ -33,6 +34,7 @@ _ONLY_IN_JSON |= {"kind", "error"}
 @series_option
 @phase_option
 @fill_gaps_option
+@resample_slices_option
 @click.option(
     "--devices", "with_devices", is_flag=True, help="List the GPUs of this machine; FILE may be left out."
 )
@@ -45,6 +47,7 @@ def info(
     series: str | None,
     phase: str | None,
     fill_gaps: bool,
+    resample_slices: bool,
     with_devices: bool,
     as_json: bool,
 ) -> None:
@@ -66,7 +69,9 @@ def info(
             if _holds_centerlines(path):
                 found[path] = findings.of_centerlines(path, coordinates, unit, volumes)
             else:
-                found[path] = findings.of_volume(path, series=series, phase=phase, fill_gaps=fill_gaps)
+                found[path] = findings.of_volume(
+                    path, series=series, phase=phase, fill_gaps=fill_gaps, resample_slices=resample_slices
+                )
         except SeriesError as error:
             found[path] = findings.of_series(path, error)
             if series is not None:

@@ -35,6 +35,7 @@ class SceneFiles:
     series: str | None
     phase: str | None
     fill_gaps: bool
+    resample_slices: bool
     device: Literal["auto", "cpu", "gpu"]
 
 
@@ -84,6 +85,7 @@ def _read_volume(path: Path, files: SceneFiles) -> Volume:
             series=files.series,
             phase=files.phase,
             fill_gaps=files.fill_gaps,
+            resample_slices=files.resample_slices,
             progress=told,
         )
     detail(f"{path}: {voxels!r}")

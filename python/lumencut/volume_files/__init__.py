@@ -87,9 +87,10 @@ def read_volume(
     series: str | int | None = None,
     phase: str | float | None = None,
     fill_gaps: bool = False,
+    resample_slices: bool = False,
     progress: Progress | None = None,
 ) -> Volume:
-    """Read a volume; nothing is resampled, shear and flips are kept.
+    """Read a volume; nothing is resampled unless asked for, shear and flips are kept.
 
     Parameters
     ----------
@@ -104,6 +105,11 @@ def read_volume(
     fill_gaps : bool, default False
         Interpolate missing DICOM slices linearly between their neighbours instead of refusing the series;
         `Volume.filled_slices` tells which.
+    resample_slices : bool, default False
+        Put a DICOM series of uneven slice distances on a regular grid, linearly between neighbouring slices,
+        instead of refusing it. The grid has the largest distance of which all distances are multiples, where
+        that makes at most four times as many slices as there are; else the smallest distance, or what makes
+        four times as many. `Volume.filled_slices` tells which slices are interpolated.
     progress : callable, optional
         Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
@@ -122,7 +128,7 @@ def read_volume(
         For a file that is missing or cannot be read.
     """
     told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps), told)
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
     volume = file.volume(told)
     if file.format != "DICOM":
         told(volume.size[2], volume.size[2])
@@ -137,6 +143,7 @@ def inspect_volume(
     series: str | int | None = None,
     phase: str | float | None = None,
     fill_gaps: bool = False,
+    resample_slices: bool = False,
     values: bool = True,
     progress: Progress | None = None,
 ) -> VolumeReport:
@@ -148,7 +155,7 @@ def inspect_volume(
         A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
     series : str or int, optional
         Number or UID of the DICOM series where a folder holds several.
-    phase, fill_gaps
+    phase, fill_gaps, resample_slices
         As for `read_volume`.
     values : bool, default True
         Read the voxels too, for their range and soundness; False reads headers only.
@@ -161,7 +168,7 @@ def inspect_volume(
         Format, grid, values and oddities.
     """
     told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps), told)
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
     dtype, value_range = file.dtype.newbyteorder("="), None
     if values:
         array = file.volume(told).array
@@ -218,8 +225,8 @@ def _existing(given: str | os.PathLike[str]) -> Path:
     return path
 
 
-def _wanted(series: object, phase: object, *, fill_gaps: bool) -> Wanted:
-    return Wanted(None if series is None else str(series), None if phase is None else str(phase), fill_gaps)
+def _wanted(series: object, phase: object, *mended: bool) -> Wanted:
+    return Wanted(None if series is None else str(series), None if phase is None else str(phase), *mended)
 
 
 def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
