@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError
+from lumencut.file_kinds import kind_of
 from lumencut.series_report import SeriesReport
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom import (
@@ -237,6 +238,8 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
         if path.is_dir() or _is_archive(path):
             return open_dicom(path, wanted, told).checked()
         head = head_bytes(path, 352)
+        if not head:
+            raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
         if head.startswith(b"NRRD"):
             file = open_nrrd(path)
         elif is_dicom(head):
@@ -246,9 +249,17 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
         elif nifti_kind(head) is not None or _has_nifti_name(path):
             file = open_nifti(path)
         else:
-            raise FormatError(str(path), "a file of no known format", _KNOWN)
+            raise _unknown(path)
     file.notes.extend(note for note in notes if note not in file.notes)
     return file.checked()
+
+
+def _unknown(path: Path) -> FormatError:
+    kind = kind_of(path)
+    if kind is None:
+        return FormatError(str(path), "a file of no known format", _KNOWN)
+    mend = "read_centerlines reads centerlines" if kind.role == "centerlines" and not kind.mend else kind.mend
+    return FormatError(str(path), kind.name, _KNOWN, mend)
 
 
 def _is_archive(path: Path) -> bool:
