@@ -94,7 +94,7 @@ def of_workload() -> Iterator[Entry]:
     for what, view in views():
         yield Entry(scene, what, view=view)
     for what, values in surface_settings():
-        if not what.startswith("level"):
+        if not what.startswith(("levels ", "level_distance ")):
             yield Entry(scene, f"{what}, anterior", values, View("anterior", (96, 80)))
     for size in (*THIN, (257, 257)):
         values = {"context": "dvr", "context_preview": True, "opacity": SEE_THROUGH}

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from lumencut import Opacity, Slab, TransferFunction, Window
+from lumencut import Opacity, Settings, Slab, TransferFunction, Window
 
 Values = dict[str, Any]
 """Settings by their names."""
@@ -26,6 +26,10 @@ TRANSFERS: dict[str, str | TransferFunction] = {
     "of 64 points": TransferFunction(tuple((10 * n, (4 * n, 255 - 4 * n, 128), n / 64) for n in range(64))),
 }
 """The values of `context_transfer`."""
+PAPER: Values = {
+    name: value for name, value in vars(Settings.paper()).items() if value != getattr(Settings(), name)
+}
+"""In what the paper's rules differ from the defaults."""
 MODES: tuple[str, ...] = ("mida", "dvr", "mip", "minip", "average")
 SEE_THROUGH = Opacity(50, 300)
 """An opacity that lets the context be seen in the middle of the vessels' surroundings."""
@@ -60,10 +64,23 @@ def surface_settings() -> Iterator[tuple[str, Values]]:
     yield "preserve_lumen False", {"preserve_lumen": False}
     yield "centerlines at a low weight", {"preserve_lumen": False, "cost_weight": 3, "levels": 2}
     yield "lumen_first", {"lumen_first": True}
-    yield from each("lumen_margin", (0.5, 2, 10), lumen_first=True)
+    yield "lumen_first False", {"lumen_first": False}
+    yield from each("lumen_margin", (0, 0.5, 2, 10), lumen_first=True)
     yield "lumen_margin 2 alone", {"lumen_margin": 2}
+    yield "lumen_margin 2, lumen_first False", {"lumen_margin": 2, "lumen_first": False}
+    yield from each("unknown_radius", (0, 3, 20))
+    yield "unknown_radius 3 of centerlines", {"unknown_radius": 3, "preserve_lumen": False}
     yield "lumen_first of centerlines", {"lumen_first": True, "preserve_lumen": False}
     yield "lumen_first, finest level", {"lumen_first": True, "levels": 0, "depth_filter": False}
+    for choice in ("own", "nearest"):
+        for first in (False, True):
+            chosen: Values = {"level_choice": choice, "lumen_first": first}
+            yield f"level_choice {choice}, lumen_first {first}", chosen
+            yield f"level_choice {choice}, lumen_first {first}, unfiltered", {**chosen, "depth_filter": False}
+    yield "paper", PAPER
+    yield from ((f"paper, {what}", {**PAPER, **values}) for what, values in each("levels", (0, 3, 15)))
+    yield "paper, unfiltered", {**PAPER, "depth_filter": False}
+    yield "paper, lumen_first", {**PAPER, "lumen_first": True}
     yield from each("centerline_smoothing", (0.5, 2))
     yield from each("samples", (2, 3, 4))
 
@@ -75,9 +92,16 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     ramps = [(50, 300), (300, 50), (200, 200), (-1000, 1000), (1e6, 2e6)]
     yield from each("opacity", (Opacity(*one) for one in ramps))
     yield "silhouettes False", {"silhouettes": False}
-    yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6))
+    for rule in ("leap", "gradient"):
+        for choice in ("own", "nearest"):
+            both = {"silhouette_rule": rule, "level_choice": choice}
+            yield f"silhouette_rule {rule}, level_choice {choice}", both
+        yield f"silhouette_rule {rule}, unfiltered", {"silhouette_rule": rule, "depth_filter": False}
+    # It acts under this rule alone.
+    yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
     yield from each("silhouette_color", ((255, 0, 128), (0, 0, 0)))
-    yield "silhouettes on a filter-free surface", {"depth_filter": False, "silhouette_slope": 4}
+    slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
+    yield "silhouettes on a filter-free surface", slope
     backgrounds = [(10, 200, 30, 128), (255, 255, 255, 0), (20, 40, 60, 255), (0, 0, 0, 1)]
     yield from each("background", backgrounds, context=None, opacity=SEE_THROUGH)
     for background in backgrounds[:2]:

@@ -90,7 +90,8 @@ def test_every_setting_has_an_option_that_states_its_unit_and_default(command, f
     else:
         stated = f"default {default:g}."
     assert stated in option.help
-    assert re.search(r"\((mm|count|name|number|yes or no|hexadecimal|unit of the volume)\b", option.help)
+    units = "mm|radii|count|name|number|yes or no|hexadecimal|unit of the volume"
+    assert re.search(rf"\(({units})\b", option.help)
 
 
 def test_view_names_are_those_of_the_library():

@@ -25,8 +25,7 @@ from lumencut import (
     evaluate,
 )
 from lumencut.cli import main
-from lumencut.evaluation import engine
-from lumencut.evaluation.methods import METHODS, PAPER_RULES
+from lumencut.evaluation.methods import METHODS
 from scene_files import write_lines, write_volume
 from scenes import wandering
 
@@ -97,7 +96,11 @@ def test_vessels_without_radius(radius):
     tree = VesselTree([Vessel(vessel.points, radius) for vessel in crossing_tubes()])
     thin, thick = (alone(tree=tree, settings=replace(EXACT, unknown_radius=r)) for r in (1.0, 5.0))
     assert thick["lumen_pixels"] > 3 * thin["lumen_pixels"]
-    assert thin["visible_centerline_percent"] > 90
+    unfiltered = alone(tree=tree, settings=Settings(depth_filter=False))
+    for row in (thin, thick, unfiltered):
+        assert row["visible_centerline_percent"] == row["lumen_within_0.05_mm_percent"] == 100
+    by_cost = alone(tree=tree, settings=Settings.paper(depth_filter=False))
+    assert by_cost["lumen_within_0.05_mm_percent"] < 98
     assert alone(tree=tree, settings=replace(EXACT, unknown_radius=0))["lumen_pixels"] < 200
 
 
@@ -107,13 +110,25 @@ def test_one_pixel_and_a_vessel_along_the_view():
     assert row["width_stations"] == 0
 
 
-def test_images_that_the_engine_gives_become_numbers(monkeypatch):
+def test_images_that_a_method_gives_become_numbers(monkeypatch):
     shape = SMALL["size"]
-    monkeypatch.setattr(engine, "_strength", lambda *_: np.ones(shape, np.float32))
-    monkeypatch.setattr(engine, "_sheet_gap", lambda *_: np.full(shape, 30, np.float32))
+    images = {"strength": np.ones(shape, np.float32), "sheet_gap": np.full(shape, 30, np.float32)}
+    monkeypatch.setitem(METHODS, "csr", replace(METHODS["csr"], details=lambda *_: images))
     row = alone()
     assert row["leaps"] > 50
     assert row["leaps_with_line_percent"] == row["blended_sheets_percent"] == 100
+    monkeypatch.setitem(METHODS, "csr", replace(METHODS["csr"], details=lambda *_: {}))
+    row = alone()
+    assert row["leaps"] is row["blended_sheets_percent"] is None
+
+
+def test_lines_of_the_rule_leap_are_at_leaps_and_nowhere_else():
+    row, paper = evaluate(None, crossing_tubes(), **SMALL).table
+    assert row["leaps"] > 50
+    assert row["leaps_with_line_percent"] > 95
+    assert paper["leaps"] > 50
+    assert row["leaps_with_line_percent"] >= paper["leaps_with_line_percent"]
+    assert row["lines_elsewhere_mm_per_mm2"] < 0.001
 
 
 # Arguments
@@ -124,7 +139,7 @@ def test_methods_differ_in_their_settings_alone():
     found = evaluate(None, crossing_tubes(), settings=chosen, **SMALL)
     assert found.settings["csr"] == chosen
     assert found.settings["csr-paper"] == Settings.paper(cost_weight=20, levels=2)
-    assert set(_lumencut.PAPER) <= set(PAPER_RULES)
+    assert _lumencut.PAPER.items() <= vars(found.settings["csr-paper"]).items()
     only = evaluate(None, crossing_tubes(), methods="csr-paper", settings=chosen, **SMALL)
     assert only.table == found.table[1:]
 
@@ -200,7 +215,7 @@ def test_the_table_as_csv(found, tmp_path):
         rows = list(csv.DictReader(file))
     assert [row["method"] for row in rows] == ["csr", "csr-paper"]
     assert float(rows[0]["tissue_percent"]) == found.table[0]["tissue_percent"]
-    assert rows[0]["leaps"] == ""
+    assert int(rows[0]["leaps"]) == found.table[0]["leaps"]
     with pytest.raises(lumencut.FileError, match="nowhere"):
         found.to_csv(tmp_path / "nowhere" / "table.csv")
     assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]
@@ -213,7 +228,7 @@ def test_the_table_as_markdown(found):
     assert len({len(line) for line in lines}) == 1
     assert len(lines) == 1 + len(found.table[0])
     assert [line.split("|")[1].strip() for line in lines[2:]] == list(found.table[0])[1:]
-    assert re.search(r"\| leaps +\| +- \| +- \|", lines[-4])
+    assert re.search(r"\| leaps +\| +\d+ \| +\d+ \|", lines[-4])
 
 
 def test_pictures_of_the_worst_views(found, block, tmp_path):

@@ -31,10 +31,10 @@ def brute_force(tree, camera, places, unknown=1.0, slack=0.0):
     for vessel in tree:
         kept = reference.distinct(vessel.points)
         view = reference.view_from_world(vessel.points[kept], camera)
-        pieces = reference.pieces_of(view, radius_of(vessel, unknown)[kept])
-        z, r, d, inside, _ = reference.candidates(pieces, places)
-        within = (inside >= -slack) & (d <= r + slack)
-        best = np.minimum(best, np.where(within, z, np.inf).min(axis=1))
+        pieces = reference.pieces_of(view, radius_of(vessel, unknown)[kept], np.zeros(len(kept)))
+        found = reference.candidates(pieces, places)
+        within = (found.inside >= -slack) & (found.d <= found.r + slack)
+        best = np.minimum(best, np.where(within, found.z, np.inf).min(axis=1))
     return best
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lumencut import VIEWS, Renderer, Settings
+from lumencut import VIEWS, Renderer, Settings, _lumencut
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
 
@@ -48,9 +48,12 @@ def test_the_list_has_every_setting_at_several_values():
     for one in fields(Settings):
         values = {repr(entry.values[one.name]) for entry in LIST if one.name in entry.values}
         changed = values - {repr(getattr(default, one.name))}
-        few = isinstance(getattr(default, one.name), bool)
+        few = isinstance(getattr(default, one.name), bool) or len(_lumencut.SETTINGS[one.name].choices) == 2
         assert len(changed) >= (1 if few else 2), f"add frames of {one.name} to frame_settings.py"
     assert {entry.values["levels"] for entry in LIST if "levels" in entry.values} == set(range(16))
+    assert any(Settings(**entry.values) == Settings.paper() for entry in LIST)
+    slopes = [entry.values for entry in LIST if "silhouette_slope" in entry.values]
+    assert {values["silhouette_rule"] for values in slopes} == {"gradient"}, "they act under this rule alone"
     contexts = {entry.values["context"] for entry in LIST if "context" in entry.values}
     assert contexts == {None, "mida", "dvr", "mip", "minip", "average"}
 

@@ -21,7 +21,7 @@ SNAPSHOTS = Path(__file__).parent / "snapshots"
 #: A rounding step of one grey value may differ on another platform; more may not, and not in many pixels.
 TOLERANCE, PIXELS = 1.0, 4
 
-#: Pictures of the cut surface alone, and two with what is behind it.
+#: Pictures of the cut surface alone, and two with what is behind it. Those named after the paper are its own.
 BARE, GRADED = Settings(context=None), Settings(context_window=Window(350.0, 900.0))
 
 SCENES = {
@@ -31,15 +31,16 @@ SCENES = {
         replace(BARE, window=Window(300.0, 1400.0), silhouettes=False),
     ),
     "crossing": (phantom.crossing, replace(BARE, window=Window(150.0, 700.0))),
-    "crossing_lumen_first": (
-        phantom.crossing,
-        replace(BARE, window=Window(150.0, 700.0), lumen_first=True, lumen_margin=1.0),
-    ),
+    "crossing_paper": (phantom.crossing, Settings.paper(context=None, window=Window(150.0, 700.0))),
     "y_junction_transparent": (
         phantom.y_junction,
         replace(BARE, window=Window(150.0, 700.0), opacity=Opacity(0.0, 200.0), background=(20, 40, 80, 128)),
     ),
     "aorta": (lambda: phantom.aorta(scale=0.25), replace(BARE, window=Window(300.0, 1000.0))),
+    "aorta_paper": (
+        lambda: phantom.aorta(scale=0.25),
+        Settings.paper(context=None, window=Window(300.0, 1000.0)),
+    ),
     "aorta_before_its_context": (
         lambda: phantom.aorta(scale=0.25),
         replace(GRADED, window=Window(300.0, 1000.0), opacity=Opacity(60.0, 200.0)),

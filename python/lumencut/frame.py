@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -45,7 +46,8 @@ class Frame:
     _image: npt.NDArray[np.uint8] | None = None
     _depth: npt.NDArray[np.float32] | None = None
     _vessel: npt.NDArray[np.int32] | None = None
-    _distance: npt.NDArray[np.float32] | None = None
+    # What makes it, until it is first asked for.
+    _distance: npt.NDArray[np.float32] | Callable[[], npt.NDArray[np.float32]] | None = None
     _value: npt.NDArray[np.float32] | None = None
     _context: npt.NDArray[np.uint8] | None = None
     _asked: tuple[str, ...] | None = None
@@ -73,7 +75,13 @@ class Frame:
 
     @property
     def distance(self) -> npt.NDArray[np.float32]:
-        """Projected distance to the nearest centerline (mm), float32, shape (H, W)."""
+        """Projected distance to the nearest centerline (mm), float32, shape (H, W).
+
+        With the level choice ``own`` nothing else needs it: it is computed when it is first asked for, unless
+        ``images`` named it.
+        """
+        if not isinstance(self._distance, (np.ndarray, type(None))):
+            object.__setattr__(self, "_distance", self._distance())
         distance: npt.NDArray[np.float32] = self._present("distance", self._distance)
         return distance
 
@@ -97,6 +105,12 @@ class Frame:
         """World point (mm, LPS) of the cut surface in each pixel, float64, shape (H, W, 3)."""
         depth = np.ascontiguousarray(self._present("position", self._depth), np.float32)
         return _lumencut.positions(self.camera, depth)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is copied or pickled: all images, computed by now."""
+        if self.has("distance"):
+            _ = self.distance
+        return vars(self)
 
     def __repr__(self) -> str:
         """Return the size and the names of the images."""

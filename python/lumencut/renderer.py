@@ -134,7 +134,8 @@ class Renderer:
         images : iterable of str, optional
             The images that the frame is to have, of ``"image"``, ``"depth"``, ``"vessel"``, ``"distance"``,
             ``"value"`` and ``"context"``; all where not given. On a GPU each one that is not asked for saves
-            its way back. ``Frame.position`` needs the depth.
+            its way back. ``Frame.position`` needs the depth. The distance is computed at once where it is
+            named here; where nothing is, ``Frame.distance`` may compute it when it is first asked for.
 
         Raises
         ------
@@ -157,8 +158,7 @@ class Renderer:
             mend = "give the renderer a tree, or the settings a context such as 'mida'"
             raise SettingsError("context", "None without a vessel tree", "something to show", mend)
         asked = None if images is None else _names(images)
-        windowed = checked(self.windowed(settings))
-        return _frame(camera, self._core.render(self._volume, camera, windowed, asked), asked)
+        return self._frame(self._volume, camera, self.windowed(settings), asked)
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
@@ -175,7 +175,21 @@ class Renderer:
                 "tree of the renderer", "None", "a tree to cut along", "use render for the context alone"
             )
         camera, settings = self._view(camera, settings)
-        return _frame(camera, self._core.render(None, camera, checked(settings)))
+        return self._frame(None, camera, settings, None)
+
+    def _frame(
+        self, volume: Volume | None, camera: Camera, settings: Settings, asked: list[str] | None
+    ) -> Frame:
+        """Render the images that are asked for, or all, of which the distance may come later."""
+        # Nothing but its own image needs the distance then, and few look at that.
+        is_late = asked is None and self._tree is not None and settings.level_choice == "own"
+        names = [name for name in IMAGES if name != "distance"] if is_late else asked
+        render = functools.partial(self._core.render, camera=camera, settings=checked(settings))
+        buffers = render(volume, images=names)
+        arrays: dict[str, Any] = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
+        if is_late:
+            arrays["_distance"] = lambda: render(None, images=["distance"])["distance"]
+        return Frame(camera, buffers["timings"], **arrays, _asked=None if asked is None else tuple(asked))
 
     def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
         """The camera and the settings, or their defaults."""
@@ -285,8 +299,3 @@ def _names(images: Iterable[str]) -> list[str]:
     for name in names:
         choice(SettingsError, "image of the frame", name, IMAGES)
     return names
-
-
-def _frame(camera: Camera, buffers: dict[str, Any], asked: list[str] | None = None) -> Frame:
-    arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
-    return Frame(camera, buffers["timings"], **arrays, _asked=None if asked is None else tuple(asked))

@@ -78,36 +78,47 @@ fn by_brute_force(renderer: &CpuRenderer, camera: &Camera, settings: &Settings) 
     (times, b)
 }
 
-/// Hierarchy against brute force, for some instruction sets and both rules.
-fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) {
-    let camera = fitted(tree, DVec3::new(0.1, 1.0, 0.2), 512);
-    let own = Settings {
-        lumen_first: true,
-        lumen_margin: 1.0,
-        level_choice: LevelChoice::Own,
-        ..Settings::default()
-    };
-    let nearest = Settings { level_choice: LevelChoice::Nearest, ..own.clone() };
-    for (rule, settings) in [("paper", Settings::paper()), ("lumen first, nearest", nearest), ("own", own)] {
-        for &isa in sets {
-            let mut renderer = CpuRenderer::new(isa);
-            renderer.prepare(&LeveledTree::new(tree.clone()), &settings);
-            let (fast, a) = cut_surface(&mut renderer, &camera, &settings, 31);
-            let (slow, b) = by_brute_force(&renderer, &camera, &settings);
-            let same = a.depth == b.depth && a.vessel == b.vessel && a.distance == b.distance;
-            row([
-                name.to_owned(),
-                tree.segment_count().to_string(),
-                rule.to_owned(),
-                format!("{isa:?}"),
-                format!("{:.2}", fast.median),
-                format!("{:.2}", fast.minimum),
-                format!("{:.1}", slow.median),
-                format!("{:.0}", slow.median / fast.median),
-                if same { "equal" } else { "DIFFERENT" }.to_owned(),
-            ]);
+/// The view in which a tree fits into the image, one in which it fits into 128 pixels, and one that a vessel fills.
+fn zooms(tree: &VesselTree) -> Result<[(&'static str, Camera); 3]> {
+    let fit = fitted(tree, DVec3::new(0.1, 1.0, 0.2), 512);
+    let first = tree.vessels()[0].points();
+    let seen = |center, spacing| Camera::new(center, fit.direction(), fit.up(), fit.size(), spacing);
+    let away = seen(fit.center(), fit.pixel_spacing() * 4.0)?;
+    Ok([("fits", fit), ("in 128 pixels", away), ("one vessel", seen(first[first.len() / 2], 0.02)?)])
+}
+
+/// Hierarchy against brute force, for some instruction sets, rules and zooms.
+fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()> {
+    let nearest = Settings { level_choice: LevelChoice::Nearest, ..Settings::default() };
+    let rules =
+        [("default", Settings::default()), ("paper's", Settings::paper()), ("lumen first, nearest", nearest)];
+    let leveled = LeveledTree::new(tree.clone());
+    for (zoom, camera) in zooms(tree)? {
+        // The other rules and sets are looked at where the tree fits.
+        let fits = zoom == "fits";
+        for (rule, settings) in rules.iter().take(if fits { rules.len() } else { 1 }) {
+            for &isa in if fits { sets } else { &sets[sets.len() - 1..] } {
+                let mut renderer = CpuRenderer::new(isa);
+                renderer.prepare(&leveled, settings);
+                let (fast, a) = cut_surface(&mut renderer, &camera, settings, 31);
+                let (slow, b) = by_brute_force(&renderer, &camera, settings);
+                let same = a.depth == b.depth && a.vessel == b.vessel && a.distance == b.distance;
+                row([
+                    name.to_owned(),
+                    tree.segment_count().to_string(),
+                    (*rule).to_owned(),
+                    zoom.to_owned(),
+                    format!("{isa:?}"),
+                    format!("{:.2}", fast.median),
+                    format!("{:.2}", fast.minimum),
+                    format!("{:.1}", slow.median),
+                    format!("{:.0}", slow.median / fast.median),
+                    if same { "equal" } else { "DIFFERENT" }.to_owned(),
+                ]);
+            }
         }
     }
+    Ok(())
 }
 
 /// The slowest of many directions against the median one.
@@ -135,11 +146,22 @@ fn main() -> Result<()> {
     let many = random_tree(7, 124, 160, 1.5, 150.0)?;
     head(
         "Cut surface, 512 × 512, all levels (ms)",
-        &["tree", "segments", "rule", "set", "median", "minimum", "brute force", "ratio", "pixels"],
+        &[
+            "tree",
+            "segments",
+            "rule",
+            "tree in the image",
+            "set",
+            "median",
+            "minimum",
+            "brute force",
+            "ratio",
+            "pixels",
+        ],
     );
-    against_brute_force("31 vessels", &small, &Isa::available());
-    against_brute_force("31 vessels, 4 times as finely sampled", &resampled, &[Isa::widest()]);
-    against_brute_force("124 vessels", &many, &[Isa::widest()]);
+    against_brute_force("31 vessels", &small, &Isa::available())?;
+    against_brute_force("31 vessels, 4 times as finely sampled", &resampled, &[Isa::widest()])?;
+    against_brute_force("124 vessels", &many, &[Isa::widest()])?;
     head("Over 50 directions (ms)", &["tree", "median", "worst", "ratio"]);
     over_directions("31 vessels", &small);
     over_directions("124 vessels", &many);

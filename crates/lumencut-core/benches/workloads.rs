@@ -1,4 +1,5 @@
-//! Table 2 of the paper: each stage on the three workloads, 512 × 512 pixels, beside the paper's figures.
+//! Table 2 of the paper: each stage on the three workloads, 512 × 512 pixels, by the default rules and by the paper's,
+//! beside the paper's figures.
 //!
 //! `cargo bench -p lumencut-core --bench workloads`
 
@@ -10,15 +11,27 @@ use lumencut_core::settings::Settings;
 use lumencut_phantom::Phantom;
 use lumencut_scenes::timing::{StageTimes, head, once, row, stage_medians};
 use lumencut_scenes::views::fitted;
-use lumencut_scenes::workloads::{PAPER_STAGES, PaperStage, WORKLOADS};
+use lumencut_scenes::workloads::{ASKED, PAPER_STAGES, PaperStage, WORKLOADS};
 
-/// The median milliseconds of each stage of 31 views from the front.
-fn stages(phantom: &Phantom) -> Result<StageTimes> {
+/// The median milliseconds of each stage of 31 views from the front, without context: by the default rules, and by the
+/// paper's.
+fn stages(phantom: &Phantom) -> Result<[StageTimes; 2]> {
     let scene = Scene::new(phantom.volume()?, phantom.tree.clone());
     let camera = fitted(&phantom.tree, DVec3::Y, 512);
     let mut renderer = CpuRenderer::default();
-    let settings = Settings { context: None, ..Settings::default() };
-    stage_medians(31, || renderer.render(&scene, &Request::new(&camera, &settings)))
+    let mut of = |rules: Settings| {
+        let settings = Settings { context: None, ..rules };
+        let request = Request { images: ASKED, ..Request::new(&camera, &settings) };
+        stage_medians(31, || renderer.render(&scene, &request))
+    };
+    Ok([of(Settings::default())?, of(Settings::paper())?])
+}
+
+/// Milliseconds by both rules and, where there are, those of the paper.
+fn cell(times: &[StageTimes; 2], stage: &str, paper: f64) -> String {
+    let [own, papers] =
+        times.each_ref().map(|times| times.get(stage).map_or("–".to_owned(), |time| format!("{time:.2}")));
+    if paper > 0.0 { format!("{own} · {papers} · {paper}") } else { format!("{own} · {papers}") }
 }
 
 fn main() -> Result<()> {
@@ -32,17 +45,14 @@ fn main() -> Result<()> {
         ours.push(stages(&phantom)?);
     }
     head(
-        "Table 2: milliseconds per stage, ours / paper",
+        "Table 2: milliseconds per stage, default rules · paper's rules · the paper's own figures",
         &["stage", "paper's name", "aorta (Fig. 1)", "runoff (Fig. 7)", "cervical (Fig. 8)"],
     );
     for PaperStage { stage, papers_name, milliseconds } in PAPER_STAGES {
-        let cell = |w: usize| match milliseconds[w] {
-            0.0 => format!("{:.2}", ours[w][stage]),
-            paper => format!("{:.2} / {paper}", ours[w][stage]),
-        };
-        row([stage.to_owned(), papers_name.to_owned(), cell(0), cell(1), cell(2)]);
+        let [a, b, c] = [0, 1, 2].map(|w| cell(&ours[w], stage, milliseconds[w]));
+        row([stage, papers_name, &a, &b, &c]);
     }
-    let frame = |w: usize| format!("{:.2}", ours[w]["frame"]);
-    row(["frame without context".to_owned(), String::new(), frame(0), frame(1), frame(2)]);
+    let [a, b, c] = [0, 1, 2].map(|w| cell(&ours[w], "frame", 0.0));
+    row(["frame without context", "", &a, &b, &c]);
     Ok(())
 }

@@ -97,6 +97,17 @@ impl CpuRenderer {
         }
     }
 
+    /// The details of the cut surface of one view; of the request the images do not count.
+    ///
+    /// # Errors
+    /// As [`CpuRenderer::render`].
+    pub fn details(&mut self, tree: &LeveledTree, request: &Request) -> Result<SurfaceDetails> {
+        request.settings.check()?;
+        self.prepare(tree, request.settings);
+        self.project(request.camera, request.settings);
+        SurfaceDetails::of(&self.pass(&Request { images: SurfaceDetails::WANTED, ..*request }))
+    }
+
     /// Where the pixels of a view look: depth, vessel and distance of the cut surface.
     fn cut_surface(&mut self, tree: &LeveledTree, request: &Request) -> Result<Frame> {
         let mut clock = Clock::start();

@@ -4,11 +4,12 @@
 use glam::{DQuat, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::settings::Settings;
-use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_core::vessel_tree::Vessel;
 use lumencut_scenes::brute_force::by_hierarchy;
 use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::lumen::nearest_lumen;
 use lumencut_scenes::random_tree::random_tree;
-use lumencut_scenes::settings::unfiltered;
+use lumencut_scenes::settings::{paper_unfiltered, unfiltered};
 use lumencut_scenes::tolerances::{CLOSED_FORM, LUMEN, REORDERED_DEPTH, REORDERED_VESSEL, SYMMETRIC, TURNED};
 use lumencut_scenes::trees::{tree, trefoil, vessel};
 use lumencut_scenes::views::{at, front, pixel, view};
@@ -21,7 +22,7 @@ fn near(found: f32, expected: f64) {
 #[test]
 fn a_slanted_tube_is_cut_along_its_foot_points() {
     let tree = tree(vec![vessel(&[[-30., -12., 0.], [30., 12., 0.]], 4.0)]);
-    let frame = by_hierarchy(&tree, &front([100, 80], 1.0), &unfiltered());
+    let frame = by_hierarchy(&tree, &front([100, 80], 1.0), &paper_unfiltered());
     for (x, y) in [(-29.5, 0.5), (0.5, 30.5), (12.5, -20.5), (29.5, 39.5)] {
         near(at(&frame, frame.depth(), x, y), x * 0.4);
         near(at(&frame, &frame.distance, x, y), y.abs());
@@ -35,7 +36,7 @@ fn a_slanted_tube_is_cut_along_its_foot_points() {
 #[test]
 fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     let corner = vessel(&[[-40., 0., 0.], [0., 10., 0.], [0., 50., 40.]], 0.0);
-    let settings = Settings { levels: 0, ..unfiltered() };
+    let settings = Settings { levels: 0, ..paper_unfiltered() };
     let frame = by_hierarchy(&tree(vec![corner]), &front([120, 120], 1.0), &settings);
     // Outside the bend every pixel belongs to the corner point.
     for (x, y) in [(5.5, -5.5), (30.5, -0.5), (0.5, -30.5)] {
@@ -54,7 +55,7 @@ fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
 fn between_two_tubes_the_border_lies_where_their_costs_meet() {
     let front_tube = vessel(&[[-50., 0., 15.], [50., 0., 15.]], 3.0);
     let back_tube = vessel(&[[-50., 40., -15.], [50., 40., -15.]], 5.0);
-    let frame = by_hierarchy(&tree(vec![back_tube, front_tube]), &front([16, 600], 0.1), &unfiltered());
+    let frame = by_hierarchy(&tree(vec![back_tube, front_tube]), &front([16, 600], 0.1), &paper_unfiltered());
     // 0 + 10·((15 − y) − 3) = 40 + 10·((y + 15) − 5)  ⇒  y = −1.
     for y in [-14.95, -4.95, -1.05] {
         assert_eq!(frame.vessel[pixel(&frame, 0.05, y)], 0, "at y = {y}");
@@ -70,7 +71,7 @@ fn lumen_first_shows_the_lumen_that_a_near_surrounding_hides() {
     let far_tube = vessel(&[[-50., 200., 0.], [50., 200., 0.]], 4.0);
     let scene = tree(vec![near_tube, far_tube]);
     let camera = front([16, 400], 0.1);
-    let hidden = by_hierarchy(&scene, &camera, &Settings::paper());
+    let hidden = by_hierarchy(&scene, &camera, &paper_unfiltered());
     assert_eq!(hidden.vessel[pixel(&hidden, 0.05, 0.05)], 0);
     let margin = Settings { lumen_first: true, lumen_margin: 1.0, ..unfiltered() };
     let shown = by_hierarchy(&scene, &camera, &margin);
@@ -83,7 +84,7 @@ fn lumen_first_shows_the_lumen_that_a_near_surrounding_hides() {
 fn a_vessel_that_dives_along_the_view_goes_on_behind() {
     // Right at depth 0, then 60 mm straight into depth, then up.
     let diving = vessel(&[[-40., 0., 0.], [0., 0., 0.], [0., 30., 0.], [0., 60., 0.], [0., 60., 40.]], 2.0);
-    let settings = Settings { levels: 0, ..unfiltered() };
+    let settings = Settings { levels: 0, ..paper_unfiltered() };
     let frame = by_hierarchy(&tree(vec![diving]), &front([120, 120], 1.0), &settings);
     near(at(&frame, frame.depth(), -20.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 10.5, -10.5), 0.0);
@@ -94,7 +95,7 @@ fn a_vessel_that_dives_along_the_view_goes_on_behind() {
 #[test]
 fn a_vessel_along_the_view_shows_its_nearest_point_everywhere() {
     let axis = vessel(&[[3., 20., 4.], [3., -35., 4.], [3., 50., 4.]], 2.0);
-    let settings = Settings { levels: 0, ..unfiltered() };
+    let settings = Settings { levels: 0, ..paper_unfiltered() };
     let frame = by_hierarchy(&tree(vec![axis]), &front([40, 40], 2.0), &settings);
     assert!(frame.depth().iter().all(|z| *z == -35.0));
     near(at(&frame, &frame.distance, 3.0, 15.0), 11.0);
@@ -103,7 +104,7 @@ fn a_vessel_along_the_view_shows_its_nearest_point_everywhere() {
 #[test]
 fn a_run_at_an_end_gives_a_plane_through_the_end_point() {
     let late = vessel(&[[-30., 0., 0.], [0., 0., 0.], [0., 25., 0.]], 0.0);
-    let settings = Settings { levels: 0, cost_weight: 1.0, ..unfiltered() };
+    let settings = Settings { levels: 0, cost_weight: 1.0, ..paper_unfiltered() };
     let frame = by_hierarchy(&tree(vec![late]), &front([80, 80], 1.0), &settings);
     near(at(&frame, frame.depth(), -10.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 20.5, 0.5), 25.0);
@@ -118,7 +119,7 @@ fn the_trefoil_is_threefold_symmetric() {
     let turn = DQuat::from_axis_angle(DVec3::Y, std::f64::consts::TAU / 3.0);
     let turned = Camera::new(DVec3::ZERO, DVec3::Y, turn * DVec3::Z, [160, 160], 1.0).unwrap();
     // Level 0 alone: coarser levels start at the vessel's ends, which break the symmetry.
-    let settings = Settings { levels: 0, ..unfiltered() };
+    let settings = Settings { levels: 0, ..paper_unfiltered() };
     let (a, b) = (by_hierarchy(&knot, &camera, &settings), by_hierarchy(&knot, &turned, &settings));
     SYMMETRIC.assert_same(a.depth(), b.depth(), "depths");
     let spread = a.depth().iter().fold(0f32, |s, z| s.max(z.abs()));
@@ -134,9 +135,11 @@ fn a_hidden_vessel_changes_nothing() {
     };
     let both = shown.vessels().iter().cloned().chain(shown.vessels().iter().map(behind)).collect();
     let camera = front([90, 90], 1.3);
-    let (a, b) =
-        (by_hierarchy(&shown, &camera, &unfiltered()), by_hierarchy(&tree(both), &camera, &unfiltered()));
-    assert_eq!(different_pixels(&a, &b), 0);
+    let both = tree(both);
+    for settings in [paper_unfiltered(), unfiltered()] {
+        let [a, b] = [&shown, &both].map(|tree| by_hierarchy(tree, &camera, &settings));
+        assert_eq!(different_pixels(&a, &b), 0);
+    }
 }
 
 #[test]
@@ -144,7 +147,7 @@ fn the_order_of_the_vessels_does_not_matter() {
     let scene = random_tree(22, 9, 40, 2.0, 50.0).unwrap();
     let reversed = tree(scene.vessels().iter().rev().cloned().collect());
     let camera = view([0.4, 1.0, -0.2], [90, 90], 1.3);
-    for settings in [unfiltered(), Settings { lumen_first: true, ..unfiltered() }] {
+    for settings in [paper_unfiltered(), unfiltered()] {
         let (a, b) = (by_hierarchy(&scene, &camera, &settings), by_hierarchy(&reversed, &camera, &settings));
         let last = scene.vessels().len() as i32 - 1;
         // Vessels that share an end point tie around it; elsewhere nothing differs.
@@ -167,52 +170,24 @@ fn turning_scene_and_camera_together_changes_nothing() {
     let camera = view([0.4, 1.0, -0.2], [90, 90], 1.3);
     let turned_camera =
         Camera::new(DVec3::ZERO, turn * camera.direction(), turn * camera.up(), [90, 90], 1.3).unwrap();
-    let a = by_hierarchy(&scene, &camera, &unfiltered());
-    let b = by_hierarchy(&turned_scene, &turned_camera, &unfiltered());
-    TURNED.assert_same(a.depth(), b.depth(), "depths");
-}
-
-/// The nearest lumen at view (x, y): the smallest depth among the pieces that cover it with d ≤ r.
-fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> f64 {
-    let mut nearest = f64::MAX;
-    for vessel in scene.vessels() {
-        let points: Vec<DVec3> = vessel.points().iter().map(|p| camera.view_from_world(*p)).collect();
-        let to = |i: usize| glam::DVec2::new(x, y) - points[i].truncate();
-        let edge = |i: usize| (points[i + 1] - points[i]).truncate();
-        for i in 0..points.len() {
-            let last = i + 1 == points.len();
-            let after_before = i == 0 || to(i).dot(edge(i - 1)) >= 0.0;
-            if after_before
-                && (last || to(i).dot(edge(i)) <= 0.0)
-                && to(i).length() <= vessel.radius_or_zero(i)
-            {
-                nearest = nearest.min(points[i].z);
-            }
-            if !last {
-                let t = to(i).dot(edge(i)) / edge(i).length_squared();
-                let distance = (to(i) - t * edge(i)).length();
-                let radius = vessel.radius_or_zero(i) * (1.0 - t) + vessel.radius_or_zero(i + 1) * t;
-                if (0.0..=1.0).contains(&t) && distance <= radius {
-                    nearest = nearest.min(points[i].z + t * (points[i + 1].z - points[i].z));
-                }
-            }
-        }
+    for settings in [paper_unfiltered(), unfiltered()] {
+        let a = by_hierarchy(&scene, &camera, &settings);
+        let b = by_hierarchy(&turned_scene, &turned_camera, &settings);
+        TURNED.assert_same(a.depth(), b.depth(), "depths");
     }
-    nearest
 }
 
 #[test]
 fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
     let scene = random_tree(24, 10, 50, 2.0, 50.0).unwrap();
     let camera = view([1.0, 0.3, 0.2], [80, 80], 1.4);
-    let settings = Settings { levels: 0, ..unfiltered() };
+    let settings = Settings { levels: 0, ..paper_unfiltered() };
     let cost = by_hierarchy(&scene, &camera, &settings);
     let first = by_hierarchy(&scene, &camera, &Settings { lumen_first: true, ..settings });
     let (mut lumens, mut behind, mut other) = (0, 0, 0);
     for p in 0..cost.depth().len() {
         let (x, y) = (camera.view_x(p % 80), camera.view_y(p / 80));
-        let nearest = nearest_lumen(&scene, &camera, x, y);
-        if nearest < f64::MAX {
+        if let Some(nearest) = nearest_lumen(&scene, &camera, x, y) {
             lumens += 1;
             let apart = |depth: f32| f64::from(depth) - nearest;
             behind += usize::from(apart(cost.depth()[p]) > f64::from(LUMEN.apart));

@@ -1,13 +1,13 @@
 //! The hierarchy finds exactly what trying every piece finds.
 #![allow(clippy::unwrap_used)]
 
-use lumencut_core::settings::{LevelChoice, Settings};
+use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_scenes::brute_force::{by_brute_force, by_hierarchy};
 use lumencut_scenes::identical::different_pixels;
 use lumencut_scenes::random::Random;
 use lumencut_scenes::random_tree::random_tree;
-use lumencut_scenes::settings::unfiltered;
+use lumencut_scenes::settings::{paper_unfiltered, unfiltered};
 use lumencut_scenes::trees::{tree, trefoil, vessel};
 use lumencut_scenes::views::view;
 
@@ -23,23 +23,21 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [-1.0, -1.0, 1.0],
 ];
 
-/// Both visibility rules, with and without lumen, few and many levels, a mild and a strong weight.
+/// Both visibility rules and level choices, the default and the paper's first; with and without lumen, few and many
+/// levels, a mild and a strong weight.
 fn rules() -> Vec<Settings> {
+    let (own, paper) = (unfiltered(), paper_unfiltered());
     vec![
-        unfiltered(),
-        Settings { lumen_first: true, lumen_margin: 1.5, ..unfiltered() },
-        Settings { preserve_lumen: false, levels: 3, ..unfiltered() },
-        Settings { levels: 0, cost_weight: 100.0, ..unfiltered() },
-        Settings { lumen_first: true, levels: 15, level_distance: 2.0, cost_weight: 0.0, ..unfiltered() },
-        Settings { level_choice: LevelChoice::Own, ..unfiltered() },
-        Settings { lumen_first: true, lumen_margin: 1.0, level_choice: LevelChoice::Own, ..unfiltered() },
-        Settings {
-            level_choice: LevelChoice::Own,
-            levels: 15,
-            level_distance: 0.5,
-            cost_weight: 1.0,
-            ..unfiltered()
-        },
+        own.clone(),
+        paper.clone(),
+        Settings { lumen_first: true, lumen_margin: 1.5, ..paper.clone() },
+        Settings { preserve_lumen: false, levels: 3, ..paper.clone() },
+        Settings { levels: 0, cost_weight: 100.0, ..paper.clone() },
+        Settings { lumen_first: true, levels: 15, level_distance: 2.0, cost_weight: 0.0, ..paper },
+        Settings { lumen_first: false, ..own.clone() },
+        Settings { preserve_lumen: false, levels: 3, unknown_radius: 0.0, lumen_margin: 0.0, ..own.clone() },
+        Settings { lumen_first: false, levels: 15, level_distance: 0.5, cost_weight: 1.0, ..own.clone() },
+        Settings { levels: 15, level_distance: 0.5, cost_weight: 0.0, ..own },
     ]
 }
 

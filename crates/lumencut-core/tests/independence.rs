@@ -9,7 +9,7 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::frame::Frame;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::pipeline::{CpuRenderer, Request};
-use lumencut_core::scene::Scene;
+use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::{Volume, Voxels};
@@ -23,9 +23,10 @@ fn scene() -> (VesselTree, Vec<i16>, DAffine3) {
     (random_tree(11, 20, 50, 2.0, 70.0).unwrap(), voxels, affine)
 }
 
-/// The filter over the whole image and within zones.
-fn both_filters() -> [Settings; 2] {
-    [false, true].map(|zone_filter| Settings { zone_filter, ..Settings::default() })
+/// The default, the paper's rules, and own levels by cost with many levels.
+fn rules() -> [Settings; 3] {
+    let by_cost = Settings { lumen_first: false, levels: 15, level_distance: 1.0, ..Settings::default() };
+    [Settings::default(), Settings::paper(), by_cost]
 }
 
 fn render(isa: Isa, settings: &Settings) -> Frame {
@@ -44,7 +45,7 @@ fn assert_same(a: &Frame, b: &Frame, what: &str) {
 
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
-    for settings in both_filters() {
+    for settings in rules() {
         let baseline = render(Isa::Baseline, &settings);
         for isa in Isa::available() {
             assert_same(&baseline, &render(isa, &settings), &format!("{isa:?}"));
@@ -52,9 +53,32 @@ fn every_instruction_set_gives_the_same_bits() {
     }
 }
 
+/// The bits of sheets, leaps and strengths.
+fn details(isa: Isa, settings: &Settings) -> (Vec<[u32; 4]>, Vec<u32>, Vec<u32>) {
+    let (camera, tree) = (view([1.0, 0.4, -0.3], [150, 101], 1.1), LeveledTree::new(scene().0));
+    let found = CpuRenderer::new(isa).details(&tree, &Request::new(&camera, settings)).unwrap();
+    let sheet = found.sheet.iter().map(|sheet| sheet.map(f32::to_bits)).collect();
+    (sheet, found.leap, found.strength.iter().map(|strength| strength.to_bits()).collect())
+}
+
+#[test]
+fn every_instruction_set_and_number_of_threads_gives_the_same_sheets_and_leaps() {
+    for settings in rules() {
+        let baseline = details(Isa::Baseline, &settings);
+        assert!(baseline.1.iter().any(|leap| *leap != 0));
+        for isa in Isa::available() {
+            assert!(baseline == details(isa, &settings), "{isa:?}");
+        }
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            assert!(baseline == pool.install(|| details(Isa::widest(), &settings)), "{threads} threads");
+        }
+    }
+}
+
 #[test]
 fn every_number_of_threads_gives_the_same_bits() {
-    for settings in both_filters() {
+    for settings in rules() {
         let many = render(Isa::widest(), &settings);
         for threads in [1, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

@@ -15,7 +15,7 @@ use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::volume::Volume;
 use lumencut_phantom::{Phantom, crossing, y_junction};
 use lumencut_scenes::trees::{tree, vessel};
-use lumencut_scenes::views::front;
+use lumencut_scenes::views::{front, view};
 use lumencut_scenes::volumes::{ball_and_rod, sheared};
 
 const SIZE: [usize; 2] = [61, 43];
@@ -108,12 +108,16 @@ fn levels_are_kept_for_two_values_of_the_smoothing() {
 
 #[test]
 fn looking_again_shows_the_same() {
-    let (phantom, camera, settings) = (y_junction().unwrap(), front(SIZE, 1.5), all_layers());
-    let scene = scene(&phantom);
-    let whole = shown(&scene, &camera, &settings);
-    let surface = shown(&Scene { volume: None, ..scene.clone() }, &camera, &settings);
-    assert!(surface.value.is_empty() && surface.image.is_empty());
+    let (phantom, settings) = (y_junction().unwrap(), all_layers());
+    let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 1.5), scene(&phantom));
     let request = Request::new(&camera, &settings);
+    let whole = shown(&scene, &camera, &settings);
+    // A cut surface alone has leaps only where they are asked for.
+    let cut = Scene { volume: None, ..scene.clone() };
+    let with_leaps = Request { images: ImageSet::ALL.and(ImageSet::of(&[Image::Leap])), ..request };
+    let surface = CpuRenderer::default().render(&cut, &with_leaps).unwrap();
+    assert!(surface.value.is_empty() && surface.image.is_empty());
+    assert!(surface.leap.iter().any(|leap| *leap != 0), "no silhouettes to show");
     let looked = CpuRenderer::default().look(scene.volume.as_ref().unwrap(), surface, &request).unwrap();
     assert_identical(&looked, &whole);
 }

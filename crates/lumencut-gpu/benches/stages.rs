@@ -16,7 +16,7 @@ use lumencut_phantom::Phantom;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::timing::{StageTimes, head, row, stage_medians};
 use lumencut_scenes::views::fitted;
-use lumencut_scenes::workloads::{PAPER_FRAMES, PAPER_STAGES, PaperStage, WORKLOADS};
+use lumencut_scenes::workloads::{ASKED, PAPER_FRAMES, PAPER_STAGES, PaperStage, WORKLOADS};
 
 /// Any error, in words.
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -43,12 +43,14 @@ fn measure(device: &Arc<Device>, phantom: &Phantom, side: usize, frames: usize) 
     let plain = Settings { context: None, ..Settings::default() };
     let mida = Settings::default();
     let mut on_gpu = |settings: &Settings| {
-        let request = Request::new(&camera, settings);
+        let request = Request { images: ASKED, ..Request::new(&camera, settings) };
         stage_medians(frames, || pollster::block_on(gpu.render(&scene, &request)))
     };
     let (gpu, gpu_mida) = (on_gpu(&plain)?, on_gpu(&mida)?);
-    let mut on_cpu =
-        |settings: &Settings| stage_medians(frames, || cpu.render(&scene, &Request::new(&camera, settings)));
+    let mut on_cpu = |settings: &Settings| {
+        let request = Request { images: ASKED, ..Request::new(&camera, settings) };
+        stage_medians(frames, || cpu.render(&scene, &request))
+    };
     Ok(Measured { gpu, gpu_mida, cpu: on_cpu(&plain)?, cpu_mida: on_cpu(&mida)? })
 }
 
@@ -89,9 +91,9 @@ fn cut_surface(device: &Arc<Device>, effort: Effort) -> Result<()> {
     let (mut gpu, mut cpu) = (GpuRenderer::new(Arc::clone(device)), CpuRenderer::default());
     for side in effort.sides {
         let camera = fitted(&tree, DVec3::new(0.1, 1.0, 0.2), side);
-        for (rule, lumen_first) in [("cost", false), ("lumen first", true)] {
-            let settings = Settings { lumen_first, depth_filter: false, ..Settings::default() };
-            let request = Request::new(&camera, &settings);
+        for (rule, rules) in [("default", Settings::default()), ("paper's", Settings::paper())] {
+            let settings = Settings { depth_filter: false, ..rules };
+            let request = Request { images: ASKED, ..Request::new(&camera, &settings) };
             let on_gpu = stage_medians(effort.frames, || pollster::block_on(gpu.render(&scene, &request)))?;
             let on_cpu = stage_medians(effort.frames, || cpu.render(&scene, &request))?;
             let stages = |times: &StageTimes| -> f64 {

@@ -6,6 +6,7 @@
 pub mod brute_force;
 pub mod compare;
 pub mod identical;
+pub mod lumen;
 pub mod pictures;
 pub mod random;
 pub mod random_tree;

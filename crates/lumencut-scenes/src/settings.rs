@@ -10,6 +10,11 @@ pub fn unfiltered() -> Settings {
     Settings { depth_filter: false, ..Settings::default() }
 }
 
+/// The same by the paper's own rules.
+pub fn paper_unfiltered() -> Settings {
+    Settings { depth_filter: false, ..Settings::paper() }
+}
+
 /// A transfer function that is visible between 20 and 40 and from 320 on, clear between: blocks of voxels can be skipped
 /// below and between what is seen.
 pub fn gaps() -> TransferFunction {

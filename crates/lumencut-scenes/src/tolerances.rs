@@ -56,6 +56,11 @@ pub const MOST_TOGETHER: usize = 16;
 /// same the last digit decides, which happens along the thin lines where zones meet.
 pub const DEPTH: Tolerance = Tolerance::new(1e-3, 1e-3);
 
+/// Pixels around joints that may belong to any of the vessels that end there: a lumen of 5 mm around the one joint of the
+/// small pictures covers 1.6 % of them. In most of them not one pixel ties; in a picture of the paper's zones each that
+/// does changes what the filter makes of its neighbours.
+pub const TIED: Tolerance = Tolerance::new(0.0, 0.02);
+
 /// Colours of whole frames, in steps of 255: rounding moves a channel by one step, more only where a depth is another.
 pub const COLOR: Tolerance = Tolerance::new(1.0, 5e-4);
 
@@ -105,6 +110,10 @@ pub const CLOSED_FORM: Tolerance = Tolerance::new(1e-4, 0.0);
 /// Depths inside a lumen against the nearest lumen (mm): the depths are of f32, the test's own of f64.
 pub const LUMEN: Tolerance = Tolerance::new(1e-3, 0.0);
 
+/// Depths inside a lumen, filtered within zones, against the nearest lumen (mm): half of what is a leap at most, but for
+/// single pixels where a vessel bends sharply towards the viewer.
+pub const FILTERED_LUMEN: Tolerance = Tolerance::new(0.5, 1e-3);
+
 /// Depths of a random tree turned together with its camera (mm): all coordinates are rounded anew, and a pixel between
 /// two zones may fall into the other.
 pub const TURNED: Tolerance = Tolerance::new(1e-2, 2e-3);
@@ -118,6 +127,17 @@ pub const REORDERED_DEPTH: Tolerance = Tolerance::new(0.0, 5e-3);
 
 /// Vessels of the same vessels in another order: of those that tie around a shared end point another one is named.
 pub const REORDERED_VESSEL: Tolerance = Tolerance::new(0.0, 5e-2);
+
+/// Slopes of sheets on two machines (mm per mm): a segment of 2 mm is known to some units of the last place of its ends;
+/// further apart only where two pieces cost the same, as in [`DEPTH`].
+pub const SHEET_SLOPE: Tolerance = Tolerance::new(1e-4, 1e-3);
+
+/// Radii of sheets on two machines (mm): places along a segment times the change of radii of up to 6 mm.
+pub const SHEET_RADIUS: Tolerance = Tolerance::new(1e-5, 1e-3);
+
+/// Gaps of sheets on two machines (mm): differences of arc lengths of up to 300 mm, each known to some units of the last
+/// place.
+pub const SHEET_GAP: Tolerance = Tolerance::new(2e-4, 1e-3);
 
 /// Values of a volume of up to 700 against their closed form, and those of wider types of voxels, which are computed in
 /// f64 instead of f32: some units of the last place of f32.

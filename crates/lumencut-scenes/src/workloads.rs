@@ -2,6 +2,7 @@
 //! pixels, GeForce GTX 680).
 
 use lumencut_core::error::Result;
+use lumencut_core::stages::{Image, ImageSet};
 use lumencut_phantom::{Phantom, aorta, cervical, runoff};
 
 /// Makes a workload from a seed and a scale.
@@ -22,15 +23,19 @@ pub struct PaperStage {
 }
 
 /// The stages of a frame without context.
-pub const PAPER_STAGES: [PaperStage; 7] = [
+pub const PAPER_STAGES: [PaperStage; 8] = [
     paper_stage("projection", "", [0.0; 3]),
     paper_stage("distance", "LOD estimation", [97.8, 272.6, 133.0]),
     paper_stage("depth", "depth", [13.5, 105.6, 39.0]),
+    paper_stage("leap", "", [0.0; 3]),
     paper_stage("depth_filter", "depth filter", [1.7; 3]),
     paper_stage("surface", "surface", [0.9, 1.0, 1.1]),
     paper_stage("silhouette", "silhouettes", [7.6, 7.7, 7.7]),
     paper_stage("composite", "", [0.0; 3]),
 ];
+
+/// What a host asks for unless it wants all: the distance is made where the rules need it, or when it is asked for.
+pub const ASKED: ImageSet = ImageSet::ALL.without(Image::Distance);
 
 /// The paper's whole frames, with MIDA behind (ms).
 pub const PAPER_FRAMES: [f64; 3] = [218.0, 659.0, 314.0];

@@ -10,7 +10,7 @@ import click
 from lumencut.cli import options
 from lumencut.cli.report import detail, say, timings, verbose_option
 from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
-from lumencut.cli.settings import setting_options, settings_from
+from lumencut.cli.settings import paper_option, setting_options, settings_from
 
 
 @click.command(short_help="Render one picture.")
@@ -25,6 +25,7 @@ from lumencut.cli.settings import setting_options, settings_from
     "may be repeated.",
 )
 @options.view_options
+@paper_option
 @setting_options
 @verbose_option
 def render(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut._lumencut import SETTINGS, Setting
+from lumencut._lumencut import PAPER, SETTINGS, Setting
 from lumencut.cli.options import Command, added
 from lumencut.cli.parameters import RGB, RGBA, WINDOW, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
@@ -22,10 +22,25 @@ NO_CONTEXT = "none"
 _FIRST = ("window", "opacity", "background")
 
 #: How the help calls the value of a number by its unit, where "NUMBER" would say less.
-_METAVARS = {"mm": "MM", "mm per level": "MM", "mm per mm": "SLOPE"}
+_METAVARS = {"mm": "MM", "mm per level": "MM", "mm per mm": "SLOPE", "radii": "RADII"}
 
 #: What the help says about how values of a kind are written, after the sentence about the setting.
 _WRITTEN = {"flag": " (yes or no)", "color": " (hexadecimal)", "slab": ", such as 4mm:mean"}
+
+
+def paper_option(command: Command) -> Command:
+    """Add the flag that starts from the paper's own rules."""
+    rules = " ".join(_words(name, value) for name, value in PAPER.items())
+    text = f"Start from the rules of the CSR paper (2013): {rules}. Options beside it change them further."
+    return click.option("--paper", is_flag=True, help=text)(command)
+
+
+def _words(name: str, value: Any) -> str:
+    """The option that gives a setting this value, as it is typed."""
+    words = name.replace("_", "-")
+    if isinstance(value, bool):
+        return f"--{words}" if value else f"--no-{words}"
+    return f"--{words} {value:g}" if isinstance(value, float) else f"--{words} {value}"
 
 
 def setting_options(command: Command) -> Command:
@@ -86,12 +101,13 @@ def _default(setting: Setting) -> str:
 
 
 def settings_from(chosen: dict[str, Any]) -> Settings:
-    """Return the settings that the options stand for; what was not given keeps its default."""
+    """Return the settings that the options stand for; the others are the defaults, or the paper's."""
     from lumencut.settings import Settings
 
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
+    start = Settings.paper if chosen.get("paper") else Settings
     try:
-        return Settings(**{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
+        return start(**{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
     except SettingsError as error:
         raise click.UsageError(str(error)) from error
 

@@ -12,7 +12,7 @@ from lumencut.cli import options
 from lumencut.cli.parameters import Named
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
 from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
-from lumencut.cli.settings import setting_options, settings_from
+from lumencut.cli.settings import paper_option, setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
 
 if TYPE_CHECKING:
@@ -54,6 +54,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @click.option("--fps", type=click.FloatRange(0.1, 100), help="Frames per second; default 12.")
 @click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Duration in all (s), instead of --fps.")
 @options.view_options
+@paper_option
 @setting_options
 @verbose_option
 def turntable(

@@ -194,6 +194,7 @@ impl NearestPieces {
 }
 
 /// A piece that is offered to a pixel.
+#[derive(Clone, Copy)]
 struct Offered {
     along: f32,
     cost: f32,

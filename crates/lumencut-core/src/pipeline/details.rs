@@ -1,9 +1,8 @@
 //! What else is known of a cut surface, for those who judge it.
 
-use super::pass::Lines;
-use super::{CpuRenderer, Images, Request};
+use super::images::Images;
+use super::pass::{CutSurfacePass, Lines};
 use crate::error::Result;
-use crate::scene::LeveledTree;
 use crate::stages::depth::Sheet;
 use crate::stages::{Image, ImageSet, Stage};
 
@@ -18,26 +17,20 @@ pub struct SurfaceDetails {
     pub strength: Vec<f32>,
 }
 
-impl CpuRenderer {
-    /// The details of the cut surface of one view; of the request the images do not count.
-    ///
-    /// # Errors
-    /// As [`CpuRenderer::render`].
-    pub fn details(&mut self, tree: &LeveledTree, request: &Request) -> Result<SurfaceDetails> {
-        let &Request { camera, settings, .. } = request;
-        settings.check()?;
-        let wanted = ImageSet::of(&[Image::Sheet, Image::Leap]);
-        let request = Request { images: wanted, ..*request };
-        self.prepare(tree, settings);
-        self.project(camera, settings);
-        let (pass, mut images) = (self.pass(&request), Images::default());
-        for stage in Stage::of_cut_surface(settings, wanted) {
+impl SurfaceDetails {
+    /// The images that a request for them asks for.
+    pub(super) const WANTED: ImageSet = ImageSet::of(&[Image::Sheet, Image::Leap]);
+
+    /// The details of a view whose request asks for what is [`SurfaceDetails::WANTED`].
+    pub(super) fn of(pass: &CutSurfacePass) -> Result<Self> {
+        let (settings, mut images) = (pass.settings, Images::default());
+        for stage in Stage::of_cut_surface(settings, Self::WANTED) {
             pass.run(stage, &mut images)?;
         }
         let Images { unfiltered_depth, depth, vessel, leap, sheet, .. } = images;
         let depth = if depth.is_empty() { unfiltered_depth } else { depth };
         let lines = Lines { depth: &depth, vessel: &vessel, leap: &leap };
-        let strength = lines.strength(&pass.work, settings, camera)?;
-        Ok(SurfaceDetails { sheet, leap, strength })
+        let strength = lines.strength(&pass.work, settings, pass.surface.camera())?;
+        Ok(Self { sheet, leap, strength })
     }
 }

@@ -9,7 +9,7 @@ use lumencut_core::scene::Scene;
 use lumencut_core::settings::{MAX_LEVELS, Settings};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_scenes::random_tree::random_tree;
-use lumencut_scenes::settings::unfiltered;
+use lumencut_scenes::settings::{paper_unfiltered, unfiltered};
 use lumencut_scenes::trees::tree;
 
 use super::every_device;
@@ -42,12 +42,12 @@ fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
     Camera::new(direction * -AWAY, direction, DVec3::Z, size, pixel_spacing).unwrap()
 }
 
-/// Levels blended by the distance, each of some levels alone wherever the distance is not 0, and *lumen first*.
+/// The default and the paper's rules, and of both some levels alone wherever the distance is not 0.
 fn all_settings() -> Vec<Settings> {
-    let plain = unfiltered();
-    let alone = |levels| Settings { levels, level_distance: 1e-3, ..plain.clone() };
-    let lumen_first = Settings { lumen_first: true, lumen_margin: 1.0, ..plain.clone() };
-    vec![plain.clone(), lumen_first, alone(0), alone(1), alone(3), alone(MAX_LEVELS)]
+    let alone = |levels, rules: &Settings| Settings { levels, level_distance: 1e-3, ..rules.clone() };
+    let (own, paper) = (unfiltered(), paper_unfiltered());
+    let both = [&own, &paper].into_iter().flat_map(|rules| [1, 3, MAX_LEVELS].map(|n| alone(n, rules)));
+    both.chain([alone(0, &own), own.clone(), paper.clone()]).collect()
 }
 
 /// A vessel given in the view coordinates of views along `direction`, and nothing that covers what it leaves out.

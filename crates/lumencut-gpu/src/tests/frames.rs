@@ -2,21 +2,17 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::ErrorKind;
-use lumencut_core::frame::Frame;
-use lumencut_core::geometry::Geometry;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::{Context, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode};
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, trefoil, y_junction};
-use lumencut_scenes::compare::assert_equal;
 use lumencut_scenes::pictures::context_alone;
-use lumencut_scenes::tolerances::{CONTEXT_OF_FRAME, DISTANCE};
 use lumencut_scenes::views::{front, view};
 
+use super::both_sides::{BothSides, assert_same};
 use super::shared;
 use crate::renderer::GpuRenderer;
 use crate::stages::on_either;
@@ -34,132 +30,25 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
     vec![
         ("default", Settings::default()),
         ("the paper's", Settings::paper()),
-        ("own levels by cost", with(|s| (s.lumen_first, s.level_choice) = (false, LevelChoice::Own))),
-        ("lumen first, nearest", with(|s| (s.lumen_first, s.level_choice) = (true, LevelChoice::Nearest))),
+        ("own levels by cost", with(|s| s.lumen_first = false)),
+        ("lumen first, nearest", with(|s| s.level_choice = LevelChoice::Nearest)),
+        ("many own levels", with(|s| (s.levels, s.level_distance) = (15, 1.0))),
+        ("no wall, no radius", with(|s| (s.lumen_margin, s.preserve_lumen) = (0.0, false))),
+        ("gradients of own levels", with(|s| s.silhouette_rule = SilhouetteRule::Gradient)),
         (
-            "own levels, lumen first",
-            with(|s| {
-                (s.lumen_first, s.lumen_margin, s.level_choice) = (true, 1.0, LevelChoice::Own);
-                s.silhouette_rule = SilhouetteRule::Leap;
-            }),
+            "leaps of the paper's levels",
+            Settings { silhouette_rule: SilhouetteRule::Leap, ..Settings::paper() },
         ),
-        (
-            "many own levels",
-            with(|s| {
-                (s.levels, s.level_distance, s.level_choice) = (15, 1.0, LevelChoice::Own);
-            }),
-        ),
-        (
-            "leaps of nearest levels",
-            with(|s| {
-                (s.silhouette_rule, s.level_choice) = (SilhouetteRule::Leap, LevelChoice::Nearest);
-            }),
-        ),
-        ("lumen first", with(|s| (s.lumen_first, s.lumen_margin) = (true, 1.0))),
         ("quiet centerlines", with(|s| s.centerline_smoothing = 0.5)),
         ("one level", with(|s| s.levels = 0)),
         ("no filter", with(|s| s.depth_filter = false)),
-        ("filter within zones", with(|s| s.zone_filter = true)),
-        (
-            "filter within zones, lumen first",
-            with(|s| (s.zone_filter, s.depth_leap, s.lumen_first) = (true, 0.2, true)),
-        ),
+        ("filter over the whole image", with(|s| s.zone_filter = false)),
+        ("filter within the paper's zones", Settings { zone_filter: true, ..Settings::paper() }),
+        ("small leaps", with(|s| s.depth_leap = 0.2)),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
         ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
     ]
-}
-
-/// One phantom on both sides.
-struct BothSides {
-    phantom: Phantom,
-    gpu: GpuRenderer,
-}
-
-impl BothSides {
-    fn new(device: &Arc<crate::device::Device>, phantom: Phantom) -> Self {
-        Self { phantom, gpu: GpuRenderer::new(Arc::clone(device)) }
-    }
-
-    fn scene(&self) -> Scene<'_> {
-        Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone())
-    }
-
-    fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
-        let scene = Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone());
-        pollster::block_on(self.gpu.render(&scene, &Request::new(camera, settings))).unwrap()
-    }
-
-    fn on_cpu(&self, camera: &Camera, settings: &Settings) -> Frame {
-        CpuRenderer::default().render(&self.scene(), &Request::new(camera, settings)).unwrap()
-    }
-
-    /// The same picture on both sides.
-    fn check(&mut self, camera: &Camera, settings: &Settings) {
-        let (gpu, cpu) = (self.on_gpu(camera, settings), self.on_cpu(camera, settings));
-        self.assert_same(gpu, &cpu, settings);
-    }
-
-    /// [`assert_same`], but that within the lumen around a joint it may be any of the vessels that end there: all of
-    /// them cost the same, and the last digit decides.
-    fn assert_same(&self, mut gpu: Frame, cpu: &Frame, settings: &Settings) {
-        if settings.zone_filter {
-            excuse_ties(&mut gpu, cpu, settings.depth_leap as f32);
-        }
-        let (camera, [width, _]) = (cpu.geometry.camera().unwrap(), cpu.size());
-        let mut ends: Vec<(DVec3, f64, i32)> = Vec::new();
-        for (id, vessel) in self.phantom.tree.vessels().iter().enumerate() {
-            let last = vessel.points().len() - 1;
-            ends.extend([0, last].map(|i| (vessel.points()[i], vessel.radius_or_zero(i), id as i32)));
-        }
-        for p in 0..gpu.vessel.len() {
-            let (x, y) = (camera.view_x(p % width), camera.view_y(p / width));
-            let near = |id: i32| {
-                ends.iter().filter(move |end| end.2 == id).filter(|(point, radius, _)| {
-                    let place = camera.view_from_world(*point);
-                    (place.x - x).hypot(place.y - y) < *radius
-                })
-            };
-            let is_joint = near(gpu.vessel[p]).any(|a| near(cpu.vessel[p]).any(|b| a.0 == b.0));
-            if is_joint {
-                gpu.vessel[p] = cpu.vessel[p];
-            }
-        }
-        assert_same(&gpu, cpu);
-    }
-}
-
-/// Where two vessels cost the same the last digit decides whose zone a pixel is in, and within zones the depths that are
-/// filtered with or without it follow. Takes them from the CPU, where they differ by less than a leap.
-fn excuse_ties(gpu: &mut Frame, cpu: &Frame, leap: f32) {
-    const REACH: usize = 3;
-    let [width, height] = cpu.size();
-    let Geometry::Orthographic { depth, .. } = &mut gpu.geometry else { return };
-    for p in (0..cpu.vessel.len()).filter(|p| gpu.vessel[*p] != cpu.vessel[*p]) {
-        let near = |at: usize, end: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(end);
-        for (y, x) in near(p / width, height).flat_map(|y| near(p % width, width).map(move |x| (y, x))) {
-            let q = y * width + x;
-            if (depth[q] - cpu.depth()[q]).abs() < leap {
-                depth[q] = cpu.depth()[q];
-            }
-        }
-    }
-}
-
-/// Refuses frames that differ by more than rounding in the picture, the cut surface, its distance or the context.
-fn assert_same(gpu: &Frame, cpu: &Frame) {
-    assert_equal(gpu, cpu);
-    assert_eq!(gpu.value.len(), cpu.value.len());
-    DISTANCE.assert_same(&gpu.distance, &cpu.distance, "distances");
-    assert_eq!(gpu.context.len(), cpu.context.len());
-    let is_same = |a: u8, b: u8| CONTEXT_OF_FRAME.is_same(f32::from(a), f32::from(b));
-    let apart = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|c| !is_same(a[c], b[c]));
-    let leaps = gpu.context.iter().zip(&cpu.context).filter(|pair| apart(*pair)).count();
-    assert!(
-        CONTEXT_OF_FRAME.allows(leaps, gpu.context.len()),
-        "{leaps} of {} pixels of context",
-        gpu.context.len()
-    );
 }
 
 fn with_all_settings(phantom: Phantom, camera: &Camera) {
@@ -221,8 +110,6 @@ fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
 /// Something of everything: a filter within zones, a slab, silhouettes, and context behind what is transparent.
 fn everything() -> Settings {
     with(|s| {
-        (s.level_choice, s.silhouette_rule) = (LevelChoice::Own, SilhouetteRule::Leap);
-        s.zone_filter = true;
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
@@ -313,7 +200,10 @@ fn looking_where_the_cpu_found_the_cut_surface_shows_the_same() {
     for settings in [everything(), Settings::default()] {
         let request = Request::new(&camera, &settings);
         let cut = Scene { volume: None, ..scene.clone() };
-        let surface = CpuRenderer::default().render(&cut, &request).unwrap();
+        // A cut surface alone has leaps only where they are asked for.
+        let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap]));
+        let surface = CpuRenderer::default().render(&cut, &Request { images, ..request }).unwrap();
+        assert!(surface.leap.iter().any(|leap| *leap != 0), "no silhouettes to show");
         let shared = scene.volume.as_ref().unwrap();
         let looked = pollster::block_on(gpu.look(shared, surface, &request)).unwrap();
         assert_same(&looked, &both.on_cpu(&camera, &settings));
@@ -378,7 +268,7 @@ fn a_view_leaves_nothing_behind_for_the_next() {
     let views = [
         (view([0.3, 1.0, 0.2], SIZE, 0.8), few_levels),
         (view([-0.5, 1.0, 0.4], [70, 90], 0.6), everything()),
-        (front([96, 33], 1.3), with(|s| (s.lumen_first, s.silhouettes, s.context) = (true, false, None))),
+        (front([96, 33], 1.3), Settings { silhouettes: false, context: None, ..Settings::paper() }),
         (front(SIZE, 0.8), Settings::default()),
     ];
     for (camera, settings) in &views {

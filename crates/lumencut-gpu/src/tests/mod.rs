@@ -1,6 +1,7 @@
 //! Each stage against the CPU's, and what holds the two together.
 #![allow(clippy::unwrap_used)]
 
+mod both_sides;
 mod composite;
 mod constants;
 mod context;
@@ -11,9 +12,11 @@ mod failures;
 mod frames;
 mod imports;
 mod layouts;
+mod leap;
 mod placed;
 mod silhouette;
 mod surface;
+mod ties;
 mod volume;
 
 use std::sync::{Arc, OnceLock};

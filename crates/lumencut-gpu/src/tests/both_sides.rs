@@ -1,0 +1,69 @@
+//! One scene on the GPU and on the CPU, and whether the frames are the same.
+
+use std::sync::Arc;
+
+use lumencut_core::camera::Camera;
+use lumencut_core::frame::Frame;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::scene::Scene;
+use lumencut_core::settings::Settings;
+use lumencut_phantom::Phantom;
+use lumencut_scenes::compare::assert_equal;
+use lumencut_scenes::tolerances::{CONTEXT_OF_FRAME, DISTANCE};
+
+use super::ties;
+use crate::device::Device;
+use crate::renderer::GpuRenderer;
+
+/// One phantom on both sides.
+pub(crate) struct BothSides {
+    pub phantom: Phantom,
+    pub gpu: GpuRenderer,
+}
+
+impl BothSides {
+    pub fn new(device: &Arc<Device>, phantom: Phantom) -> Self {
+        Self { phantom, gpu: GpuRenderer::new(Arc::clone(device)) }
+    }
+
+    pub fn scene(&self) -> Scene<'_> {
+        Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone())
+    }
+
+    pub fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
+        let scene = Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone());
+        pollster::block_on(self.gpu.render(&scene, &Request::new(camera, settings))).unwrap()
+    }
+
+    pub fn on_cpu(&self, camera: &Camera, settings: &Settings) -> Frame {
+        CpuRenderer::default().render(&self.scene(), &Request::new(camera, settings)).unwrap()
+    }
+
+    /// The same picture on both sides.
+    pub fn check(&mut self, camera: &Camera, settings: &Settings) {
+        let (gpu, cpu) = (self.on_gpu(camera, settings), self.on_cpu(camera, settings));
+        self.assert_same(gpu, &cpu, settings);
+    }
+
+    /// [`assert_same`], but for the ties around joints.
+    pub fn assert_same(&self, mut gpu: Frame, cpu: &Frame, settings: &Settings) {
+        ties::excuse(&mut gpu, cpu, &self.phantom.tree, settings);
+        assert_same(&gpu, cpu);
+    }
+}
+
+/// Refuses frames that differ by more than rounding in the picture, the cut surface, its distance or the context.
+pub(crate) fn assert_same(gpu: &Frame, cpu: &Frame) {
+    assert_equal(gpu, cpu);
+    assert_eq!(gpu.value.len(), cpu.value.len());
+    DISTANCE.assert_same(&gpu.distance, &cpu.distance, "distances");
+    assert_eq!(gpu.context.len(), cpu.context.len());
+    let is_same = |a: u8, b: u8| CONTEXT_OF_FRAME.is_same(f32::from(a), f32::from(b));
+    let apart = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|c| !is_same(a[c], b[c]));
+    let leaps = gpu.context.iter().zip(&cpu.context).filter(|pair| apart(*pair)).count();
+    assert!(
+        CONTEXT_OF_FRAME.allows(leaps, gpu.context.len()),
+        "{leaps} of {} pixels of context",
+        gpu.context.len()
+    );
+}
