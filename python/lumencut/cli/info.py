@@ -8,7 +8,8 @@ from typing import Any, Literal
 
 import click
 
-from lumencut.cli import findings
+from lumencut.cli import compare, findings
+from lumencut.cli.mistakes import check_reading
 from lumencut.cli.options import (
     coordinates_option,
     fill_gaps_option,
@@ -60,6 +61,7 @@ def info(
     """
     if not (files or with_devices):
         raise click.UsageError("Missing argument 'FILE…'.")
+    _check(click.get_current_context().params, files)
     gpus = findings.of_devices() if with_devices else None
     found: dict[Path, dict[str, Any]] = {}
     # The volumes first: they help to understand the centerlines.
@@ -83,14 +85,23 @@ def info(
     every = [found[path] for path in files]
     volumes = [one for one in every if one["kind"] == "volume"]
     trees = [one for one in every if one["kind"] == "centerlines"]
-    compared = [pair for tree in trees for pair in findings.compared(tree, volumes)]
+    compared = [pair for tree in trees for pair in compare.compared(tree, volumes)]
     say(_as_json(gpus, every, compared) if as_json else _as_text(gpus, every, compared))
     if any("error" in one for one in every):
         click.get_current_context().exit(FAILED)
 
 
+def _check(chosen: dict[str, Any], files: tuple[Path, ...]) -> None:
+    """Refuse options that say how files are read of which there is none."""
+    volumes = [path for path in files if not _holds_centerlines(path)]
+    check_reading(chosen, volumes, has_centerlines=len(volumes) < len(files))
+
+
 def _holds_centerlines(path: Path) -> bool:
-    return path.name.lower().endswith(_CENTERLINE_ENDINGS)
+    from lumencut.file_kinds import kind_of
+
+    kind = kind_of(path)
+    return path.name.lower().endswith(_CENTERLINE_ENDINGS) if kind is None else kind.role == "centerlines"
 
 
 def _as_json(gpus: dict[str, Any] | None, found: list[dict[str, Any]], compared: list[dict[str, Any]]) -> str:

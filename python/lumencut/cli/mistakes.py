@@ -1,7 +1,7 @@
 """What a user cannot mean: files in each other's place, and options that do nothing with what is given.
 
 An option for a case that may or may not arise, such as ``--fill-gaps`` for missing DICOM slices, is no
-mistake where it does not arise. A switch that is off asks for nothing.
+mistake where it does not arise. A switch that is off and a number that is 0 ask for nothing.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ _OF_ALL = ("background", "samples", *_CONTEXT)
 #: ``--paper`` chooses rules of the cut surface; it is no setting of the table.
 _CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper")
 _DICOM = ("series", "phase", "fill_gaps", "resample_slices")
+_NOTHING = (None, False, 0)
 _PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", *_CONTEXT)
 
 
@@ -120,8 +121,7 @@ def _idle(settings: Settings) -> Iterator[tuple[tuple[str, ...], str, str]]:
 
 def _refuse(chosen: dict[str, Any], names: Iterable[str], why: str, mend: str) -> None:
     for name in names:
-        value = chosen.get(name)
-        if value is not None and value is not False:
+        if chosen.get(name) not in _NOTHING:
             raise click.UsageError(f"--{name.replace('_', '-')} does nothing {why}; {mend}")
 
 
