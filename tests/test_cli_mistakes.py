@@ -37,6 +37,15 @@ IDLE = [
     ("--context mip", "--context-shading", "has no surfaces", {"context_shading": True}),
     ("--context minip", "--context-shading", "has no surfaces", {"context_shading": True}),
     ("--context average", "--context-shading", "has no surfaces", {"context_shading": True}),
+    *(
+        (
+            f"--context {name} --context-transfer 0:000000:0,300:ffc864:0.5",
+            "--context-window 300/100",
+            "intensities of their own",
+            {"context_window": Window(9, 5)},
+        )
+        for name in ("dvr", "mip")
+    ),
     (
         "--no-silhouettes",
         "--silhouette-rule gradient",
@@ -204,12 +213,13 @@ def test_swapped_files_are_told(tmp_path, name):
     volume, lines = write_volume(tmp_path / "ct.nii.gz"), write_lines(tmp_path / "lines.vtk")
     output = [] if name == "evaluate" else ["-o", tmp_path / "out.png"]
     words = told(invoke(name, lines, volume, *output))
-    assert "lines.vtk holds VTK PolyData, and" in words
-    assert "ct.nii.gz a NIfTI volume; expected VOLUME, then CENTERLINES; swap them" in words
+    assert "found VTK PolyData in" in words
+    assert "lines.vtk and a NIfTI volume in" in words
+    assert "ct.nii.gz; expected VOLUME, then CENTERLINES; swap them" in words
     words = told(invoke(name, volume, volume, *output))
-    assert "ct.nii.gz, a NIfTI volume; expected VOLUME, then CENTERLINES; leave it out" in words
+    assert "ct.nii.gz as CENTERLINES; expected VOLUME, then CENTERLINES; leave it out" in words
     words = told(invoke(name, lines, lines, *output))
-    assert "holds VTK PolyData; expected VOLUME, then CENTERLINES; name the volume first" in words
+    assert "lines.vtk as VOLUME; expected VOLUME, then CENTERLINES; name the volume first" in words
     if name != "evaluate":
         assert "; name the volume before it" in told(invoke(name, lines, *output))
 
@@ -217,4 +227,5 @@ def test_swapped_files_are_told(tmp_path, name):
 def test_a_folder_of_dicom_as_centerlines_is_told(tmp_path):
     folder, lines = write_stack(tmp_path / "dicom", coded(), np.eye(4)), write_lines(tmp_path / "lines.vtk")
     words = told(invoke("render", lines, folder, "-o", tmp_path / "out.png"))
-    assert "dicom a folder; expected VOLUME, then CENTERLINES; swap them" in words
+    assert "lines.vtk and a folder in" in words
+    assert "dicom; expected VOLUME, then CENTERLINES; swap them" in words

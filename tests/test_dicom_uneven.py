@@ -15,7 +15,7 @@ from dicom_series import Stack
 from lumencut import read_volume
 from lumencut.cli import main
 from lumencut.errors import FormatError
-from lumencut.volume_files import inspect_volume
+from lumencut.volume_files import inspect_volume, list_series
 
 SIZE = (12, 10)
 PHASE = [4.0] * 13 + [1.08] + [7.0] * 13
@@ -62,8 +62,10 @@ def test_mixed_distances_are_named_as_such(tmp_path):
 
 def test_a_part_with_wider_steps_is_no_row_of_holes(tmp_path):
     folder = written(tmp_path / "series", [1.0] * 10 + [5.0] * 3)
-    with pytest.raises(FormatError, match=r"mixed distances \(10 of 1 mm, 3 of 5 mm\)"):
-        read_volume(folder)
+    for fill_gaps in (False, True):
+        with pytest.raises(FormatError, match=r"mixed distances \(10 of 1 mm, 3 of 5 mm\)"):
+            read_volume(folder, fill_gaps=fill_gaps)
+    assert "mixed distances (10 of 1 mm, 3 of 5 mm)" in list_series(folder)[0].trouble
     folder = written(tmp_path / "holes", [1.0] * 10 + [5.0] * 2)
     with pytest.raises(FormatError, match="8 missing slices"):
         read_volume(folder)
@@ -183,5 +185,7 @@ def test_the_command_line_resamples_and_tells(tmp_path):
     assert "resampled to 112 slices every 1.298 mm" in result.stderr
     result = CliRunner().invoke(main, ["info", "--json", "--resample-slices", str(folder)])
     (found,) = json.loads(result.stdout)["files"]
+    assert found["filled_slices"] == list(range(1, 111))
+    assert "1 to 110\n" in CliRunner().invoke(main, ["info", "--resample-slices", str(folder)]).stdout
     assert found["size"] == [*SIZE, 112]
     assert any("the largest gap is 7 mm" in note for note in found["notes"])

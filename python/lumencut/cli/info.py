@@ -132,10 +132,17 @@ def _block(one: dict[str, Any]) -> str:
     lines = [
         f"  {key.replace('_', ' '):<{width}}  {line}"
         for key, value in shown.items()
-        for line in _lines(value)
+        for line in (_lines(value) if key != "filled_slices" else [_ranges(value)])
     ]
     decisions = [f"  > {decision}" for decision in one.get("decisions", [])]
     return "\n".join([title, *lines, *decisions, *(f"  ! {note}" for note in one["notes"])])
+
+
+def _ranges(numbers: list[int]) -> str:
+    """Whole numbers that rise, as ranges where they follow each other."""
+    starts = [n for n, number in enumerate(numbers) if n == 0 or number != numbers[n - 1] + 1]
+    parts = [numbers[a:b] for a, b in zip(starts, [*starts[1:], len(numbers)], strict=True)]
+    return ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]} to {part[-1]}" for part in parts)
 
 
 def _lines(value: Any) -> list[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
@@ -34,14 +34,14 @@ def check_files(volume: Path | None, centerlines: Path | None) -> None:
     found = [None if path is None else kind_of(path) for path in (volume, centerlines)]
     first, second = (None if one is None else one.role for one in found)
     if first == "centerlines" and (second == "volume" or centerlines is None):
-        tail = "" if found[1] is None else f", and {centerlines} {found[1].name}"
+        tail = "" if found[1] is None else f" and {found[1].name} in {centerlines}"
         mend = "swap them" if centerlines else "name the volume before it"
-        raise _wrong(f"{volume} holds {_name(found[0])}{tail}", mend)
+        raise _wrong(f"{_name(found[0])} in {volume}{tail}", mend)
     if first == "centerlines":
-        raise _wrong(f"as VOLUME {volume}, which holds {_name(found[0])}", "name the volume first")
+        raise _wrong(f"{_name(found[0])} in {volume} as VOLUME", "name the volume first")
     if second == "volume":
         mend = "leave it out to show the volume alone, or name a file of centerlines"
-        raise _wrong(f"as CENTERLINES {centerlines}, {_name(found[1])}", mend)
+        raise _wrong(f"{_name(found[1])} in {centerlines} as CENTERLINES", mend)
 
 
 def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_centerlines: bool) -> None:
@@ -69,7 +69,7 @@ def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines
         )
         why = "without CENTERLINES: there is no cut surface"
         _refuse(chosen, _CUT_SURFACE, why, "name centerlines, or leave it out")
-    for names, why, mend in _idle(settings):
+    for names, why, mend in (*_idle_context(settings), *_idle_rules(settings)):
         _refuse(chosen, names, why, f"{mend}, or leave it out")
 
 
@@ -89,8 +89,12 @@ def check_radii(chosen: dict[str, Any], tree: VesselTree | None) -> None:
     _refuse(chosen, ("preserve_lumen",), f"{why}, from which no wall is known", "leave it out")
 
 
-def _idle(settings: Settings) -> Iterator[tuple[tuple[str, ...], str, str]]:
-    """Names of settings that do nothing beside others, why, and what lets them do something."""
+#: Names of settings that do nothing beside others, why, and what lets them do something.
+_Idle: TypeAlias = tuple[tuple[str, ...], str, str]
+
+
+def _idle_context(settings: Settings) -> Iterator[_Idle]:
+    """Settings of the context."""
     if settings.context is None:
         names = tuple(name for name in _CONTEXT if name != "context")
         yield names, "with --context none", "choose a context"
@@ -100,6 +104,14 @@ def _idle(settings: Settings) -> Iterator[tuple[tuple[str, ...], str, str]]:
     if settings.context in ("mip", "minip", "average"):
         why = f"with --context {settings.context}, which has no surfaces"
         yield ("context_shading",), why, "choose --context mida or dvr"
+    has_differences = settings.context not in ("dvr", "mip") or settings.context_shading
+    if not isinstance(settings.context_transfer, str | None) and not has_differences:
+        why = f"with --context {settings.context} and control points, which have intensities of their own"
+        yield ("context_window",), why, "choose --context mida or a transfer function by name"
+
+
+def _idle_rules(settings: Settings) -> Iterator[_Idle]:
+    """Settings of the cut surface and its lines."""
     if not settings.silhouettes:
         names = ("silhouette_rule", "silhouette_slope", "silhouette_color")
         yield names, "without silhouettes", "give --silhouettes"

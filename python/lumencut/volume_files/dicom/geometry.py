@@ -149,14 +149,11 @@ def _places(
     places = np.concatenate([[0.0], np.cumsum(steps)])
     step: npt.NDArray[np.float64] = (positions[-1] - positions[0]) / places[-1]
     off = np.linalg.norm(positions - positions[0] - places[:, None] * step, axis=1)
-    if off.max() <= tolerance(float(np.linalg.norm(step))):
+    if off.max() <= tolerance(float(np.linalg.norm(step))) and not has_run(steps):
         # More made up than measured would be no mending.
-        is_filled = fill_gaps and (steps - 1).sum() <= len(ordered)
-        is_mixed = has_run(steps)
-        if not (is_filled or is_mixed):
+        if not fill_gaps or (steps - 1).sum() > len(ordered):
             refuse_gaps(subject, ordered, gaps, steps)
-        if is_filled or not is_mixed:
-            return places, step, None
+        return places, step, None
     uneven = Uneven(subject, ordered, positions, gaps)
     if not resample:
         raise uneven.refuse()
