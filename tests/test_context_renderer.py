@@ -160,7 +160,7 @@ def test_ctrl_c_ends_a_context_and_the_renderer_goes_on(alone, made):
     ended, main = threading.Event(), threading.get_ident()
 
     def interrupt_once_it_runs():
-        while sys._current_frames()[main].f_code.co_name != "render" and not ended.wait(0.02):
+        while sys._current_frames()[main].f_code.co_name != "_frame" and not ended.wait(0.02):
             pass
         if not ended.wait(0.1):
             signal.raise_signal(signal.SIGINT)

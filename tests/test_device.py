@@ -183,7 +183,7 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
     ended, main_thread = threading.Event(), threading.get_ident()
 
     def interrupt_once_it_runs():
-        while sys._current_frames()[main_thread].f_code.co_name != "render" and not ended.wait(0.02):
+        while sys._current_frames()[main_thread].f_code.co_name != "_frame" and not ended.wait(0.02):
             pass
         if not ended.wait(0.05):
             signal.raise_signal(signal.SIGINT)

@@ -34,7 +34,7 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
     def interrupt_once_it_runs():
         # This thread goes on only if the rendering lets other threads of Python run.
         while len(looks) < LOOKS and not ended.wait(0.02):
-            if sys._current_frames()[main].f_code.co_name == "cut_surface":
+            if sys._current_frames()[main].f_code.co_name == "_frame":
                 looks.append(True)
         if len(looks) == LOOKS:
             signal.raise_signal(signal.SIGINT)

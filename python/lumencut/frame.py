@@ -78,7 +78,7 @@ class Frame:
         """Projected distance to the nearest centerline (mm), float32, shape (H, W).
 
         With the level choice ``own`` nothing else needs it: it is computed when it is first asked for, unless
-        ``images`` named it.
+        ``images`` named it, and the frame holds on to its renderer until then.
         """
         if not isinstance(self._distance, (np.ndarray, type(None))):
             object.__setattr__(self, "_distance", self._distance())

@@ -3,10 +3,11 @@
 
 use crate::error::Result;
 use crate::math::cost::Rule;
+use crate::math::decision::Part;
 use crate::math::hierarchy::{Hierarchy, NO_SLOT};
 use crate::math::lanes::{ABSENT, FAN, PIXELS};
 use crate::math::nearest::lower_distance;
-use crate::math::own_pieces::{NearestPieces, OwnPieces, Part};
+use crate::math::own_pieces::{NearestPieces, OwnPieces};
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 use crate::stages::Work;

@@ -6,6 +6,7 @@ pub mod candidates;
 pub mod centerline_smoothing;
 pub mod context_parameters;
 pub mod cost;
+pub mod decision;
 pub mod hierarchy;
 pub mod lanes;
 pub mod leaps;

@@ -2,8 +2,8 @@
 
 use super::blend::LevelBlend;
 use super::{CutSurface, Search, Sheet, TileSurface};
+use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
-use crate::math::own_pieces::Decision;
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 

@@ -2,8 +2,9 @@
 
 use super::blend::LevelBlend;
 use super::{CutSurface, Search, TileSurface};
+use crate::math::decision::Decision;
 use crate::math::lanes::{PART_PIXELS, PIXELS, places};
-use crate::math::own_pieces::{Decision, NearestPieces};
+use crate::math::own_pieces::NearestPieces;
 use crate::math::pieces::Envelope;
 use crate::math::tile::Tile;
 

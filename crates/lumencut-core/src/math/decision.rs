@@ -1,0 +1,131 @@
+//! What the winner of a pixel decides: its vessel, its place along it, and how far beyond the wall it lies.
+
+use super::cost::Rule;
+use super::lanes::{PART_PIXELS, PIXELS};
+use super::pieces::{Envelope, Stripe, Wedge};
+use super::projection::Projected;
+use super::tile::{Area, Tile};
+
+/// What was decided for each pixel of a tile, once, on the finest level.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Decision {
+    /// The vessel.
+    pub vessel: [i32; PIXELS],
+    /// Where along it the pixel looks (mm).
+    pub arc_length: [f32; PIXELS],
+    /// How far the pixel lies beyond the vessel's wall (mm); 0 within.
+    pub beyond_wall: [f32; PIXELS],
+    /// The radius of the vessel there (mm).
+    pub radius: [f32; PIXELS],
+    /// How the depth changes to the right and upwards (mm per mm).
+    pub slope: [[f32; PIXELS]; 2],
+}
+
+impl Decision {
+    /// What the winners of a level decide.
+    #[inline(always)]
+    pub fn of<const LUMEN_FIRST: bool>(
+        winners: &Envelope,
+        projected: &[Projected],
+        tile: &Tile,
+        rule: &Rule,
+    ) -> Self {
+        let zero = [0.0; PIXELS];
+        let mut decision =
+            Self { vessel: [0; PIXELS], arc_length: zero, beyond_wall: zero, radius: zero, slope: [zero; 2] };
+        // First all that is read from here and there, then all that is computed: the second in vectors.
+        let (mut starts, mut ends) = (Gathered::new(), Gathered::new());
+        for l in 0..PIXELS {
+            let (slot, is_stripe) = (winners.piece[l] / 2, winners.piece[l] % 2);
+            let here = &projected[slot as usize];
+            decision.vessel[l] = here.vessel;
+            starts.put(l, here);
+            // What stands at a point ends where it starts.
+            ends.put(l, &projected[(slot + is_stripe) as usize]);
+        }
+        for l in 0..PIXELS {
+            let is_stripe = winners.piece[l] % 2 == 1;
+            let (x, y, edge) = (tile.x[l], tile.y[l], [starts.edge[0][l], starts.edge[1][l]]);
+            let [start, end] = [&starts, &ends].map(|g| [g.x[l], g.y[l]]);
+            let inverse = starts.inverse_length[l];
+            let foot = Stripe::new(start, end, edge, inverse).foot(x, y);
+            let (_, from_point) = Wedge { point: start, before: [0.0; 2], edge }.cover(x, y);
+            let t = if is_stripe { foot.t } else { 0.0 };
+            let distance = if is_stripe { foot.distance } else { from_point };
+            let radius = starts.radius[l] + t * (ends.radius[l] - starts.radius[l]);
+            let per_mm = inverse * inverse * (ends.z[l] - starts.z[l]);
+            decision.radius[l] = radius;
+            decision.beyond_wall[l] = rule.beyond_wall::<LUMEN_FIRST>(winners.key[l], distance, radius);
+            decision.arc_length[l] = starts.arc_length[l] + t * (ends.arc_length[l] - starts.arc_length[l]);
+            decision.slope[0][l] = edge[0] * per_mm;
+            decision.slope[1][l] = edge[1] * per_mm;
+        }
+        decision
+    }
+}
+
+/// One point for each pixel of a tile, field by field.
+#[repr(C, align(64))]
+struct Gathered {
+    x: [f32; PIXELS],
+    y: [f32; PIXELS],
+    z: [f32; PIXELS],
+    radius: [f32; PIXELS],
+    edge: [[f32; PIXELS]; 2],
+    inverse_length: [f32; PIXELS],
+    arc_length: [f32; PIXELS],
+}
+
+impl Gathered {
+    #[inline(always)]
+    fn new() -> Self {
+        let zero = [0.0; PIXELS];
+        Self {
+            x: zero,
+            y: zero,
+            z: zero,
+            radius: zero,
+            edge: [zero; 2],
+            inverse_length: zero,
+            arc_length: zero,
+        }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, l: usize, p: &Projected) {
+        (self.x[l], self.y[l], self.z[l]) = (p.point[0], p.point[1], p.point[2]);
+        (self.radius[l], self.arc_length[l]) = (p.radius, p.arc_length);
+        (self.edge[0][l], self.edge[1][l]) = (p.edge[0], p.edge[1]);
+        self.inverse_length[l] = p.inverse_length;
+    }
+}
+
+/// The pixels of a part of a tile, and what was decided for them.
+#[derive(Clone, Copy)]
+pub struct Part<'a> {
+    /// The box around them.
+    pub area: &'a Area,
+    /// View x and y (mm).
+    pub x: &'a [f32; PART_PIXELS],
+    #[allow(missing_docs)]
+    pub y: &'a [f32; PART_PIXELS],
+    /// The vessel.
+    pub vessel: &'a [i32; PART_PIXELS],
+    /// Where along it the pixel looks (mm).
+    pub arc_length: &'a [f32; PART_PIXELS],
+}
+
+impl Decision {
+    /// Part `p` of the tile.
+    #[inline(always)]
+    pub fn part<'a>(&'a self, tile: &'a Tile, p: usize) -> Part<'a> {
+        Part {
+            area: &tile.parts[p],
+            x: &tile.x.as_chunks().0[p],
+            y: &tile.y.as_chunks().0[p],
+            vessel: &self.vessel.as_chunks().0[p],
+            arc_length: &self.arc_length.as_chunks().0[p],
+        }
+    }
+}
