@@ -313,8 +313,8 @@ def test_unknown_and_missing(tmp_path):
     with pytest.raises(FileError, match="nothing"):
         read_volume(tmp_path / "nothing.nii")
     (tmp_path / "readme.txt").write_text("hello")
-    for path in (tmp_path / "readme.txt", tmp_path / "empty.bin"):
-        path.touch()
+    (tmp_path / "odd.bin").write_bytes(bytes(9))
+    for path in (tmp_path / "readme.txt", tmp_path / "odd.bin"):
         with pytest.raises(FormatError, match=r"no known format; expected .*NIfTI.*NRRD.*MetaImage"):
             read_volume(path)
 

@@ -37,6 +37,11 @@ def writer_for(path: str | os.PathLike[str]) -> Writer:
     return partial(_save_checked, checked, _writer(os.fspath(path), checked))
 
 
+def is_sequence(path: str | os.PathLike[str]) -> bool:
+    """Tell whether frames become a picture each, which have no speed."""
+    return _is_folder(os.fspath(path), Path(path)) or "%" in Path(path).name
+
+
 def checked_fps(fps: float) -> float:
     """Return frames per second that every format can hold."""
     value = number(SettingsError, "fps", fps)
@@ -69,7 +74,7 @@ def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
 
 def _writer(name: str, path: Path) -> Writer:
     suffix = path.suffix.lower()
-    if path.is_dir() or name.endswith(("/", os.sep)) or not suffix:
+    if _is_folder(name, path):
         return partial(_save_sequence, path / "frame-%03d.png")
     if "%" in path.name:
         return partial(_save_sequence, _checked_pattern(path))
@@ -79,6 +84,10 @@ def _writer(name: str, path: Path) -> Writer:
         return partial(_save_video, path, _av())
     expected = ".webp, .png, .apng, .mp4, a name such as frame-%03d.png, or a folder"
     raise FormatError(name, f"the ending {path.suffix!r}", expected)
+
+
+def _is_folder(name: str, path: Path) -> bool:
+    return path.is_dir() or name.endswith(("/", os.sep)) or not path.suffix
 
 
 def _save_moving(path: Path, kind: str, frames: Iterable[Frame], fps: float) -> None:

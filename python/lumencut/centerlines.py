@@ -13,7 +13,8 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut._files import checked_path
-from lumencut.errors import FileError, SpaceWarning
+from lumencut.errors import FileError, FormatError, SpaceWarning
+from lumencut.file_kinds import kind_of
 from lumencut.placement import (
     MILLIMETRES,
     Coordinates,
@@ -101,6 +102,10 @@ class CenterlineFile:
             content = self.path.read_bytes()
         except OSError as error:
             raise FileError(str(self.path), error.strerror or str(error), expected) from error
+        kind = kind_of(self.path)
+        if kind is not None and (kind.mend or (kind.role == "volume" and not kind.is_dicom)):
+            mend = kind.mend if kind.role == "centerlines" else "read_volume reads volumes"
+            raise FormatError(str(self.path), kind.name, "a file of centerlines", mend)
         self._content = _lumencut.CenterlineFile(content, self.path.name)
 
     def placed(

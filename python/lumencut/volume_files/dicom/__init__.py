@@ -29,11 +29,12 @@ __all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "o
 
 @dataclass(frozen=True)
 class Wanted:
-    """What of a DICOM folder is to be read: which series and phase, and whether gaps are filled."""
+    """What of a DICOM folder is to be read: which series and phase, and what is mended of it."""
 
     series: str | None = None
     phase: str | None = None
     fill_gaps: bool = False
+    resample_slices: bool = False
 
 
 def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
@@ -49,7 +50,7 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], list[Image]])
         slices = one.slices(str(path), notes)
         if wanted.phase is not None:
             slices = of_phase(str(path), slices, wanted.phase)
-        stack = stacked(str(path), slices, notes, fill_gaps=wanted.fill_gaps)
+        stack = stacked(str(path), slices, notes, fill_gaps=wanted.fill_gaps, resample=wanted.resample_slices)
         _note_oddities(stack, notes)
         stored = _stored_type(stack.slices[0].image)
         details = _details(one, stack)
@@ -89,7 +90,7 @@ def _stored_type(image: Image) -> np.dtype[Any]:
 def _note_oddities(stack: Stack, notes: list[str]) -> None:
     headers = {id(s.image): s.image.header for s in stack.slices}.values()
     scalings = {s.scaling for s in stack.slices}
-    if stack.missing:
+    if stack.missing and not stack.is_resampled:
         names = listed([str(k) for k in stack.missing])
         notes.append(f"{counted(len(stack.missing), 'missing slice')} interpolated: k = {names}")
     if len(scalings) > 1:
