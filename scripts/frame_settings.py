@@ -94,8 +94,8 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     yield "silhouettes False", {"silhouettes": False}
     for rule in ("leap", "gradient"):
         for choice in ("own", "nearest"):
-            both = {"silhouette_rule": rule, "level_choice": choice}
-            yield f"silhouette_rule {rule}, level_choice {choice}", both
+            rules: Values = {"silhouette_rule": rule, "level_choice": choice}
+            yield f"silhouette_rule {rule}, level_choice {choice}", rules
         yield f"silhouette_rule {rule}, unfiltered", {"silhouette_rule": rule, "depth_filter": False}
     # It acts under this rule alone.
     yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
@@ -105,7 +105,7 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     backgrounds = [(10, 200, 30, 128), (255, 255, 255, 0), (20, 40, 60, 255), (0, 0, 0, 1)]
     yield from each("background", backgrounds, context=None, opacity=SEE_THROUGH)
     for background in backgrounds[:2]:
-        both = {"background": background, "opacity": SEE_THROUGH}
+        both: Values = {"background": background, "opacity": SEE_THROUGH}
         yield f"background {worded(background)} behind the context", both
     for mode in ("max", "mean", "min"):
         yield from each("slab", (Slab(thickness, mode) for thickness in (0, 0.5, 4, 40, 1000)))

@@ -1,4 +1,4 @@
-"""The flag that starts from the paper's own rules."""
+"""The flag that starts from the paper's rules."""
 
 from __future__ import annotations
 

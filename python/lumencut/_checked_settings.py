@@ -29,7 +29,7 @@ class CheckedSettings:
 
     @classmethod
     def paper(cls, **changes: Any) -> Self:
-        """Return the paper's own rules, with all other settings at their defaults.
+        """Return the paper's rules, with all other settings at their defaults.
 
         They are those of Auzinger et al. 2013, section 3: the smallest cost wins at each level of detail, the
         depth filter knows no zones, and silhouettes follow the gradient of the depth.

@@ -27,8 +27,8 @@ class Settings(CheckedSettings):
     cost_weight : float, 0 to 10000, default 10
         λ of Eq. 2: what one mm beyond a vessel's wall costs (mm of depth per mm).
     preserve_lumen : bool, default True
-        Measure distance from the wall, or from the centerline. Without radii it is measured from the
-        centerline.
+        Measure distance from the wall, or from the centerline. From the centerline it is measured as if no
+        vessel had a radius: under ``lumen_first`` each then has the ``unknown_radius``.
     lumen_first : bool, default True
         Show every lumen unless a nearer lumen hides it: lumen before wall before surroundings, whatever the
         depth.

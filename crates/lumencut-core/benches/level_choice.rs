@@ -21,7 +21,7 @@ const SURFACE: ImageSet = ImageSet::of(&[Image::Depth, Image::Vessel]);
 
 /// The medians of both rules (ms), and the median of the ratios of neighbouring runs.
 fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
-    // The stages that both share alike are left out.
+    // Depth filter, leaps and all that shows the volume are left out: `workloads` measures whole frames.
     let rules = [Settings::default(), Settings::paper()];
     let rules = rules.map(|rule| Settings { depth_filter: false, ..rule });
     let mut renderers = [CpuRenderer::default(), CpuRenderer::default()];

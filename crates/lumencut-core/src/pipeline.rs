@@ -49,14 +49,14 @@ impl<'a> Request<'a> {
 
     /// The same without the picture where the scene has no volume to show: nothing is made for it then.
     #[must_use]
-    pub fn of(self, scene: &Scene) -> Self {
+    pub fn without_unseen_picture(self, scene: &Scene) -> Self {
         let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
         Self { images, ..self }
     }
 }
 
-/// Renders views on the CPU. It keeps the buffers that hold a projected tree from view to view; all else belongs to the
-/// scenes.
+/// Renders views on the CPU. It keeps the buffers that hold a projected tree, and that of the sheet, from view to view; all
+/// else belongs to the scenes.
 #[derive(Debug)]
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
@@ -87,7 +87,7 @@ impl CpuRenderer {
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         request.settings.check()?;
         let frame = match &scene.tree {
-            Some(tree) => self.cut_surface(tree, &request.of(scene))?,
+            Some(tree) => self.cut_surface(tree, &request.without_unseen_picture(scene))?,
             None => Frame::of(Geometry::rays(*request.camera)),
         };
         match &scene.volume {

@@ -151,7 +151,7 @@ fn a_thousand_vessels_that_share_a_point() {
 
 #[test]
 fn ten_thousand_vessels() {
-    let scene = random_tree(83, 10_000, 2, 3.0, 100.0).unwrap();
+    let scene = random_tree(83, 10_000, 8, 3.0, 100.0).unwrap();
     for settings in [unfiltered(), Settings::default()] {
         assert_sound_in(&scene, &view([1.0, 0.2, 0.1], [32, 24], 6.0), &settings);
     }

@@ -1,4 +1,4 @@
-//! The paper's own rules give the same images, to the bit, as they did when they were the only ones.
+//! The paper's rules give the same images, to the bit, as they did when they were the only ones.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;

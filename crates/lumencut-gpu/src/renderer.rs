@@ -93,7 +93,7 @@ impl GpuRenderer {
         if scene.volume.is_none() && scene.tree.is_none() {
             return Err(nothing_to_show());
         }
-        let request = &request.of(scene);
+        let request = &request.without_unseen_picture(scene);
         let mut pass = self.pass(scene, Geometry::rays(*request.camera), request)?;
         if scene.tree.is_some() {
             pass.cut_surface().await?;

@@ -81,7 +81,8 @@ impl Renderer {
         })?;
         let [width, height] = camera.size();
         let gap = details.sheet.iter().map(|sheet| if sheet[3] < FAR { sheet[3] } else { f32::INFINITY });
-        for (name, numbers) in [("sheet_gap", gap.collect()), ("strength", details.strength)] {
+        let strength = settings.silhouettes.then_some(("strength", details.strength));
+        for (name, numbers) in [("sheet_gap", gap.collect())].into_iter().chain(strength) {
             all.set_item(name, PyArray1::from_vec(py, numbers).reshape([height, width])?)?;
         }
         Ok(all)

@@ -10,7 +10,7 @@ pub fn unfiltered() -> Settings {
     Settings { depth_filter: false, ..Settings::default() }
 }
 
-/// The same by the paper's own rules.
+/// The same by the paper's rules.
 pub fn paper_unfiltered() -> Settings {
     Settings { depth_filter: false, ..Settings::paper() }
 }

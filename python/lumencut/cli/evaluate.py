@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     default="csr,csr-paper",
     show_default=True,
     metavar="NAME,...",
-    help="csr: with the settings given; csr-paper: with the paper's own rules in their place.",
+    help="csr: with the settings given; csr-paper: with the paper's rules in their place.",
 )
 @click.option(
     "--views",

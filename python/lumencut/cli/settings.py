@@ -29,7 +29,7 @@ _WRITTEN = {"flag": " (yes or no)", "color": " (hexadecimal)", "slab": ", such a
 
 
 def paper_option(command: Command) -> Command:
-    """Add the flag that starts from the paper's own rules."""
+    """Add the flag that starts from the paper's rules."""
     rules = " ".join(_words(name, value) for name, value in PAPER.items())
     text = f"Start from the rules of the CSR paper (2013): {rules}. Options beside it change them further."
     return click.option("--paper", is_flag=True, help=text)(command)

@@ -53,7 +53,7 @@ def evaluate(
     tree : VesselTree
         Its centerlines.
     methods : iterable of str, default ("csr", "csr-paper")
-        ``"csr"``: Curved Surface Reformation with the settings; ``"csr-paper"``: with the paper's own rules,
+        ``"csr"``: Curved Surface Reformation with the settings; ``"csr-paper"``: with the paper's rules,
         see :meth:`Settings.paper`, and the settings for all others.
     views : int, default 12
         How many views, spread evenly over the sphere; the same number gives the same views.

@@ -32,15 +32,15 @@ pub struct LevelPlace {
 pub struct CutSurfaceParameters {
     /// λ, what a millimetre beyond the wall costs; this and the four that follow are those of [`Rule`].
     pub weight: f32,
-    /// How far beyond the wall lumen reaches under *lumen first* (mm).
+    /// How thick the wall around a lumen is (mm).
     pub margin: f32,
-    /// What lifts every lumen before every surrounding (mm).
+    /// What lifts every wall before all surroundings and, twice, every lumen before every wall (mm).
     pub lift: f32,
     /// More than the rounding error of a projected distance (mm).
     pub distance_slack: f32,
     /// More than the rounding error of a depth (mm).
     pub depth_slack: f32,
-    /// N / σ (levels² per mm): f² = this · D.
+    /// N / σ (levels² per mm): f² = this · the distance that selects.
     pub selection: f32,
     /// N.
     pub coarsest: u32,

@@ -50,7 +50,7 @@ struct CutSurfaceParameters {
     lift: f32,
     distance_slack: f32,
     depth_slack: f32,
-    // N / σ (levels² per mm): f² = this · D.
+    // N / σ (levels² per mm): f² = this · the distance that selects.
     selection: f32,
     // N.
     coarsest: u32,

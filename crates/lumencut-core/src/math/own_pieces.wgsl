@@ -101,8 +101,11 @@ fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiec
             nearest = nearer_of(nearest, offered);
         }
     }
+    // Written out as in `foot`, so that both neighbours of a border read the same number.
     let u = q - here.point.xy;
-    if here.stands != 0u && dot(u, here.before) >= 0.0 && dot(u, here.edge) <= 0.0 {
+    let beyond_before = u.x * here.before.x + u.y * here.before.y;
+    let after_start = u.x * here.edge.x + u.y * here.edge.y;
+    if here.stands != 0u && beyond_before >= 0.0 && after_start <= 0.0 {
         let cost = cost_of(here.point.z, length(u), here.radius);
         let along = here.arc_length - s;
         nearest = nearer_of(nearest, NearestPiece(along, abs(along), cost, 2u * i, here.point.z, vec2f(0.0)));

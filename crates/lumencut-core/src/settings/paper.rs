@@ -1,11 +1,11 @@
-//! The settings that the paper's own rules stand for.
+//! The settings that the paper's rules stand for.
 
 use super::rules::{LevelChoice, SilhouetteRule};
 use super::table::Settings;
 use super::value::Value;
 
 impl Settings {
-    /// The paper's own rules, with the defaults of all other settings.
+    /// The paper's rules, with the defaults of all other settings.
     pub fn paper() -> Self {
         Self {
             lumen_first: false,

@@ -26,7 +26,8 @@ settings! {
 
         /// Measure distance from the wall, or from the centerline.
         ///
-        /// Without radii it is measured from the centerline.
+        /// From the centerline it is measured as if no vessel had a radius: under `lumen_first` each then has the
+        /// `unknown_radius`.
         preserve_lumen: bool = true;
 
         /// Show every lumen unless a nearer lumen hides it: lumen before wall before surroundings, whatever the depth.

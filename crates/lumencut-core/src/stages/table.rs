@@ -16,7 +16,7 @@ pub enum Image {
     Depth,
     /// Id of the vessel whose influence zone a pixel is in, i32.
     Vessel,
-    /// Slopes, radius and blend of the cut surface before the depth filter, four f32 (`stages::depth::Sheet`).
+    /// Slopes, radius and gap of the cut surface before the depth filter, four f32 (`stages::depth::Sheet`).
     Sheet,
     /// Where the cut surface leaps, as bits of u32 (`stages::leap`).
     Leap,

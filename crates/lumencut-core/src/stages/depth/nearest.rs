@@ -70,14 +70,14 @@ impl BlendedSheets {
     fn add(&mut self, weight: &[f32; PIXELS], found: &Decision) {
         for l in 0..PIXELS {
             if weight[l] > 0.0 {
-                let [x, y, radius, apart] = &mut self.sheet[l];
+                let [x, y, radius, gap] = &mut self.sheet[l];
                 *x += weight[l] * found.slope[0][l];
                 *y += weight[l] * found.slope[1][l];
                 *radius += weight[l] * found.radius[l];
                 let (vessel, s) = self.finer[l];
                 if vessel >= 0 {
                     let same = vessel == found.vessel[l];
-                    *apart = if same { (found.arc_length[l] - s).abs() } else { FAR };
+                    *gap = if same { (found.arc_length[l] - s).abs() } else { FAR };
                 }
                 self.finer[l] = (found.vessel[l], found.arc_length[l]);
             }

@@ -39,7 +39,7 @@ impl CutSurface<'_> {
         let mut sheet = [[0.0; 4]; PIXELS];
         if SHEET {
             for l in 0..PIXELS {
-                sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.radius[l], sum.apart(l)];
+                sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.radius[l], sum.gap(l)];
             }
         }
         TileSurface { depth: sum.depth, vessel: decision.vessel, sheet }
@@ -94,9 +94,9 @@ impl Sum {
         }
     }
 
-    /// How far apart along the vessel the two levels lie in a pixel (mm).
+    /// The gap along the vessel between the two levels in a pixel (mm).
     #[inline(always)]
-    fn apart(&self, l: usize) -> f32 {
+    fn gap(&self, l: usize) -> f32 {
         (self.coarser[l] - self.finer[l]).abs()
     }
 }
