@@ -108,11 +108,11 @@ class Frame(KeepsReadOnly):
         depth = np.ascontiguousarray(self._present("position", self._depth), np.float32)
         return _lumencut.positions(self.camera, depth)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
         """Return what is copied or pickled: all images, computed by now."""
         if self.has("distance"):
             _ = self.distance
-        return vars(self)
+        return super().__getstate__()
 
     def __repr__(self) -> str:
         """Return the size and the names of the images."""
