@@ -130,9 +130,9 @@ def test_markups_are_those_of_3d_slicer(tmp_path):
     assert "name" not in content["markups"][2]
 
 
-@pytest.mark.parametrize("name", ["tree.vtk", "tree.json", "tree", "vtp"])
+@pytest.mark.parametrize("name", ["tree.npy", "tree.json", "tree", "vtp"])
 def test_other_endings_are_refused(tmp_path, name):
-    with pytest.raises(FormatError, match=r"expected '\.vtp' or '\.mrk\.json'"):
+    with pytest.raises(FormatError, match=r"expected '\.vtp', '\.mrk\.json', '\.vtk', '\.csv' or '\.swc'"):
         write_centerlines(small_tree(), tmp_path / name)
     assert os.listdir(tmp_path) == []
 
@@ -158,3 +158,61 @@ def test_a_place_that_cannot_be_written_keeps_what_it_has(tmp_path, ending):
     with pytest.raises(FileError):
         write_centerlines(small_tree(), folder)
     assert sorted(p.name for p in tmp_path.rglob("*")) == [folder.name]
+
+
+def fork(radius=2.0):
+    """A trunk with two branches that begin at its end."""
+    steps = np.linspace(0, 1, 9)[:, None]
+    end = np.array([0.0, 0.0, 20.0])
+    branches = [(np.zeros(3), end), (end, np.array([9.0, 0, 30])), (end, np.array([-9.0, 0, 31]))]
+    return VesselTree([Vessel(a + steps * (b - a), radius) for a, b in branches])
+
+
+@pytest.mark.parametrize("radius", [2.1, None])
+@pytest.mark.parametrize("ending", [".vtk", ".csv", ".swc"])
+def test_a_fork_comes_back_from_the_other_formats(tmp_path, ending, radius):
+    write_centerlines(fork(radius), tmp_path / f"tree{ending}")
+    assert lumencut.read_centerlines(tmp_path / f"tree{ending}", "lps", unit="mm") == fork(radius)
+    report = inspect_centerlines(tmp_path / f"tree{ending}")
+    assert (report.stated, report.stated_unit) == ((None, None) if ending == ".swc" else ("lps", "mm"))
+
+
+def test_vtk_reads_the_legacy_file(tmp_path):
+    vtk = pytest.importorskip("vtk", reason="the vtk package reads the file of this test")
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    tree = small_tree()
+    write_centerlines(tree, tmp_path / "tree.vtk")
+    reader = vtk.vtkPolyDataReader()
+    reader.ReadAllFieldsOn()
+    reader.SetFileName(str(tmp_path / "tree.vtk"))
+    reader.Update()
+    data = reader.GetOutput()
+    assert vtk_to_numpy(data.GetPoints().GetData()).tobytes() == tree.points.tobytes()
+    assert vtk_to_numpy(data.GetLines().GetOffsetsArray()).tolist() == [0, 3, 5, 7]
+    radius = vtk_to_numpy(data.GetPointData().GetArray("MaximumInscribedSphereRadius"))
+    assert radius.tobytes() == np.concatenate([vessel.radius for vessel in tree]).tobytes()
+    texts = data.GetCellData().GetAbstractArray("Name")
+    assert [texts.GetValue(i) for i in range(3)] == ["trunk <&> ", "ramus línea", ""]
+
+
+def test_rows_and_nodes(tmp_path):
+    trunk = Vessel([[0, 0, 0], [0, 0, 1]], [3.0, 2.5], 'a, "b"')
+    tree = VesselTree([Vessel([[0, 0, 1], [1, 0, 2]]), trunk])
+    write_centerlines(tree, tmp_path / "tree.csv")
+    assert (tmp_path / "tree.csv").read_text("utf-8").splitlines() == [
+        "line,name,l (mm),p (mm),s (mm),radius (mm)",
+        "0,,0.0,0.0,1.0,0.0",
+        "0,,1.0,0.0,2.0,0.0",
+        '1,"a, ""b""",0.0,0.0,0.0,3.0',
+        '1,"a, ""b""",0.0,0.0,1.0,2.5',
+    ]
+    write_centerlines(tree, tmp_path / "tree.swc")
+    assert (tmp_path / "tree.swc").read_text("utf-8").splitlines()[2:] == [
+        "1 0 0.0 0.0 0.0 3.0 -1",
+        "2 0 0.0 0.0 1.0 2.5 1",
+        "3 0 1.0 0.0 2.0 0.0 2",
+    ]
+    two_lines = VesselTree([Vessel([[0, 0, 0], [0, 0, 1]], name="two\nlines")])
+    with pytest.raises(VesselTreeError, match="name of line 0: found a line break"):
+        write_centerlines(two_lines, tmp_path / "two.csv")

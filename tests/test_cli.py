@@ -105,8 +105,9 @@ def test_settings_keep_their_defaults_where_no_option_is_given(rendered):
 def test_every_option_ends_in_its_setting(rendered):
     given = (
         "--cost-weight 30 --no-preserve-lumen --lumen-first --lumen-margin 1.5 --levels 3 --level-distance 5 "
-        "--no-depth-filter --window 900/300 --opacity 100:200 --no-silhouettes --silhouette-slope 12 "
-        "--silhouette-color ff8000 --background 10203040 --slab 4mm:mean --context mida --context-gamma -0.5 "
+        "--no-depth-filter --window 900/300 --opacity 100:200 --silhouette-rule gradient "
+        "--silhouette-slope 12 --silhouette-color ff8000 --background 10203040 --slab 4mm:mean "
+        "--context mida --context-gamma -0.5 "
         "--context-window 700/200 --context-transfer -50:000000:0,300:ff8000:0.25,300:ffffff:1 "
         "--context-step 0.5 --context-shading --context-preview"
     )
@@ -120,7 +121,7 @@ def test_every_option_ends_in_its_setting(rendered):
         depth_filter=False,
         window=Window(level=300, width=900),
         opacity=Opacity(transparent=100, opaque=200),
-        silhouettes=False,
+        silhouette_rule="gradient",
         silhouette_slope=12,
         silhouette_color=(255, 128, 0),
         background=(16, 32, 48, 64),

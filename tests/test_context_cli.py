@@ -86,7 +86,7 @@ def test_options_become_settings(volume, tmp_path, asked, given, expected):
         ("--slab 4:", "'4:' is not of the form"),
         ("--slab 2000", "slab thickness: found 2000; expected between 0 and 1000 mm"),
         ("--context none", "--context none without CENTERLINES shows nothing"),
-        ("--coordinates ras", "--coordinates without CENTERLINES"),
+        ("--coordinates ras", "--coordinates does nothing without CENTERLINES"),
     ],
 )
 @pytest.mark.parametrize("command", ["render", "turntable"])

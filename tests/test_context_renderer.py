@@ -25,7 +25,7 @@ from lumencut import (
     phantom,
     render,
 )
-from lumencut.turntable import fitted_turn, turntable
+from lumencut.turntables import fitted_turn, turntable
 
 SIZE = (50, 40)
 WINDOW = Window(350, 900)

@@ -6,10 +6,12 @@ import logging
 import re
 
 import numpy as np
+import pydicom
 import pytest
 
 from dicom_cases import CASES
-from lumencut import FormatError, read_volume
+from lumencut import FormatError, VolumeError, read_volume
+from lumencut.volume_files import as_volume
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
@@ -32,3 +34,26 @@ def test_series(tmp_path, caplog, case):
     np.testing.assert_allclose(volume.array, voxels, rtol=0 if exact else 1e-6, atol=case.loss)
     for word in case.notes:
         assert word in caplog.text
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_datasets_in_memory_are_what_their_files_are(tmp_path, case):
+    """The datasets of a folder become the volume of the folder, or are refused in the same words."""
+    if case.needs:
+        pytest.importorskip(case.needs)
+    made = case.write(tmp_path)
+    if not made.path.is_dir() or case.series is not None:
+        return
+    try:
+        datasets = [pydicom.dcmread(path) for path in sorted(made.path.rglob("*")) if path.is_file()]
+    except Exception as unreadable:  # not by pydicom either
+        pytest.skip(f"{type(unreadable).__name__}: there are no datasets")
+    if case.words:
+        with pytest.raises(VolumeError):
+            as_volume(datasets)
+        return
+    expected = read_volume(made.path)
+    volume = as_volume(datasets)
+    np.testing.assert_array_equal(volume.world_from_index, expected.world_from_index)
+    assert volume.array.dtype == expected.array.dtype
+    np.testing.assert_array_equal(volume.array, expected.array)

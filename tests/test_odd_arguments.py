@@ -26,7 +26,7 @@ from lumencut import (
 )
 from lumencut.camera import Camera
 from lumencut.centerlines import inspect_centerlines
-from lumencut.turntable import save_animation, turntable
+from lumencut.turntables import save_animation, turntable
 from lumencut.volume_files import inspect_volume
 from scene_files import bent_line
 

@@ -11,7 +11,7 @@ from PIL import Image
 
 from lumencut import Renderer, Vessel, VesselTree, Volume
 from lumencut.camera import Camera
-from lumencut.turntable import fitted_turn, save_animation, turntable
+from lumencut.turntables import fitted_turn, save_animation, turntable
 from scene_files import bent_line
 
 needs_modes = pytest.mark.skipif(os.name == "nt", reason="no permissions of this kind here")

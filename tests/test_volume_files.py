@@ -78,6 +78,19 @@ def test_nifti_scaling(tmp_path, slope, intercept, stored, dtype):
     assert any("scaled by" in note for note in inspect_volume(path).notes) == (slope != 0)
 
 
+@pytest.mark.parametrize(
+    ("stored", "slope", "kind"), [("i2", 0.5, "float32"), ("f4", 2, "float32"), ("f8", 0.5, "float64")]
+)
+def test_a_scaled_nifti_warns_nobody_and_is_told_to_who_asks(tmp_path, caplog, stored, slope, kind):
+    path = save_nifti(
+        tmp_path / "x.nii", coded(dtype=stored), oblique(), scl_slope=slope, scl_inter=3, xyzt_units=2
+    )
+    with caplog.at_level("WARNING", "lumencut"):
+        assert read_volume(path).dtype == kind
+    assert not caplog.records
+    assert f"values are scaled by {slope:g} and shifted by 3: read as {kind}" in inspect_volume(path).notes
+
+
 def test_nifti_units_forms_and_trailing_axis(tmp_path):
     metres = oblique()
     metres[:3] /= 1000
@@ -300,8 +313,8 @@ def test_unknown_and_missing(tmp_path):
     with pytest.raises(FileError, match="nothing"):
         read_volume(tmp_path / "nothing.nii")
     (tmp_path / "readme.txt").write_text("hello")
-    for path in (tmp_path / "readme.txt", tmp_path / "empty.bin"):
-        path.touch()
+    (tmp_path / "odd.bin").write_bytes(bytes(9))
+    for path in (tmp_path / "readme.txt", tmp_path / "odd.bin"):
         with pytest.raises(FormatError, match=r"no known format; expected .*NIfTI.*NRRD.*MetaImage"):
             read_volume(path)
 

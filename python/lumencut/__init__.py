@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.slab import Slab
     from lumencut.transfer import TransferFunction
+    from lumencut.turntables import fitted_turn, save_animation, turntable
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
     from lumencut.volume_files import SeriesReport, list_series, read_volume
@@ -71,6 +72,7 @@ _HOME = {
     "settings": ("Settings",),
     "slab": ("Slab",),
     "transfer": ("TransferFunction",),
+    "turntables": ("fitted_turn", "save_animation", "turntable"),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),
     "volume_files": ("SeriesReport", "list_series", "read_volume"),
@@ -109,10 +111,13 @@ __all__ = [
     "__version__",
     "devices",
     "evaluate",
+    "fitted_turn",
     "list_series",
     "read_centerlines",
     "read_volume",
     "render",
+    "save_animation",
+    "turntable",
     "write_centerlines",
 ]
 

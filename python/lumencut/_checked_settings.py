@@ -6,6 +6,7 @@ from typing import Any, Self
 
 from lumencut import _lumencut
 from lumencut._checks import choice, flag, integers, number
+from lumencut._wording import a
 from lumencut.errors import SettingsError
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
@@ -83,5 +84,5 @@ def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
                 choice(SettingsError, name, value, setting.choices, f", a TransferFunction{or_none}")
         case kind:
             if not isinstance(value, _CLASSES[kind]):
-                raise SettingsError(name, repr(value), f"a {_CLASSES[kind].__name__}{or_none}")
+                raise SettingsError(name, repr(value), f"{a(_CLASSES[kind].__name__)}{or_none}")
     return value

@@ -13,6 +13,11 @@ def counted(count: int, what: str) -> str:
     return f"{count} {what}{'' if count == 1 else 's'}"
 
 
+def a(name: str) -> str:
+    """A name with its article: a Window, an Opacity."""
+    return f"{'an' if name[:1].lower() in 'aeio' else 'a'} {name}"
+
+
 def listed(names: Sequence[str]) -> str:
     """Give the first few names and how many more there are."""
     tail = f" and {len(names) - _MENTIONED} more" if len(names) > _MENTIONED else ""

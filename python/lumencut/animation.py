@@ -15,6 +15,7 @@ import numpy as np
 
 from lumencut._checks import number
 from lumencut._files import WRITABLE, checked_path, move, private_folder, replace_whole
+from lumencut._wording import a
 from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
 
 if TYPE_CHECKING:
@@ -34,6 +35,11 @@ def writer_for(path: str | os.PathLike[str]) -> Writer:
     """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
     checked = checked_path(path, WRITABLE)
     return partial(_save_checked, checked, _writer(os.fspath(path), checked))
+
+
+def is_sequence(path: str | os.PathLike[str]) -> bool:
+    """Tell whether frames become a picture each, which have no speed."""
+    return _is_folder(os.fspath(path), Path(path)) or "%" in Path(path).name
 
 
 def checked_fps(fps: float) -> float:
@@ -58,7 +64,7 @@ def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
     for frame in frames:
         size = getattr(getattr(frame, "camera", None), "size", None)
         if size is None:
-            raise FormatError("frames", f"a {type(frame).__name__}", "Frame objects")
+            raise FormatError("frames", a(type(frame).__name__), "Frame objects")
         if size != (first := first or size):
             found = f"frames of {first[0]} × {first[1]} and {size[0]} × {size[1]} pixels"
             raise FormatError(str(path), found, "frames of one size")
@@ -68,7 +74,7 @@ def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
 
 def _writer(name: str, path: Path) -> Writer:
     suffix = path.suffix.lower()
-    if path.is_dir() or name.endswith(("/", os.sep)) or not suffix:
+    if _is_folder(name, path):
         return partial(_save_sequence, path / "frame-%03d.png")
     if "%" in path.name:
         return partial(_save_sequence, _checked_pattern(path))
@@ -78,6 +84,10 @@ def _writer(name: str, path: Path) -> Writer:
         return partial(_save_video, path, _av())
     expected = ".webp, .png, .apng, .mp4, a name such as frame-%03d.png, or a folder"
     raise FormatError(name, f"the ending {path.suffix!r}", expected)
+
+
+def _is_folder(name: str, path: Path) -> bool:
+    return path.is_dir() or name.endswith(("/", os.sep)) or not path.suffix
 
 
 def _save_moving(path: Path, kind: str, frames: Iterable[Frame], fps: float) -> None:

@@ -6,13 +6,14 @@ import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
+from lumencut._values import Value, content_of
 from lumencut.errors import CameraError
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -20,10 +21,13 @@ from lumencut.volume import Volume
 #: The six views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = _lumencut.VIEWS
 
+#: A tree, a volume, or whatever else `render` takes as a volume.
+Scene: TypeAlias = VesselTree | Volume | Any
+
 
 @dataclass(frozen=True, eq=False)
-class Camera:
-    """An orthographic view.
+class Camera(Value):
+    """An orthographic view; cameras with the same place, size and pixels are equal.
 
     Parameters
     ----------
@@ -64,6 +68,10 @@ class Camera:
         for name, vector in zip(("direction", "right_axis", "up"), _lumencut.check_camera(self), strict=True):
             self._set(name, numbers(CameraError, name, vector, (3,)))
 
+    def _content(self) -> tuple[Any, ...]:
+        vectors = (self.center, self.direction, self.up, self.right_axis)
+        return (*map(content_of, vectors), self.size, self.pixel_spacing)
+
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
 
@@ -78,57 +86,79 @@ class Camera:
     @classmethod
     def fitted(
         cls,
-        scene: VesselTree | Volume,
+        scene: Scene,
         direction: npt.ArrayLike,
         up: npt.ArrayLike,
         size: tuple[int, int] = (512, 512),
     ) -> Camera:
-        """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels."""
-        if not isinstance(scene, (VesselTree, Volume)):
-            raise CameraError("scene of the view", type(scene).__name__, "a VesselTree or a Volume")
+        """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels.
+
+        Parameters
+        ----------
+        scene : VesselTree, Volume, or whatever else :func:`lumencut.render` takes as a volume
+            What is to fit.
+        direction : array_like, shape (3,)
+            From the viewer into the scene; any length.
+        up : array_like, shape (3,)
+            Upwards in the image.
+        size : (int, int), default (512, 512)
+            Width and height (pixels).
+
+        Raises
+        ------
+        CameraError
+            For a scene of another kind, or vectors or a size that make no camera.
+        VolumeError
+            For an image that is no volume, such as one of several time points.
+        """
+        points = scene_points(scene)
         ahead = numbers(CameraError, "direction of the camera", direction, (3,))
         view = cls(np.zeros(3), ahead, numbers(CameraError, "up of the camera", up, (3,)), size)
-        return view._moved(_lumencut.fitted(view, scene_points(scene)))
+        return view._moved(_lumencut.fitted(view, points))
 
     @classmethod
-    def named(cls, name: str, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def named(cls, name: str, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view of this name, one of :data:`VIEWS`."""
         if not (isinstance(name, str) and name in VIEWS):
             raise CameraError("name of the view", repr(name), "one of " + ", ".join(VIEWS))
         return cls.fitted(scene, *VIEWS[name], size)
 
     @classmethod
-    def anterior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def anterior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from the front; the patient's left is on the right of the image."""
         return cls.named("anterior", scene, size)
 
     @classmethod
-    def posterior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def posterior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from behind."""
         return cls.named("posterior", scene, size)
 
     @classmethod
-    def left(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def left(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from the patient's left."""
         return cls.named("left", scene, size)
 
     @classmethod
-    def right(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def right(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from the patient's right."""
         return cls.named("right", scene, size)
 
     @classmethod
-    def superior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def superior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from above, the patient's front on top."""
         return cls.named("superior", scene, size)
 
     @classmethod
-    def inferior(cls, scene: VesselTree | Volume, size: tuple[int, int] = (512, 512)) -> Camera:
+    def inferior(cls, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
         """Return the fitted view from below, the patient's front on top, as axial slices are shown."""
         return cls.named("inferior", scene, size)
 
     def rotated(
-        self, angle: float, axis: Literal["up", "right", "direction"] | npt.ArrayLike = "up"
+        self,
+        angle: float | None = None,
+        axis: Literal["up", "right", "direction"] | npt.ArrayLike = "up",
+        *,
+        degrees: float | None = None,
     ) -> Camera:
         """Return the view turned about its center.
 
@@ -138,7 +168,19 @@ class Camera:
             Angle (radians), counterclockwise as seen against the axis.
         axis : {"up", "right", "direction"} or array_like of shape (3,), default "up"
             An axis of the view, or a vector in world space (LPS).
+        degrees : float
+            The angle in degrees, in the place of ``angle``.
+
+        Raises
+        ------
+        CameraError
+            For both angles or neither, one that is no number, or an axis that is no direction.
         """
+        if (angle is None) == (degrees is None):
+            found = "neither" if angle is None else "an angle in radians and one in degrees"
+            raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
+        if degrees is not None:
+            angle = math.radians(number(CameraError, "degrees of the rotation", degrees))
         angle = number(CameraError, "angle of the rotation", angle)
         about = checked_axis(axis, ("up", "right", "direction"))
         return self._moved(_lumencut.rotated(self, angle, about))
@@ -157,6 +199,40 @@ class Camera:
             raise CameraError("shift of the camera", f"{shift}", "finite distances in mm")
         return self._moved(_lumencut.panned(self, *shift))
 
+    def project(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return where world points are seen.
+
+        The inverse of ``Frame.position``: a point that a frame shows in row j and column i is projected to
+        (i, j) and the depth there.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3) or (3,)
+            World points (mm, LPS).
+
+        Returns
+        -------
+        numpy.ndarray, shape (n, 3)
+            For each point its column and its row (pixels, with fractions), and its depth (mm), which grows
+            away from the viewer and is 0 at the camera's center. The centre of the pixel in column i and row
+            j is at (i, j), the first one at (0, 0): the image reaches from -0.5 to its width and height less
+            0.5. Points beyond it are projected too.
+
+        Raises
+        ------
+        CameraError
+            For points of another shape, or that are no numbers.
+        """
+        try:
+            shape = (3,) if np.ndim(points) == 1 else (-1, 3)
+        except ValueError:  # lists of several lengths
+            shape = (-1, 3)
+        offset = numbers(CameraError, "points to project", points, shape).reshape(-1, 3) - self.center
+        width, height = self.size
+        column = offset @ self.right_axis / self.pixel_spacing + (width - 1) / 2
+        row = (height - 1) / 2 - offset @ self.up / self.pixel_spacing
+        return np.stack([column, row, offset @ self.direction], axis=1)
+
 
 def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float, float, float]:
     """Return what points upwards in a view along ``direction``, shape (3,).
@@ -167,9 +243,18 @@ def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float
     return (0.0, 0.0, 1.0) if across > 0.05 * abs(direction[2]) else (0.0, -1.0, 0.0)
 
 
-def scene_points(scene: VesselTree | Volume) -> npt.NDArray[np.float64]:
+def scene_points(scene: Scene) -> npt.NDArray[np.float64]:
     """Return the points (mm, LPS) that a view shows all of when it shows all of ``scene``, shape (n, 3)."""
-    return scene.points if isinstance(scene, VesselTree) else scene.corners
+    if isinstance(scene, VesselTree):
+        return scene.points
+    from lumencut.volume_files.memory import as_volume, is_image
+
+    if not is_image(scene):
+        found = (
+            f"a bare array of shape {scene.shape}" if isinstance(scene, np.ndarray) else type(scene).__name__
+        )
+        raise CameraError("scene of the view", found, "a VesselTree, a Volume or an image that render takes")
+    return as_volume(scene).corners
 
 
 def checked_axis(axis: Any, names: tuple[str, ...]) -> str | npt.NDArray[np.float64]:

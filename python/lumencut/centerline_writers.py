@@ -1,4 +1,4 @@
-"""Vessel trees as centerline files: VTK `.vtp` and 3D Slicer `.mrk.json`."""
+"""Vessel trees as centerline files: VTK `.vtp` and `.vtk`, 3D Slicer `.mrk.json`, tables and SWC."""
 
 from __future__ import annotations
 
@@ -9,26 +9,36 @@ from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.errors import FormatError, VesselTreeError
 from lumencut.vessel_tree import VesselTree
 
-_FORMATS = ("vtp", "mrk.json")
+_FORMATS = ("vtp", "mrk.json", "vtk", "csv", "swc")
 
 
 def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     """Write a tree as a centerline file (mm, LPS), which appears only once it is whole.
 
-    `read_centerlines` gives the same vessels back to the bit, in their order and direction and with their
-    names: the file is marked as vessels, so that none is joined to another.
+    Of ``.vtp`` and ``.mrk.json`` `read_centerlines` gives the same vessels back to the bit, in their order
+    and direction and with their names: the file is marked as vessels, so that none is joined to another.
+    The other formats are for other programs and hold less:
+
+    * ``.vtk`` (legacy): the same but for names, which VTK reads and `read_centerlines` does not.
+    * ``.csv``: a row per point with the columns ``line`` (the vessel's id), ``name``, ``l (mm)``, ``p (mm)``,
+      ``s (mm)`` and ``radius (mm)``; name and radius where any vessel has one. Unknown radii beside known
+      ones are 0. Names are not read back, and lines that meet are joined anew.
+    * ``.swc``: a node per point. Vessels that begin at a point of another one become its branches; there are
+      no names, and a reader has a branch from each forking to the next. Unknown radii are 0. The format
+      states no space: read it with ``coordinates="lps"``.
 
     Parameters
     ----------
     tree : VesselTree
         Neighbouring points of its vessels must differ.
     path : path-like
-        The ending names the format: ``.vtp`` (one polyline per vessel) or ``.mrk.json`` (one curve each).
+        The ending names the format: ``.vtp`` or ``.vtk`` (one polyline per vessel), ``.mrk.json`` (one curve
+        each), ``.csv`` or ``.swc``.
 
     Raises
     ------
     FormatError
-        For an ending that names neither format.
+        For an ending that names none of these formats.
     VesselTreeError
         For a tree with equal neighbouring points, or a name that the format cannot hold.
     FileError
@@ -39,7 +49,9 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     place = checked_path(path, WRITABLE)
     kind = next((kind for kind in _FORMATS if place.name.lower().endswith(f".{kind}")), None)
     if kind is None:
-        raise FormatError(str(place), f"the ending {place.suffix!r}", "'.vtp' or '.mrk.json'")
+        raise FormatError(
+            str(place), f"the ending {place.suffix!r}", "'.vtp', '.mrk.json', '.vtk', '.csv' or '.swc'"
+        )
     try:
         content = _lumencut.write_centerlines(
             [(vessel.points, vessel.radius, vessel.name) for vessel in tree], kind

@@ -6,13 +6,15 @@ import logging
 import os
 import warnings
 from dataclasses import dataclass
-from typing import cast
+from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 
 from lumencut import _lumencut
 from lumencut._files import checked_path
-from lumencut.errors import FileError, SpaceWarning
+from lumencut.errors import FileError, FormatError, SpaceWarning
+from lumencut.file_kinds import kind_of
 from lumencut.placement import (
     MILLIMETRES,
     Coordinates,
@@ -26,6 +28,8 @@ from lumencut.placement import (
 )
 from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
+from lumencut.volume_files.memory import as_volume
+from lumencut.vtk_lines import file_of, is_poly_data
 
 _log = logging.getLogger("lumencut")
 
@@ -76,8 +80,8 @@ class CenterlineFile:
 
     Parameters
     ----------
-    path : path
-        The file.
+    source : path or vtkPolyData
+        The file, or lines in memory.
 
     Raises
     ------
@@ -87,20 +91,29 @@ class CenterlineFile:
         Where its content is not what its format promises, or holds no centerline.
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
+    def __init__(self, source: str | os.PathLike[str] | Any) -> None:
         expected = "a readable centerline file"
-        self.path = checked_path(path, expected)
+        if is_poly_data(source):
+            self.path = Path("vtkPolyData")
+            self._content = _lumencut.CenterlineFile(file_of(source), self.path.name)
+            return
+        self.path = checked_path(source, expected)
         try:
             content = self.path.read_bytes()
         except OSError as error:
             raise FileError(str(self.path), error.strerror or str(error), expected) from error
+        kind = kind_of(self.path)
+        if kind is not None and (kind.mend or (kind.role == "volume" and not kind.is_dicom)):
+            mend = kind.mend if kind.role == "centerlines" else "read_volume reads volumes"
+            raise FormatError(str(self.path), kind.name, "a file of centerlines", mend)
         self._content = _lumencut.CenterlineFile(content, self.path.name)
 
     def placed(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Volume | None = None
+        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
     ) -> tuple[VesselTree, CenterlineReport]:
         """Give the vessels in world space and tell how they were read; parameters as `read_centerlines`."""
         check_choice(coordinates, unit)
+        volume = None if volume is None else as_volume(volume)
         content = self._content
         stated = Stated(
             cast(Coordinates | None, content.space),
@@ -119,7 +132,7 @@ class CenterlineFile:
         return tree, self._report(tree, stated, place, notes)
 
     def tree(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Volume | None = None
+        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
     ) -> VesselTree:
         """Give the vessels in world space, and say what was assumed or decided as `read_centerlines` does."""
         tree, report = self.placed(coordinates, unit, volume)
@@ -156,28 +169,30 @@ def _mostly_outside(tree: VesselTree, volume: Volume | None) -> bool:
 
 
 def read_centerlines(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Any,
     coordinates: Coordinates | None = None,
     *,
     unit: Unit | None = None,
-    volume: Volume | None = None,
+    volume: Any = None,
 ) -> VesselTree:
-    """Read a centerline file as vessels that meet at shared end points (mm, LPS).
+    """Read a centerline file, or lines of VTK in memory, as vessels that meet at shared end points (mm, LPS).
 
     Lines that repeat a trunk are joined. Coordinates in RAS get x and y negated.
 
     Parameters
     ----------
-    path : path
+    path : path or vtkPolyData
         VTK `.vtp` or legacy `.vtk`, 3D Slicer `.mrk.json` or `.fcsv`, SimVascular `.pth`, SWC, ITK `.tre`,
-        a Rotterdam reference, a text table (`.csv`, `.txt`) or NumPy `.npy`.
+        a Rotterdam reference, a text table (`.csv`, `.txt`) or NumPy `.npy`. Poly data is read
+        as its `.vtp` file would be: its lines, with their array ``MaximumInscribedSphereRadius`` or
+        ``Radius`` of points, their names and the space that its field data states.
     coordinates : "lps" or "ras", optional
         The space of the file's coordinates. By default the one that the file states, else the one that fits
         the volume, else LPS.
     unit : "um", "mm", "cm", "dm" or "m", optional
         The unit of the file's coordinates and radii. By default the one that the file states, else the one
         that fits the volume, else that of its format: cm for `.pth`, mm for all others.
-    volume : Volume, optional
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one, optional
         Where given, its extent decides what the file leaves open, and what the file states is compared with
         it.
 
@@ -188,6 +203,8 @@ def read_centerlines(
     FormatError
         Where its content is not what its format promises, or holds no centerline; where several spaces or
         units fit the volume, or none does.
+    VolumeError
+        For what is no volume.
 
     Warns
     -----
@@ -196,6 +213,7 @@ def read_centerlines(
         clearly worse than another space or unit, which is not repaired. The text names both counts.
         What else was assumed (without a volume) or decided is logged.
     """
+    volume = None if volume is None else as_volume(volume)
     file = CenterlineFile(path)
     tree = file.tree(coordinates, unit, volume)
     if volume is not None:
@@ -207,11 +225,11 @@ def read_centerlines(
 
 
 def inspect_centerlines(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Any,
     coordinates: Coordinates | None = None,
     *,
     unit: Unit | None = None,
-    volume: Volume | None = None,
+    volume: Any = None,
 ) -> CenterlineReport:
     """Tell how `read_centerlines` reads a file, with the same parameters and errors."""
     return CenterlineFile(path).placed(coordinates, unit, volume)[1]

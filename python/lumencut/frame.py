@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, replace_whole
+from lumencut._values import KeepsReadOnly
 from lumencut.camera import Camera
 from lumencut.errors import FormatError, VolumeError
 
@@ -27,7 +29,7 @@ _IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Frame:
+class Frame(KeepsReadOnly):
     """The images of one view, each (H, W) from the top row down.
 
     Asking for an image that the view does not have raises a ``VolumeError`` that says why: a cut surface
@@ -106,16 +108,20 @@ class Frame:
         depth = np.ascontiguousarray(self._present("position", self._depth), np.float32)
         return _lumencut.positions(self.camera, depth)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
         """Return what is copied or pickled: all images, computed by now."""
         if self.has("distance"):
             _ = self.distance
-        return vars(self)
+        return super().__getstate__()
 
     def __repr__(self) -> str:
         """Return the size and the names of the images."""
         width, height = self.camera.size
         return f"Frame({width} × {height} pixels: {', '.join(name for name in _IMAGES if self.has(name))})"
+
+    def _repr_png_(self) -> bytes | None:
+        """Return the picture as Jupyter shows it, None for a frame without one."""
+        return picture_as_png(self.image) if self.has("image") else None
 
     def has(self, name: str) -> bool:
         """Tell whether the view has the image of this name, such as ``"depth"`` or ``"context"``."""
@@ -164,6 +170,15 @@ class Frame:
         arrays: dict[str, Any] = {name: getattr(self, name) for name in _IMAGES if self.has(name)}
         with path.open("wb") as file:
             np.savez_compressed(file, **arrays)
+
+
+def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:
+    """Return an RGBA picture as the content of a PNG file."""
+    from PIL import Image
+
+    content = io.BytesIO()
+    Image.fromarray(image).save(content, format="PNG")
+    return content.getvalue()
 
 
 def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:

@@ -34,7 +34,7 @@ class Renderer:
 
     Parameters
     ----------
-    volume : Volume, or an image of SimpleITK, itk, nibabel or vtk, or None
+    volume : Volume, an image of SimpleITK, itk, nibabel or vtk, datasets of pydicom, or None
         The angiography; without it only :meth:`cut_surface` works.
     tree : VesselTree or None
         Its centerlines; without them :meth:`render` shows the context alone, all of the volume.
@@ -58,7 +58,11 @@ class Renderer:
     ) -> None:
         _check_kind(tree)
         choice(SettingsError, "device", device, ("auto", "cpu", "gpu"))
-        self._set_scene(None if volume is None else as_volume(volume), tree)
+        if volume is not None:
+            from lumencut.volume_files.memory import as_volume
+
+            volume = as_volume(volume)
+        self._set_scene(volume, tree)
         if device != "cpu":
             look_for_no_display()
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
@@ -95,6 +99,9 @@ class Renderer:
             vars(other)["_window"] = self._window
             vars(other).update({name: vars(self)[name] for name in ("_whole_window",) if name in vars(self)})
         return other
+
+    def __repr__(self) -> str:
+        return f"Renderer({self._volume!r}, {self._tree!r}, on {self.device!r})"
 
     @property
     def volume(self) -> Volume | None:
@@ -260,7 +267,7 @@ def render(
 
     Parameters
     ----------
-    volume : Volume, or an image of SimpleITK, itk, nibabel or vtk
+    volume : Volume, an image of SimpleITK, itk, nibabel or vtk, or datasets of pydicom
         The angiography.
     tree : VesselTree, optional
         Its centerlines; the context alone is shown where not given.
@@ -276,15 +283,6 @@ def _check_kind(tree: Any) -> None:
     if not isinstance(tree, (VesselTree, type(None))):
         expected = "a VesselTree, such as read_centerlines returns, or None"
         raise VesselTreeError("tree", type(tree).__name__, expected)
-
-
-def as_volume(image: Any) -> Volume:
-    """Return ``image`` as a volume; see :func:`lumencut.volume_files.memory.as_volume`."""
-    if isinstance(image, Volume):
-        return image
-    from lumencut.volume_files.memory import as_volume as from_memory
-
-    return from_memory(image)
 
 
 def _check_meeting(volume: Volume, tree: VesselTree) -> None:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import Any, SupportsIndex, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
+from lumencut._values import Value, content_of
+from lumencut._wording import listed
 from lumencut.errors import SettingsError, VesselTreeError
 
 
-class Vessel:
-    """One unbranched centerline.
+class Vessel(Value):
+    """One unbranched centerline; vessels with the same points, radii and name are equal.
 
     Parameters
     ----------
@@ -61,6 +63,9 @@ class Vessel:
         """Arc length (mm)."""
         return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
 
+    def _content(self) -> tuple[Any, ...]:
+        return content_of(self._points), content_of(self._radius), self._name
+
     def __len__(self) -> int:
         return len(self._points)
 
@@ -69,10 +74,17 @@ class Vessel:
         return f"Vessel({name}{len(self)} points, {self.length:.1f} mm)"
 
 
-class VesselTree:
+class _VesselNameError(VesselTreeError, KeyError):
+    """A name that no vessel of a tree has, or several have."""
+
+
+class VesselTree(Value):
     """A set of vessels that may share end points; a vessel's index is its id.
 
-    Forests, cycles and loose pieces are legal.
+    Forests, cycles and loose pieces are legal. Trees of equal vessels in the same order are equal.
+    ``tree[2]`` is the vessel with the id 2, ``tree["LAD"]`` the one with that name. Names need not be unique:
+    one that several vessels have is a ``VesselTreeError`` that gives their ids, as is one that no vessel has;
+    it is a ``KeyError`` too. ``"LAD" in tree`` tells whether any vessel has the name.
 
     Parameters
     ----------
@@ -169,8 +181,30 @@ class VesselTree:
     def __len__(self) -> int:
         return len(self._vessels)
 
-    def __getitem__(self, vessel_id: int) -> Vessel:
-        return self._vessels[vessel_id]
+    def _content(self) -> tuple[Any, ...]:
+        return self._vessels
+
+    @overload
+    def __getitem__(self, vessel_id: SupportsIndex | str) -> Vessel: ...
+    @overload
+    def __getitem__(self, vessel_id: slice) -> tuple[Vessel, ...]: ...
+    def __getitem__(self, vessel_id: SupportsIndex | str | slice) -> Vessel | tuple[Vessel, ...]:
+        if not isinstance(vessel_id, str):
+            return self._vessels[vessel_id]
+        meant = [index for index, vessel in enumerate(self._vessels) if vessel.name == vessel_id]
+        if len(meant) == 1:
+            return self._vessels[meant[0]]
+        names = list(dict.fromkeys(repr(vessel.name) for vessel in self._vessels if vessel.name is not None))
+        if meant:
+            found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
+            raise _VesselNameError(f"vessel {vessel_id!r}", found, "one vessel", "take it by its id")
+        expected = f"one of {listed(names)}" if names else "an id: no vessel of the tree has a name"
+        raise _VesselNameError(f"vessel {vessel_id!r}", "no vessel of this name", expected)
+
+    def __contains__(self, vessel: object) -> bool:
+        if isinstance(vessel, str):
+            return any(vessel == one.name for one in self._vessels)
+        return vessel in self._vessels
 
     def __iter__(self) -> Iterator[Vessel]:
         return iter(self._vessels)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._values import KeepsReadOnly
 from lumencut.errors import VolumeError
 
 _UNIT_SPACING = (1.0, 1.0, 1.0)
@@ -15,7 +16,7 @@ _UNIT_TOLERANCE = 1e-3
 _FARTHEST = 1e9
 
 
-class Volume:
+class Volume(KeepsReadOnly):
     """Voxels of any integer or float type on any invertible affine grid, shared with the caller's array.
 
     Parameters
@@ -62,6 +63,24 @@ class Volume:
     def array(self) -> npt.NDArray[Any]:
         """The voxels, shape (nk, nj, ni)."""
         return self._array
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Shape of the array (nk, nj, ni), as NumPy has it; :attr:`size` has the order i, j, k."""
+        ni, nj, nk = self.size
+        return nk, nj, ni
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the voxels."""
+        return self._array.dtype
+
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        """Return the voxels, shape (nk, nj, ni): themselves, unless another type or a copy is asked for."""
+        wanted = self._array.dtype if dtype is None else np.dtype(dtype)
+        if copy is False and wanted != self._array.dtype:
+            raise ValueError(f"a copy is needed for voxels of type {self._array.dtype} as {wanted}")
+        return self._array.astype(wanted, copy=bool(copy))
 
     @property
     def world_from_index(self) -> npt.NDArray[np.float64]:
@@ -192,6 +211,9 @@ def _checked_affine(world_from_index: npt.ArrayLike, shape: tuple[int, ...]) -> 
 
 
 def _checked_voxels(array: npt.ArrayLike) -> npt.NDArray[Any]:
+    if isinstance(array, Volume):
+        mend = "give its array, or take it as it is"
+        raise VolumeError("array of the volume", "a Volume, which has a grid", "voxels alone", mend)
     if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
         mend = "give array.filled(value)"
         raise VolumeError("array of the volume", "masked voxels", "a value in every voxel", mend)

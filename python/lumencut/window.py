@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lumencut import _lumencut
 from lumencut._checks import number
@@ -11,7 +11,6 @@ from lumencut.errors import SettingsError, VesselTreeError
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
 
 
 @dataclass(frozen=True)
@@ -27,7 +26,7 @@ class Window:
         _lumencut.check_window(self.level, self.width)
 
     @classmethod
-    def from_data(cls, volume: Volume, tree: VesselTree | None = None) -> Window:
+    def from_data(cls, volume: Any, tree: VesselTree | None = None) -> Window:
         """Return a window that shows lumen as middle grey, tissue darker, calcifications and stents brighter.
 
         The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
@@ -36,6 +35,13 @@ class Window:
         Without a tree the 99th percentile of the volume stands for the lumen, and for the tissue the median
         of the voxels above a quarter of the way to it from the 1st percentile; of at most about a million
         voxels, evenly spread.
+
+        Parameters
+        ----------
+        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+            The angiography.
+        tree : VesselTree, optional
+            Its centerlines.
 
         Raises
         ------
@@ -53,8 +59,13 @@ class Window:
         return cls(*_lumencut.window_from_data(as_volume(volume), vessels))
 
     @classmethod
-    def whole(cls, volume: Volume) -> Window:
+    def whole(cls, volume: Any) -> Window:
         """Return a window that shows air to lumen: from the 1st percentile of the volume to the 99th.
+
+        Parameters
+        ----------
+        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+            The angiography.
 
         Raises
         ------

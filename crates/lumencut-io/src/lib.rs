@@ -57,7 +57,7 @@ mod tests;
 pub use centerlines::{Centerlines, Line, Space};
 pub use error::{Error, Result};
 pub use unit::Unit;
-pub use write::{write_mrk_json, write_vtp};
+pub use write::{write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
 
 use kind::Kind;
 

@@ -1,9 +1,10 @@
 //! Legacy VTK poly data (`.vtk`), versions 1.0 to 5.1, ascii and binary.
 
-use crate::centerlines::Centerlines;
+use crate::centerlines::{Centerlines, JOINED_MARK};
 use crate::data_array::{NumberType, index};
 use crate::error::{Error, Result, excerpt};
 use crate::poly_data::{self, Array, PolyData};
+use crate::unit::Unit;
 use crate::vtk_cursor::{Cursor, ValueType};
 
 /// The centerlines of a legacy `.vtk` file.
@@ -21,13 +22,19 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         _ => return Err(Error::new("line 3", excerpt(&encoding), "'ASCII' or 'BINARY'")),
     };
     let mut out = Centerlines { space: space_of_title(&title), ..Centerlines::of("legacy VTK") };
+    if title.contains(JOINED_MARK) {
+        // Our own files: vessels already, in mm.
+        out.joined = true;
+        out.unit = Some(Unit::Millimetre);
+    }
     let mut sections = Sections { cursor, data: PolyData::default(), at: At::File, space: None };
     while let Some(keyword) = sections.cursor.next_word() {
         sections.section(&keyword.to_ascii_uppercase())?;
     }
     out.space = out.space.or(sections.space);
     sections.data.into_centerlines(&mut out)?;
-    out.without_zero_radii().tidy()
+    // What this crate wrote comes back as it was.
+    if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
 /// 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the title.

@@ -1,6 +1,6 @@
 //! Centerline files for `lumencut.centerline_writers`.
 
-use lumencut::centerlines::{Line, write_mrk_json, write_vtp};
+use lumencut::centerlines::{Line, write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -11,7 +11,7 @@ use crate::tree::points_of;
 /// Points (n, 3), radii (n,) and name of one vessel.
 type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>, Option<String>);
 
-/// The content of a file of vessels in mm, LPS; `kind` is `"vtp"` or `"mrk.json"`.
+/// The content of a file of vessels in mm, LPS; `kind` is the ending of its name.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn write_centerlines<'py>(
@@ -22,7 +22,10 @@ pub fn write_centerlines<'py>(
     let write = match kind {
         "vtp" => write_vtp,
         "mrk.json" => write_mrk_json,
-        _ => return Err(exception("FormatError", "format", kind, "vtp or mrk.json", "")),
+        "vtk" => write_vtk,
+        "csv" => write_csv,
+        "swc" => write_swc,
+        _ => return Err(exception("FormatError", "format", kind, "vtp, mrk.json, vtk, csv or swc", "")),
     };
     let lines = vessels.into_iter().map(line).collect::<PyResult<Vec<_>>>()?;
     let written = py.detach(|| write(&lines));

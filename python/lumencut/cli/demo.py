@@ -85,7 +85,7 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
 
 def _spin(renderer: Renderer, path: Path) -> None:
     from lumencut.camera import Camera
-    from lumencut.turntable import fitted_turn, save_animation, turntable
+    from lumencut.turntables import fitted_turn, save_animation, turntable
 
     camera = fitted_turn(Camera.anterior(renderer.scene, _TURN_SIZE), renderer.scene)
     with bar("turntable", "frame") as told:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 import click
 
 from lumencut.cli import options
+from lumencut.cli.mistakes import check_files, check_measured, check_reading
 from lumencut.cli.parameters import SIZE
 from lumencut.cli.report import bar, say, verbose_option
 from lumencut.cli.scene import SceneFiles, read_files, scene_from
@@ -77,7 +78,9 @@ def evaluate(
     names = _checked_methods(chosen["methods"])
     scene = _scene(files, chosen)
     _check_outputs(scene, csv, markdown, pictures)
-    volume, tree = read_files(scene)
+    if pictures is None:
+        check_measured(chosen)
+    volume, tree = read_files(scene, chosen)
 
     from lumencut.evaluation import evaluate as library
 
@@ -103,10 +106,8 @@ def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
         raise click.UsageError(f"found {len(files)} files; expected [VOLUME] CENTERLINES")
     volume = files[0] if len(files) == 2 else None
     scene = scene_from({**chosen, "volume": volume, "centerlines": files[-1]})
-    if volume is None:
-        for name in ("series", "phase", "fill_gaps"):
-            if getattr(scene, name):
-                raise click.UsageError(f"--{name.replace('_', '-')} without VOLUME; it says how one is read")
+    check_files(volume, scene.centerlines)
+    check_reading(chosen, [] if volume is None else [volume], has_centerlines=True)
     return scene
 
 

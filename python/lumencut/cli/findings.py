@@ -6,15 +6,15 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from lumencut.cli.compare import best
 from lumencut.cli.report import bar, one_line
-from lumencut.errors import FormatError, SeriesError
+from lumencut.errors import SeriesError
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
     from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
 
 #: Who decided on a space or unit.
 _ORIGINS = {
@@ -75,15 +75,12 @@ def of_centerlines(
     unit: Literal["um", "mm", "cm", "dm", "m"] | None,
     volumes: list[dict[str, Any]],
 ) -> dict[str, Any]:
-    """Look into a centerline file; the first volume decides what it leaves open."""
+    """Look into a centerline file; the volume that it fits best decides what it leaves open."""
     from lumencut.centerlines import CenterlineFile
 
-    file, undecided = CenterlineFile(path), []
-    try:
-        tree, report = file.placed(coordinates, unit, _grid(volumes[0]) if volumes else None)
-    except FormatError as error:
-        tree, report = file.placed(coordinates, unit)
-        undecided = [one_line(f"{error.found}; {error.mend}")]
+    file = CenterlineFile(path)
+    place = best(file, coordinates, unit, volumes)
+    tree, report = place.tree, place.report
     lengths, radii = [vessel.length for vessel in tree], [vessel.radius for vessel in tree]
     known = [float(value) for radius in radii if radius is not None for value in (radius.min(), radius.max())]
     degrees = _ends(tree)
@@ -103,8 +100,9 @@ def of_centerlines(
         "unit": f"{report.unit} ({_ORIGINS[report.unit_from]})",
         "bounds_mm": tree.bounds.round(3).tolist(),
         "largest_shift": _largest_shift(tree),
-        "decisions": [one_line(report.decision)] if report.decision else [],
-        "notes": [*undecided, *report.notes, *_odd_tree(tree)],
+        "judged_by": place.judge,
+        "decisions": [one_line(text) for text in (place.choice, report.decision) if text],
+        "notes": [*place.undecided, *report.notes, *_odd_tree(tree)],
         "_tree": tree,
     }
 
@@ -119,40 +117,6 @@ def of_devices() -> dict[str, Any]:
     software = "software: it computes only with --device gpu"
     found = [asdict(device) | {"notes": [software] if device.is_software else []} for device in devices()]
     return {"devices": found, "auto": _lumencut.Renderer(None, "auto").device}
-
-
-def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Compare a tree with volumes; those that have nothing to do with it only count if it fits none."""
-    pairs = [_pair(lines, volume) for volume in volumes]
-    return [pair for pair in pairs if pair["inside"] or pair["inside_with_x_and_y_negated"]] or pairs
-
-
-def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
-    """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
-    from lumencut.placement import check_space_once
-
-    tree, grid = lines["_tree"], _grid(volume)
-    points = tree.points
-    inside, flipped = (int(grid.contains(points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
-    check_space_once(tree, grid, Path(lines["file"]).name)
-    return {
-        "volume": volume["file"],
-        "centerlines": lines["file"],
-        "points": len(points),
-        "inside": inside,
-        "inside_with_x_and_y_negated": flipped,
-        "notes": ["no point lies inside the volume"] if inside == 0 else [],
-    }
-
-
-def _grid(volume: dict[str, Any]) -> Volume:
-    """The grid of a volume; memory that nobody touches costs nothing."""
-    import numpy as np
-
-    from lumencut.volume import Volume
-
-    report = volume["_report"]
-    return Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
 
 
 def orientation(affine: npt.NDArray[np.float64]) -> str:

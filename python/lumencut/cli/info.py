@@ -8,11 +8,13 @@ from typing import Any, Literal
 
 import click
 
-from lumencut.cli import findings
+from lumencut.cli import compare, findings
+from lumencut.cli.mistakes import check_reading
 from lumencut.cli.options import (
     coordinates_option,
     fill_gaps_option,
     phase_option,
+    resample_slices_option,
     series_option,
     unit_option,
 )
@@ -33,6 +35,7 @@ _ONLY_IN_JSON |= {"kind", "error"}
 @series_option
 @phase_option
 @fill_gaps_option
+@resample_slices_option
 @click.option(
     "--devices", "with_devices", is_flag=True, help="List the GPUs of this machine; FILE may be left out."
 )
@@ -45,6 +48,7 @@ def info(
     series: str | None,
     phase: str | None,
     fill_gaps: bool,
+    resample_slices: bool,
     with_devices: bool,
     as_json: bool,
 ) -> None:
@@ -57,6 +61,7 @@ def info(
     """
     if not (files or with_devices):
         raise click.UsageError("Missing argument 'FILE…'.")
+    _check(click.get_current_context().params, files)
     gpus = findings.of_devices() if with_devices else None
     found: dict[Path, dict[str, Any]] = {}
     # The volumes first: they help to understand the centerlines.
@@ -66,7 +71,9 @@ def info(
             if _holds_centerlines(path):
                 found[path] = findings.of_centerlines(path, coordinates, unit, volumes)
             else:
-                found[path] = findings.of_volume(path, series=series, phase=phase, fill_gaps=fill_gaps)
+                found[path] = findings.of_volume(
+                    path, series=series, phase=phase, fill_gaps=fill_gaps, resample_slices=resample_slices
+                )
         except SeriesError as error:
             found[path] = findings.of_series(path, error)
             if series is not None:
@@ -78,14 +85,23 @@ def info(
     every = [found[path] for path in files]
     volumes = [one for one in every if one["kind"] == "volume"]
     trees = [one for one in every if one["kind"] == "centerlines"]
-    compared = [pair for tree in trees for pair in findings.compared(tree, volumes)]
+    compared = [pair for tree in trees for pair in compare.compared(tree, volumes)]
     say(_as_json(gpus, every, compared) if as_json else _as_text(gpus, every, compared))
     if any("error" in one for one in every):
         click.get_current_context().exit(FAILED)
 
 
+def _check(chosen: dict[str, Any], files: tuple[Path, ...]) -> None:
+    """Refuse options that say how files are read of which there is none."""
+    volumes = [path for path in files if not _holds_centerlines(path)]
+    check_reading(chosen, volumes, has_centerlines=len(volumes) < len(files))
+
+
 def _holds_centerlines(path: Path) -> bool:
-    return path.name.lower().endswith(_CENTERLINE_ENDINGS)
+    from lumencut.file_kinds import kind_of
+
+    kind = kind_of(path)
+    return path.name.lower().endswith(_CENTERLINE_ENDINGS) if kind is None else kind.role == "centerlines"
 
 
 def _as_json(gpus: dict[str, Any] | None, found: list[dict[str, Any]], compared: list[dict[str, Any]]) -> str:
@@ -116,10 +132,17 @@ def _block(one: dict[str, Any]) -> str:
     lines = [
         f"  {key.replace('_', ' '):<{width}}  {line}"
         for key, value in shown.items()
-        for line in _lines(value)
+        for line in (_lines(value) if key != "filled_slices" else [_ranges(value)])
     ]
     decisions = [f"  > {decision}" for decision in one.get("decisions", [])]
     return "\n".join([title, *lines, *decisions, *(f"  ! {note}" for note in one["notes"])])
+
+
+def _ranges(numbers: list[int]) -> str:
+    """Whole numbers that rise, as ranges where they follow each other."""
+    starts = [n for n, number in enumerate(numbers) if n == 0 or number != numbers[n - 1] + 1]
+    parts = [numbers[a:b] for a, b in zip(starts, [*starts[1:], len(numbers)], strict=True)]
+    return ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]} to {part[-1]}" for part in parts)
 
 
 def _lines(value: Any) -> list[str]:

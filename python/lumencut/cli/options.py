@@ -55,6 +55,15 @@ fill_gaps_option = click.option(
 )
 
 
+#: What becomes of a DICOM series whose slices lie at uneven distances.
+resample_slices_option = click.option(
+    "--resample-slices",
+    is_flag=True,
+    help="Put DICOM slices of uneven distances on a regular grid, linearly between neighbours, instead of "
+    "refusing the series.",
+)
+
+
 #: How the coordinates of centerline files are to be understood.
 coordinates_option = click.option(
     "--coordinates",
@@ -98,6 +107,7 @@ def reading_options(command: Command) -> Command:
         series_option,
         phase_option,
         fill_gaps_option,
+        resample_slices_option,
         device_option,
     )
     return added(parts, command)

@@ -46,10 +46,10 @@ def render(
     """  # noqa: D301 - click needs the control character itself
     settings, view = settings_from(chosen), options.view_from(chosen)
     files = scene_from(chosen)
-    check_scene(files, settings)
+    check_scene(files, chosen, settings)
     for path in output:
         options.check_picture(path)
-    renderer = read_scene(files)
+    renderer = read_scene(files, chosen)
     frame = renderer.render(options.placed(view, renderer.scene, chosen), settings)
     timings("rendered", frame.timings)
     detail(f"device: {renderer.device}")

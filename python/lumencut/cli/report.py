@@ -108,7 +108,7 @@ def one_line(text: object) -> str:
     line = "".join(letter if letter.isprintable() else "�" for letter in " ".join(str(text).split()))
     # The library names its arguments; here they are options.
     line = line.replace("as `series`", "as --series NUMBER|UID").replace("as `phase`", "as --phase VALUE")
-    line = line.replace("fill_gaps=True", "--fill-gaps")
+    line = line.replace("fill_gaps=True", "--fill-gaps").replace("resample_slices=True", "--resample-slices")
     line = re.sub(r'(coordinates|unit)="(\w+)"', r"--\1 \2", line)
     return re.sub(r'(--coordinates (?:lps|ras)),? or "(\w+)"', r"\1 or --coordinates \2", line)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from lumencut.cli.mistakes import check_files, check_options, check_radii, check_reading
 from lumencut.cli.options import described
 from lumencut.cli.report import bar, detail, warn
 
@@ -35,6 +36,7 @@ class SceneFiles:
     series: str | None
     phase: str | None
     fill_gaps: bool
+    resample_slices: bool
     device: Literal["auto", "cpu", "gpu"]
 
 
@@ -43,24 +45,27 @@ def scene_from(chosen: dict[str, Any]) -> SceneFiles:
     return SceneFiles(**{field.name: chosen[field.name] for field in fields(SceneFiles)})
 
 
-def check_scene(files: SceneFiles, settings: Settings) -> None:
-    """Refuse what cannot be shown without centerlines before any file is read."""
-    for name in ("coordinates", "unit"):
-        if files.centerlines is None and getattr(files, name) is not None:
-            raise click.UsageError(f"--{name} without CENTERLINES; give the file that they are the {name} of")
-    if files.centerlines is None and settings.context is None:
+def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -> None:
+    """Refuse what a user cannot mean before any file is read."""
+    has_centerlines = files.centerlines is not None
+    check_files(files.volume, files.centerlines)
+    volumes = [] if files.volume is None else [files.volume]
+    check_reading(chosen, volumes, has_centerlines=has_centerlines)
+    check_options(chosen, settings, has_centerlines=has_centerlines)
+    if settings.context is None and not has_centerlines:
         raise click.UsageError("--context none without CENTERLINES shows nothing; give one of them")
 
 
-def read_scene(files: SceneFiles) -> Renderer:
-    """Return a renderer of the files."""
+def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> Renderer:
+    """Return a renderer of the files; options that do nothing with them are refused."""
     from lumencut.renderer import Renderer
 
+    voxels, tree = read_files(files, chosen)
     # The renderer compares the tree with the volume and warns where the space looks wrong.
-    return Renderer(*read_files(files), files.device)
+    return Renderer(voxels, tree, files.device)
 
 
-def read_files(files: SceneFiles) -> tuple[Volume | None, VesselTree | None]:
+def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None, VesselTree | None]:
     """Return the volume and the vessel tree of the files, each None where its file is."""
     from lumencut.centerlines import CenterlineFile
 
@@ -69,6 +74,7 @@ def read_files(files: SceneFiles) -> tuple[Volume | None, VesselTree | None]:
     lines = None if files.centerlines is None else CenterlineFile(files.centerlines)
     voxels = None if files.volume is None else _read_volume(files.volume, files)
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
+    check_radii(chosen, tree)
     if tree is not None:
         detail(f"{files.centerlines}: {tree!r}")
     detail(f"read in {time.perf_counter() - start:.2f} s")
@@ -84,6 +90,7 @@ def _read_volume(path: Path, files: SceneFiles) -> Volume:
             series=files.series,
             phase=files.phase,
             fill_gaps=files.fill_gaps,
+            resample_slices=files.resample_slices,
             progress=told,
         )
     detail(f"{path}: {voxels!r}")

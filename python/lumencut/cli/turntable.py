@@ -75,16 +75,17 @@ def turntable(
     """  # noqa: D301 - click needs the control character itself
     if fps is not None and seconds is not None:
         raise click.UsageError("--fps and --seconds exclude each other")
+    is_timed = fps is not None or seconds is not None
     fps = fps or (frames / seconds if seconds else 12.0)
     degrees, axis = chosen["degrees"], chosen["axis"]
     settings, view = settings_from(chosen), options.view_from(chosen)
     files = scene_from(chosen)
-    check_scene(files, settings)
-    write = _checked_writer(output, fps)
+    check_scene(files, chosen, settings)
+    write = _checked_writer(output, fps, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
-    renderer = read_scene(files)
+    renderer = read_scene(files, chosen)
 
-    from lumencut import turntable as library
+    from lumencut import turntables as library
 
     camera = options.placed_like(library.fitted_turn(view, renderer.scene, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
@@ -110,7 +111,7 @@ def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[
 
 def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
     """Refuse a turn that cannot be made before any file is read."""
-    from lumencut.turntable import frame_angles
+    from lumencut.turntables import frame_angles
 
     try:
         frame_angles(frames, degrees)
@@ -119,13 +120,16 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
         raise click.UsageError(str(error)) from error
 
 
-def _checked_writer(output: str, fps: float) -> Writer:
+def _checked_writer(output: str, fps: float, *, is_timed: bool) -> Writer:
     """Refuse an output that cannot be written before any file is read."""
-    from lumencut.animation import checked_fps, writer_for
+    from lumencut.animation import checked_fps, is_sequence, writer_for
 
     try:
         checked_fps(fps)
         write = writer_for(output)
+        if is_timed and is_sequence(output):
+            found = f"--fps and --seconds do nothing with one picture per frame ({output})"
+            raise click.UsageError(f"{found}; leave them out, or name a moving file such as .webp")
     except (FormatError, SettingsError) as error:
         raise click.UsageError(str(error)) from error
     options.check_folder(Path(output))

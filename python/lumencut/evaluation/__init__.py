@@ -48,7 +48,7 @@ def evaluate(
 
     Parameters
     ----------
-    volume : Volume, or an image of SimpleITK, itk, nibabel or vtk, or None
+    volume : Volume, an image of SimpleITK, itk, nibabel or vtk, datasets of pydicom, or None
         The angiography; without it there are neither surroundings nor pictures.
     tree : VesselTree
         Its centerlines.

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError
+from lumencut.file_kinds import kind_of
 from lumencut.series_report import SeriesReport
 from lumencut.volume import Volume
 from lumencut.volume_files.dicom import (
@@ -87,9 +88,10 @@ def read_volume(
     series: str | int | None = None,
     phase: str | float | None = None,
     fill_gaps: bool = False,
+    resample_slices: bool = False,
     progress: Progress | None = None,
 ) -> Volume:
-    """Read a volume; nothing is resampled, shear and flips are kept.
+    """Read a volume; nothing is resampled unless asked for, shear and flips are kept.
 
     Parameters
     ----------
@@ -104,13 +106,19 @@ def read_volume(
     fill_gaps : bool, default False
         Interpolate missing DICOM slices linearly between their neighbours instead of refusing the series;
         `Volume.filled_slices` tells which.
+    resample_slices : bool, default False
+        Put a DICOM series of uneven slice distances on a regular grid, linearly between neighbouring slices,
+        instead of refusing it. The grid has the largest distance of which all distances are multiples, where
+        that makes at most four times as many slices as there are; else the smallest distance, or what makes
+        four times as many. `Volume.filled_slices` tells which slices are interpolated.
     progress : callable, optional
         Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
     Returns
     -------
     Volume
-        The voxels on their grid in world space (mm, LPS). What was assumed is logged as a warning.
+        The voxels on their grid in world space (mm, LPS), integers wherever scaling leaves them exact, else
+        float32 (float64 where they are stored so). What was assumed is logged as a warning.
 
     Raises
     ------
@@ -122,12 +130,14 @@ def read_volume(
         For a file that is missing or cannot be read.
     """
     told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps), told)
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
     volume = file.volume(told)
     if file.format != "DICOM":
         told(volume.size[2], volume.size[2])
     for note in file.notes:
         _log.warning("%s: %s", file.path, note)
+    for remark in file.remarks:
+        _log.info("%s: %s", file.path, remark)
     return volume
 
 
@@ -137,6 +147,7 @@ def inspect_volume(
     series: str | int | None = None,
     phase: str | float | None = None,
     fill_gaps: bool = False,
+    resample_slices: bool = False,
     values: bool = True,
     progress: Progress | None = None,
 ) -> VolumeReport:
@@ -148,7 +159,7 @@ def inspect_volume(
         A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
     series : str or int, optional
         Number or UID of the DICOM series where a folder holds several.
-    phase, fill_gaps
+    phase, fill_gaps, resample_slices
         As for `read_volume`.
     values : bool, default True
         Read the voxels too, for their range and soundness; False reads headers only.
@@ -161,7 +172,7 @@ def inspect_volume(
         Format, grid, values and oddities.
     """
     told = progress if progress is not None else _untold
-    file = _open(path, _wanted(series, phase, fill_gaps=fill_gaps), told)
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
     dtype, value_range = file.dtype.newbyteorder("="), None
     if values:
         array = file.volume(told).array
@@ -178,7 +189,7 @@ def inspect_volume(
         value_range=value_range,
         details=file.details,
         filled_slices=file.filled,
-        notes=tuple(file.notes),
+        notes=(*file.notes, *file.remarks),
     )
 
 
@@ -218,8 +229,8 @@ def _existing(given: str | os.PathLike[str]) -> Path:
     return path
 
 
-def _wanted(series: object, phase: object, *, fill_gaps: bool) -> Wanted:
-    return Wanted(None if series is None else str(series), None if phase is None else str(phase), fill_gaps)
+def _wanted(series: object, phase: object, *mended: bool) -> Wanted:
+    return Wanted(None if series is None else str(series), None if phase is None else str(phase), *mended)
 
 
 def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
@@ -230,6 +241,8 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
         if path.is_dir() or _is_archive(path):
             return open_dicom(path, wanted, told).checked()
         head = head_bytes(path, 352)
+        if not head:
+            raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
         if head.startswith(b"NRRD"):
             file = open_nrrd(path)
         elif is_dicom(head):
@@ -239,9 +252,17 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
         elif nifti_kind(head) is not None or _has_nifti_name(path):
             file = open_nifti(path)
         else:
-            raise FormatError(str(path), "a file of no known format", _KNOWN)
+            raise _unknown(path)
     file.notes.extend(note for note in notes if note not in file.notes)
     return file.checked()
+
+
+def _unknown(path: Path) -> FormatError:
+    kind = kind_of(path)
+    if kind is None:
+        return FormatError(str(path), "a file of no known format", _KNOWN)
+    mend = "read_centerlines reads centerlines" if kind.role == "centerlines" and not kind.mend else kind.mend
+    return FormatError(str(path), kind.name, _KNOWN, mend)
 
 
 def _is_archive(path: Path) -> bool:

@@ -6,6 +6,7 @@ An image only exists where its package is loaded: whatever is needed from it is 
 from __future__ import annotations
 
 import importlib
+import logging
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -13,10 +14,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.errors import VolumeError
+from lumencut.errors import FormatError, SeriesError, VolumeError
 from lumencut.volume import Volume
 
-_ACCEPTED = "a lumencut.Volume, SimpleITK, itk, nibabel or vtkImageData image"
+_log = logging.getLogger("lumencut")
+_ACCEPTED = "a lumencut.Volume, SimpleITK, itk, nibabel or vtkImageData image, or datasets of pydicom"
 
 
 def as_volume(image: Any) -> Volume:
@@ -24,8 +26,9 @@ def as_volume(image: Any) -> Volume:
 
     Parameters
     ----------
-    image : Volume, SimpleITK.Image, itk.Image, nibabel image or vtkImageData
-        A 3-dimensional image of one number per voxel, oblique or flipped as it may be.
+    image : Volume, SimpleITK.Image, itk.Image, nibabel image, vtkImageData or datasets of pydicom
+        A 3-dimensional image of one number per voxel, oblique or flipped as it may be. Datasets, a list or
+        tuple of them or a single one, become a volume by the rules for DICOM folders.
 
     Returns
     -------
@@ -36,21 +39,39 @@ def as_volume(image: Any) -> Volume:
     Raises
     ------
     VolumeError
-        For anything else, bare arrays (which have no grid), colour, vectors or several time points.
+        For anything else, bare arrays (which have no grid), colour, vectors or several time points; for
+        datasets that are not one stack of grey slices.
     """
     if isinstance(image, Volume):
         return image
     if isinstance(image, np.ndarray):
         mend = "give Volume(array, spacing=…)"
         raise VolumeError("image", f"a bare array of shape {image.shape}", _ACCEPTED, mend)
+    convert = _room(image)
+    if convert is None:
+        raise VolumeError("image", f"{type(image).__module__}.{type(image).__name__}", _ACCEPTED)
+    return convert(image)
+
+
+def is_image(image: Any) -> bool:
+    """Tell what `as_volume` knows how to take from what it refuses by its kind alone."""
+    return isinstance(image, Volume) or _room(image) is not None
+
+
+def _room(image: Any) -> Callable[[Any], Volume] | None:
+    """What converts an image of this kind, None for other things."""
+    members = image if isinstance(image, (list, tuple)) else [image]
+    if members and all(_is_of(member, "pydicom") and hasattr(member, "walk") for member in members):
+        return _from_pydicom
     for package, accepts, convert in _ROOMS:
-        if any(_package(cls) == package for cls in type(image).__mro__) and accepts(image):
-            return convert(image)
-    raise VolumeError("image", f"{type(image).__module__}.{type(image).__name__}", _ACCEPTED)
+        if _is_of(image, package) and accepts(image):
+            return convert
+    return None
 
 
-def _package(cls: type) -> str:
-    return cls.__module__.partition(".")[0]
+def _is_of(thing: Any, package: str) -> bool:
+    """Whether a class of the thing comes from the package."""
+    return any(cls.__module__.partition(".")[0] == package for cls in type(thing).__mro__)
 
 
 def _affine(spacing: Any, origin: Any, direction: Any, first: Any) -> npt.NDArray[np.float64]:
@@ -133,6 +154,20 @@ def _from_vtk(image: Any) -> Volume:
     direction = [[matrix.GetElement(row, column) for column in range(3)] for row in range(3)]
     affine = _affine(image.GetSpacing(), image.GetOrigin(), direction, image.GetExtent()[::2])
     return Volume(voxels.reshape(nk, nj, ni), world_from_index=affine)
+
+
+def _from_pydicom(datasets: Any) -> Volume:
+    from lumencut.volume_files.dicom.datasets import open_datasets
+
+    try:
+        file = open_datasets(datasets if isinstance(datasets, (list, tuple)) else [datasets]).checked()
+        volume = file.volume(lambda done, total: None)
+    except FormatError as error:
+        mend = "give the datasets of one series" if isinstance(error, SeriesError) else error.mend
+        raise VolumeError(error.subject, error.found, error.expected, mend) from error
+    for note in file.notes:
+        _log.warning("%s: %s", file.path, note)
+    return volume
 
 
 def _has(*names: str) -> Callable[[Any], bool]:

@@ -39,6 +39,7 @@ def open_nifti(path: Path) -> VolumeFile:
     """Read the header of a NIfTI file or of either file of a pair."""
     header_path = _partner(path, ".img", ".hdr")
     notes: list[str] = []
+    remarks: list[str] = []
     header, kind, paired = _header(header_path)
     data_path = _partner(header_path, ".hdr", ".img") if paired else header_path
     offset = _offset(path, header, kind, data_path == header_path, notes)
@@ -50,18 +51,17 @@ def open_nifti(path: Path) -> VolumeFile:
     _note_forms(header, size, notes)
     slope, intercept = _scaling(path, header)
     if (slope, intercept) != (1.0, 0.0):
-        exact = (
-            "integers where 64 bits hold them"
-            if dtype.kind in "iu" and is_integral(slope, intercept)
-            else "read as floats"
-        )
-        notes.append(f"values are scaled by {slope:g} and shifted by {intercept:g}: {exact}")
+        floats = "float64" if dtype == np.float64 else "float32"
+        exact = dtype.kind in "iu" and is_integral(slope, intercept)
+        kind = "integers where 64 bits hold them" if exact else f"read as {floats}"
+        remarks.append(f"values are scaled by {slope:g} and shifted by {intercept:g}: {kind}")
 
     def load(progress: Progress) -> npt.NDArray[Any]:
         codec: Codec = "zlib" if _is_gzip(data_path) else "raw"
         return rescaled(read_voxels(data_path, size[::-1], dtype, codec=codec, skip=offset), slope, intercept)
 
-    return VolumeFile(path, kind, size, dtype, _stated_space(header), affine, load, notes)
+    space = _stated_space(header)
+    return VolumeFile(path, kind, size, dtype, space, affine, load, notes, remarks=remarks)
 
 
 def _partner(path: Path, mine: str, other: str) -> Path:

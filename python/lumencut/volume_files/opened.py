@@ -38,6 +38,8 @@ class VolumeFile:
     notes: list[str] = field(default_factory=list)
     filled: tuple[int, ...] = ()
     details: dict[str, str] = field(default_factory=dict)
+    remarks: list[str] = field(default_factory=list)
+    """What is told of the file to whoever asks, and is no reason to warn every reader."""
 
     def volume(self, progress: Progress) -> Volume:
         """Read the voxels; what `progress` raises passes through."""

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::robust::Random;
 use super::sample;
 use crate::junctions::vessels;
-use crate::{Error, Line, Space, Unit, read, write_mrk_json, write_vtp};
+use crate::{Error, Line, Space, Unit, read, write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
 
 type Writer = fn(&[Line]) -> Result<Vec<u8>, Error>;
 
@@ -27,6 +27,80 @@ fn assert_round_trip(lines: &[Line]) {
         assert!(back.joined, "{name}");
         assert!(back.notes.iter().all(|note| note.contains("radi")), "{name}: {:?}", back.notes);
     }
+}
+
+/// Legacy VTK gives all back but names.
+#[test]
+fn legacy_vtk_comes_back_but_for_names() {
+    let mut random = Random(0x5851_f42d_4c95_7f2d);
+    for _ in 0..500 {
+        let mut lines = tree(&mut random);
+        let read = read(&write_vtk(&lines).unwrap(), "a.vtk").unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((read.unit, read.space, read.joined), (Some(Unit::Millimetre), Some(Space::Lps), true));
+        lines.iter_mut().for_each(|line| line.name = None);
+        assert_eq!(bits(&vessels(read.scaled(1.0).unwrap()).lines), bits(&lines));
+    }
+}
+
+fn straight(from: [f64; 3], to: [f64; 3], radius: Option<f64>) -> Line {
+    let [from, to] = [from, to].map(DVec3::from);
+    let points: Vec<DVec3> = (0..=8).map(|i| from.lerp(to, f64::from(i) / 8.0)).collect();
+    let radius = radius.map(|radius| vec![radius; points.len()]);
+    Line { points, radius, ..Line::default() }
+}
+
+/// A trunk with two branches that begin at its end.
+fn fork(radius: Option<f64>) -> Vec<Line> {
+    let end = [0.0, 0.0, 20.0];
+    [([0.0; 3], end), (end, [9.0, 0.0, 30.0]), (end, [-9.0, 0.0, 31.0])]
+        .map(|(from, to)| straight(from, to, radius))
+        .into()
+}
+
+#[test]
+fn a_fork_comes_back_from_tables_and_nodes() {
+    for radius in [Some(0.1), None] {
+        for (write, name) in [(write_csv as Writer, "a.csv"), (write_swc, "a.swc"), (write_vtk, "a.vtk")] {
+            let back = vessels(read(&write(&fork(radius)).unwrap(), name).unwrap().scaled(1.0).unwrap());
+            assert_eq!(bits(&back.lines), bits(&fork(radius)), "{name}");
+        }
+    }
+    let table = read(&write_csv(&fork(None)).unwrap(), "a.csv").unwrap();
+    assert_eq!((table.space, table.unit), (Some(Space::Lps), Some(Unit::Millimetre)));
+}
+
+/// Branches before their trunk, and vessels in a circle: every node has a parent in front of it.
+#[test]
+fn nodes_follow_their_parents() {
+    let mut lines = fork(Some(2.0));
+    lines.reverse();
+    let text = String::from_utf8(write_swc(&lines).unwrap()).unwrap();
+    let nodes: Vec<Vec<&str>> =
+        text.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(' ').collect()).collect();
+    assert_eq!(nodes.len(), 9 + 8 + 8);
+    assert_eq!(nodes.iter().filter(|node| node[6] == "-1").count(), 1);
+    for node in &nodes {
+        let [id, parent] = [0, 6].map(|column| node[column].parse::<i64>().unwrap());
+        assert!(parent < id, "{node:?}");
+    }
+    let [a, b] = [[0.0; 3], [5.0, 0.0, 0.0]];
+    let circle = [straight(a, b, None), straight(b, a, None)];
+    assert_eq!(read(&write_swc(&circle).unwrap(), "a.swc").unwrap().lines.len(), 1);
+}
+
+#[test]
+fn names_stand_in_tables_and_in_legacy_vtk() {
+    let mut lines = fork(None);
+    lines[0].name = Some("a, \"b\"".into());
+    lines[2].name = Some("50 %".into());
+    let table = String::from_utf8(write_csv(&lines).unwrap()).unwrap();
+    assert!(table.starts_with("line,name,l (mm),p (mm),s (mm)\n0,\"a, \"\"b\"\"\",0.0,0.0,0.0\n"), "{table}");
+    assert_eq!(read(table.as_bytes(), "a.csv").unwrap().lines.len(), 3);
+    let vtk = String::from_utf8(write_vtk(&lines).unwrap()).unwrap();
+    assert!(vtk.contains("Name 1 3 string\na,%20%22b%22\n\n50%20%25\n"), "{vtk}");
+    lines[0].name = Some("two\nlines".into());
+    let error = write_csv(&lines).unwrap_err().to_string();
+    assert!(error.contains("name of line 0: found a line break"), "{error}");
 }
 
 /// Numbers at the ends of what a coordinate can be, and some that decimals cannot give exactly.

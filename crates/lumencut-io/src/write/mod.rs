@@ -1,13 +1,20 @@
-//! Writers of vessels: what they write is read back to the bit, with nothing joined or left out.
+//! Writers of vessels. What `.vtp` and `.mrk.json` hold is read back to the bit, with nothing joined or left
+//! out; `.vtk` keeps all but names, `.csv` and `.swc` what tables and nodes can hold.
 //!
-//! Coordinates and radii stand in the shortest decimals that give the same numbers back. The files are
-//! marked as vessels already (`LumencutVessels`), so that no reader of this crate joins their lines anew;
+//! Coordinates and radii stand in the shortest decimals that give the same numbers back. The first three
+//! are marked as vessels already (`LumencutVessels`), so that no reader of this crate joins their lines anew;
 //! other programs pass over the mark. Groups are not written: they tell which lines are one vessel.
 
+mod csv;
 mod mrk_json;
+mod swc;
+mod vtk;
 mod vtp;
 
+pub use csv::write_csv;
 pub use mrk_json::write_mrk_json;
+pub use swc::write_swc;
+pub use vtk::write_vtk;
 pub use vtp::write_vtp;
 
 use crate::centerlines::{Limit, Line, check};

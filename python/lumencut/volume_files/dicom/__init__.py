@@ -5,6 +5,7 @@ Pixels are decoded by pydicom and its plugins; geometry and rescaling are ours.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,27 +24,33 @@ from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing, shown
 from lumencut.volume_files.rescale import is_integral
 
-__all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom"]
+__all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What of a DICOM folder is to be read: which series and phase, and whether gaps are filled."""
+    """What of a DICOM folder is to be read: which series and phase, and what is mended of it."""
 
     series: str | None = None
     phase: str | None = None
     fill_gaps: bool = False
+    resample_slices: bool = False
 
 
 def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
     """Read the headers of a DICOM series; `progress` counts the files looked into."""
+    return opened(path, wanted, lambda notes: read_images(path, notes, progress))
+
+
+def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], list[Image]]) -> VolumeFile:
+    """Make one volume of the images that `read` gives, which takes the notes; `path` names them."""
     notes: list[str] = []
     with refusing(path, "DICOM", notes):
-        one = chosen(path, grouped(read_images(path, notes, progress)), wanted.series, notes)
+        one = chosen(path, grouped(read(notes)), wanted.series, notes)
         slices = one.slices(str(path), notes)
         if wanted.phase is not None:
             slices = of_phase(str(path), slices, wanted.phase)
-        stack = stacked(str(path), slices, notes, fill_gaps=wanted.fill_gaps)
+        stack = stacked(str(path), slices, notes, fill_gaps=wanted.fill_gaps, resample=wanted.resample_slices)
         _note_oddities(stack, notes)
         stored = _stored_type(stack.slices[0].image)
         details = _details(one, stack)
@@ -83,7 +90,7 @@ def _stored_type(image: Image) -> np.dtype[Any]:
 def _note_oddities(stack: Stack, notes: list[str]) -> None:
     headers = {id(s.image): s.image.header for s in stack.slices}.values()
     scalings = {s.scaling for s in stack.slices}
-    if stack.missing:
+    if stack.missing and not stack.is_resampled:
         names = listed([str(k) for k in stack.missing])
         notes.append(f"{counted(len(stack.missing), 'missing slice')} interpolated: k = {names}")
     if len(scalings) > 1:

@@ -94,12 +94,16 @@ def read_header(source: Source, notes: list[str]) -> Image | None:
         if not is_dicom(head):
             return None
         found = _within(source, head) or _whole(source)
-        for tag in tuple(found.header.keys()):
-            # Damaged values are to show here, where the file is known.
-            found.header[tag]
-        for keyword in ("NumberOfFrames", "SamplesPerPixel"):
-            int(found.header.get(keyword) or 1)
+        refuse_damage(found)
         return found
+
+
+def refuse_damage(image: Image) -> None:
+    """Read every value once: damaged ones are to show here, where the file is known."""
+    for tag in tuple(image.header.keys()):
+        image.header[tag]
+    for keyword in ("NumberOfFrames", "SamplesPerPixel"):
+        int(image.header.get(keyword) or 1)
 
 
 def _within(source: Source, head: bytes) -> Image | None:
@@ -131,11 +135,12 @@ def _whole(source: Source) -> Image:
 def _parsed(stream: Any) -> Header:
     import pydicom
 
-    return pydicom.dcmread(stream, stop_before_pixels=True, force=True, specific_tags=_tags())
+    return pydicom.dcmread(stream, stop_before_pixels=True, force=True, specific_tags=header_tags())
 
 
 @cache
-def _tags() -> list[int]:
+def header_tags() -> list[int]:
+    """The tags of the attributes that are asked for."""
     from pydicom.datadict import tag_for_keyword
 
     return [tag for keyword in _KEYWORDS if (tag := tag_for_keyword(keyword)) is not None]

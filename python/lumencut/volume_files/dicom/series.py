@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from lumencut.volume_files.dicom.slices import (
     require_grey,
     slices_of,
 )
-from lumencut.volume_files.dicom.sources import not_dicom, sources
+from lumencut.volume_files.dicom.sources import Source, not_dicom, sources
 from lumencut.volume_files.opened import Progress, refusing
 
 _MODALITIES = ("CT", "MR", "XA")
@@ -139,12 +139,24 @@ def read_images(path: Path, notes: list[str], progress: Progress | None = None) 
     `progress` is called with (files looked into, files in all).
     """
     found = sources(path)
+
+    def headers() -> Iterator[tuple[Source, Image | None]]:
+        for number, source in enumerate(found, 1):
+            image = read_header(source, notes)
+            if progress is not None:
+                progress(number, len(found))
+            yield source, image
+
+    return with_pixels_alone(path, headers(), notes)
+
+
+def with_pixels_alone(
+    path: Path, found: Iterable[tuple[Source, Image | None]], notes: list[str]
+) -> list[Image]:
+    """The images among what was found, None for what is no DICOM; the others are noted."""
     images: list[Image] = []
     foreign: list[str] = []
-    for number, source in enumerate(found, 1):
-        image = read_header(source, notes)
-        if progress is not None:
-            progress(number, len(found))
+    for source, image in found:
         if image is not None and image.header.get("Rows") and image.header.get("Columns"):
             images.append(image)
         elif image is not None and kind(image.header).endswith("Image Storage"):
@@ -155,7 +167,7 @@ def read_images(path: Path, notes: list[str], progress: Progress | None = None) 
             what = kind(image.header) if image is not None else not_dicom(source)
             foreign.append(f"{source.name} ({what})")
     if not images:
-        held = f"no image: {listed(foreign)}" if found else "nothing in it"
+        held = f"no image: {listed(foreign)}" if foreign else "nothing in it"
         mend = "give the folder that it is in" if foreign and _DIRECTORY in foreign[0] else ""
         raise FormatError(str(path), held, "DICOM images", mend)
     if foreign:

@@ -17,22 +17,34 @@ _INT32 = np.iinfo(np.int32)
 
 
 def load(stack: Stack, notes: list[str], progress: Progress) -> npt.NDArray[Any]:
-    """Read slice after slice into the narrowest type that has held all values so far."""
+    """Read slice after slice, and fill in between them what the grid asks for."""
+    if not (stack.places % 1).any():
+        places = stack.places.astype(np.int64)
+        volume = _read(stack, places, notes, progress)
+        _interpolate(volume, places)
+        return volume
+    measured = _read(stack, np.arange(len(stack.slices)), notes, progress)
+    return _between(measured, stack.places)
+
+
+def _read(
+    stack: Stack, places: npt.NDArray[np.int64], notes: list[str], progress: Progress
+) -> npt.NDArray[Any]:
+    """Read each slice to its place, in the narrowest type that has held all values so far."""
     exact = all(is_integral(*s.scaling) for s in stack.slices)
-    ni, nj, nk = stack.size
+    ni, nj, _ = stack.size
     volume: npt.NDArray[Any] | None = None
     with PixelReader(stack.slices, notes) as reader:
-        for number, (one, place) in enumerate(zip(stack.slices, stack.places, strict=True)):
+        for number, (one, place) in enumerate(zip(stack.slices, places, strict=True)):
             with refusing(one.image.source, "DICOM", notes):
                 values = in_unit(reader.next(), *one.scaling)
             if volume is None:
                 start = np.int16 if exact and values.dtype.kind in "iu" else np.float32
-                volume = np.empty((nk, nj, ni), start)
-            volume = _widened(volume, stack.places[:number], values)
+                volume = np.empty((int(places[-1]) + 1, nj, ni), start)
+            volume = _widened(volume, places[:number], values)
             volume[place] = values
             progress(number + 1, len(stack.slices))
     assert volume is not None, "a series has at least one slice"
-    _interpolate(volume, stack.places)
     return volume
 
 
@@ -73,6 +85,19 @@ def _interpolate(volume: npt.NDArray[Any], places: npt.NDArray[np.int64]) -> Non
     """Fill the slices between neighbouring places linearly, rounded to the nearest value in integers."""
     for before, after in itertools.pairwise(places):
         for k in range(before + 1, after):
-            part = (k - before) / (after - before)
-            mixed = (1 - part) * volume[before].astype(np.float64) + part * volume[after]
-            volume[k] = np.rint(mixed) if volume.dtype.kind in "iu" else mixed
+            volume[k] = _mixed(volume[before], volume[after], (k - before) / (after - before))
+
+
+def _between(measured: npt.NDArray[Any], places: npt.NDArray[np.float64]) -> npt.NDArray[Any]:
+    """Slices at all whole places, each linearly between its neighbours among the measured ones."""
+    volume = np.empty((int(places[-1]) + 1, *measured.shape[1:]), measured.dtype)
+    for k in range(len(volume)):
+        after = max(int(np.searchsorted(places, k)), 1)
+        low, high = places[after - 1], places[after]
+        volume[k] = _mixed(measured[after - 1], measured[after], (k - low) / (high - low))
+    return volume
+
+
+def _mixed(before: npt.NDArray[Any], after: npt.NDArray[Any], part: float) -> npt.NDArray[Any]:
+    mixed = (1 - part) * before.astype(np.float64) + part * after
+    return np.asarray(np.rint(mixed) if before.dtype.kind in "iu" else mixed)

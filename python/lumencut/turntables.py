@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
 
 Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLike
 
@@ -70,19 +68,22 @@ def turntable(
         yield renderer.render(view, settings)
 
 
-def fitted_turn(
-    camera: Camera, scene: VesselTree | Volume, degrees: float = 360.0, axis: Axis = "superior"
-) -> Camera:
+def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis = "superior") -> Camera:
     """Return the camera at the middle of the scene, with a pixel spacing at which every frame of a turn fits.
 
     Parameters
     ----------
     camera : Camera
         The first view; its direction, up and size are kept.
-    scene : VesselTree or Volume
+    scene : VesselTree, Volume, or whatever else :func:`lumencut.render` takes as a volume
         What is to fit.
     degrees, axis
         As for :func:`turntable`.
+
+    Raises
+    ------
+    CameraError
+        For a scene of another kind, or an axis that is no direction.
     """
     from lumencut.camera import checked_axis, scene_points
 

@@ -1,0 +1,82 @@
+//! Legacy VTK poly data (`.vtk`): one polyline per vessel, in text.
+
+use super::check_all;
+use crate::centerlines::{JOINED_MARK, Line};
+use crate::error::Result;
+use crate::poly_data::{HAS_RADIUS, NAMES, RADIUS_NAMES};
+
+/// A `.vtk` file of vessels (mm, LPS): each with points of its own, so that vessels that meet repeat their
+/// shared end point.
+///
+/// Radii are the array of points `MaximumInscribedSphereRadius`; where only some vessels have radii, those of
+/// the others are 0 and the array of cells `HasRadius` tells them apart by 1 and 0. Names are the string array
+/// of cells `Name`, empty where there is none; VTK reads them, the reader of this crate does not. All else is
+/// read back to the bit.
+///
+/// # Errors
+/// Where there is no vessel, or one is not what a [`Line`] is.
+pub fn write_vtk(vessels: &[Line]) -> Result<Vec<u8>> {
+    check_all(vessels)?;
+    let points: usize = vessels.iter().map(|vessel| vessel.points.len()).sum();
+    let mut out = format!(
+        "# vtk DataFile Version 3.0\n{JOINED_MARK} in mm SPACE=LPS\nASCII\nDATASET POLYDATA\n\
+         POINTS {points} double\n"
+    );
+    for point in vessels.iter().flat_map(|vessel| &vessel.points) {
+        out += &format!("{:?} {:?} {:?}\n", point.x, point.y, point.z);
+    }
+    out += &format!("LINES {} {}\n", vessels.len(), vessels.len() + points);
+    let mut next = 0;
+    for vessel in vessels {
+        let count = vessel.points.len();
+        let ids: Vec<String> = (next..next + count).map(|id| id.to_string()).collect();
+        out += &format!("{count} {}\n", ids.join(" "));
+        next += count;
+    }
+    out += &radii(vessels, points);
+    out += &cell_data(vessels);
+    Ok(out.into_bytes())
+}
+
+fn radii(vessels: &[Line], points: usize) -> String {
+    if vessels.iter().all(|vessel| vessel.radius.is_none()) {
+        return String::new();
+    }
+    let mut out = format!("POINT_DATA {points}\nFIELD FieldData 1\n{} 1 {points} double\n", RADIUS_NAMES[0]);
+    for vessel in vessels {
+        for i in 0..vessel.points.len() {
+            out += &format!("{:?}\n", vessel.radius.as_ref().map_or(0.0, |radius| radius[i]));
+        }
+    }
+    out
+}
+
+/// The names, where any vessel has one, and which vessels have radii, where that are some and not all.
+fn cell_data(vessels: &[Line]) -> String {
+    let count = vessels.len();
+    let mut arrays = Vec::new();
+    if vessels.iter().any(|vessel| vessel.name.is_some()) {
+        let names = vessels.iter().map(|vessel| encoded(vessel.name.as_deref().unwrap_or_default()) + "\n");
+        arrays.push(format!("{NAMES} 1 {count} string\n{}", names.collect::<String>()));
+    }
+    let known = vessels.iter().filter(|vessel| vessel.radius.is_some()).count();
+    if known > 0 && known < count {
+        let has = vessels.iter().map(|vessel| if vessel.radius.is_some() { "1\n" } else { "0\n" });
+        arrays.push(format!("{HAS_RADIUS} 1 {count} unsigned_char\n{}", has.collect::<String>()));
+    }
+    if arrays.is_empty() {
+        return String::new();
+    }
+    format!("CELL_DATA {count}\nFIELD FieldData {}\n{}", arrays.len(), arrays.concat())
+}
+
+/// A text as VTK writes it on a line of its own: what is not plain stands as `%` and its code.
+fn encoded(text: &str) -> String {
+    text.bytes()
+        .map(|byte| match byte {
+            b'"' | b'%' => format!("%{byte:02X}"),
+            b'!'..=b'~' => char::from(byte).to_string(),
+            _ => format!("%{byte:02X}"),
+        })
+        .collect()
+}

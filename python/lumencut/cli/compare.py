@@ -1,0 +1,119 @@
+"""Centerlines beside volumes: which volume judges a file, and how many of its points lie in each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from lumencut.cli.report import one_line
+from lumencut.errors import FormatError
+
+if TYPE_CHECKING:
+    from lumencut.centerlines import CenterlineFile, CenterlineReport
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a file of centerlines lies, as one volume or nobody judges it.
+
+    Attributes
+    ----------
+    tree, report : VesselTree, CenterlineReport
+        The file as it was read.
+    judge : str or None
+        The volume.
+    undecided : tuple of str
+        What the volume could not decide.
+    choice : str
+        Why this volume, where there are several.
+    """
+
+    tree: VesselTree
+    report: CenterlineReport
+    judge: str | None = None
+    undecided: tuple[str, ...] = ()
+    choice: str = ""
+
+
+def best(
+    file: CenterlineFile,
+    coordinates: Literal["lps", "ras"] | None,
+    unit: Literal["um", "mm", "cm", "dm", "m"] | None,
+    volumes: Sequence[dict[str, Any]],
+) -> Place:
+    """Place a file by the volume into which it brings the most points, the first one of several alike."""
+    if not volumes:
+        return Place(*file.placed(coordinates, unit))
+    places: list[Place] = []
+    counts: list[tuple[int, int]] = []
+    for volume in volumes:
+        grid, undecided = _grid(volume), []
+        try:
+            tree, report = file.placed(coordinates, unit, grid)
+        except FormatError as error:
+            tree, report = file.placed(coordinates, unit)
+            undecided = [one_line(f"{error.found}; {error.mend}")]
+        places.append(Place(tree, report, volume["file"], tuple(undecided)))
+        counts.append(_counts(tree, grid))
+    n = max(range(len(volumes)), key=lambda n: (counts[n], -n))
+    return replace(places[n], choice=_choice(places, counts, n)) if len(volumes) > 1 else places[n]
+
+
+def _choice(places: Sequence[Place], counts: Sequence[tuple[int, int]], n: int) -> str:
+    total = len(places[n].tree.points)
+    fit = [
+        f"{inside} of {total} points lie in {place.judge}"
+        for place, (inside, _) in zip(places, counts, strict=True)
+    ]
+    if len(set(counts)) == 1:
+        return f"judged by the first volume, {places[n].judge}: all volumes fit alike ({fit[n]})"
+    others = "; ".join(text for m, text in enumerate(fit) if m != n)
+    return f"judged by {places[n].judge}, which it fits best: {fit[n]}; {others}"
+
+
+def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Compare a tree with volumes; those that have nothing to do with it only count if it fits none.
+
+    Only the volume that judged the tree has something to say of its space.
+    """
+    pairs = [_pair(lines, volume) for volume in volumes]
+    return [pair for pair in pairs if pair["inside"] or pair["inside_with_x_and_y_negated"]] or pairs
+
+
+def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
+    """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
+    from lumencut.placement import check_space_once
+
+    tree, grid = lines["_tree"], _grid(volume)
+    points = tree.points
+    inside, flipped = _counts(tree, grid)
+    if volume["file"] == lines["judged_by"]:
+        check_space_once(tree, grid, Path(lines["file"]).name)
+    return {
+        "volume": volume["file"],
+        "centerlines": lines["file"],
+        "points": len(points),
+        "inside": inside,
+        "inside_with_x_and_y_negated": flipped,
+        "notes": ["no point lies inside the volume"] if inside == 0 else [],
+    }
+
+
+def _grid(volume: dict[str, Any]) -> Volume:
+    """The grid of a volume; memory that nobody touches costs nothing."""
+    import numpy as np
+
+    from lumencut.volume import Volume
+
+    report = volume["_report"]
+    return Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
+
+
+def _counts(tree: VesselTree, grid: Volume) -> tuple[int, int]:
+    """How many points lie inside, as read and with x and y negated."""
+    inside, flipped = (int(grid.contains(tree.points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
+    return inside, flipped

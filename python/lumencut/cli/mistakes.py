@@ -1,0 +1,145 @@
+"""What a user cannot mean: files in each other's place, and options that do nothing with what is given.
+
+An option for a case that may or may not arise, such as ``--fill-gaps`` for missing DICOM slices, is no
+mistake where it does not arise. A switch that is off and a number that is 0 ask for nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import click
+
+from lumencut._lumencut import SETTINGS
+
+if TYPE_CHECKING:
+    from lumencut.settings import Settings
+    from lumencut.vessel_tree import VesselTree
+
+_CONTEXT = tuple(name for name in SETTINGS if name.startswith("context"))
+_OF_ALL = ("background", "samples", *_CONTEXT)
+#: ``--paper`` chooses rules of the cut surface; it is no setting of the table.
+_CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper")
+_DICOM = ("series", "phase", "fill_gaps", "resample_slices")
+_NOTHING = (None, False, 0)
+_PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", *_CONTEXT)
+
+
+def check_files(volume: Path | None, centerlines: Path | None) -> None:
+    """Refuse a volume and centerlines in each other's place."""
+    from lumencut.file_kinds import kind_of
+
+    found = [None if path is None else kind_of(path) for path in (volume, centerlines)]
+    first, second = (None if one is None else one.role for one in found)
+    if first == "centerlines" and (second == "volume" or centerlines is None):
+        tail = "" if found[1] is None else f" and {found[1].name} in {centerlines}"
+        mend = "swap them" if centerlines else "name the volume before it"
+        raise _wrong(f"{_name(found[0])} in {volume}{tail}", mend)
+    if first == "centerlines":
+        raise _wrong(f"{_name(found[0])} in {volume} as VOLUME", "name the volume first")
+    if second == "volume":
+        mend = "leave it out to show the volume alone, or name a file of centerlines"
+        raise _wrong(f"{_name(found[1])} in {centerlines} as CENTERLINES", mend)
+
+
+def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_centerlines: bool) -> None:
+    """Refuse options that say how DICOM or centerlines are read where none are given."""
+    from lumencut.file_kinds import kind_of
+
+    kinds = {path: kind_of(path) for path in volumes}
+    if all(kind is not None and not kind.is_dicom for kind in kinds.values()):
+        with_what = ", ".join(f"{path}, {_name(kind)}" for path, kind in kinds.items())
+        why = f"with {with_what}" if with_what else "without VOLUME"
+        _refuse(chosen, _DICOM, f"{why}: it is for DICOM series", "leave it out")
+    if not has_centerlines:
+        why = "without CENTERLINES; it says how they are to be understood"
+        _refuse(chosen, ("coordinates", "unit"), why, "name their file, or leave it out")
+
+
+def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines: bool) -> None:
+    """Refuse options of settings that change nothing in a picture with these settings."""
+    if not has_centerlines:
+        _refuse(
+            chosen,
+            ("window",),
+            "without CENTERLINES: there is no cut surface",
+            "--context-window is the window of what is shown",
+        )
+        why = "without CENTERLINES: there is no cut surface"
+        _refuse(chosen, _CUT_SURFACE, why, "name centerlines, or leave it out")
+    for names, why, mend in (*_idle_context(settings), *_idle_rules(settings)):
+        _refuse(chosen, names, why, f"{mend}, or leave it out")
+
+
+def check_measured(chosen: dict[str, Any]) -> None:
+    """Refuse options of looks where nothing is shown and only the cut surface is measured."""
+    _refuse(
+        chosen, _PICTURE, "without --pictures: it changes no measure", "ask for pictures, or leave it out"
+    )
+
+
+def check_radii(chosen: dict[str, Any], tree: VesselTree | None) -> None:
+    """Refuse options that need radii for a tree without any."""
+    if tree is None or any(vessel.radius is not None for vessel in tree):
+        return
+    why = "with centerlines without radius"
+    _refuse(chosen, ("centerline_smoothing",), f"{why}, by which it smooths", "leave it out")
+    _refuse(chosen, ("preserve_lumen",), f"{why}, from which no wall is known", "leave it out")
+
+
+#: Names of settings that do nothing beside others, why, and what lets them do something.
+_Idle: TypeAlias = tuple[tuple[str, ...], str, str]
+
+
+def _idle_context(settings: Settings) -> Iterator[_Idle]:
+    """Settings of the context."""
+    if settings.context is None:
+        names = tuple(name for name in _CONTEXT if name != "context")
+        yield names, "with --context none", "choose a context"
+    if settings.context in ("minip", "average"):
+        why = f"with --context {settings.context}, which is grey in its window"
+        yield ("context_transfer",), why, "choose another --context"
+    if settings.context in ("mip", "minip", "average"):
+        why = f"with --context {settings.context}, which has no surfaces"
+        yield ("context_shading",), why, "choose --context mida or dvr"
+    has_differences = settings.context not in ("dvr", "mip") or settings.context_shading
+    if not isinstance(settings.context_transfer, str | None) and not has_differences:
+        why = f"with --context {settings.context} and control points, which have intensities of their own"
+        yield ("context_window",), why, "choose --context mida or a transfer function by name"
+
+
+def _idle_rules(settings: Settings) -> Iterator[_Idle]:
+    """Settings of the cut surface and its lines."""
+    if not settings.silhouettes:
+        names = ("silhouette_rule", "silhouette_slope", "silhouette_color")
+        yield names, "without silhouettes", "give --silhouettes"
+    if settings.silhouette_rule == "leap":
+        why = "with --silhouette-rule leap, which has no slope"
+        yield ("silhouette_slope",), why, "give --silhouette-rule gradient"
+    if not settings.depth_filter:
+        yield ("zone_filter", "depth_leap"), "without the depth filter", "give --depth-filter"
+    if not settings.zone_filter:
+        yield ("depth_leap",), "without the zone filter", "give --zone-filter"
+    if settings.levels == 0:
+        yield ("level_distance",), "with --levels 0, the finest alone", "give more levels"
+    if not settings.lumen_first:
+        yield ("unknown_radius",), "without the rule lumen-first", "give --lumen-first"
+        if settings.level_choice == "nearest":
+            why = "without the rule lumen-first and with --level-choice nearest"
+            yield ("lumen_margin",), why, "give --lumen-first or --level-choice own"
+
+
+def _refuse(chosen: dict[str, Any], names: Iterable[str], why: str, mend: str) -> None:
+    for name in names:
+        if chosen.get(name) not in _NOTHING:
+            raise click.UsageError(f"--{name.replace('_', '-')} does nothing {why}; {mend}")
+
+
+def _wrong(found: str, mend: str) -> click.UsageError:
+    return click.UsageError(f"found {found}; expected VOLUME, then CENTERLINES; {mend}")
+
+
+def _name(kind: Any) -> str:
+    return str(kind.name)

@@ -1,0 +1,98 @@
+"""Datasets of pydicom in memory, as the images that files of them would be."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from lumencut.errors import FormatError
+from lumencut.volume_files.dicom import Wanted, opened
+from lumencut.volume_files.dicom.headers import Header, Image, header_tags, refuse_damage
+from lumencut.volume_files.dicom.series import with_pixels_alone
+from lumencut.volume_files.dicom.sources import Source
+from lumencut.volume_files.opened import VolumeFile, refusing
+
+_SUBJECT = Path("DICOM datasets")
+_PIXELS = ("PixelData", "FloatPixelData", "DoubleFloatPixelData")
+
+
+@dataclass(frozen=True, eq=False)
+class _Held(Source):
+    """The pixels of a dataset in the place of a file; its first byte is the first of them."""
+
+    number: int = 0
+    pixels: bytes = b""
+
+    @property
+    def name(self) -> str:
+        """Its place in the list, from 0."""
+        return f"dataset {self.number}"
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.name}"
+
+    def open(self) -> BinaryIO:
+        """Open the pixels for reading."""
+        return io.BytesIO(self.pixels)
+
+    def head(self, count: int) -> bytes:
+        """Give the first bytes of the pixels."""
+        return self.pixels[:count]
+
+
+def open_datasets(datasets: Sequence[Any]) -> VolumeFile:
+    """Open a volume of datasets, by the rules for the files of a folder; their pixels are not copied.
+
+    Parameters
+    ----------
+    datasets : sequence of pydicom.Dataset
+        Read with their pixels, in any order. Where they are of several series the only one is taken that can
+        be an angiography.
+
+    Raises
+    ------
+    SeriesError
+        For several series of which none is the only angiography.
+    FormatError
+        For datasets that are not one regular stack of grey slices.
+    """
+    return opened(_SUBJECT, Wanted(), lambda notes: _images(datasets, notes))
+
+
+def _images(datasets: Sequence[Any], notes: list[str]) -> list[Image]:
+    found = []
+    for number, dataset in enumerate(datasets):
+        with refusing(f"{_SUBJECT}: dataset {number}", "DICOM", notes):
+            found.append(_image(number, dataset))
+    return with_pixels_alone(_SUBJECT, [(image.source, image) for image in found], notes)
+
+
+def _image(number: int, dataset: Any) -> Image:
+    keyword = next((keyword for keyword in _PIXELS if keyword in dataset), "")
+    element = dataset[keyword] if keyword else None
+    pixels = (element.value if element else None) or b""
+    if not isinstance(pixels, bytes):
+        # pydicom 3 takes buffers too, which it reads when the dataset is written.
+        raise FormatError(f"{_SUBJECT}: dataset {number}", type(pixels).__name__, "pixels as bytes")
+    # Before a dataset is written, the type of its pixels may be open.
+    vr = element.VR if element and len(element.VR) == 2 else "OW"
+    source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels)
+    image = Image(source, _header(dataset), 0, keyword, vr)
+    refuse_damage(image)
+    return image
+
+
+def _header(dataset: Any) -> Header:
+    """The attributes that files are asked for; a dataset that was never in a file says less of itself."""
+    from pydicom.dataset import Dataset, FileMetaDataset
+
+    header = Dataset()
+    for tag in header_tags():
+        if tag in dataset:
+            header[tag] = dataset[tag]
+    header.file_meta = getattr(dataset, "file_meta", None) or FileMetaDataset()
+    header.set_original_encoding(*dataset.original_encoding)
+    return header
