@@ -89,6 +89,7 @@ impl<'a> Stretch<'a> {
     fn new(points: &'a [DVec3]) -> Self {
         let count = points.len();
         let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
+        // Not taken from the vessel: summed from here on, it is that of a vessel cut here, to the bit.
         for i in 1..count {
             arc[i] = arc[i - 1] + points[i].distance(points[i - 1]);
         }
