@@ -25,12 +25,17 @@ pub trait Voxel: Copy + Default + PartialOrd + Send + Sync + 'static {
 /// The arithmetic that trilinear interpolation needs.
 pub trait Real:
     Copy
+    + PartialOrd
     + std::ops::Add<Output = Self>
     + std::ops::Sub<Output = Self>
     + std::ops::Mul<Output = Self>
+    + std::ops::Div<Output = Self>
     + Send
     + Sync
+    + 'static
 {
+    /// The square root, correctly rounded.
+    fn square_root(self) -> Self;
     /// A weight in [0, 1], narrowed to this type.
     fn from_weight(weight: f64) -> Self;
     /// A number in this type.
@@ -40,6 +45,10 @@ pub trait Real:
 }
 
 impl Real for f32 {
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        self.sqrt()
+    }
     #[inline(always)]
     fn from_weight(weight: f64) -> Self {
         weight as f32
@@ -55,6 +64,10 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        self.sqrt()
+    }
     #[inline(always)]
     fn from_weight(weight: f64) -> Self {
         weight

@@ -1,11 +1,10 @@
-//! What rays make of their samples: one small accumulator for each kind of context.
+//! What rays make of their samples: colours and opacities, from near to far.
 
 use super::blocks::{HUGE, Range};
 use super::context_parameters::ContextParameters;
-use super::lanes::{FAN, larger, largest, smaller, smallest};
+use super::lanes::{FAN, larger, smaller, smallest};
 use super::thickness::of_thickness;
 use super::transfer::Colors;
-use super::window::Ramp;
 
 /// The opacity from which on nothing behind is seen, unless it is brighter than all before: less than half a grey
 /// value of what is behind is left.
@@ -40,30 +39,6 @@ pub struct Palette {
     pub parameters: ContextParameters,
 }
 
-/// Gathers the samples of sixteen rays.
-pub trait Accumulator<'a> {
-    /// Whether samples may come in any order; else they come from near to far.
-    const ANY_ORDER: bool = false;
-    /// Nothing yet; rays that are not `active` ask for no samples.
-    fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self;
-    /// How much the samples of a range can change, where they may come in any order.
-    #[inline(always)]
-    fn promise(_: Range) -> f32 {
-        0.0
-    }
-    /// Whether samples with values in a range would change nothing.
-    fn ignores(&self, range: Range) -> bool;
-    /// Whether no sample at all would change anything.
-    #[inline(always)]
-    fn is_done(&self) -> bool {
-        self.ignores(Range::ALL)
-    }
-    /// Takes the next samples.
-    fn add(&mut self, samples: &Samples, light: &impl Light);
-    /// The pixels.
-    fn finish(&self) -> Rgba;
-}
-
 /// DVR, MIDA and what lies between them and MIP (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
 #[derive(Clone, Debug)]
 pub struct Blend<'a> {
@@ -79,9 +54,10 @@ pub struct Blend<'a> {
     brightest: Brightest<'a>,
 }
 
-impl<'a> Accumulator<'a> for Blend<'a> {
+impl<'a> Blend<'a> {
+    /// Nothing yet; rays that are not `active` ask for no samples.
     #[inline(always)]
-    fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
+    pub fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
         // What is transparent changes nothing before the first visible sample, which is brighter than all of it.
         let most = palette.parameters.most;
         Self {
@@ -95,16 +71,18 @@ impl<'a> Accumulator<'a> for Blend<'a> {
         }
     }
 
+    /// Whether samples with values in a range would change nothing.
     #[inline(always)]
-    fn ignores(&self, range: Range) -> bool {
+    pub fn ignores(&self, range: Range) -> bool {
         let unseen = smallest(&self.opacity) >= OPAQUE || self.palette.colors.is_transparent(range);
         unseen
             && (self.push == 0.0 || self.palette.parameters.window.at(range.high) <= smallest(&self.most))
             && (self.mix == 0.0 || self.brightest.ignores(range))
     }
 
+    /// Takes the next samples, from near to far.
     #[inline(always)]
-    fn add(&mut self, samples: &Samples, light: &impl Light) {
+    pub fn add(&mut self, samples: &Samples, light: &impl Light) {
         let mut own = self.palette.colors.opacity(samples.value);
         let mut keep = [1.0; FAN];
         let mut any = 0;
@@ -119,7 +97,7 @@ impl<'a> Accumulator<'a> for Blend<'a> {
             self.most[l] = larger(self.most[l], intensity);
         }
         if self.mix > 0.0 {
-            self.brightest.add(samples, light);
+            self.brightest.add(samples);
         }
         for l in 0..FAN {
             self.opacity[l] *= keep[l];
@@ -141,8 +119,9 @@ impl<'a> Accumulator<'a> for Blend<'a> {
         }
     }
 
+    /// The pixels.
     #[inline(always)]
-    fn finish(&self) -> Rgba {
+    pub fn finish(&self) -> Rgba {
         let brightest = self.brightest.finish();
         let mut pixels = [self.color[0], self.color[1], self.color[2], self.opacity];
         for (c, channel) in pixels.iter_mut().enumerate() {
@@ -155,29 +134,19 @@ impl<'a> Accumulator<'a> for Blend<'a> {
     }
 }
 
-/// The maximum intensity projection.
+/// The largest of the samples, towards which a blend with γ > 0 moves.
 #[derive(Clone, Debug)]
-pub struct Brightest<'a> {
+struct Brightest<'a> {
     colors: &'a Colors,
     active: [bool; FAN],
     best: [f32; FAN],
 }
 
-impl<'a> Accumulator<'a> for Brightest<'a> {
-    const ANY_ORDER: bool = true;
-
+impl<'a> Brightest<'a> {
     #[inline(always)]
     fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
-        Self {
-            colors: &palette.colors,
-            active: *active,
-            best: active.map(|active| if active { -HUGE } else { HUGE }),
-        }
-    }
-
-    #[inline(always)]
-    fn promise(range: Range) -> f32 {
-        range.high
+        let best = active.map(|active| if active { -HUGE } else { HUGE });
+        Self { colors: &palette.colors, active: *active, best }
     }
 
     #[inline(always)]
@@ -187,7 +156,7 @@ impl<'a> Accumulator<'a> for Brightest<'a> {
     }
 
     #[inline(always)]
-    fn add(&mut self, samples: &Samples, _: &impl Light) {
+    fn add(&mut self, samples: &Samples) {
         for l in 0..FAN {
             let value = smaller(samples.value[l], self.colors.last());
             let value = if samples.present[l] > 0.0 { value } else { -HUGE };
@@ -197,106 +166,17 @@ impl<'a> Accumulator<'a> for Brightest<'a> {
 
     #[inline(always)]
     fn finish(&self) -> Rgba {
-        let [r, g, b] = self.colors.color(&self.best);
         let mut found = [false; FAN];
         for l in 0..FAN {
             found[l] = self.active[l] & (self.best[l] > -HUGE);
         }
-        opaque([r, g, b], &found)
-    }
-}
-
-/// The minimum intensity projection, grey.
-#[derive(Clone, Debug)]
-pub struct Darkest {
-    window: Ramp,
-    black: f32,
-    active: [bool; FAN],
-    best: [f32; FAN],
-}
-
-impl<'a> Accumulator<'a> for Darkest {
-    const ANY_ORDER: bool = true;
-
-    #[inline(always)]
-    fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
-        let best = active.map(|active| if active { HUGE } else { -HUGE });
-        Self { window: palette.parameters.window, black: palette.parameters.black, active: *active, best }
-    }
-
-    #[inline(always)]
-    fn promise(range: Range) -> f32 {
-        -range.low
-    }
-
-    #[inline(always)]
-    fn ignores(&self, range: Range) -> bool {
-        // Below the black end of the window everything is black.
-        larger(range.low, self.black) >= largest(&self.best)
-    }
-
-    #[inline(always)]
-    fn add(&mut self, samples: &Samples, _: &impl Light) {
-        for l in 0..FAN {
-            let value = larger(samples.value[l], self.black);
-            let value = if samples.present[l] > 0.0 { value } else { HUGE };
-            self.best[l] = smaller(self.best[l], value);
-        }
-    }
-
-    #[inline(always)]
-    fn finish(&self) -> Rgba {
-        let (mut grey, mut found) = ([0.0; FAN], [false; FAN]);
-        for l in 0..FAN {
-            grey[l] = self.window.at(self.best[l]);
-            found[l] = self.active[l] & (self.best[l] < HUGE);
-        }
-        opaque([grey; 3], &found)
-    }
-}
-
-/// The average along the ray, grey.
-#[derive(Clone, Debug)]
-pub struct Average {
-    window: Ramp,
-    sum: [f64; FAN],
-    count: [f32; FAN],
-}
-
-impl<'a> Accumulator<'a> for Average {
-    #[inline(always)]
-    fn new(palette: &'a Palette, _: &[bool; FAN]) -> Self {
-        Self { window: palette.parameters.window, sum: [0.0; FAN], count: [0.0; FAN] }
-    }
-
-    #[inline(always)]
-    fn ignores(&self, _: Range) -> bool {
-        false
-    }
-
-    #[inline(always)]
-    fn add(&mut self, samples: &Samples, _: &impl Light) {
-        for l in 0..FAN {
-            let value = if samples.present[l] > 0.0 { samples.value[l] } else { 0.0 };
-            self.sum[l] += f64::from(value);
-            self.count[l] += samples.present[l];
-        }
-    }
-
-    #[inline(always)]
-    fn finish(&self) -> Rgba {
-        let (mut grey, mut found) = ([0.0; FAN], [false; FAN]);
-        for l in 0..FAN {
-            grey[l] = self.window.at((self.sum[l] / f64::from(larger(self.count[l], 1.0))) as f32);
-            found[l] = self.count[l] > 0.0;
-        }
-        opaque([grey; 3], &found)
+        opaque(self.colors.color(&self.best), &found)
     }
 }
 
 /// Opaque pixels where something was found, else nothing.
 #[inline(always)]
-fn opaque(color: [[f32; FAN]; 3], found: &[bool; FAN]) -> Rgba {
+pub fn opaque(color: [[f32; FAN]; 3], found: &[bool; FAN]) -> Rgba {
     let mut pixels = [color[0], color[1], color[2], [1.0; FAN]];
     for channel in &mut pixels {
         for l in 0..FAN {

@@ -44,6 +44,12 @@ impl Range {
         Self { low, high }
     }
 
+    /// The range of the same values with the other sign.
+    #[inline(always)]
+    pub fn negated(self) -> Self {
+        Self { low: -self.high, high: -self.low }
+    }
+
     /// The range that holds both.
     #[inline(always)]
     fn with(self, other: Self) -> Self {
@@ -98,6 +104,13 @@ impl Blocks {
     /// The blocks along each axis and the range of each, i fastest, level by level, the smallest blocks first.
     pub fn levels(&self) -> impl Iterator<Item = ([usize; 3], &[Range])> {
         self.levels.iter().map(|level| (level.size, &level.ranges[..]))
+    }
+
+    /// The range of one block of a level; the smallest blocks are of level 0.
+    #[inline(always)]
+    pub fn range_of(&self, level: usize, block: [usize; 3]) -> Range {
+        let Level { size, ranges } = &self.levels[level];
+        ranges[(block[2] * size[1] + block[1]) * size[0] + block[0]]
     }
 
     /// The range of the samples whose lower corners lie between two voxels, both included, or a wider one.

@@ -1,11 +1,14 @@
 //! The arithmetic that the stages share.
 
 pub mod accumulate;
+pub mod block_cells;
 pub mod blocks;
 pub mod candidates;
+pub mod cell_projection;
 pub mod centerline_smoothing;
 pub mod context_parameters;
 pub mod cost;
+pub mod cubic;
 pub mod decision;
 pub mod hierarchy;
 pub mod lanes;

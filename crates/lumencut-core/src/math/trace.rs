@@ -1,7 +1,7 @@
 //! The one ray loop of the context: segment by segment, all rays of a tile abreast, skipping what changes nothing.
 
-use super::accumulate::{Accumulator, Rgba, Samples};
-use super::blocks::Blocks;
+use super::accumulate::{Blend, Rgba, Samples};
+use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
 use super::light::{Headlight, Shading};
 use super::ray::{Packet, Rays, STEPS, Segment};
@@ -23,18 +23,16 @@ pub struct Passage<'a> {
 
 /// Sixteen rays and what they have gathered.
 #[derive(Clone, Debug)]
-pub struct RayPacket<A> {
+pub struct RayPacket<'a> {
     rays: Packet,
-    gathered: A,
-    /// The segments, sorted once, the most promising first; for accumulators of any order only.
-    segments: Vec<Segment>,
+    gathered: Blend<'a>,
 }
 
-impl<'a, A: Accumulator<'a>> RayPacket<A> {
+impl<'a> RayPacket<'a> {
     /// Rays at their start.
     #[inline(always)]
-    pub fn new(rays: Packet, gathered: A) -> Self {
-        Self { rays, gathered, segments: Vec::new() }
+    pub fn new(rays: Packet, gathered: Blend<'a>) -> Self {
+        Self { rays, gathered }
     }
 
     /// The pixels.
@@ -47,20 +45,10 @@ impl<'a, A: Accumulator<'a>> RayPacket<A> {
 /// Lets rays side by side gather their samples. They walk abreast: what one of them fetches from memory its neighbours
 /// need next.
 #[inline(always)]
-pub fn trace<'a, A: Accumulator<'a>>(passage: &Passage, packets: &mut [RayPacket<A>]) {
+pub fn trace(passage: &Passage, packets: &mut [RayPacket]) {
     let mut longest = 0;
-    for packet in &mut *packets {
+    for packet in &*packets {
         longest = longest.max(packet.rays.longest);
-        if A::ANY_ORDER {
-            let mut first = 0;
-            while first < packet.rays.longest {
-                packet.segments.push(packet.rays.segment(&passage.rays.grid, passage.blocks, first));
-                first += STEPS as i32;
-            }
-            packet
-                .segments
-                .sort_unstable_by(|one, other| A::promise(other.range).total_cmp(&A::promise(one.range)));
-        }
     }
     let mut first = 0;
     while first < longest {
@@ -68,16 +56,12 @@ pub fn trace<'a, A: Accumulator<'a>>(passage: &Passage, packets: &mut [RayPacket
             if first >= packet.rays.longest {
                 continue;
             }
-            let segment = if A::ANY_ORDER {
-                packet.segments[first as usize / STEPS]
-            } else {
-                packet.rays.segment(&passage.rays.grid, passage.blocks, first)
-            };
+            let segment = packet.rays.segment(&passage.rays.grid, passage.blocks, first);
             if packet.gathered.ignores(segment.range) {
                 continue;
             }
             visit(passage, &packet.rays, &segment, &mut packet.gathered);
-            if packet.gathered.is_done() {
+            if packet.gathered.ignores(Range::ALL) {
                 packet.rays.longest = 0;
             }
         }
@@ -87,7 +71,7 @@ pub fn trace<'a, A: Accumulator<'a>>(passage: &Passage, packets: &mut [RayPacket
 
 /// Takes the samples of one segment.
 #[inline(always)]
-fn visit<'a, A: Accumulator<'a>>(passage: &Passage, packet: &Packet, segment: &Segment, gathered: &mut A) {
+fn visit(passage: &Passage, packet: &Packet, segment: &Segment, gathered: &mut Blend) {
     let line = packet.line(segment);
     let values = passage.sampler.along(segment.base, &line);
     for n in 0..STEPS {

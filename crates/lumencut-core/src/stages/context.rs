@@ -2,6 +2,7 @@
 
 mod plan;
 mod raster;
+mod reduced;
 mod tile;
 
 use rayon::prelude::*;
@@ -9,11 +10,13 @@ use rayon::prelude::*;
 use self::plan::Plan;
 pub use self::plan::{Surroundings, step};
 pub use self::raster::IN_FRONT;
-use self::raster::{Raster, coarse_starts, spread};
+use self::raster::{coarse_starts, spread};
+use self::reduced::reduce_raster;
 use self::tile::trace_raster;
 use super::{Image, Work};
 use crate::error::Result;
-use crate::math::context_parameters::StartParameters;
+use crate::math::cell_projection::RayGrid;
+use crate::math::context_parameters::{Gathering, StartParameters};
 use crate::math::ray::{NONE, WHOLE};
 use crate::settings::{Context, Settings};
 
@@ -51,14 +54,20 @@ pub fn context(
 ) -> Result<()> {
     work.expect_whole(Image::Start, start);
     work.expect_whole(Image::Gathered, pixels);
-    let (plan, camera) = (Plan::new(surroundings, settings, context)?, surroundings.camera);
+    let gather = |rays: &RayGrid, start: &[f32], pixels: &mut [[f32; 4]]| match Gathering::of(context.mode) {
+        Gathering::Blend => {
+            trace_raster(work, &Plan::new(surroundings, settings, context)?, rays, start, pixels)
+        }
+        gathering => reduce_raster(work, surroundings, (context, gathering), rays, start, pixels),
+    };
+    let camera = surroundings.camera;
     if !context.preview {
-        return trace_raster(work, &plan, &Raster::fine(camera), start, pixels);
+        return gather(&RayGrid::fine(camera), start, pixels);
     }
-    let raster = Raster::coarse(camera);
-    let [columns, rows] = raster.size;
+    let rays = RayGrid::coarse(camera);
+    let [columns, rows] = rays.size;
     let mut coarse = vec![[0.0; 4]; columns * rows];
-    trace_raster(work, &plan, &raster, &coarse_starts(start, work.size), &mut coarse)?;
+    gather(&rays, &coarse_starts(start, work.size), &mut coarse)?;
     spread(&coarse, start, work.size, pixels);
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! The stages of the pipeline, one room each, in the order of the paper's Fig. 4, and the one table of them.
 
+pub mod along_rays;
 pub mod composite;
 pub mod context;
 pub mod depth;

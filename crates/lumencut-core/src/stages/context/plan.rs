@@ -4,11 +4,11 @@ use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::accumulate::Palette;
 use crate::math::blocks::Blocks;
-use crate::math::context_parameters::{BlockPlaces, ContextParameters, Gathering};
+use crate::math::context_parameters::{BlockPlaces, ContextParameters};
 use crate::math::light::Shading;
 use crate::math::ray::{MOST_SAMPLES, Rays};
 use crate::math::transfer::Colors;
-use crate::settings::{Context, ContextMode, Settings};
+use crate::settings::{Context, Settings};
 use crate::volume::Volume;
 
 /// What rays run through.
@@ -28,11 +28,9 @@ fn rounded_up(number: f64) -> f64 {
     (number * scale).ceil() / scale
 }
 
-/// The step where the settings name none. Along an axis of the volume a voxel's side meets every voxel's centre, which
-/// maximum, minimum and average want; colours and opacities that rise within a voxel want more.
+/// The step where the settings name none: half a voxel's side, because colours and opacities rise within a voxel.
 fn default_step(volume: &Volume, settings: &Context) -> f64 {
-    let blended = matches!(settings.mode, ContextMode::Blend { gamma } if gamma < 1.0);
-    volume.smallest_side() * if blended && !settings.preview { 0.5 } else { 1.0 }
+    volume.smallest_side() * if settings.preview { 1.0 } else { 0.5 }
 }
 
 /// The longest distance between samples (mm).
@@ -50,12 +48,11 @@ pub fn step(volume: &Volume, settings: &Context) -> Result<f64> {
     Ok(step)
 }
 
-/// All that the rays of a view need, prepared once.
+/// All that rays need whose samples are blended, prepared once.
 pub(super) struct Plan<'a> {
     pub volume: &'a Volume<'a>,
     pub blocks: Option<&'a Blocks>,
     pub rays: Rays,
-    pub gathering: Gathering,
     pub palette: Palette,
     pub shading: Option<Shading>,
 }
@@ -74,7 +71,6 @@ impl<'a> Plan<'a> {
             volume,
             blocks,
             rays: Rays::new(volume, camera, step),
-            gathering: Gathering::of(context.mode),
             palette: Palette { colors, parameters },
             shading: context.shading.then_some(Shading { noise: parameters.noise }),
         })

@@ -1,31 +1,6 @@
-//! Where the rays of the context run: one for every pixel, or one for every square of four pixels.
+//! A preview's rays: one for every square of four pixels.
 
-use crate::camera::Camera;
 use crate::math::ray::{NONE, WHOLE};
-
-/// Where rays run: the pixels of the view, or squares of four of them.
-#[derive(Clone, Copy)]
-pub(super) struct Raster {
-    pub size: [usize; 2],
-    /// View x and y of the first ray, and from one to the next (mm).
-    pub first: [f64; 2],
-    pub next: [f64; 2],
-}
-
-impl Raster {
-    /// A ray for every pixel.
-    pub fn fine(camera: &Camera) -> Self {
-        let s = camera.pixel_spacing();
-        Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
-    }
-
-    /// A ray for every square of four pixels.
-    pub fn coarse(camera: &Camera) -> Self {
-        let fine = Self::fine(camera);
-        let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);
-        Self { size: fine.size.map(|n| n.div_ceil(2)), first, next: fine.next.map(|s| 2.0 * s) }
-    }
-}
 
 /// What a start in front of the volume counts as while the four of a square are compared: later than behind every cut
 /// surface, sooner than nowhere.

@@ -3,10 +3,9 @@
 use rayon::prelude::*;
 
 use super::plan::Plan;
-use super::raster::Raster;
 use crate::error::Result;
-use crate::math::accumulate::{Accumulator, Average, Blend, Brightest, Darkest};
-use crate::math::context_parameters::Gathering;
+use crate::math::accumulate::Blend;
+use crate::math::cell_projection::RayGrid;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
 use crate::math::ray::{NONE, PACKET, Packet};
 use crate::math::sampler::{Sampler, TypedSampler};
@@ -23,7 +22,7 @@ const ACROSS: usize = TILE[0] / PACKET[0];
 pub(super) fn trace_raster(
     work: &Work,
     plan: &Plan,
-    raster: &Raster,
+    raster: &RayGrid,
     start: &[f32],
     pixels: &mut [[f32; 4]],
 ) -> Result<()> {
@@ -38,7 +37,7 @@ fn trace_tiles(
     work: &Work,
     plan: &Plan,
     sampler: &dyn Sampler,
-    raster: &Raster,
+    raster: &RayGrid,
     start: &[f32],
     pixels: &mut [[f32; 4]],
 ) -> Result<()> {
@@ -59,7 +58,7 @@ fn trace_tiles(
 struct Tile<'a> {
     plan: &'a Plan<'a>,
     sampler: &'a dyn Sampler,
-    raster: &'a Raster,
+    raster: &'a RayGrid,
     /// The column and the row of its first ray.
     place: [usize; 2],
     start: &'a [f32],
@@ -71,25 +70,12 @@ impl Kernel for Tile<'_> {
 
     #[inline(always)]
     fn run(self) {
-        match self.plan.gathering {
-            Gathering::Blend => self.gather::<Blend>(),
-            Gathering::Brightest => self.gather::<Brightest>(),
-            Gathering::Darkest => self.gather::<Darkest>(),
-            Gathering::Average => self.gather::<Average>(),
-        }
-    }
-}
-
-impl<'a> Tile<'a> {
-    /// Traces all rays of the tile.
-    #[inline(always)]
-    fn gather<A: Accumulator<'a>>(self) {
         let plan = self.plan;
-        let mut packets: Vec<RayPacket<A>> = Vec::with_capacity(TILE[0] * TILE[1] / FAN);
+        let mut packets: Vec<RayPacket> = Vec::with_capacity(TILE[0] * TILE[1] / FAN);
         for n in 0..TILE[0] * TILE[1] / FAN {
             let packet = self.packet(n);
             let active = packet.count.map(|count| count > 0);
-            packets.push(RayPacket::new(packet, A::new(&plan.palette, &active)));
+            packets.push(RayPacket::new(packet, Blend::new(&plan.palette, &active)));
         }
         let Plan { rays, blocks, shading, .. } = plan;
         trace(&Passage { rays, sampler: self.sampler, blocks: *blocks, shading: *shading }, &mut packets);
@@ -102,7 +88,9 @@ impl<'a> Tile<'a> {
             }
         }
     }
+}
 
+impl Tile<'_> {
     /// The column of a ray, and its row counted from the first of these rows.
     #[inline(always)]
     fn ray(&self, packet: usize, lane: usize) -> [usize; 2] {

@@ -1,0 +1,56 @@
+//! Maximum, minimum and average intensity projection: one value for each ray, and its colour.
+
+use rayon::prelude::*;
+
+use super::plan::Surroundings;
+use crate::error::Result;
+use crate::math::accumulate::opaque;
+use crate::math::blocks::HUGE;
+use crate::math::cell_projection::RayGrid;
+use crate::math::context_parameters::Gathering;
+use crate::math::lanes::FAN;
+use crate::math::ray::NONE;
+use crate::math::transfer::Colors;
+use crate::math::window::Ramp;
+use crate::settings::Context;
+use crate::stages::Work;
+use crate::stages::along_rays::{AlongRays, Reduction, along_rays};
+
+/// Behind every volume (mm).
+const BEHIND: f64 = 2e9;
+
+/// Writes the colour of the largest, or the grey of the smallest or the mean value along the rays of a raster.
+pub(super) fn reduce_raster(
+    work: &Work,
+    &Surroundings { camera, volume, blocks }: &Surroundings,
+    (context, gathering): (&Context, Gathering),
+    rays: &RayGrid,
+    start: &[f32],
+    pixels: &mut [[f32; 4]],
+) -> Result<()> {
+    let (colors, window) = (Colors::new(&context.transfer), Ramp::grey(context.window));
+    // Beyond the last control point the colour stays the same; below the black end of the window everything is black.
+    let (reduction, limit) = match gathering {
+        Gathering::Darkest => (Reduction::Smallest, window.zero()),
+        Gathering::Average => (Reduction::Mean, HUGE),
+        Gathering::Brightest | Gathering::Blend => (Reduction::Largest, colors.last()),
+    };
+    let chord = |p: usize| if start[p] >= NONE { [BEHIND, -BEHIND] } else { [f64::from(start[p]), BEHIND] };
+    let mut values = vec![0.0; start.len()];
+    let along = AlongRays { camera, volume, blocks, rays: *rays, reduction, limit };
+    along_rays(work, &along, &chord, &mut values)?;
+    pixels.par_chunks_mut(FAN).zip(values.par_chunks(FAN)).for_each(|(pixels, values)| {
+        let mut value = [0.0; FAN];
+        value[..values.len()].copy_from_slice(values);
+        let found = value.map(|value| !value.is_nan());
+        let color = match reduction {
+            Reduction::Largest => colors.color(&value),
+            Reduction::Smallest | Reduction::Mean => [value.map(|value| window.at(value)); 3],
+        };
+        let gathered = opaque(color, &found);
+        for (l, pixel) in pixels.iter_mut().enumerate() {
+            *pixel = gathered.map(|channel| channel[l]);
+        }
+    });
+    Ok(())
+}
