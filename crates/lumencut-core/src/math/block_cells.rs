@@ -48,7 +48,9 @@ impl<R: Real> BlockCells<R> {
     #[inline(always)]
     pub fn corners(&self, [i, j, k]: [usize; 3]) -> Corners<R> {
         let first = i + ROW * j + PLANE * k;
-        std::array::from_fn(|n| self.values[first + n % 2 + n / 2 % 2 * ROW + n / 4 * PLANE])
+        let at = |n: usize| self.values[first + n];
+        let (row, plane) = (ROW, PLANE);
+        [at(0), at(1), at(row), at(row + 1), at(plane), at(plane + 1), at(plane + row), at(plane + row + 1)]
     }
 }
 

@@ -9,7 +9,7 @@ use crate::camera::Camera;
 use crate::volume::Volume;
 
 /// Wider than what rounding moves a projected border (pixels).
-const PIXEL_ROUNDING: f64 = 1e-3;
+pub const PIXEL_ROUNDING: f64 = 1e-3;
 
 /// The rays of a raster: one through each of its pixels.
 #[derive(Clone, Copy, Debug)]
@@ -125,8 +125,25 @@ impl CellProjection {
     }
 
     /// The index from a column to the next, and from a row to the next.
-    pub fn pixel_steps(&self) -> [DVec3; 2] {
+    pub fn index_steps(&self) -> [DVec3; 2] {
         [self.foot[1], self.foot[2]]
+    }
+
+    /// Columns, and rows, per index.
+    pub fn pixel_steps(&self) -> [DVec3; 2] {
+        [self.column.per_index, self.row.per_index]
+    }
+
+    /// The column and the row of a place.
+    #[inline(always)]
+    pub fn pixel_of(&self, index: DVec3) -> [f64; 2] {
+        [self.column.at(index), self.row.at(index)]
+    }
+
+    /// How far a box reaches in depth to both sides (mm).
+    #[inline(always)]
+    pub fn depth_reach(&self, half: DVec3) -> f64 {
+        self.depth.reach(half)
     }
 
     /// The depth of a place (mm).

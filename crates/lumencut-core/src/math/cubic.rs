@@ -17,108 +17,89 @@ impl<R: Real, const N: usize> Cubic<R, N> {
     /// place along some axes and those of the other along the rest.
     #[inline(always)]
     pub fn between(corners: &Corners<R>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
-        let zero = R::from_f32(0.0);
-        // The first of the indices is 0 with the weight at the entrance along i and 1 with that at the exit; so on for j, k.
-        let mut rows = [[[zero; N]; 4]; 2];
-        for r in 0..4 {
-            let (near, step) = (corners[2 * r], corners[2 * r + 1] - corners[2 * r]);
-            for (row, place) in rows.iter_mut().zip([enter, leave]) {
-                for l in 0..N {
-                    row[r][l] = near + step * place[0][l];
-                }
-            }
-        }
-        let mut planes = [[[[zero; N]; 2]; 2]; 2];
-        for i in 0..2 {
-            for k in 0..2 {
-                for (j, place) in [enter, leave].into_iter().enumerate() {
-                    for l in 0..N {
-                        let (near, far) = (rows[i][2 * k][l], rows[i][2 * k + 1][l]);
-                        planes[i][j][k][l] = near + (far - near) * place[1][l];
-                    }
-                }
-            }
-        }
-        let value = |i: usize, j: usize, k: usize, l: usize| {
-            let (near, far) = (planes[i][j][0][l], planes[i][j][1][l]);
-            near + (far - near) * [enter, leave][k][2][l]
-        };
         let third = R::from_weight(1.0 / 3.0);
-        let mut form = [[zero; N]; 4];
-        for l in 0..N {
-            form[0][l] = value(0, 0, 0, l);
-            form[1][l] = (value(1, 0, 0, l) + value(0, 1, 0, l) + value(0, 0, 1, l)) * third;
-            form[2][l] = (value(1, 1, 0, l) + value(1, 0, 1, l) + value(0, 1, 1, l)) * third;
-            form[3][l] = value(1, 1, 1, l);
+        let mut form = [[R::from_f32(0.0); N]; 4];
+        // In each name the first letter is the place along i, the second along j, the third along k: e where the ray
+        // enters, l where it leaves.
+        for n in 0..N {
+            let [e, l] = [enter, leave].map(|place| [place[0][n], place[1][n], place[2][n]]);
+            let [xe, xl] = [e[0], l[0]].map(|x| {
+                let row = |r: usize| corners[2 * r] + (corners[2 * r + 1] - corners[2 * r]) * x;
+                [row(0), row(1), row(2), row(3)]
+            });
+            let plane = |x: [R; 4], y: R| [x[0] + (x[1] - x[0]) * y, x[2] + (x[3] - x[2]) * y];
+            let value = |[near, far]: [R; 2], z: R| near + (far - near) * z;
+            let (ee, el, le, ll) = (plane(xe, e[1]), plane(xe, l[1]), plane(xl, e[1]), plane(xl, l[1]));
+            form[0][n] = value(ee, e[2]);
+            form[1][n] = (value(le, e[2]) + value(el, e[2]) + value(ee, l[2])) * third;
+            form[2][n] = (value(ll, e[2]) + value(le, l[2]) + value(el, l[2])) * third;
+            form[3][n] = value(ll, l[2]);
         }
         Self(form)
-    }
-
-    /// The larger of the values at both ends.
-    #[inline(always)]
-    pub fn largest_end(&self) -> [R; N] {
-        std::array::from_fn(|l| larger(self.0[0][l], self.0[3][l]))
     }
 
     /// A number that the cubic does not exceed: it lies within the hull of its coefficients.
     #[inline(always)]
     pub fn bound(&self) -> [R; N] {
-        let Self([b0, b1, b2, b3]) = self;
-        std::array::from_fn(|l| larger(larger(b0[l], b1[l]), larger(b2[l], b3[l])))
+        let mut bound = self.0[0];
+        for form in &self.0[1..] {
+            for n in 0..N {
+                bound[n] = larger(bound[n], form[n]);
+            }
+        }
+        bound
     }
 
     /// The largest value.
     #[inline(always)]
     pub fn largest(&self) -> [R; N] {
-        let mut value = self.largest_end();
-        let at = self.summit();
-        for l in 0..N {
-            value[l] = larger(value[l], self.at(l, at[l]));
+        let mut largest = self.0[0];
+        for n in 0..N {
+            let form = [self.0[0][n], self.0[1][n], self.0[2][n], self.0[3][n]];
+            let summit = at(form, summit(form));
+            largest[n] = larger(larger(form[0], form[3]), summit);
         }
-        value
-    }
-
-    /// Where the cubic has its local maximum, from 0 at the entrance to 1 at the exit; any place where it has none there.
-    #[inline(always)]
-    fn summit(&self) -> [R; N] {
-        let Self([b0, b1, b2, b3]) = self;
-        let [zero, one, tiny] = [0.0, 1.0, 1e-30].map(R::from_f32);
-        let mut at = [zero; N];
-        for l in 0..N {
-            // A third of the derivative is d0·(1 − u)² + 2·d1·u·(1 − u) + d2·u²; divided by the largest of the three, so
-            // that no square overflows.
-            let d = [b1[l] - b0[l], b2[l] - b1[l], b3[l] - b2[l]];
-            let largest = d.map(|d| larger(d, zero - d)).into_iter().fold(tiny, larger);
-            let scale = one / largest;
-            let [d0, d1, d2] = d.map(|d| d * scale);
-            let (curve, bend) = (d0 - d1 - d1 + d2, d1 - d0);
-            let root = larger(d1 * d1 - d0 * d2, zero).square_root();
-            // Of the two roots that where the derivative falls, without a difference of almost equal numbers.
-            let (above, below) =
-                if bend > zero { (zero - (bend + root), curve) } else { (d0, root - bend) };
-            let below = if below > tiny { below } else if below < zero - tiny { below } else { tiny };
-            let u = above / below;
-            let u = if u > zero { u } else { zero };
-            at[l] = if u < one { u } else { one };
-        }
-        at
-    }
-
-    /// The value at `u` of ray `l`, by de Casteljau's scheme.
-    #[inline(always)]
-    fn at(&self, l: usize, u: R) -> R {
-        let mix = |a: R, b: R| a + (b - a) * u;
-        let [b0, b1, b2, b3] = [0, 1, 2, 3].map(|n: usize| self.0[n][l]);
-        let (c0, c1, c2) = (mix(b0, b1), mix(b1, b2), mix(b2, b3));
-        mix(mix(c0, c1), mix(c1, c2))
+        largest
     }
 
     /// The mean value, as Simpson's rule gives it: exact for a cubic.
     #[inline(always)]
     pub fn mean(&self) -> [R; N] {
-        let (Self([b0, b1, b2, b3]), quarter) = (self, R::from_f32(0.25));
-        std::array::from_fn(|l| ((b0[l] + b3[l]) + (b1[l] + b2[l])) * quarter)
+        let (mut mean, quarter) = (self.0[0], R::from_f32(0.25));
+        for n in 0..N {
+            mean[n] = ((self.0[0][n] + self.0[3][n]) + (self.0[1][n] + self.0[2][n])) * quarter;
+        }
+        mean
     }
+}
+
+/// Where a cubic in Bernstein's form has its local maximum, from 0 to 1; any place where it has none there.
+#[inline(always)]
+fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
+    let (zero, one, tiny) = (R::from_f32(0.0), R::from_f32(1.0), R::from_f32(1e-30));
+    // A third of the derivative is d0·(1 − u)² + 2·d1·u·(1 − u) + d2·u²; divided by the largest of the three, so that no
+    // square overflows.
+    let (d0, d1, d2) = (b1 - b0, b2 - b1, b3 - b2);
+    let size = |d: R| larger(d, zero - d);
+    let scale = one / larger(larger(size(d0), size(d1)), larger(size(d2), tiny));
+    let (d0, d1, d2) = (d0 * scale, d1 * scale, d2 * scale);
+    let (curve, bend) = (d0 - d1 - d1 + d2, d1 - d0);
+    let root = larger(d1 * d1 - d0 * d2, zero).square_root();
+    // Of the two roots that where the derivative falls, without a difference of almost equal numbers.
+    let above = if bend > zero { zero - (bend + root) } else { d0 };
+    let below = if bend > zero { curve } else { root - bend };
+    let below = if size(below) > tiny { below } else { tiny };
+    let u = above / below;
+    let u = if u > zero { u } else { zero };
+    if u < one { u } else { one }
+}
+
+/// The value of a cubic in Bernstein's form at `u`, by de Casteljau's scheme.
+#[inline(always)]
+fn at<R: Real>([b0, b1, b2, b3]: [R; 4], u: R) -> R {
+    let mix = |a: R, b: R| a + (b - a) * u;
+    let (c0, c1, c2) = (mix(b0, b1), mix(b1, b2), mix(b2, b3));
+    mix(mix(c0, c1), mix(c1, c2))
 }
 
 /// The larger of two numbers; the second where the first is NaN.
@@ -172,7 +153,7 @@ mod tests {
             assert!(found >= largest - 1e-9 && found <= largest + 1e-3, "{found} for {largest}");
             let [bound] = cubic.bound();
             assert!(found <= bound + 1e-9);
-            inside += u32::from(found > cubic.largest_end()[0] + 1e-9);
+            inside += u32::from(found > values[0].max(values[steps as usize]) + 1e-9);
             // Simpson's rule with one interval.
             let simpson = (values[0] + 4.0 * values[steps as usize / 2] + values[steps as usize]) / 6.0;
             assert!((cubic.mean()[0] - simpson).abs() < 1e-9);

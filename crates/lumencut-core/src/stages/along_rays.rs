@@ -17,7 +17,7 @@ use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::block_cells::{BlockReader, TypedBlocks};
 use crate::math::blocks::{Blocks, Range, SIDE};
-use crate::math::cell_projection::{CellProjection, RayGrid};
+use crate::math::cell_projection::{CellProjection, PIXEL_ROUNDING, RayGrid, Slot as CellSlot, slots};
 use crate::math::lanes::{FAN, dispatch};
 use crate::volume::{Real, Volume};
 use crate::with_voxels;
@@ -102,25 +102,72 @@ struct Shared<'a> {
     sorted: usize,
     /// −1 where the smallest value is kept: it is the largest with the other sign.
     sign: f32,
-    /// The index from a window's first pixel to each of them, axis by axis.
+    /// The index from a window's first pixel to each of them, axis by axis; from a column to the next, and from a row to
+    /// the next.
     lanes: [[f32; FAN]; 3],
+    index_steps: [[f32; 3]; 2],
+    /// Columns and rows from a voxel to the next along each axis, and how far a cell reaches to both sides.
+    pixel_steps: [[f32; 3]; 2],
+    reach: [f32; 2],
+    /// The stretches along each axis of the first block, of one in the middle and of the last.
+    slots: [[Vec<Slot>; 3]; 3],
+    blocks: [usize; 3],
+}
+
+/// A stretch along an axis, in `f32`.
+struct Slot {
+    cell: usize,
+    ends: [f32; 2],
 }
 
 impl<'a> Shared<'a> {
     fn new(along: &'a AlongRays<'a>, projection: &'a CellProjection) -> Self {
-        let mut levels = vec![along.volume.size().map(|n| (n.max(2) - 1).div_ceil(SIDE))];
+        let size = along.volume.size();
+        let blocks = size.map(|n| (n.max(2) - 1).div_ceil(SIDE));
+        let mut levels = vec![blocks];
         while levels[levels.len() - 1].iter().any(|n| *n > 1) {
             levels.push(levels[levels.len() - 1].map(|n| n.div_ceil(2)));
         }
         let is_narrow =
             |level: &usize| projection.reach([(SIDE << level) as f64 / 2.0; 3].into()) <= WINDOW as f64;
         let sorted = (0..levels.len()).rev().find(is_narrow).unwrap_or(0);
-        let [across, down] = projection.pixel_steps();
+        let steps = projection.index_steps();
         let lanes = std::array::from_fn(|a| {
-            std::array::from_fn(|l| (across[a] * (l % WINDOW) as f64 + down[a] * (l / WINDOW) as f64) as f32)
+            std::array::from_fn(|l| {
+                (steps[0][a] * (l % WINDOW) as f64 + steps[1][a] * (l / WINDOW) as f64) as f32
+            })
         });
         let sign = if along.reduction == Reduction::Smallest { -1.0 } else { 1.0 };
-        Self { along, projection, levels, sorted, sign, lanes }
+        let slots = std::array::from_fn(|a| {
+            [0, 1, blocks[a] - 1].map(|block| {
+                let slot = |slot: CellSlot| Slot { cell: slot.cell, ends: slot.ends.map(|end| end as f32) };
+                slots(size[a], block.min(blocks[a] - 1)).into_iter().map(slot).collect()
+            })
+        });
+        let pixel_steps = projection.pixel_steps();
+        Self {
+            along,
+            projection,
+            levels,
+            sorted,
+            sign,
+            lanes,
+            index_steps: steps.map(|step| step.as_vec3().to_array()),
+            pixel_steps: pixel_steps.map(|step| step.as_vec3().to_array()),
+            reach: pixel_steps.map(|step| (step.abs().element_sum() / 2.0 + PIXEL_ROUNDING) as f32),
+            slots,
+            blocks,
+        }
+    }
+
+    /// Which of the kinds of blocks along an axis a block is.
+    #[inline(always)]
+    fn kind(&self, axis: usize, block: usize) -> usize {
+        match block {
+            0 => 0,
+            _ if block + 1 == self.blocks[axis] => 2,
+            _ => 1,
+        }
     }
 
     /// The values of a block, with the sign that makes the wanted one the largest.

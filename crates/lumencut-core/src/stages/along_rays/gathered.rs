@@ -20,21 +20,26 @@ pub(super) struct Gathered {
     chords: [[f64; PIXELS]; 2],
     /// The first and the last depth of all (mm).
     pub depths: [f64; 2],
+    /// The last of the first depths and the first of the last ones (mm): between them no ray begins or ends.
+    pub inner: [f64; 2],
     /// The largest value so far; beyond all values where there is no ray.
     best: [f32; PIXELS],
     /// The values so far times the length of each (mm), and all lengths; empty where no mean is wanted.
-    sums: Vec<[f64; 2]>,
+    sums: [Vec<f64>; 2],
 }
 
 impl Gathered {
     /// Nothing met yet on the rays of `size` pixels.
     pub fn new(size: [usize; 2], reduction: Reduction, chord: impl Fn([usize; 2]) -> [f64; 2]) -> Self {
-        let sums = if reduction == Reduction::Mean { vec![[0.0; 2]; PIXELS] } else { Vec::new() };
+        let count = if reduction == Reduction::Mean { PIXELS } else { 0 };
+        let sums = [vec![0.0; count], vec![0.0; count]];
         let (chords, best) = ([[0.0; PIXELS], [-1.0; PIXELS]], [HUGE; PIXELS]);
-        let mut gathered = Self { chords, depths: [f64::MAX, f64::MIN], best, sums };
+        let [depths, inner] = [[f64::MAX, f64::MIN], [f64::MIN, f64::MAX]];
+        let mut gathered = Self { chords, depths, inner, best, sums };
         for j in 0..size[1] {
             for i in 0..size[0] {
                 let [near, far] = chord([i, j]);
+                gathered.inner = [gathered.inner[0].max(near), gathered.inner[1].min(far)];
                 if near > far {
                     continue;
                 }
@@ -56,12 +61,12 @@ impl Gathered {
     pub fn value(&self, [i, j]: [usize; 2], reduction: Reduction, sign: f32) -> f32 {
         let p = j * ROW + i;
         let found = match reduction {
-            Reduction::Mean => self.sums[p][1] > 0.0,
+            Reduction::Mean => self.sums[1][p] > 0.0,
             Reduction::Largest | Reduction::Smallest => self.best[p] > -HUGE && self.best[p] < HUGE,
         };
         match reduction {
             _ if !found => f32::NAN,
-            Reduction::Mean => (self.sums[p][0] / self.sums[p][1]) as f32,
+            Reduction::Mean => (self.sums[0][p] / self.sums[1][p]) as f32,
             Reduction::Largest | Reduction::Smallest => self.best[p] * sign,
         }
     }
@@ -81,41 +86,55 @@ impl Gathered {
         smallest(&least)
     }
 
-    /// The pixels of the window at a column and a row.
+    /// The largest values of the window at a column and a row so far.
     #[inline(always)]
-    pub fn window([column, row]: [usize; 2]) -> [usize; FAN] {
-        std::array::from_fn(|l| (row + l / WINDOW) * ROW + column + l % WINDOW)
+    pub fn best(&self, window: [usize; 2]) -> [f32; FAN] {
+        let mut best = [0.0; FAN];
+        for r in 0..WINDOW {
+            best[r * WINDOW..][..WINDOW].copy_from_slice(&self.best[place(window, r)..][..WINDOW]);
+        }
+        best
     }
 
-    /// The largest values of a window so far.
+    /// The first or the last depths of a window's rays, counted from `depth` (mm).
     #[inline(always)]
-    pub fn best(&self, window: &[usize; FAN]) -> [f32; FAN] {
-        window.map(|p| self.best[p])
-    }
-
-    /// The first and the last depth of a window's rays, counted from `depth` (mm).
-    #[inline(always)]
-    pub fn chords(&self, window: &[usize; FAN], depth: f64) -> [[f32; FAN]; 2] {
-        [0, 1].map(|end: usize| window.map(|p| (self.chords[end][p] - depth) as f32))
+    pub fn ends(&self, end: usize, window: [usize; 2], depth: f64) -> [f32; FAN] {
+        let mut ends = [0.0; FAN];
+        for r in 0..WINDOW {
+            let chords = &self.chords[end][place(window, r)..][..WINDOW];
+            for c in 0..WINDOW {
+                ends[r * WINDOW + c] = (chords[c] - depth) as f32;
+            }
+        }
+        ends
     }
 
     /// Takes the largest values of a window.
     #[inline(always)]
-    pub fn set_best(&mut self, window: &[usize; FAN], best: &[f32; FAN]) {
-        for l in 0..FAN {
-            self.best[window[l]] = best[l];
+    pub fn set_best(&mut self, window: [usize; 2], best: &[f32; FAN]) {
+        for r in 0..WINDOW {
+            self.best[place(window, r)..][..WINDOW].copy_from_slice(&best[r * WINDOW..][..WINDOW]);
         }
     }
 
-    /// Adds the values of a window, each as long as its ray takes it (mm); 0 adds nothing. Neighbouring windows that
-    /// overlap leave `columns` and `rows` to each other.
+    /// Adds the values of a window, each as long as its ray takes it (mm); 0 adds nothing.
     #[inline(always)]
-    pub fn add(&mut self, window: &[usize; FAN], mean: &[f32; FAN], length: &[f32; FAN]) {
-        for l in 0..FAN {
-            if length[l] > 0.0 && !mean[l].is_nan() {
-                let sum = &mut self.sums[window[l]];
-                *sum = [sum[0] + f64::from(mean[l]) * f64::from(length[l]), sum[1] + f64::from(length[l])];
+    pub fn add(&mut self, window: [usize; 2], mean: &[f32; FAN], length: &[f32; FAN]) {
+        for r in 0..WINDOW {
+            let first = place(window, r);
+            for c in 0..WINDOW {
+                let (mean, length) = (mean[r * WINDOW + c], length[r * WINDOW + c]);
+                let length = if mean.is_nan() { 0.0 } else { f64::from(length) };
+                let mean = if mean.is_nan() { 0.0 } else { f64::from(mean) };
+                self.sums[0][first + c] += mean * length;
+                self.sums[1][first + c] += length;
             }
         }
     }
+}
+
+/// Where a row of a window begins.
+#[inline(always)]
+fn place([column, row]: [usize; 2], r: usize) -> usize {
+    (row + r) * ROW + column
 }
