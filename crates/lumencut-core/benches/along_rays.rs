@@ -2,10 +2,10 @@
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::math::blocks::{Blocks, HUGE};
-use lumencut_core::math::cell_projection::RayGrid;
 use lumencut_core::math::lanes::Isa;
+use lumencut_core::math::ray::{IndexFromView, RayGrid};
 use lumencut_core::stages::Work;
-use lumencut_core::stages::along_rays::{AlongRays, Reduction, along_rays};
+use lumencut_core::stages::along_rays::{AlongRays, Reduction, ViewRays, along_rays};
 use lumencut_core::volume::Voxels;
 use lumencut_scenes::volumes::volume;
 
@@ -23,11 +23,11 @@ fn phantoms() {
             let camera = lumencut_scenes::views::fitted(&phantom.tree, toward, 512);
             for (reduction, limit) in [(Reduction::Largest, 800.0), (Reduction::Smallest, -200.0), (Reduction::Mean, HUGE)] {
                 let work = Work { size: [512, 512], isa: Isa::widest(), stop: &|| false };
-                let rays = RayGrid::fine(&camera);
-                let along = AlongRays { camera: &camera, volume: &volume, blocks: Some(&blocks), rays, reduction, limit };
+                let to = IndexFromView::new(&volume, &camera);
+                let along = AlongRays { size: [512, 512], volume: &volume, blocks: Some(&blocks), reduction, limit, step: to.voxel() };
                 let mut values = vec![0.0; 512 * 512];
                 let (t, w) = (cpu(), std::time::Instant::now());
-                along_rays(&work, &along, &|_| [-1e9, 1e9], &mut values).unwrap();
+                along_rays(&work, &along, &ViewRays { to, rays: RayGrid::fine(&camera), chord: |_| [-1e9, 1e9] }, &mut values).unwrap();
                 println!("{name} {what} {reduction:?} {} ms cpu {:.0} wall; spacing {:.2}", cpu() - t, w.elapsed().as_secs_f64() * 1e3, camera.pixel_spacing());
             }
         }
@@ -51,11 +51,11 @@ fn main() {
             for isa in Isa::available().into_iter().rev().take(1) {
               for reduction in [Reduction::Largest, Reduction::Mean] {
                 let work = Work { size: [512, 512], isa, stop: &|| false };
-                let rays = RayGrid::fine(&camera);
-                let along = AlongRays { camera: &camera, volume: &volume, blocks: Some(&blocks), rays, reduction, limit: HUGE };
+                let to = IndexFromView::new(&volume, &camera);
+                let along = AlongRays { size: [512, 512], volume: &volume, blocks: Some(&blocks), reduction, limit: HUGE, step: to.voxel() };
                 let mut values = vec![0.0; 512 * 512];
                 let t = cpu();
-                along_rays(&work, &along, &|_| [-1e9, 1e9], &mut values).unwrap();
+                along_rays(&work, &along, &ViewRays { to, rays: RayGrid::fine(&camera), chord: |_| [-1e9, 1e9] }, &mut values).unwrap();
                 println!("{name} {what} {isa:?} {reduction:?} {} ms cpu", cpu() - t);
               }
             }

@@ -5,10 +5,10 @@
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::math::blocks::{Blocks, HUGE};
-use lumencut_core::math::cell_projection::RayGrid;
 use lumencut_core::math::lanes::Isa;
+use lumencut_core::math::ray::{IndexFromView, RayGrid};
 use lumencut_core::stages::Work;
-use lumencut_core::stages::along_rays::{AlongRays, Reduction, along_rays};
+use lumencut_core::stages::along_rays::{AlongRays, Reduction, ViewRays, along_rays};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_scenes::views::view;
 use lumencut_scenes::volumes::{ball_and_rod, sheared, volume};
@@ -103,10 +103,11 @@ fn reduced(
 ) -> Vec<f32> {
     let work = Work { size: camera.size(), isa, stop: &|| false };
     let limit = if reduction == Reduction::Smallest { -HUGE } else { HUGE };
-    let rays = RayGrid::fine(camera);
-    let along = AlongRays { camera, volume, blocks, rays, reduction, limit };
+    let to = IndexFromView::new(volume, camera);
+    let along = AlongRays { size: work.size, volume, blocks, reduction, limit, step: to.voxel() };
+    let source = ViewRays { to, rays: RayGrid::fine(camera), chord };
     let mut values = vec![0.0; work.size[0] * work.size[1]];
-    along_rays(&work, &along, chord, &mut values).unwrap();
+    along_rays(&work, &along, &source, &mut values).unwrap();
     values
 }
 

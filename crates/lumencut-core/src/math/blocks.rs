@@ -106,13 +106,6 @@ impl Blocks {
         self.levels.iter().map(|level| (level.size, &level.ranges[..]))
     }
 
-    /// The range of one block of a level; the smallest blocks are of level 0.
-    #[inline(always)]
-    pub fn range_of(&self, level: usize, block: [usize; 3]) -> Range {
-        let Level { size, ranges } = &self.levels[level];
-        ranges[(block[2] * size[1] + block[1]) * size[0] + block[0]]
-    }
-
     /// The range of the samples whose lower corners lie between two voxels, both included, or a wider one.
     #[inline(always)]
     pub fn range(&self, first: [i32; 3], last: [i32; 3]) -> Range {

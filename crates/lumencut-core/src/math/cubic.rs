@@ -3,8 +3,8 @@
 
 use crate::volume::Real;
 
-/// The values at the corners of a cell, i fastest, then j, then k.
-pub type Corners<R> = [R; 8];
+/// The values at the corners of the cells of N rays, i fastest, then j, then k.
+pub type Corners<R, const N: usize> = [[R; N]; 8];
 /// Where N rays meet a cell: weights of its farther corners, axis by axis.
 pub type Weights<R, const N: usize> = [[R; N]; 3];
 
@@ -16,7 +16,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
     /// The cubic between two places of each ray. Its coefficients are the trilinear form with the weights of the one
     /// place along some axes and those of the other along the rest.
     #[inline(always)]
-    pub fn between(corners: &Corners<R>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
+    pub fn between(corners: &Corners<R, N>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
         let third = R::from_weight(1.0 / 3.0);
         let mut form = [[R::from_f32(0.0); N]; 4];
         // In each name the first letter is the place along i, the second along j, the third along k: e where the ray
@@ -24,7 +24,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         for n in 0..N {
             let [e, l] = [enter, leave].map(|place| [place[0][n], place[1][n], place[2][n]]);
             let [xe, xl] = [e[0], l[0]].map(|x| {
-                let row = |r: usize| corners[2 * r] + (corners[2 * r + 1] - corners[2 * r]) * x;
+                let row = |r: usize| corners[2 * r][n] + (corners[2 * r + 1][n] - corners[2 * r][n]) * x;
                 [row(0), row(1), row(2), row(3)]
             });
             let plane = |x: [R; 4], y: R| [x[0] + (x[1] - x[0]) * y, x[2] + (x[3] - x[2]) * y];
@@ -50,14 +50,33 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         bound
     }
 
+    /// The larger of the values at both ends.
+    #[inline(always)]
+    pub fn largest_end(&self) -> [R; N] {
+        let mut largest = self.0[0];
+        for n in 0..N {
+            largest[n] = larger(largest[n], self.0[3][n]);
+        }
+        largest
+    }
+
+    /// The value at the local maximum; a smaller one where there is none between both ends.
+    #[inline(always)]
+    pub fn at_summit(&self) -> [R; N] {
+        let mut value = self.0[0];
+        for n in 0..N {
+            let form = [self.0[0][n], self.0[1][n], self.0[2][n], self.0[3][n]];
+            value[n] = at(form, summit(form));
+        }
+        value
+    }
+
     /// The largest value.
     #[inline(always)]
     pub fn largest(&self) -> [R; N] {
-        let mut largest = self.0[0];
+        let (mut largest, summit) = (self.largest_end(), self.at_summit());
         for n in 0..N {
-            let form = [self.0[0][n], self.0[1][n], self.0[2][n], self.0[3][n]];
-            let summit = at(form, summit(form));
-            largest[n] = larger(larger(form[0], form[3]), summit);
+            largest[n] = larger(largest[n], summit[n]);
         }
         largest
     }
@@ -140,7 +159,7 @@ mod tests {
             let corners: [f64; 8] = std::array::from_fn(|_| number() * 1000.0);
             let mut place = || [0; 3].map(|_| 0.5 + 0.5 * number());
             let (enter, leave) = (place(), place());
-            let cubic = Cubic::<f64, 1>::between(&corners, &enter.map(|w| [w]), &leave.map(|w| [w]));
+            let cubic = Cubic::<f64, 1>::between(&corners.map(|c| [c]), &enter.map(|w| [w]), &leave.map(|w| [w]));
             let steps = 4000;
             let values: Vec<f64> = (0..=steps)
                 .map(|n| {
@@ -166,13 +185,13 @@ mod tests {
         for size in [1e-20f32, 1.0, 1e18, 1e30] {
             // Along the diagonal: 0, up to the middle, and back.
             let corners = [0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(|c: f32| c * size);
-            let cubic = Cubic::<f32, 1>::between(&corners, &[[0.0]; 3], &[[1.0]; 3]);
+            let cubic = Cubic::<f32, 1>::between(&corners.map(|c| [c]), &[[0.0]; 3], &[[1.0]; 3]);
             // 3·u·(1 − u)² is largest at u = 1/3.
             let expected = size * 4.0 / 9.0;
             let [found] = cubic.largest();
             assert!((found / expected - 1.0).abs() < 1e-6, "{found} for {expected}");
         }
-        let flat = Cubic::<f32, 1>::between(&[7.0; 8], &[[0.1]; 3], &[[0.8]; 3]);
+        let flat = Cubic::<f32, 1>::between(&[[7.0]; 8], &[[0.1]; 3], &[[0.8]; 3]);
         assert!((flat.largest()[0] - 7.0).abs() < 1e-5 && (flat.mean()[0] - 7.0).abs() < 1e-5);
     }
 
@@ -181,7 +200,7 @@ mod tests {
         for n in 0..8 {
             let mut corners = [1.0f32; 8];
             corners[n] = f32::NAN;
-            let cubic = Cubic::<f32, 1>::between(&corners, &[[0.0]; 3], &[[1.0]; 3]);
+            let cubic = Cubic::<f32, 1>::between(&corners.map(|c| [c]), &[[0.0]; 3], &[[1.0]; 3]);
             assert!(cubic.largest()[0].is_nan() && cubic.mean()[0].is_nan(), "corner {n}");
         }
     }

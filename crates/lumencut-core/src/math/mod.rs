@@ -1,10 +1,9 @@
 //! The arithmetic that the stages share.
 
 pub mod accumulate;
-pub mod block_cells;
 pub mod blocks;
 pub mod candidates;
-pub mod cell_projection;
+pub mod cell_walk;
 pub mod centerline_smoothing;
 pub mod context_parameters;
 pub mod cost;

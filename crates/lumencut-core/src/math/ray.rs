@@ -53,6 +53,37 @@ impl IndexFromView {
             z: index_from_world.transform_vector3(camera.direction()),
         }
     }
+
+    /// How far a ray goes from a voxel to the next along the axis where it meets most of them (mm).
+    pub fn voxel(&self) -> f64 {
+        1.0 / self.z.abs().max_element()
+    }
+}
+
+/// The rays of a raster: one through each of its pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct RayGrid {
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// View x and y of the first ray (mm).
+    pub first: [f64; 2],
+    /// View x from a column to the next, and y from a row to the next (mm).
+    pub next: [f64; 2],
+}
+
+impl RayGrid {
+    /// A ray for every pixel.
+    pub fn fine(camera: &Camera) -> Self {
+        let s = camera.pixel_spacing();
+        Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
+    }
+
+    /// A ray for every square of four pixels.
+    pub fn coarse(camera: &Camera) -> Self {
+        let fine = Self::fine(camera);
+        let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);
+        Self { size: fine.size.map(|n| n.div_ceil(2)), first, next: fine.next.map(|s| 2.0 * s) }
+    }
 }
 
 /// What all rays of a view share.
@@ -62,26 +93,71 @@ pub struct Rays {
     pub grid: Grid,
     /// From view to index.
     pub index_from_view: IndexFromView,
-    /// The longest part of a ray that one sample stands for (mm).
+    /// The longest part of a ray (mm).
     pub step: f64,
 }
 
 impl Rays {
-    /// The rays of one view of `volume`, sampled at least every `step` mm.
+    /// The rays of one view of `volume`, in parts of at most `step` mm.
     pub fn new(volume: &Volume, camera: &Camera, step: f64) -> Self {
         Self { grid: Grid::new(volume), index_from_view: IndexFromView::new(volume, camera), step }
     }
 }
 
-/// Sixteen rays of a square of pixels. The chord of each within the volume, from where it starts, is cut into equal
-/// parts no longer than a step; each is sampled in its middle. So the parts of a ray fill it, whatever the step.
+/// Sixteen rays, each with where it is at depth 0, where it goes, and between which depths it is wanted.
+#[derive(Clone, Debug)]
+pub struct Lines {
+    /// Continuous index at depth 0.
+    pub foot: [[f64; FAN]; 3],
+    /// What 1 mm of depth adds to it.
+    pub toward: [[f64; FAN]; 3],
+    /// The first depth (mm), and the last; no ray where they are the wrong way round.
+    pub near: [f64; FAN],
+    /// The last depth (mm).
+    pub far: [f64; FAN],
+}
+
+impl Lines {
+    /// The rays of a view at view coordinates `x` and `y` (mm), from depth `near` to depth `far`.
+    #[inline(always)]
+    pub fn of_view(to: &IndexFromView, [x, y]: &[[f64; FAN]; 2], [near, far]: [[f64; FAN]; 2]) -> Self {
+        let mut lines = Self { foot: [[0.0; FAN]; 3], toward: [[0.0; FAN]; 3], near, far };
+        for a in 0..3 {
+            for l in 0..FAN {
+                lines.foot[a][l] = to.origin[a] + to.x[a] * x[l] + to.y[a] * y[l];
+                lines.toward[a][l] = to.z[a];
+            }
+        }
+        lines
+    }
+
+    /// Keeps of each ray what lies within the volume's box.
+    #[inline(always)]
+    fn clip(&mut self, grid: &Grid) {
+        let last = grid.last();
+        for a in 0..3 {
+            for l in 0..FAN {
+                let (o, toward) = (self.foot[a][l], self.toward[a][l]);
+                let parallel = toward.abs() < PARALLEL;
+                let per_voxel = 1.0 / if parallel { 1.0 } else { toward };
+                let (one, other) = ((-0.5 - o) * per_voxel, (last[a] + 0.5 - o) * per_voxel);
+                let (enter, leave) = if one < other { (one, other) } else { (other, one) };
+                let outside = (o < -0.5) | (o > last[a] + 0.5);
+                let enter = if parallel { if outside { NEVER } else { -NEVER } } else { enter };
+                let leave = if parallel { NEVER } else { leave };
+                self.near[l] = if enter > self.near[l] { enter } else { self.near[l] };
+                self.far[l] = if leave < self.far[l] { leave } else { self.far[l] };
+            }
+        }
+    }
+}
+
+/// Sixteen rays of a square of pixels. The chord of each within the volume, between the depths where it is wanted, is cut
+/// into equal parts no longer than a step. So the parts of a ray fill it, whatever the step.
 #[derive(Clone, Debug)]
 pub struct Packet {
-    /// Continuous index of each ray at depth 0, and what 1 mm of depth adds to it.
-    foot: [[f64; FAN]; 3],
-    toward: [f64; 3],
-    /// Depth where the first part of each ray begins, and the length of a part (mm).
-    near: [f64; FAN],
+    lines: Lines,
+    /// The length of a part (mm).
     part: [f64; FAN],
     /// The number of parts of each ray; 0 where it misses the volume or is not needed.
     pub count: [i32; FAN],
@@ -96,6 +172,7 @@ pub struct Packet {
 #[derive(Clone, Copy, Debug, Default)]
 struct Bounds {
     foot: [[f64; 2]; 3],
+    toward: [[f64; 2]; 3],
     near: [f64; 2],
     part: [f64; 2],
     /// The largest depth where a ray ends.
@@ -103,50 +180,21 @@ struct Bounds {
 }
 
 impl Packet {
-    /// The rays at view coordinates `x` and `y` (mm) that start at depth `start`.
+    /// Cuts `lines` within `grid` into parts of at most `step` mm.
     #[inline(always)]
-    pub fn new(rays: &Rays, x: &[f64; FAN], y: &[f64; FAN], start: &[f32; FAN]) -> Self {
-        let to = &rays.index_from_view;
-        let (toward, last) = (to.z.to_array(), rays.grid.last());
-        let mut foot = [[0.0; FAN]; 3];
-        let (mut near, mut far) = ([0.0; FAN], [f64::from(NONE); FAN]);
-        for l in 0..FAN {
-            near[l] = f64::from(start[l]);
-        }
-        for a in 0..3 {
-            let parallel = toward[a].abs() < PARALLEL;
-            let per_voxel = if parallel { 0.0 } else { 1.0 / toward[a] };
-            for l in 0..FAN {
-                let o = to.origin[a] + to.x[a] * x[l] + to.y[a] * y[l];
-                let (one, other) = ((-0.5 - o) * per_voxel, (last[a] + 0.5 - o) * per_voxel);
-                let (enter, leave) = if one < other { (one, other) } else { (other, one) };
-                let outside = (o < -0.5) | (o > last[a] + 0.5);
-                let enter = if parallel { if outside { NEVER } else { -NEVER } } else { enter };
-                let leave = if parallel { NEVER } else { leave };
-                near[l] = if enter > near[l] { enter } else { near[l] };
-                far[l] = if leave < far[l] { leave } else { far[l] };
-                foot[a][l] = o;
-            }
-        }
+    pub fn new(grid: &Grid, mut lines: Lines, step: f64) -> Self {
+        lines.clip(grid);
         let (mut count, mut part) = ([0; FAN], [0.0; FAN]);
         for l in 0..FAN {
-            let chord = far[l] - near[l];
+            let chord = lines.far[l] - lines.near[l];
             // The whole number above the quotient, without the system's function.
-            let steps = chord / rays.step - SPARE;
+            let steps = chord / step - SPARE;
             let parts = steps as i32 + i32::from(f64::from(steps as i32) < steps);
             count[l] = if chord > 0.0 { parts.max(1) } else { 0 };
             part[l] = if chord > 0.0 { chord / f64::from(count[l]) } else { 0.0 };
         }
-        let mut packet = Self {
-            foot,
-            toward,
-            near,
-            part,
-            count,
-            thickness: [0.0; FAN],
-            longest: 0,
-            bounds: Bounds::default(),
-        };
+        let bounds = Bounds::default();
+        let mut packet = Self { lines, part, count, thickness: [0.0; FAN], longest: 0, bounds };
         for l in 0..FAN {
             packet.thickness[l] = part[l] as f32;
             packet.longest = packet.longest.max(count[l]);
@@ -165,39 +213,59 @@ impl Packet {
         }
         for l in 0..FAN {
             let model = if self.count[l] > 0 { l } else { busy };
-            (self.near[l], self.part[l]) = (self.near[model], self.part[model]);
-            for foot in &mut self.foot {
-                foot[l] = foot[model];
+            (self.lines.near[l], self.part[l]) = (self.lines.near[model], self.part[model]);
+            for a in 0..3 {
+                self.lines.foot[a][l] = self.lines.foot[a][model];
+                self.lines.toward[a][l] = self.lines.toward[a][model];
             }
         }
     }
 
     #[inline(always)]
     fn bound(&mut self) {
+        let Lines { foot, toward, near, .. } = &self.lines;
         self.bounds = Bounds {
-            foot: [ends(&self.foot[0]), ends(&self.foot[1]), ends(&self.foot[2])],
-            near: ends(&self.near),
+            foot: [ends(&foot[0]), ends(&foot[1]), ends(&foot[2])],
+            toward: [ends(&toward[0]), ends(&toward[1]), ends(&toward[2])],
+            near: ends(near),
             part: ends(&self.part),
             far: f64::MIN,
         };
         for l in 0..FAN {
-            let far = self.near[l] + self.part[l] * f64::from(self.count[l]);
+            let far = near[l] + self.part[l] * f64::from(self.count[l]);
             self.bounds.far = if far > self.bounds.far { far } else { self.bounds.far };
         }
     }
 
-    /// The parts from `first` on that are sampled together, within bounds of the whole packet.
+    /// The segment of samples in the middle of the parts from `first` on, within bounds of the whole packet.
     #[inline(always)]
     pub fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
-        let Bounds { foot, near, part, far } = &self.bounds;
-        let begin = near[0] + part[0] * (f64::from(first) + 0.5);
-        let end = near[1] + part[1] * (f64::from(first + STEPS as i32) - 0.5);
+        let [first_part, end_part] = [f64::from(first) + 0.5, f64::from(first + STEPS as i32) - 0.5];
+        self.between(grid, blocks, first, [first_part, end_part])
+    }
+
+    /// The segment of all that lies in `count` parts from `first` on, within bounds of the whole packet.
+    #[inline(always)]
+    pub fn whole_segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32, count: i32) -> Segment {
+        self.between(grid, blocks, first, [f64::from(first), f64::from(first + count)])
+    }
+
+    /// The segment that begins with the part `first`; what is looked at lies between two places, counted in parts.
+    #[inline(always)]
+    fn between(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32, parts: [f64; 2]) -> Segment {
+        let Bounds { foot, toward, near, part, far } = &self.bounds;
+        let begin = near[0] + part[0] * parts[0];
+        let end = near[1] + part[1] * parts[1];
         let end = if end < *far { end } else { *far };
         let (mut low, mut high) = ([0; 3], [0; 3]);
         let last_cell = grid.last_cell();
         for a in 0..3 {
-            let (one, other) = (self.toward[a] * begin, self.toward[a] * end);
-            let (less, more) = if one < other { (one, other) } else { (other, one) };
+            let ways = [toward[a][0] * begin, toward[a][0] * end, toward[a][1] * begin, toward[a][1] * end];
+            let (mut less, mut more) = (ways[0], ways[0]);
+            for way in ways {
+                less = if way < less { way } else { less };
+                more = if way > more { way } else { more };
+            }
             low[a] = ((foot[a][0] + less - PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
             high[a] = ((foot[a][1] + more + PLACE_ROUNDING) as i32).clamp(0, last_cell[a]);
         }
@@ -211,17 +279,65 @@ impl Packet {
     /// The places of a segment's samples.
     #[inline(always)]
     pub fn line(&self, segment: &Segment) -> Line {
-        let mut line = Line { start: [[0.0; FAN]; 3], part: [[0.0; FAN]; 3] };
+        Line { start: self.places(segment, 0.5), part: self.way(1.0) }
+    }
+
+    /// All that lies in `count` parts from the beginning of a segment on.
+    #[inline(always)]
+    pub fn stretch(&self, segment: &Segment, count: i32) -> Stretch {
+        let count = count as f32;
+        let mut stretch = Stretch {
+            start: self.places(segment, 0.0),
+            way: self.way(f64::from(count)),
+            end: [0.0; FAN],
+            length: [0.0; FAN],
+        };
+        for l in 0..FAN {
+            let left = (self.count[l] - segment.first) as f32;
+            stretch.end[l] = if left < count { left / count } else { 1.0 };
+            stretch.length[l] = self.thickness[l] * count;
+        }
+        stretch
+    }
+
+    /// Where the rays are `parts` behind the beginning of a segment.
+    #[inline(always)]
+    fn places(&self, segment: &Segment, parts: f64) -> Places {
+        let mut places = [[0.0; FAN]; 3];
         for a in 0..3 {
             for l in 0..FAN {
-                let depth = self.near[l] + self.part[l] * (f64::from(segment.first) + 0.5);
-                let begin = self.foot[a][l] + self.toward[a] * depth;
-                line.start[a][l] = (begin - f64::from(segment.base[a])) as f32;
-                line.part[a][l] = (self.part[l] * self.toward[a]) as f32;
+                let depth = self.lines.near[l] + self.part[l] * (f64::from(segment.first) + parts);
+                let begin = self.lines.foot[a][l] + self.lines.toward[a][l] * depth;
+                places[a][l] = (begin - f64::from(segment.base[a])) as f32;
             }
         }
-        line
+        places
     }
+
+    /// How far the rays go in some parts.
+    #[inline(always)]
+    fn way(&self, parts: f64) -> Places {
+        let mut way = [[0.0; FAN]; 3];
+        for a in 0..3 {
+            for l in 0..FAN {
+                way[a][l] = (self.part[l] * parts * self.lines.toward[a][l]) as f32;
+            }
+        }
+        way
+    }
+}
+
+/// Sixteen rays from the beginning of a segment on, counted from its base.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    /// Where they begin (voxels).
+    pub start: Places,
+    /// How far they go in the whole segment (voxels).
+    pub way: Places,
+    /// Where they end, as a share of the segment; 0 or less where a ray has ended before.
+    pub end: [f32; FAN],
+    /// The length of the whole segment (mm).
+    pub length: [f32; FAN],
 }
 
 /// The smallest and the largest of sixteen numbers.

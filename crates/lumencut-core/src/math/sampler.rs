@@ -1,7 +1,8 @@
 //! A volume of any type of voxel, sampled by one code.
 
+use super::cell_walk::{CellWalk, Largest, Sums};
 use super::lanes::{FAN, Isa, Kernel, dispatch};
-use super::ray::{Line, STEPS};
+use super::ray::{Line, STEPS, Stretch};
 use super::sampling::{Around, Grid, Path};
 use crate::volume::Voxel;
 
@@ -12,6 +13,10 @@ pub trait Sampler: Sync {
     fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS];
     /// The volume at the neighbours of sixteen places.
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
+    /// Widens the largest values times the sign by those along a stretch of rays; those above the limit count as the limit.
+    fn widen(&self, base: [i32; 3], stretch: &Stretch, sign_and_limit: [f32; 2], best: &mut [f32; FAN]);
+    /// Adds the integrals of the volume along a stretch of rays, and their lengths (mm).
+    fn sum_up(&self, base: [i32; 3], stretch: &Stretch, sums: &mut [[f64; FAN]; 2]);
 }
 
 /// Voxels of one type.
@@ -32,6 +37,16 @@ impl<T: Voxel> Sampler for TypedSampler<'_, T> {
 
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6] {
         dispatch(self.isa, SamplePath { sampler: self, base, path: neighbours })
+    }
+
+    fn widen(&self, base: [i32; 3], stretch: &Stretch, [sign, limit]: [f32; 2], best: &mut [f32; FAN]) {
+        let Self { grid, voxels, isa } = self;
+        dispatch(*isa, CellWalk { grid, voxels, base, stretch, sign, fold: Largest { best, limit } });
+    }
+
+    fn sum_up(&self, base: [i32; 3], stretch: &Stretch, sums: &mut [[f64; FAN]; 2]) {
+        let Self { grid, voxels, isa } = self;
+        dispatch(*isa, CellWalk { grid, voxels, base, stretch, sign: 1.0, fold: Sums(sums) });
     }
 }
 

@@ -159,8 +159,7 @@ impl Grid {
                 }
             }
         }
-        let first: usize = (0..3).map(|a| base[a] as usize * self.strides[a]).sum();
-        let rows = self.rows(&voxels[first..], &offset);
+        let rows = self.rows(&voxels[self.offset_of(base)..], &offset);
         for n in 0..N {
             for l in 0..FAN {
                 let weights = [0, 1, 2].map(|a| T::Real::from_f32(weight[n][a][l]));
@@ -177,9 +176,20 @@ impl Grid {
         })
     }
 
+    /// Whether the voxels lie too far apart for offsets of 32 bits.
+    pub fn is_wide(&self) -> bool {
+        self.wide
+    }
+
+    /// The element of a voxel.
+    #[inline(always)]
+    pub fn offset_of(&self, voxel: [i32; 3]) -> usize {
+        (0..3).map(|a| voxel[a] as usize * self.strides[a]).sum()
+    }
+
     /// The pairs of neighbours along i in the four rows around each place, j fastest.
     #[inline(always)]
-    fn rows<T: Voxel, O: Offset, const N: usize>(
+    pub fn rows<T: Voxel, O: Offset, const N: usize>(
         &self,
         voxels: &[T],
         offset: &[[O; FAN]; N],
@@ -215,11 +225,24 @@ impl Grid {
 }
 
 /// The distance of a voxel in elements.
-trait Offset: Copy {
+pub trait Offset: Copy + Default {
+    /// The distance of neighbours along an axis.
+    fn stride(grid: &Grid, axis: usize) -> Self;
+    /// This and `steps` times a stride more.
+    fn plus(self, steps: i32, stride: Self) -> Self;
+    /// The distance as an index.
     fn elements(self) -> usize;
 }
 
 impl Offset for u32 {
+    #[inline(always)]
+    fn stride(grid: &Grid, axis: usize) -> Self {
+        grid.strides[axis] as u32
+    }
+    #[inline(always)]
+    fn plus(self, steps: i32, stride: Self) -> Self {
+        self.wrapping_add((steps as u32).wrapping_mul(stride))
+    }
     #[inline(always)]
     fn elements(self) -> usize {
         self as usize
@@ -227,6 +250,14 @@ impl Offset for u32 {
 }
 
 impl Offset for usize {
+    #[inline(always)]
+    fn stride(grid: &Grid, axis: usize) -> Self {
+        grid.strides[axis]
+    }
+    #[inline(always)]
+    fn plus(self, steps: i32, stride: Self) -> Self {
+        self + steps as usize * stride
+    }
     #[inline(always)]
     fn elements(self) -> usize {
         self

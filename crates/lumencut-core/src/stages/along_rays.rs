@@ -1,25 +1,16 @@
-//! The largest, the smallest or the mean value of the volume along rays, exactly: not at samples, but everywhere on the
-//! chord of each ray. Within a cell the volume along a ray is a cubic, whose maximum and mean have closed forms.
-//!
-//! Cells are projected onto the pixels whose rays meet them (cell projection): so each voxel is loaded a few times, however
-//! many rays pass it, and sixteen rays share one cell's corners. Blocks with the largest values go first; what cannot win
-//! is skipped, block by block and cell by cell.
-
-mod gathered;
-mod tile;
+//! The largest, the smallest or the mean value of the volume along rays, exactly: not at samples, but everywhere on the chord
+//! of each ray.
 
 use rayon::prelude::*;
 
-use self::gathered::{TILE, WINDOW};
-use self::tile::Tile;
 use super::Work;
-use crate::camera::Camera;
 use crate::error::Result;
-use crate::math::block_cells::{BlockReader, TypedBlocks};
-use crate::math::blocks::{Blocks, Range, SIDE};
-use crate::math::cell_projection::{CellProjection, PIXEL_ROUNDING, RayGrid, Slot as CellSlot, slots};
-use crate::math::lanes::{FAN, dispatch};
-use crate::volume::{Real, Volume};
+use crate::math::blocks::{Blocks, HUGE, Range};
+use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, smaller, smallest};
+use crate::math::ray::{IndexFromView, Lines, NONE, PACKET, Packet, RayGrid, Segment};
+use crate::math::sampler::{Sampler, TypedSampler};
+use crate::math::sampling::Grid;
+use crate::volume::Volume;
 use crate::with_voxels;
 
 /// What is kept of the values along a ray.
@@ -33,150 +24,157 @@ pub enum Reduction {
     Mean,
 }
 
-/// Rays through a volume, and what is kept of the values along them.
+/// What is kept of the values along the rays of an image.
 #[derive(Clone, Copy)]
 pub struct AlongRays<'a> {
-    /// The view.
-    pub camera: &'a Camera,
+    /// Columns and rows of the image.
+    pub size: [usize; 2],
     /// The volume.
     pub volume: &'a Volume<'a>,
     /// What can be skipped; `None` looks at everything, with the same result.
     pub blocks: Option<&'a Blocks>,
-    /// Where the rays are.
-    pub rays: RayGrid,
     /// What is kept.
     pub reduction: Reduction,
-    /// The value from which on none that is larger (smaller) makes a difference.
+    /// The value from which on a larger (smaller) one makes no difference.
     pub limit: f32,
+    /// The longest part of a ray (mm): about a voxel.
+    pub step: f64,
 }
 
-/// The first and the last depth of a ray (mm); no ray where the first lies behind the last.
-pub type Chord<'a> = dyn Fn(usize) -> [f64; 2] + Sync + 'a;
+/// Gives the rays of the sixteen pixels of a square, by their columns and rows.
+pub trait RaySource: Sync {
+    /// The rays; those of pixels beyond the image are not asked for.
+    fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines;
+}
+
+/// The parallel rays of a view, each between the two depths that `chord` gives for its pixel (mm).
+pub struct ViewRays<F> {
+    /// From view to index.
+    pub to: IndexFromView,
+    /// Where the rays are.
+    pub rays: RayGrid,
+    /// The first and the last depth of a pixel's ray.
+    pub chord: F,
+}
+
+impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
+    fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines {
+        let (mut place, [mut near, mut far]) = ([[0.0; FAN]; 2], [[f64::from(NONE); FAN]; 2]);
+        for (l, pixel) in pixels.iter().enumerate() {
+            if let Some([i, j]) = *pixel {
+                let RayGrid { size, first, next } = self.rays;
+                place[0][l] = first[0] + i as f64 * next[0];
+                place[1][l] = first[1] + j as f64 * next[1];
+                [near[l], far[l]] = (self.chord)(j * size[0] + i);
+            }
+        }
+        Lines::of_view(&self.to, &place, [near, far])
+    }
+}
 
 /// Writes the value of each ray; NaN where it meets no value.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn along_rays(work: &Work, along: &AlongRays, chord: &Chord, values: &mut [f32]) -> Result<()> {
+pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
+    let (grid, isa, width) = (Grid::new(along.volume), work.isa, along.size[0]);
     with_voxels!(along.volume.voxels(), voxels => {
-        tiles(work, along, &TypedBlocks::new(along.volume, voxels), chord, values)
-    })
-}
-
-/// Fills the values tile by tile.
-fn tiles<R: Real>(
-    work: &Work,
-    along: &AlongRays,
-    reader: &dyn BlockReader<R>,
-    chord: &Chord,
-    values: &mut [f32],
-) -> Result<()> {
-    let (width, projection) = (along.rays.size[0], CellProjection::new(along.volume, along.camera, &along.rays));
-    let shared = Shared::new(along, &projection);
-    let rows = values.par_chunks_mut(TILE[1] * width).enumerate();
-    rows.try_for_each(|(row, values)| {
-        for column in (0..width).step_by(TILE[0]) {
-            work.go_on()?;
-            let size = [TILE[0].min(width - column), values.len() / width];
-            let first = row * TILE[1] * width + column;
-            let chord = |[i, j]: [usize; 2]| chord(first + j * width + i);
-            let place = [column, row * TILE[1]];
-            let gathered = dispatch(work.isa, Tile::new(&shared, reader, (place, size), chord));
-            for j in 0..size[1] {
-                for i in 0..size[0] {
-                    values[j * width + column + i] = gathered.value([i, j], along.reduction, shared.sign);
+        let sampler: &dyn Sampler = &TypedSampler { grid, voxels, isa };
+        values.par_chunks_mut(ROWS * width).enumerate().try_for_each(|(row, values)| {
+            for column in (0..width).step_by(PACKET[0]) {
+                if column % TILE == 0 {
+                    work.go_on()?;
+                }
+                for first in (0..ROWS).step_by(PACKET[1]) {
+                    let place = [column, first];
+                    dispatch(isa, Square { along, grid, sampler, source, row: row * ROWS, place, values: &mut *values });
                 }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     })
 }
 
-/// What all tiles share.
-struct Shared<'a> {
+/// The parts of a ray that are followed, or skipped, together.
+const PARTS: i32 = 8;
+
+/// So many columns are followed before the work asks whether to go on.
+const TILE: usize = 32;
+
+/// A square of pixels in some rows of the image.
+struct Square<'a> {
     along: &'a AlongRays<'a>,
-    projection: &'a CellProjection,
-    /// How many blocks there are along each axis, level by level, up to one that holds all.
-    levels: Vec<[usize; 3]>,
-    /// The level whose blocks are sorted: they are about as wide as a window.
-    sorted: usize,
-    /// −1 where the smallest value is kept: it is the largest with the other sign.
-    sign: f32,
-    /// The index from a window's first pixel to each of them, axis by axis; from a column to the next, and from a row to
-    /// the next.
-    lanes: [[f32; FAN]; 3],
-    index_steps: [[f32; 3]; 2],
-    /// Columns and rows from a voxel to the next along each axis, and how far a cell reaches to both sides.
-    pixel_steps: [[f32; 3]; 2],
-    reach: [f32; 2],
-    /// The stretches along each axis of the first block, of one in the middle and of the last.
-    slots: [[Vec<Slot>; 3]; 3],
-    blocks: [usize; 3],
+    grid: Grid,
+    sampler: &'a dyn Sampler,
+    source: &'a dyn RaySource,
+    /// The first of the rows, and where the square lies in them.
+    row: usize,
+    place: [usize; 2],
+    values: &'a mut [f32],
 }
 
-/// A stretch along an axis, in `f32`.
-struct Slot {
-    cell: usize,
-    ends: [f32; 2],
+impl Kernel for Square<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let mut pixels = [None; FAN];
+        for (l, pixel) in pixels.iter_mut().enumerate() {
+            let [i, j] = [self.place[0] + l % PACKET[0], self.place[1] + l / PACKET[0]];
+            if i < self.along.size[0] && j * self.along.size[0] < self.values.len() {
+                *pixel = Some([i, self.row + j]);
+            }
+        }
+        let packet = Packet::new(&self.grid, self.source.lines(&pixels), self.along.step);
+        let found = match self.along.reduction {
+            Reduction::Largest => self.largest(&packet, 1.0),
+            Reduction::Smallest => self.largest(&packet, -1.0),
+            Reduction::Mean => self.mean(&packet),
+        };
+        for (pixel, found) in pixels.iter().zip(found) {
+            if let Some([i, j]) = pixel {
+                self.values[(j - self.row) * self.along.size[0] + i] = found;
+            }
+        }
+    }
 }
 
-impl<'a> Shared<'a> {
-    fn new(along: &'a AlongRays<'a>, projection: &'a CellProjection) -> Self {
-        let size = along.volume.size();
-        let blocks = size.map(|n| (n.max(2) - 1).div_ceil(SIDE));
-        let mut levels = vec![blocks];
-        while levels[levels.len() - 1].iter().any(|n| *n > 1) {
-            levels.push(levels[levels.len() - 1].map(|n| n.div_ceil(2)));
+impl Square<'_> {
+    /// The largest values, of the volume times `sign`: the segments with the largest values go first.
+    #[inline(always)]
+    fn largest(&self, packet: &Packet, sign: f32) -> [f32; FAN] {
+        let limit = self.along.limit * sign;
+        let top = |range: Range| smaller(if sign > 0.0 { range.high } else { -range.low }, limit);
+        let mut segments: Vec<Segment> = self.segments(packet).collect();
+        segments.sort_by(|one, other| top(other.range).total_cmp(&top(one.range)));
+        let mut best = packet.count.map(|count| if count > 0 { -HUGE } else { HUGE });
+        for segment in &segments {
+            if top(segment.range) <= smallest(&best) {
+                break;
+            }
+            self.sampler.widen(segment.base, &packet.stretch(segment, PARTS), [sign, limit], &mut best);
         }
-        let is_narrow =
-            |level: &usize| projection.reach([(SIDE << level) as f64 / 2.0; 3].into()) <= WINDOW as f64;
-        let sorted = (0..levels.len()).rev().find(is_narrow).unwrap_or(0);
-        let steps = projection.index_steps();
-        let lanes = std::array::from_fn(|a| {
-            std::array::from_fn(|l| {
-                (steps[0][a] * (l % WINDOW) as f64 + steps[1][a] * (l / WINDOW) as f64) as f32
-            })
-        });
-        let sign = if along.reduction == Reduction::Smallest { -1.0 } else { 1.0 };
-        let slots = std::array::from_fn(|a| {
-            [0, 1, blocks[a] - 1].map(|block| {
-                let slot = |slot: CellSlot| Slot { cell: slot.cell, ends: slot.ends.map(|end| end as f32) };
-                slots(size[a], block.min(blocks[a] - 1)).into_iter().map(slot).collect()
-            })
-        });
-        let pixel_steps = projection.pixel_steps();
-        Self {
-            along,
-            projection,
-            levels,
-            sorted,
-            sign,
-            lanes,
-            index_steps: steps.map(|step| step.as_vec3().to_array()),
-            pixel_steps: pixel_steps.map(|step| step.as_vec3().to_array()),
-            reach: pixel_steps.map(|step| (step.abs().element_sum() / 2.0 + PIXEL_ROUNDING) as f32),
-            slots,
-            blocks,
-        }
+        best.map(|best| if best > -HUGE && best < HUGE { best * sign } else { f32::NAN })
     }
 
-    /// Which of the kinds of blocks along an axis a block is.
     #[inline(always)]
-    fn kind(&self, axis: usize, block: usize) -> usize {
-        match block {
-            0 => 0,
-            _ if block + 1 == self.blocks[axis] => 2,
-            _ => 1,
+    fn mean(&self, packet: &Packet) -> [f32; FAN] {
+        let mut sums = [[0.0; FAN]; 2];
+        for segment in self.segments(packet) {
+            self.sampler.sum_up(segment.base, &packet.stretch(&segment, PARTS), &mut sums);
         }
+        let mut mean = [f32::NAN; FAN];
+        for l in 0..FAN {
+            mean[l] = if sums[1][l] > 0.0 { (sums[0][l] / sums[1][l]) as f32 } else { f32::NAN };
+        }
+        mean
     }
 
-    /// The values of a block, with the sign that makes the wanted one the largest.
     #[inline(always)]
-    fn range(&self, level: usize, block: [usize; 3]) -> Range {
-        match self.along.blocks {
-            Some(blocks) if self.sign > 0.0 => blocks.range_of(level, block),
-            Some(blocks) => blocks.range_of(level, block).negated(),
-            None => Range::ALL,
-        }
+    fn segments<'b>(&'b self, packet: &'b Packet) -> impl Iterator<Item = Segment> + 'b {
+        let blocks = if self.along.reduction == Reduction::Mean { None } else { self.along.blocks };
+        (0..packet.longest)
+            .step_by(PARTS as usize)
+            .map(move |first| packet.whole_segment(&self.grid, blocks, first, PARTS))
     }
 }

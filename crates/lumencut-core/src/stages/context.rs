@@ -15,9 +15,8 @@ use self::reduced::reduce_raster;
 use self::tile::trace_raster;
 use super::{Image, Work};
 use crate::error::Result;
-use crate::math::cell_projection::RayGrid;
 use crate::math::context_parameters::{Gathering, StartParameters};
-use crate::math::ray::{NONE, WHOLE};
+use crate::math::ray::{NONE, RayGrid, WHOLE};
 use crate::settings::{Context, Settings};
 
 /// Writes where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front

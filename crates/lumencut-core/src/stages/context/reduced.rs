@@ -6,18 +6,14 @@ use super::plan::Surroundings;
 use crate::error::Result;
 use crate::math::accumulate::opaque;
 use crate::math::blocks::HUGE;
-use crate::math::cell_projection::RayGrid;
 use crate::math::context_parameters::Gathering;
 use crate::math::lanes::FAN;
-use crate::math::ray::NONE;
+use crate::math::ray::{IndexFromView, NONE, RayGrid};
 use crate::math::transfer::Colors;
 use crate::math::window::Ramp;
 use crate::settings::Context;
 use crate::stages::Work;
-use crate::stages::along_rays::{AlongRays, Reduction, along_rays};
-
-/// Behind every volume (mm).
-const BEHIND: f64 = 2e9;
+use crate::stages::along_rays::{AlongRays, Reduction, ViewRays, along_rays};
 
 /// Writes the colour of the largest, or the grey of the smallest or the mean value along the rays of a raster.
 pub(super) fn reduce_raster(
@@ -35,10 +31,12 @@ pub(super) fn reduce_raster(
         Gathering::Average => (Reduction::Mean, HUGE),
         Gathering::Brightest | Gathering::Blend => (Reduction::Largest, colors.last()),
     };
-    let chord = |p: usize| if start[p] >= NONE { [BEHIND, -BEHIND] } else { [f64::from(start[p]), BEHIND] };
+    let to = IndexFromView::new(volume, camera);
+    let chord = |p: usize| [f64::from(start[p]), f64::from(NONE)];
+    let source = ViewRays { to, rays: *rays, chord };
+    let along = AlongRays { size: rays.size, volume, blocks, reduction, limit, step: source.to.voxel() };
     let mut values = vec![0.0; start.len()];
-    let along = AlongRays { camera, volume, blocks, rays: *rays, reduction, limit };
-    along_rays(work, &along, &chord, &mut values)?;
+    along_rays(work, &along, &source, &mut values)?;
     pixels.par_chunks_mut(FAN).zip(values.par_chunks(FAN)).for_each(|(pixels, values)| {
         let mut value = [0.0; FAN];
         value[..values.len()].copy_from_slice(values);

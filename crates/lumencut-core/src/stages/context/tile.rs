@@ -5,9 +5,8 @@ use rayon::prelude::*;
 use super::plan::Plan;
 use crate::error::Result;
 use crate::math::accumulate::Blend;
-use crate::math::cell_projection::RayGrid;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
-use crate::math::ray::{NONE, PACKET, Packet};
+use crate::math::ray::{Lines, NONE, PACKET, Packet, RayGrid, Rays};
 use crate::math::sampler::{Sampler, TypedSampler};
 use crate::math::trace::{Passage, RayPacket, trace};
 use crate::stages::Work;
@@ -108,15 +107,16 @@ impl Tile<'_> {
     /// The rays of one packet; those beyond the image see nothing.
     #[inline(always)]
     fn packet(&self, n: usize) -> Packet {
-        let (mut x, mut y, mut start) = ([0.0; FAN], [0.0; FAN], [NONE; FAN]);
+        let (mut place, mut start) = ([[0.0; FAN]; 2], [f64::from(NONE); FAN]);
         for l in 0..FAN {
             let [i, j] = self.ray(n, l);
-            x[l] = self.raster.first[0] + i as f64 * self.raster.next[0];
-            y[l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
+            place[0][l] = self.raster.first[0] + i as f64 * self.raster.next[0];
+            place[1][l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
             if let Some(pixel) = self.pixel(n, l) {
-                start[l] = self.start[pixel];
+                start[l] = f64::from(self.start[pixel]);
             }
         }
-        Packet::new(&self.plan.rays, &x, &y, &start)
+        let Rays { grid, index_from_view, step } = &self.plan.rays;
+        Packet::new(grid, Lines::of_view(index_from_view, &place, [start, [f64::from(NONE); FAN]]), *step)
     }
 }

@@ -1,0 +1,282 @@
+//! Rays through the volume cell by cell: from each plane of voxel centres that a ray crosses to the next one, the volume along
+//! it is a cubic. So the largest value and the mean are those of the ray itself, not of samples.
+
+use super::cubic::{Corners, Cubic, Weights, larger as larger_real};
+use super::lanes::{FAN, Kernel, larger, smaller};
+use super::ray::{PARALLEL, Stretch};
+use super::sampling::{Grid, Offset};
+use crate::volume::{Real, Voxel};
+
+/// Longer than every stretch, as a share of it.
+const NEVER: f32 = 1e9;
+
+/// What becomes of the cubics along sixteen rays.
+pub trait Fold<R> {
+    /// Whether cells with corners up to `top`, one for each ray, can change anything; `length` is as in [`Fold::take`].
+    fn asks(&self, top: &[f32; FAN], length: &[f32; FAN]) -> bool;
+    /// Takes the cubics of the rays whose corners reach up to `top`; `length` is how much of each ray they take (mm), 0 where
+    /// it has ended.
+    fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]);
+}
+
+/// The largest values so far.
+#[derive(Debug)]
+pub struct Largest<'a> {
+    /// The largest values; beyond all where nothing is asked for.
+    pub best: &'a mut [f32; FAN],
+    /// The value from which on a larger one makes no difference.
+    pub limit: f32,
+}
+
+impl<R: Real> Fold<R> for Largest<'_> {
+    #[inline(always)]
+    fn asks(&self, top: &[f32; FAN], length: &[f32; FAN]) -> bool {
+        let mut asks = 0;
+        for l in 0..FAN {
+            asks |= u32::from((length[l] > 0.0) & (smaller(top[l], self.limit) > self.best[l]));
+        }
+        asks != 0
+    }
+
+    #[inline(always)]
+    fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]) {
+        self.widen(&cubic.largest_end(), top, length);
+        // Most cubics rise nowhere above what is known: their local maximum is not asked for.
+        let (bound, mut rises) = (cubic.bound(), 0);
+        for l in 0..FAN {
+            let bound = smaller(bound[l].to_f32(), self.limit);
+            rises |= u32::from((length[l] > 0.0) & (bound > self.best[l]));
+        }
+        if rises != 0 {
+            self.widen(&cubic.at_summit(), top, length);
+        }
+    }
+}
+
+impl Largest<'_> {
+    /// Takes the values where rays have a length.
+    #[inline(always)]
+    fn widen<R: Real>(&mut self, value: &[R; FAN], top: &[f32; FAN], length: &[f32; FAN]) {
+        for l in 0..FAN {
+            let value = value[l].to_f32();
+            // No interpolated value is larger than all corners; rounding must not make one so.
+            let value = if value > top[l] { top[l] } else { value };
+            let value = if value > self.limit { self.limit } else { value };
+            let is_larger = (length[l] > 0.0) & (value > self.best[l]);
+            self.best[l] = if is_larger { value } else { self.best[l] };
+        }
+    }
+}
+
+/// The values so far times the length of each (mm), and the sum of the lengths.
+#[derive(Debug)]
+pub struct Sums<'a>(pub &'a mut [[f64; FAN]; 2]);
+
+impl<R: Real> Fold<R> for Sums<'_> {
+    #[inline(always)]
+    fn asks(&self, _: &[f32; FAN], length: &[f32; FAN]) -> bool {
+        let mut asks = 0;
+        for l in 0..FAN {
+            asks |= u32::from(length[l] > 0.0);
+        }
+        asks != 0
+    }
+
+    #[inline(always)]
+    fn take(&mut self, cubic: &Cubic<R, FAN>, _: &[f32; FAN], length: &[f32; FAN]) {
+        let mean = cubic.mean();
+        for l in 0..FAN {
+            let mean = mean[l].to_f32();
+            let length = if mean.is_nan() { 0.0 } else { f64::from(length[l]) };
+            let mean = if mean.is_nan() { 0.0 } else { f64::from(mean) };
+            self.0[0][l] += mean * length;
+            self.0[1][l] += length;
+        }
+    }
+}
+
+/// A walk through the cells of a stretch, whose voxels count times `sign`.
+pub struct CellWalk<'a, T, F> {
+    /// The grid and its voxels.
+    pub grid: &'a Grid,
+    /// The voxels.
+    pub voxels: &'a [T],
+    /// A voxel before all cells.
+    pub base: [i32; 3],
+    /// Where the rays go, counted from there.
+    pub stretch: &'a Stretch,
+    /// −1 turns the smallest into the largest.
+    pub sign: f32,
+    /// What becomes of the cubics.
+    pub fold: F,
+}
+
+impl<T: Voxel, F: Fold<T::Real>> Kernel for CellWalk<'_, T, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        if self.grid.is_wide() { self.walk::<usize>() } else { self.walk::<u32>() }
+    }
+}
+
+/// Where sixteen rays are.
+struct Walkers {
+    /// The cell of each, axis by axis: −1 and the last voxel where it is in the half voxel beyond the outermost centres.
+    cell: [[i32; FAN]; 3],
+    /// The next plane, and the share of the stretch that one voxel takes; 0 along a plane.
+    plane: [[f32; FAN]; 3],
+    per_voxel: [[f32; FAN]; 3],
+    /// What share of the stretch each has gone.
+    gone: [f32; FAN],
+}
+
+impl Walkers {
+    #[inline(always)]
+    fn new(stretch: &Stretch) -> Self {
+        let mut walkers = Self {
+            cell: [[0; FAN]; 3],
+            plane: [[0.0; FAN]; 3],
+            per_voxel: [[0.0; FAN]; 3],
+            gone: [0.0; FAN],
+        };
+        for a in 0..3 {
+            for l in 0..FAN {
+                let (start, way) = (stretch.start[a][l], stretch.way[a][l]);
+                // Rounded down: no place lies more than half a voxel before the base.
+                let cell = (start + 1.0) as i32 - 1;
+                walkers.cell[a][l] = cell;
+                walkers.plane[a][l] = (cell + i32::from(way > 0.0)) as f32;
+                let is_parallel = way.abs() < PARALLEL as f32;
+                let per_voxel = 1.0 / if is_parallel { 1.0 } else { way };
+                walkers.per_voxel[a][l] = if is_parallel { 0.0 } else { per_voxel };
+            }
+        }
+        walkers
+    }
+
+    /// What share of the stretch each ray has gone where it meets its next plane along an axis.
+    #[inline(always)]
+    fn meeting(&self, stretch: &Stretch, a: usize) -> [f32; FAN] {
+        let mut meeting = [NEVER; FAN];
+        for l in 0..FAN {
+            let share = (self.plane[a][l] - stretch.start[a][l]) * self.per_voxel[a][l];
+            meeting[l] = if self.per_voxel[a][l] == 0.0 { NEVER } else { share };
+        }
+        meeting
+    }
+}
+
+/// The cells that sixteen rays pass next, one of each: all are found before the first voxel is read, so that the processor
+/// waits for memory once and not for every cell.
+const AHEAD: usize = 2;
+
+/// A cell of each ray, counted from the base, and the shares of the stretch at which the ray enters it and leaves it.
+#[derive(Clone, Copy)]
+struct Passed {
+    cell: [[f32; FAN]; 3],
+    enter: [f32; FAN],
+    leave: [f32; FAN],
+}
+
+impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
+    #[inline(always)]
+    fn walk<O: Offset>(mut self) {
+        let mut walkers = Walkers::new(self.stretch);
+        let voxels = &self.voxels[self.grid.offset_of(self.base)..];
+        let nowhere = Passed { cell: [[0.0; FAN]; 3], enter: [0.0; FAN], leave: [0.0; FAN] };
+        loop {
+            let (mut passed, mut offset) = ([nowhere; AHEAD], [[O::default(); FAN]; AHEAD]);
+            for n in 0..AHEAD {
+                passed[n] = self.go_on(&mut walkers, &mut offset[n]);
+            }
+            let rows = self.grid.rows(voxels, &offset);
+            for n in 0..AHEAD {
+                self.pass(&passed[n], [&rows[0][n], &rows[1][n], &rows[2][n], &rows[3][n]]);
+            }
+            let mut goes_on = 0;
+            for l in 0..FAN {
+                goes_on |= u32::from(walkers.gone[l] < self.stretch.end[l]);
+            }
+            if goes_on == 0 {
+                return;
+            }
+        }
+    }
+
+    /// Moves the rays on to their next cells. Those at their end stay there.
+    #[inline(always)]
+    fn go_on<O: Offset>(&self, walkers: &mut Walkers, offset: &mut [O; FAN]) -> Passed {
+        let stretch = self.stretch;
+        let meetings = [walkers.meeting(stretch, 0), walkers.meeting(stretch, 1), walkers.meeting(stretch, 2)];
+        let mut passed = Passed { cell: [[0.0; FAN]; 3], enter: walkers.gone, leave: stretch.end };
+        for meeting in &meetings {
+            for l in 0..FAN {
+                passed.leave[l] = smaller(passed.leave[l], meeting[l]);
+            }
+        }
+        for a in 0..3 {
+            let (low, stride) = (self.grid.last_cell()[a] - self.base[a], O::stride(self.grid, a));
+            for l in 0..FAN {
+                let inside = walkers.cell[a][l].max(0).min(low);
+                passed.cell[a][l] = inside as f32;
+                offset[l] = offset[l].plus(inside, stride);
+                let step = if walkers.per_voxel[a][l] > 0.0 { 1 } else { -1 };
+                let is_crossed = (meetings[a][l] <= passed.leave[l]) & (passed.leave[l] < stretch.end[l]);
+                let step = if is_crossed { step } else { 0 };
+                walkers.cell[a][l] += step;
+                walkers.plane[a][l] += step as f32;
+            }
+        }
+        walkers.gone = passed.leave;
+        passed
+    }
+
+    /// Takes the cubics of the rays through a cell each, whose rows of corners are given.
+    #[inline(always)]
+    fn pass(&mut self, passed: &Passed, rows: [&[T::Pair; FAN]; 4]) {
+        let mut length = [0.0; FAN];
+        for l in 0..FAN {
+            length[l] = larger(passed.leave[l] - passed.enter[l], 0.0) * self.stretch.length[l];
+        }
+        let sign = T::Real::from_f32(self.sign);
+        let mut corners: Corners<T::Real, FAN> = [[sign; FAN]; 8];
+        for r in 0..4 {
+            let row = *rows[r];
+            for l in 0..FAN {
+                corners[2 * r][l] = T::ends(row[l]).0 * sign;
+            }
+            for l in 0..FAN {
+                corners[2 * r + 1][l] = T::ends(row[l]).1 * sign;
+            }
+        }
+        let (mut largest, mut top) = (corners[0], [0.0; FAN]);
+        for corner in &corners[1..] {
+            for l in 0..FAN {
+                largest[l] = larger_real(largest[l], corner[l]);
+            }
+        }
+        for l in 0..FAN {
+            top[l] = largest[l].to_f32();
+        }
+        if !self.fold.asks(&top, &length) {
+            return;
+        }
+        let enter = self.weights(&passed.cell, &passed.enter);
+        let cubic = Cubic::between(&corners, &enter, &self.weights(&passed.cell, &passed.leave));
+        self.fold.take(&cubic, &top, &length);
+    }
+
+    /// The weights of the farther corners where the rays have gone a share of the stretch.
+    #[inline(always)]
+    fn weights(&self, cell: &[[f32; FAN]; 3], gone: &[f32; FAN]) -> Weights<T::Real, FAN> {
+        let mut weights = [[T::Real::from_f32(0.0); FAN]; 3];
+        for a in 0..3 {
+            for l in 0..FAN {
+                let place = self.stretch.start[a][l] + self.stretch.way[a][l] * gone[l] - cell[a][l];
+                weights[a][l] = T::Real::from_f32(smaller(larger(place, 0.0), 1.0));
+            }
+        }
+        weights
+    }
+}
