@@ -1,8 +1,9 @@
 //! The context on the GPU.
 
+use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::context_parameters::{ContextParameters, Gathering};
-use lumencut_core::math::ray::WHOLE;
+use lumencut_core::math::ray::{IndexFromView, WHOLE};
 use lumencut_core::math::transfer::Colors;
 use lumencut_core::settings::{Context, Settings};
 use lumencut_core::stages::context::step;
@@ -84,7 +85,7 @@ impl ContextStage {
         }
     }
 
-    /// Tells the shaders of the context of `volume`, where they were last told otherwise.
+    /// Tells the shaders of the context of a volume in a view, where they were last told otherwise.
     ///
     /// # Errors
     /// As the stage of the CPU.
@@ -93,10 +94,14 @@ impl ContextStage {
         device: &Device,
         settings: &Settings,
         context: &Context,
-        volume: &Volume,
+        (volume, camera): (&Volume, &Camera),
         blocks: &DeviceBlocks,
     ) -> Result<()> {
-        let (colors, step) = (Colors::new(&context.transfer), step(volume, context)?);
+        let colors = Colors::new(&context.transfer);
+        let step = match Gathering::of(context.mode) {
+            Gathering::Blend => step(volume, context)?,
+            _ => IndexFromView::new(volume, camera).voxel(),
+        };
         let parameters = ContextParameters::new(settings, context, &colors, step, &blocks.places);
         if self.told != bytemuck::bytes_of(&parameters) {
             device.write(&self.parameters, &[parameters]);

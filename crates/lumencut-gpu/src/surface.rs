@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::geometry::{Curved, Geometry};
+use lumencut_core::math::ray::IndexFromView;
 use lumencut_core::settings::Slab;
 use lumencut_core::stages::surface::SurfaceParameters;
 use lumencut_core::volume::Volume;
@@ -94,11 +95,11 @@ impl Surface {
         images: SurfaceImages,
     ) -> Result<()> {
         let device = recording.device;
-        device.write(&self.parameters, &[SurfaceParameters::new(slab, volume)?]);
-        let (sent, is_curved) = match images.geometry {
-            Geometry::Curved(curved) => (Some(send(device, curved, volume)?), true),
-            Geometry::Orthographic { .. } => (None, false),
+        let (sent, is_curved, voxel) = match images.geometry {
+            Geometry::Curved(curved) => (Some(send(device, curved, volume)?), true, volume.smallest_side()),
+            Geometry::Orthographic { camera, .. } => (None, false, IndexFromView::new(volume, camera).voxel()),
         };
+        device.write(&self.parameters, &[SurfaceParameters::new(slab, voxel)]);
         let places = sent.as_ref().unwrap_or(&self.nowhere);
         let is_float = on_device.is_float();
         let stage = self.stages[usize::from(is_curved)][usize::from(is_float)].get_or_insert_with(|| {

@@ -50,6 +50,11 @@ fn coarse(depth: f32) -> f32 {
     return round(depth * grid.per_unit) * grid.unit;
 }
 
+// Behind every volume.
+fn endless() -> Depth {
+    return Depth(NONE, 0.0);
+}
+
 // A depth of the view.
 fn depth_at(depth: f32) -> Depth {
     let below = depth - grid.depth;
@@ -91,8 +96,8 @@ fn rests(foot: Foot, plane: vec3f, at: vec3f) -> vec3f {
     return left * grid.per_voxel.xyz;
 }
 
-// The parts of a ray from depth `start` on, no longer than a step.
-fn cut(foot: Foot, start: Depth, per_step: f32) -> Ray {
+// The parts of a ray from depth `start` to depth `end`, no longer than a step.
+fn cut(foot: Foot, start: Depth, end: Depth, per_step: f32) -> Ray {
     let is_parallel = grid.per_voxel.xyz == vec3f();
     let first = vec3f(-0.5);
     let last = grid.last + 0.5;
@@ -107,7 +112,7 @@ fn cut(foot: Foot, start: Depth, per_step: f32) -> Ray {
     enter = select(enter, select(vec3f(-NEVER), vec3f(NEVER), misses), is_parallel);
     let leave = select(select(one, other, is_forward), vec3f(NEVER), is_parallel);
     let near = latest(enter, select(other_rest, one_rest, is_forward), start);
-    let back = latest(-leave, -select(one_rest, other_rest, is_forward), Depth(-NONE, 0.0));
+    let back = latest(-leave, -select(one_rest, other_rest, is_forward), Depth(-end.coarse, -end.rest));
     let chord = -(back.coarse + near.coarse) - (back.rest + near.rest);
     if chord <= 0.0 {
         return Ray(foot, near, 0.0, 0);

@@ -53,6 +53,12 @@ struct Cell {
     share: vec3f,
 }
 
+// The values at the corners of a cell: the four rows along i, j fastest, each from its near to its far voxel.
+struct Corners {
+    near: vec4f,
+    far: vec4f,
+}
+
 // Whether a place lies more than half a voxel beyond the outermost centres.
 fn is_outside(place: Place) -> bool {
     let above_first = place.whole + 0.5 + place.part;
@@ -79,9 +85,8 @@ fn voxel_at(i: i32, j: i32, k: i32) -> f32 {
     return f32(stored) + grid.shift;
 }
 
-// The value in a cell; HUGE where one of its voxels has none.
-fn value_in(cell: Cell) -> f32 {
-    let near = cell.voxel;
+// The voxels at the corners of a cell.
+fn corners_in(near: vec3i) -> Corners {
     let far = near + vec3i(grid.last) - grid.low;
     let low = vec4f(
         voxel_at(near.x, near.y, near.z),
@@ -95,6 +100,14 @@ fn value_in(cell: Cell) -> f32 {
         voxel_at(far.x, near.y, far.z),
         voxel_at(far.x, far.y, far.z),
     );
+    return Corners(low, high);
+}
+
+// The value in a cell; HUGE where one of its voxels has none.
+fn value_in(cell: Cell) -> f32 {
+    let corners = corners_in(cell.voxel);
+    let low = corners.near;
+    let high = corners.far;
     if FLOAT_VOXELS && any(max(low, high) >= vec4f(HUGE)) {
         return HUGE;
     }

@@ -14,9 +14,7 @@ fn trace(ray: Ray) -> vec4f {
     var n = 0;
     loop {
         // Neighbours that wait for each other skip together, and then sample together.
-        if MODE != AVERAGE {
-            n = skip(ray, way, gathered, n, &level);
-        }
+        n = skip(ray, way, gathered, n, &level);
         if n >= ray.count {
             break;
         }

@@ -15,7 +15,7 @@ use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
-use crate::stages::surface::{SurfaceParameters, surface};
+use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Stage, Work};
 
 /// What the stages that find the cut surface share.
@@ -117,9 +117,11 @@ impl LookPass<'_> {
     }
 
     fn surface(&self, images: &mut Images) -> Result<()> {
-        let parameters = SurfaceParameters::new(self.settings.slab, &self.volume.volume)?;
+        let (slab, volume) = (self.settings.slab, &self.volume.volume);
+        let blocks = slab.map(|_| self.volume.blocks(self.work.stop)).transpose()?;
         images.value = vec![0.0; self.work.pixels()];
-        surface(&self.work, self.geometry, &self.volume.volume, &parameters, &mut images.value)
+        let scene = SurfaceScene { geometry: self.geometry, volume, blocks, slab };
+        surface(&self.work, &scene, &mut images.value)
     }
 
     fn silhouette(&self, images: &mut Images) -> Result<()> {

@@ -5,6 +5,7 @@ use super::named::Named;
 use super::table::{ContextChoices, Settings};
 use super::value::{Transfer, Value};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::context_parameters::Gathering;
 
 /// What a host chose; the rest has its default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,6 +34,7 @@ impl Choices {
     pub fn settings(&self) -> Result<Settings> {
         // The context is checked even where it is not wanted: what is wrong with it shows at once.
         self.context.check_gamma()?;
+        self.context.check_step()?;
         self.settings.check_rows()?;
         self.context.check_rows()?;
         let context = self.context.context.is_some().then(|| self.context.context());
@@ -47,7 +49,11 @@ impl Settings {
     /// [`ErrorKind::Settings`] naming the first setting outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
-        self.context.as_ref().map_or(Ok(()), |context| ContextChoices::from(context).check_rows())
+        self.context.as_ref().map_or(Ok(()), |context| {
+            let choices = ContextChoices::from(context);
+            choices.check_rows()?;
+            choices.check_step()
+        })
     }
 }
 
@@ -77,6 +83,17 @@ impl ContextChoices {
         let expected =
             format!("0, or the context '{}', the only one that has a gamma", ContextName::Mida.name());
         Err(Error::new(ErrorKind::Settings, "context_gamma", found, expected))
+    }
+
+    /// Refuses a step for a context that takes no samples.
+    fn check_step(&self) -> Result<()> {
+        let (Some(step), Some(name)) = (self.context_step, self.context) else { return Ok(()) };
+        if Gathering::of(name.mode(self.context_gamma)) == Gathering::Blend {
+            return Ok(());
+        }
+        let found = format!("{step} mm with the context '{}'", name.name());
+        let expected = "no step: the values along each ray are exact there";
+        Err(Error::new(ErrorKind::Settings, "context_step", found, expected))
     }
 }
 

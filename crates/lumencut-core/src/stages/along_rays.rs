@@ -41,6 +41,9 @@ pub struct AlongRays<'a> {
     pub step: f64,
 }
 
+/// The chord of a pixel without a ray.
+pub const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
+
 /// Gives the rays of the sixteen pixels of a square, by their columns and rows.
 pub trait RaySource: Sync {
     /// The rays; those of pixels beyond the image are not asked for.
@@ -59,7 +62,7 @@ pub struct ViewRays<F> {
 
 impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
     fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines {
-        let (mut place, [mut near, mut far]) = ([[0.0; FAN]; 2], [[f64::from(NONE); FAN]; 2]);
+        let (mut place, [mut near, mut far]) = ([[0.0; FAN]; 2], NO_CHORD.map(|end| [end; FAN]));
         for (l, pixel) in pixels.iter().enumerate() {
             if let Some([i, j]) = *pixel {
                 let RayGrid { size, first, next } = self.rays;

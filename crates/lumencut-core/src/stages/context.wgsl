@@ -1,6 +1,18 @@
 // The context: rays through the volume behind the cut surface (paper section 3.3.6). Two passes: where the ray of each
 // pixel starts, and the rays.
+// import math/reduce
 // import math/trace
+
+// What becomes of a ray: colours and opacities of samples are blended, or the largest, the smallest or the mean value is kept.
+const BLEND = 0u;
+const BRIGHTEST = 1u;
+const DARKEST = 2u;
+const AVERAGE = 3u;
+
+override MODE: u32 = 0u;
+
+// No mean is taken over a shorter share of a ray.
+const SHORTEST: f32 = 1e-30;
 
 // One ray for each square of four pixels.
 override PREVIEW: bool = false;
@@ -34,7 +46,20 @@ fn ray_from(n: vec2f, start: f32) -> vec4f {
     if start >= NONE {
         return vec4f();
     }
-    return trace(cut(foot_at(n), depth_at(start), parameters.per_step));
+    let ray = cut(foot_at(n), depth_at(start), endless(), parameters.per_step);
+    switch MODE {
+        case BRIGHTEST: { return brightest(largest_along(ray, 1.0, parameters.last)); }
+        // Below the black end of the window everything is black.
+        case DARKEST: {
+            let darkest = -largest_along(ray, -1.0, -parameters.black);
+            return grey(ramp_at(parameters.window, darkest), darkest < HUGE);
+        }
+        case AVERAGE: {
+            let sums = sums_along(ray);
+            return grey(ramp_at(parameters.window, sums.x / max(sums.y, SHORTEST)), sums.y > 0.0);
+        }
+        default: { return trace(ray); }
+    }
 }
 
 // A square of four pixels: its ray starts nearest behind a cut surface, so that none of them shows what lies before its

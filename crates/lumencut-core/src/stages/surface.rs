@@ -4,12 +4,14 @@ use bytemuck::{Pod, Zeroable};
 use glam::DAffine3;
 use rayon::prelude::*;
 
+use super::along_rays::{AlongRays, NO_CHORD, RaySource, Reduction, ViewRays, along_rays};
 use super::{Image, Work};
 use crate::camera::Camera;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::geometry::{Curved, Geometry};
-use crate::math::lanes::{FAN, Kernel, dispatch, larger, smaller};
-use crate::math::ray::{IndexFromView, MOST_SAMPLES};
+use crate::math::blocks::{Blocks, HUGE};
+use crate::math::lanes::{FAN, Kernel, dispatch};
+use crate::math::ray::{IndexFromView, Lines, RayGrid};
 use crate::math::sampling::Grid;
 use crate::settings::{Slab, SlabMode};
 use crate::volume::{Volume, Voxel};
@@ -22,101 +24,145 @@ pub const LARGEST: u32 = 1;
 #[allow(missing_docs)]
 pub const SMALLEST: u32 = 2;
 
-/// The parameters of the stage: a slab is cut into equal parts no longer than a voxel's smallest side, an odd number of
-/// them, and each is sampled in its middle.
+/// The parameters of the stage, as the shader reads them.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SurfaceParameters {
-    /// The length of a part (mm).
-    pub part: f32,
-    /// The parts on each side of the one in the middle that can lie in the volume.
-    pub beside: u32,
-    /// What is shown: [`MEAN`], [`LARGEST`] or [`SMALLEST`].
+    /// How far a slab reaches before and behind the cut surface (mm); 0 without one.
+    pub half: f32,
+    /// What is shown of it: [`MEAN`], [`LARGEST`] or [`SMALLEST`].
     pub mode: u32,
+    /// Parts of a ray of the view per mm, at least: one for each voxel along the axis where it meets most of them.
+    pub per_step: f32,
     /// Fills the structure as the shaders' rules of layout want it.
     pub padding: u32,
-    /// The length of a part with all digits that the CPU computes with (mm).
-    pub exact_part: f64,
 }
 
 impl SurfaceParameters {
-    /// The parameters for a slab through `volume`, or for the cut surface alone.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a slab of more than 65,536 voxels.
-    pub fn new(slab: Option<Slab>, volume: &Volume) -> Result<Self> {
-        let (thickness, side) = (slab.map_or(0.0, |slab| slab.thickness), volume.smallest_side());
-        if thickness > side * MOST_SAMPLES {
-            let found = format!("{thickness} mm for voxels of {side:.3e} mm");
-            let expected = format!("at most {MOST_SAMPLES} voxels");
-            return Err(Error::new(ErrorKind::Settings, "slab thickness", found, expected));
-        }
-        let to_each_side = ((thickness / side - 1.0) / 2.0).ceil().max(0.0) as i64;
-        let exact_part = thickness / (2 * to_each_side + 1) as f64;
-        // Farther from the cut surface than the volume is long there is nothing.
-        let within = if to_each_side > 0 { (volume.longest_way() / exact_part).ceil() as i64 } else { 0 };
+    /// The parameters for a slab, or for the cut surface alone, in a view whose rays go from a voxel to the next in
+    /// `voxel` mm.
+    pub fn new(slab: Option<Slab>, voxel: f64) -> Self {
         let mode = match slab.map(|slab| slab.mode) {
             Some(SlabMode::Max) => LARGEST,
             Some(SlabMode::Min) => SMALLEST,
             Some(SlabMode::Mean) | None => MEAN,
         };
-        let beside = to_each_side.min(within) as u32;
-        Ok(Self { part: exact_part as f32, beside, mode, padding: 0, exact_part })
-    }
-
-    /// Where a slab is sampled besides the cut surface itself (mm behind it).
-    fn offsets(&self) -> Vec<f64> {
-        (1..=i64::from(self.beside))
-            .flat_map(|n| [-n as f64, n as f64])
-            .map(|n| n * self.exact_part)
-            .collect()
+        let half = slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
+        Self { half, mode, per_step: (1.0 / voxel) as f32, padding: 0 }
     }
 }
 
-/// Writes the volume's value where each pixel looks, NaN outside the volume; with a slab the largest, mean or smallest of
-/// the values within it, as far as it lies in the volume.
+/// What a surface is a picture of.
+#[derive(Clone, Copy)]
+pub struct SurfaceScene<'a> {
+    /// Where the pixels look.
+    pub geometry: &'a Geometry,
+    /// The volume.
+    pub volume: &'a Volume<'a>,
+    /// What a slab can skip; `None` looks at everything, with the same result.
+    pub blocks: Option<&'a Blocks>,
+    /// How thick the surface is.
+    pub slab: Option<Slab>,
+}
+
+/// Writes the volume's value where each pixel looks, NaN outside the volume; with a slab the largest, mean or smallest
+/// value within it, as far as it lies in the volume.
 ///
 /// # Errors
-/// [`ErrorKind::Interrupted`].
-pub fn surface(
-    work: &Work,
-    geometry: &Geometry,
-    volume: &Volume,
-    parameters: &SurfaceParameters,
-    value: &mut [f32],
-) -> Result<()> {
+/// [`crate::error::ErrorKind::Interrupted`].
+pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<()> {
     work.expect_whole(Image::Value, value);
-    let slab = SlabSamples { offsets: &parameters.offsets(), mode: parameters.mode };
+    thin(work, scene, value)?;
+    let Some(slab) = scene.slab else { return Ok(()) };
+    let mut thick = vec![f32::NAN; value.len()];
+    thicken(work, scene, slab, value, &mut thick)?;
+    value.par_iter_mut().zip(&thick).for_each(|(value, thick)| {
+        // A slab is shown where there is a cut surface.
+        *value = if value.is_nan() || thick.is_nan() { *value } else { *thick };
+    });
+    Ok(())
+}
+
+/// The values on the cut surface itself.
+fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, value: &mut [f32]) -> Result<()> {
     with_voxels!(volume.voxels(), voxels => {
         let voxels = GridVoxels { grid: Grid::new(volume), voxels };
         match geometry {
             Geometry::Orthographic { camera, depth } => {
                 work.expect_whole(Image::Depth, depth);
                 let index_from_view = IndexFromView::new(volume, camera);
-                fill(work, &OrthographicPlaces { camera, depth, index_from_view, voxels }, &slab, value)
+                fill(work, &OrthographicPlaces { camera, depth, index_from_view, voxels }, value)
             }
             Geometry::Curved(curved) => {
                 let index_from_world = volume.index_from_world();
-                fill(work, &CurvedPlaces { curved, index_from_world, voxels }, &slab, value)
+                fill(work, &CurvedPlaces { curved, index_from_world, voxels }, value)
             }
         }
     })
 }
 
-/// Fills the values row by row: slabs can take their time.
-fn fill(work: &Work, places: &impl Places, slab: &SlabSamples, value: &mut [f32]) -> Result<()> {
-    value.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, value)| {
-        work.go_on()?;
-        dispatch(work.isa, SurfaceRow { places, slab, row, value });
-        Ok(())
-    })
+/// What the slab shows where the cut surface has a `value`.
+fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: &mut [f32]) -> Result<()> {
+    let (half, volume) = (slab.thickness / 2.0, scene.volume);
+    let (reduction, limit) = match slab.mode {
+        SlabMode::Max => (Reduction::Largest, HUGE),
+        SlabMode::Min => (Reduction::Smallest, -HUGE),
+        SlabMode::Mean => (Reduction::Mean, HUGE),
+    };
+    let along = |step: f64| AlongRays { size: work.size, volume, blocks: scene.blocks, reduction, limit, step };
+    match scene.geometry {
+        Geometry::Orthographic { camera, depth } => {
+            let to = IndexFromView::new(volume, camera);
+            let chord = |p: usize| match value[p] {
+                value if value.is_nan() => NO_CHORD,
+                _ => [f64::from(depth[p]) - half, f64::from(depth[p]) + half],
+            };
+            let source = ViewRays { to, rays: RayGrid::fine(camera), chord };
+            along_rays(work, &along(to.voxel()), &source, thick)
+        }
+        Geometry::Curved(curved) => {
+            let source = CurvedRays { curved, index_from_world: volume.index_from_world(), value, half };
+            along_rays(work, &along(volume.smallest_side()), &source, thick)
+        }
+    }
 }
 
-/// Where a slab is sampled besides the cut surface itself (mm behind it), and what is shown of the samples.
-#[derive(Clone, Copy)]
-struct SlabSamples<'a> {
-    offsets: &'a [f64],
-    mode: u32,
+/// The slabs of pixels with places of their own.
+struct CurvedRays<'a> {
+    curved: &'a Curved,
+    index_from_world: DAffine3,
+    value: &'a [f32],
+    half: f64,
+}
+
+impl RaySource for CurvedRays<'_> {
+    fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines {
+        let [near, far] = NO_CHORD.map(|end| [end; FAN]);
+        let mut lines = Lines { foot: [[0.0; FAN]; 3], toward: [[0.0; FAN]; 3], near, far };
+        for (l, pixel) in pixels.iter().enumerate() {
+            let Some([i, j]) = *pixel else { continue };
+            let p = j * self.curved.size()[0] + i;
+            if self.value[p].is_nan() {
+                continue;
+            }
+            let foot = self.index_from_world.transform_point3(self.curved.position()[p]);
+            let toward = self.index_from_world.transform_vector3(self.curved.slab_direction()[p].as_dvec3());
+            for a in 0..3 {
+                (lines.foot[a][l], lines.toward[a][l]) = (foot[a], toward[a]);
+            }
+            (lines.near[l], lines.far[l]) = (-self.half, self.half);
+        }
+        lines
+    }
+}
+
+/// Fills the values row by row.
+fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
+    value.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, value)| {
+        work.go_on()?;
+        dispatch(work.isa, SurfaceRow { places, row, value });
+        Ok(())
+    })
 }
 
 /// Pixels in a row that are sampled together.
@@ -127,9 +173,8 @@ type Indices = [[[f64; FAN]; 3]; RUN / FAN];
 
 /// Where the pixels of a geometry lie in the volume.
 trait Places: Sync {
-    /// The volume `behind` (mm) the places of the run of pixels that begins at (`i`, `j`); those beyond the image mean
-    /// nothing.
-    fn sample(&self, i: usize, j: usize, behind: f64) -> Run;
+    /// The volume at the places of the run of pixels that begins at (`i`, `j`); those beyond the image mean nothing.
+    fn sample(&self, i: usize, j: usize) -> Run;
 }
 
 /// The voxels of a volume and the grid they lie on.
@@ -149,7 +194,7 @@ struct OrthographicPlaces<'a, T> {
 
 impl<T: Voxel> Places for OrthographicPlaces<'_, T> {
     #[inline(always)]
-    fn sample(&self, i: usize, j: usize, behind: f64) -> Run {
+    fn sample(&self, i: usize, j: usize) -> Run {
         let (to, width) = (&self.index_from_view, self.camera.size()[0]);
         let depths = &self.depth[j * width..][i..width.min(i + RUN)];
         let mut depth: Run = [[0.0; FAN]; RUN / FAN];
@@ -160,7 +205,7 @@ impl<T: Voxel> Places for OrthographicPlaces<'_, T> {
             for a in 0..3 {
                 let (x_step, z_step) = (to.x[a], to.z[a]);
                 for l in 0..FAN {
-                    let z = f64::from(depth[n][l]) + behind;
+                    let z = f64::from(depth[n][l]);
                     index[n][a][l] = row[a] + x_step * self.camera.view_x(i + n * FAN + l) + z_step * z;
                 }
             }
@@ -178,13 +223,12 @@ struct CurvedPlaces<'a, T> {
 
 impl<T: Voxel> Places for CurvedPlaces<'_, T> {
     #[inline(always)]
-    fn sample(&self, i: usize, j: usize, behind: f64) -> Run {
+    fn sample(&self, i: usize, j: usize) -> Run {
         let width = self.curved.size()[0];
         let pixels = j * width + i..j * width + width.min(i + RUN);
-        let points = self.curved.position()[pixels.clone()].iter().zip(&self.curved.slab_direction()[pixels]);
         let mut index: Indices = [[[NOWHERE; FAN]; 3]; RUN / FAN];
-        for (l, (point, direction)) in points.enumerate() {
-            let place = self.index_from_world.transform_point3(*point + direction.as_dvec3() * behind);
+        for (l, point) in self.curved.position()[pixels].iter().enumerate() {
+            let place = self.index_from_world.transform_point3(*point);
             if place.is_finite() {
                 for a in 0..3 {
                     index[l / FAN][a][l % FAN] = place[a];
@@ -200,7 +244,6 @@ const NOWHERE: f64 = -1e9;
 
 struct SurfaceRow<'a, P> {
     places: &'a P,
-    slab: &'a SlabSamples<'a>,
     row: usize,
     value: &'a mut [f32],
 }
@@ -211,34 +254,8 @@ impl<P: Places> Kernel for SurfaceRow<'_, P> {
     #[inline(always)]
     fn run(self) {
         for (n, value) in self.value.chunks_mut(RUN).enumerate() {
-            let mut shown = self.places.sample(n * RUN, self.row, 0.0);
-            let mut count = [[1.0; FAN]; RUN / FAN];
-            for behind in self.slab.offsets {
-                let beside = self.places.sample(n * RUN, self.row, *behind);
-                for n in 0..RUN / FAN {
-                    join(self.slab.mode, &mut shown[n], &mut count[n], &beside[n]);
-                }
-            }
-            let sums = shown.as_flattened().iter().zip(count.as_flattened());
-            for (value, (sum, count)) in value.iter_mut().zip(sums) {
-                *value = sum / count;
-            }
+            let shown = self.places.sample(n * RUN, self.row);
+            value.copy_from_slice(&shown.as_flattened()[..value.len()]);
         }
-    }
-}
-
-/// Takes one more sample of a slab into what is shown; where there is no cut surface, or no sample, nothing changes.
-#[inline(always)]
-fn join(mode: u32, shown: &mut [f32; FAN], count: &mut [f32; FAN], beside: &[f32; FAN]) {
-    for l in 0..FAN {
-        let (here, there) = (shown[l], beside[l]);
-        let absent = here.is_nan() | there.is_nan();
-        let joined = match mode {
-            LARGEST => larger(here, there),
-            SMALLEST => smaller(here, there),
-            _ => here + there,
-        };
-        shown[l] = if absent { here } else { joined };
-        count[l] += if absent | (mode != MEAN) { 0.0 } else { 1.0 };
     }
 }

@@ -1,5 +1,5 @@
 // The surface: the volume at the world point where each pixel looks (paper section 3.3.4).
-// import math/ray
+// import math/cell_walk
 
 // Whether pixels have places of their own; else they look along the rays of a camera, at depths.
 override CURVED: bool = false;
@@ -7,20 +7,18 @@ override CURVED: bool = false;
 const MEAN = 0u;
 const LARGEST = 1u;
 const SMALLEST = 2u;
-// A sum of so many samples keeps its digits.
-const CHUNK = 256u;
+// The parts of a slab that are followed in a row.
+const STRETCH: i32 = 8;
 
 // A thick cut surface.
 struct SurfaceParameters {
-    // The length of a part (mm).
-    part: f32,
-    // The parts on each side of the one in the middle.
-    beside: u32,
+    // How far it reaches before and behind the cut surface (mm); 0 where it is not thick.
+    half: f32,
     // What it shows.
     mode: u32,
+    // Parts of a ray per mm, at least.
+    per_step: f32,
     padding: u32,
-    // The length of a part with the digits of f64, for the CPU.
-    exact_part: vec2u,
 }
 
 // Where a pixel of a curved geometry lies in the volume: the whole numbers of its index, what is to be added to them, and
@@ -54,47 +52,74 @@ fn target_of(pixel: vec2u) -> Target {
     return seen;
 }
 
-fn place_behind(seen: Target, behind: f32) -> Place {
+// Where a pixel looks.
+fn place_of_target(seen: Target) -> Place {
     if CURVED {
         let own = places[seen.pixel];
-        return Place(own.whole.xyz, own.part.xyz + behind * own.per_mm.xyz);
+        return Place(own.whole.xyz, own.part.xyz);
     }
-    return place_at(seen.foot, deeper(seen.depth, behind));
+    return place_at(seen.foot, seen.depth);
 }
 
-// The volume `behind` where a pixel looks; HUGE outside it.
-fn sample(seen: Target, behind: f32) -> f32 {
-    let place = place_behind(seen, behind);
+// The volume where a pixel looks; HUGE outside it.
+fn thin(seen: Target) -> f32 {
+    let place = place_of_target(seen);
     if is_outside(place) {
         return HUGE;
     }
     return value_in(cell_of(place));
 }
 
-// All samples of a slab, but for those that are outside; there is one at the cut surface.
-fn thick(seen: Target, center: f32) -> f32 {
-    var shown = center;
-    var sum = 0.0;
-    var count = 1.0;
-    for (var n = 0u; n < 2u * parameters.beside; n++) {
-        let way = f32(n / 2u + 1u) * parameters.part;
-        let beside = sample(seen, select(way, -way, n % 2u == 0u));
-        if beside < HUGE {
-            switch parameters.mode {
-                case LARGEST: { shown = max(shown, beside); }
-                case SMALLEST: { shown = min(shown, beside); }
-                default: {
-                    sum += beside;
-                    count += 1.0;
-                }
-            }
-        }
-        if n % CHUNK == CHUNK - 1u {
-            shown += sum;
-            sum = 0.0;
+// The first and the last place of a curved pixel's slab within the volume (mm from the pixel's own place).
+fn slab_within(own: CurvedPlace) -> vec2f {
+    var ends = vec2f(-parameters.half, parameters.half);
+    let above_first = own.whole.xyz + 0.5 + own.part.xyz;
+    let above_last = own.whole.xyz - grid.last - 0.5 + own.part.xyz;
+    for (var a = 0; a < 3; a++) {
+        let per_mm = own.per_mm[a];
+        if abs(per_mm) >= ALONG_PLANE {
+            let one = -above_first[a] / per_mm;
+            let other = -above_last[a] / per_mm;
+            ends = vec2f(max(ends.x, min(one, other)), min(ends.y, max(one, other)));
         }
     }
-    return (shown + sum) / count;
+    return ends;
+}
+
+// What becomes of a stretch of the slab.
+fn join(shown: Found, start: Place, way: vec3f, share: f32) -> Found {
+    let sign = select(1.0, -1.0, parameters.mode == SMALLEST);
+    let found = walk_cells(start, way, sign, HUGE, parameters.mode == MEAN, shown.best);
+    return Found(found.best, shown.sum + share * found.sum, shown.share + share * found.share);
+}
+
+// All of a slab that lies in the volume.
+fn thick(seen: Target, center: f32) -> f32 {
+    var shown = Found(-HUGE, 0.0, 0.0);
+    if CURVED {
+        let own = places[seen.pixel];
+        let ends = slab_within(own);
+        let count = i32(ceil(max(ends.y - ends.x, 0.0) * parameters.per_step / f32(STRETCH)));
+        let length = (ends.y - ends.x) / f32(max(count, 1));
+        for (var n = 0; n < count; n++) {
+            let begin = ends.x + f32(n) * length;
+            let start = Place(own.whole.xyz, own.part.xyz + begin * own.per_mm.xyz);
+            shown = join(shown, start, length * own.per_mm.xyz, 1.0);
+        }
+    } else {
+        let near = deeper(seen.depth, -parameters.half);
+        let ray = cut(seen.foot, near, deeper(seen.depth, parameters.half), parameters.per_step);
+        let way = ray.part * (grid.z.xyz + grid.z_rest.xyz);
+        for (var n = 0; n < ray.count; n += STRETCH) {
+            let count = f32(min(STRETCH, ray.count - n));
+            let start = place_at(ray.foot, deeper(ray.near, ray.part * f32(n)));
+            shown = join(shown, start, count * way, count);
+        }
+    }
+    if parameters.mode == MEAN {
+        return select(center, shown.sum / max(shown.share, 1e-30), shown.share > 0.0);
+    }
+    return select(center, select(shown.best, -shown.best, parameters.mode == SMALLEST), shown.best > -HUGE);
 }
 
 @compute @workgroup_size(8, 8)
@@ -103,9 +128,9 @@ fn surface(@builtin(global_invocation_id) thread: vec3u) {
         return;
     }
     let seen = target_of(thread.xy);
-    let center = sample(seen, 0.0);
+    let center = thin(seen);
     value[seen.pixel] = center;
-    if center < HUGE && parameters.beside > 0u {
+    if center < HUGE && parameters.half > 0.0 {
         value[seen.pixel] = thick(seen, center);
     }
 }

@@ -146,7 +146,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("stages/depth_filter", DepthFilterParameters { weights, leap, padding, more_padding }),
         host!("stages/silhouette", SilhouetteParameters { per_slope, half }),
         host!("stages/surface", CurvedPlace { whole, part, per_mm }),
-        host!("stages/surface", SurfaceParameters { part, beside, mode, padding, exact_part }),
+        host!("stages/surface", SurfaceParameters { half, mode, per_step, padding }),
     ]
 }
 

@@ -1,0 +1,72 @@
+// Rays through the volume cell by cell: between two planes of voxel centres the volume along a ray is a cubic.
+// import math/cubic
+// import math/ray
+
+// Longer than every stretch, as a share of it.
+const NO_MEETING: f32 = 1e9;
+// A direction that moves less than this along an axis runs along its planes (voxels).
+const ALONG_PLANE: f32 = 1e-9;
+
+// What was found along a ray.
+struct Found {
+    // The largest value, or the smallest with the other sign.
+    best: f32,
+    // The values times the shares of the stretch that they take, and the shares.
+    sum: f32,
+    share: f32,
+}
+
+// The corners in a cell times `sign`; HUGE where one of them has no value.
+fn corners_at(voxel: vec3i, sign: f32) -> Corners {
+    let corners = corners_in(voxel);
+    if FLOAT_VOXELS && largest_corner(corners) >= HUGE {
+        return Corners(vec4f(HUGE), vec4f(HUGE));
+    }
+    return Corners(corners.near * sign, corners.far * sign);
+}
+
+// Follows a ray from a place on, `way` voxels far. Values of `best` that are no larger than `found.best` change nothing; with
+// `wants_mean` everything is summed up.
+fn walk_cells(start: Place, way: vec3f, sign: f32, limit: f32, wants_mean: bool, so_far: f32) -> Found {
+    let carry = floor(start.part);
+    let first = start.whole + carry;
+    let place = start.part - carry;
+    let is_along = abs(way) < vec3f(ALONG_PLANE);
+    let per_voxel = 1.0 / select(way, vec3f(1.0), is_along);
+    let sense = select(vec3f(-1.0), vec3f(1.0), way > vec3f());
+    let low = vec3f(grid.low);
+    var cell = vec3f();
+    var plane = select(vec3f(), vec3f(1.0), way > vec3f());
+    var found = Found(so_far, 0.0, 0.0);
+    var enter = 0.0;
+    // Each turn crosses a plane or ends.
+    let most = i32(abs(way.x)) + i32(abs(way.y)) + i32(abs(way.z)) + 8;
+    for (var turn = 0; turn < most; turn++) {
+        let meeting = select((plane - place) * per_voxel, vec3f(NO_MEETING), is_along);
+        let leave = min(1.0, min(meeting.x, min(meeting.y, meeting.z)));
+        let voxel = clamp(first + cell, vec3f(), low);
+        let corners = corners_at(vec3i(voxel), sign);
+        let top = largest_corner(corners);
+        if top < HUGE && (wants_mean || min(top, limit) > found.best) {
+            let from = place + (first - voxel);
+            let one = clamp(from + way * enter, vec3f(), vec3f(1.0));
+            let other = clamp(from + way * leave, vec3f(), vec3f(1.0));
+            let cubic = cubic_between(corners, one, other);
+            if wants_mean {
+                let share = max(leave - enter, 0.0);
+                found.sum += share * mean_of(cubic);
+                found.share += share;
+            } else {
+                found.best = max(found.best, min(min(largest_of(cubic), top), limit));
+            }
+        }
+        if leave >= 1.0 {
+            break;
+        }
+        let is_crossed = meeting <= vec3f(leave);
+        cell += select(vec3f(), sense, is_crossed);
+        plane += select(vec3f(), sense, is_crossed);
+        enter = leave;
+    }
+    return found;
+}
