@@ -190,12 +190,12 @@ pub(super) struct Lines<'a> {
 impl Lines<'_> {
     /// The strength of the silhouettes by the rule of the settings.
     pub fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
-        let mut strength = vec![0.0; work.pixels()];
+        let (mut strength, parameters) =
+            (vec![0.0; work.pixels()], SilhouetteParameters::new(settings, camera));
         match settings.silhouette_rule {
-            SilhouetteRule::Leap => silhouette_of_leaps(work, self.leap, &mut strength)?,
+            SilhouetteRule::Leap => silhouette_of_leaps(work, &parameters, self.leap, &mut strength)?,
             SilhouetteRule::Gradient => {
-                let parameters = SilhouetteParameters::new(settings, camera);
-                silhouette(work, &parameters, self.depth, self.vessel, &mut strength)?;
+                silhouette(work, &parameters, self.depth, self.vessel, &mut strength)?
             }
         }
         Ok(strength)

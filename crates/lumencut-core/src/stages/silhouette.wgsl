@@ -1,6 +1,6 @@
 // Silhouettes: lines where the cut surface leaps; or, as in the paper (section 3.3.5), where it is steep, strongest between
-// influence zones. The first in two passes: what lies beside a leap, and the depth filter over it. The second in three: the
-// raised slope, the depth filter over it, and its strength.
+// influence zones. The first in one pass, `lines`. The second in three: the raised slope, the depth filter over it, and its
+// strength.
 // import math/view
 // import math/leaps
 
@@ -14,10 +14,12 @@ struct SilhouetteParameters {
     per_slope: f32,
     // The square of the slope that has half the strength.
     half: f32,
+    // How wide the line of a leap is (pixels).
+    line_width: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: SilhouetteParameters;
-// Raised slopes in the first pass, slopes that become strengths in the last.
+// Raised slopes in the first pass, slopes that become strengths in the last; of `lines` the strengths.
 @group(0) @binding(2) var<storage, read_write> slopes: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read> vessel: array<i32>;
@@ -64,19 +66,80 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
 }
 
 @group(0) @binding(1) var<storage, read> leap: array<u32>;
+@group(0) @binding(3) var<uniform> line_parameters: SilhouetteParameters;
+
+// The bits of a pixel; none beyond the image.
+fn bits_at(pixel: vec2i) -> u32 {
+    let is_inside = all(pixel >= vec2i(0)) && all(pixel < vec2i(view.size));
+    return select(0u, leap[place_of(vec2u(select(vec2i(0), pixel, is_inside)))], is_inside);
+}
+
+// The border between a pixel and the neighbour a step to the right, to the left, down or up away.
+struct Border {
+    is_leap: bool,
+    // Whether the line of the leap lies in the pixel.
+    has_line: bool,
+}
+
+fn border(here: vec2i, step: vec2i) -> Border {
+    let is_owner = step.x + step.y > 0;
+    let bits = bits_at(select(here + step, here, is_owner));
+    let is_leap = (bits & select(DOWNWARDS, TO_THE_RIGHT, step.y == 0)) != 0u;
+    let is_here = (bits & select(LINE_DOWNWARDS, LINE_TO_THE_RIGHT, step.y == 0)) == 0u;
+    return Border(is_leap, is_leap && is_here == is_owner);
+}
+
+// Whether the line of a leap to another lumen lies in a pixel of a lumen.
+fn ends(here: vec2i, step: vec2i) -> bool {
+    return border(here, step).has_line && (bits_at(here) & bits_at(here + step) & LUMEN) != 0u;
+}
+
+// How much of a pixel a line covers whose leap has its middle this far from that of the pixel (pixels).
+fn cover_at(apart: vec2f) -> f32 {
+    return clamp(line_parameters.line_width + 0.5 - sqrt(apart.x * apart.x + apart.y * apart.y), 0.0, 1.0);
+}
+
+// How much of a pixel of a lumen the line of a leap in one direction covers: only straight across from a leap to another
+// lumen, at which the pixel's own lumen ends.
+fn cover_of_lumen(here: vec2i, step: vec2i) -> f32 {
+    if ends(here, step) {
+        return 1.0;
+    }
+    let goes_on = !border(here, step).is_leap;
+    return select(0.0, cover_at(vec2f(1.5, 0.0)), goes_on && ends(here + step, step));
+}
+
+// How much of a pixel beside all lumens the lines of the leaps of another pixel cover: by its distance to the nearest leap on
+// whose line's side it lies. It is seen from that other pixel.
+fn cover_beside_lumen(bits: u32, seen: vec2i) -> f32 {
+    var cover = 0.0;
+    if (bits & TO_THE_RIGHT) != 0u && ((bits & LINE_TO_THE_RIGHT) != 0u) == (seen.x > 0) {
+        cover = cover_at(vec2f(seen) - vec2f(0.5, 0.0));
+    }
+    if (bits & DOWNWARDS) != 0u && ((bits & LINE_DOWNWARDS) != 0u) == (seen.y > 0) {
+        cover = max(cover, cover_at(vec2f(seen) - vec2f(0.0, 0.5)));
+    }
+    return cover;
+}
 
 @compute @workgroup_size(16, 4)
-fn beside_leaps(@builtin(global_invocation_id) thread: vec3u) {
+fn lines(@builtin(global_invocation_id) thread: vec3u) {
     if !in_view(thread.xy) {
         return;
     }
-    let place = place_of(thread.xy);
-    var is_beside = leap[place] != 0u;
-    if thread.x > 0u {
-        is_beside |= (leap[place - 1u] & TO_THE_RIGHT) != 0u;
+    let here = vec2i(thread.xy);
+    var cover = 0.0;
+    if (bits_at(here) & LUMEN) != 0u {
+        cover = max(cover_of_lumen(here, vec2i(1, 0)), cover_of_lumen(here, vec2i(-1, 0)));
+        cover = max(cover, max(cover_of_lumen(here, vec2i(0, 1)), cover_of_lumen(here, vec2i(0, -1))));
+    } else {
+        let reach = i32(ceil(line_parameters.line_width));
+        for (var down = -reach; down <= reach; down++) {
+            for (var right = -reach; right <= reach; right++) {
+                let seen = vec2i(right, down);
+                cover = max(cover, cover_beside_lumen(bits_at(here - seen), seen));
+            }
+        }
     }
-    if thread.y > 0u {
-        is_beside |= (leap[place - view.size.x] & DOWNWARDS) != 0u;
-    }
-    slopes[place] = select(0.0, 1.0, is_beside);
+    slopes[place_of(thread.xy)] = cover;
 }
