@@ -54,8 +54,8 @@ impl Silhouette {
 
     /// Writes how much of each pixel the lines of the leaps cover.
     pub fn record_leaps(&self, recording: &mut Recording, view: &Buffer, images: &Images) {
-        let Images { size, leap, strength, .. } = images;
-        let buffers = [view, leap, strength, &self.parameters].map(Buffer::as_entire_binding);
+        let Images { size, leap, strength, value, .. } = images;
+        let buffers = [view, leap, strength, &self.parameters, value].map(Buffer::as_entire_binding);
         recording.run(&self.lines, &buffers, groups(*size, GROUP));
     }
 

@@ -21,9 +21,9 @@ pub const STEEPEST: f32 = 1e12;
 /// How wide the line of a leap is (mm), as the wall around a lumen is by default.
 pub const LINE_WIDTH: f64 = 1.0;
 /// The narrowest line of a leap (pixels): less would not be seen.
-pub const NARROWEST_LINE: f64 = 1.0;
+pub const NARROWEST_LINE: f64 = 0.5;
 /// The widest line of a leap (pixels), however close the view.
-pub const WIDEST_LINE: f64 = 2.0;
+pub const WIDEST_LINE: f64 = 1.5;
 
 /// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -80,6 +80,8 @@ pub fn silhouette(
 }
 
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: how much of it the lines of the leaps cover.
+/// `value` is the volume on the surface, NaN where it shows nothing: a line that would lie there lies on the other
+/// side of its leap, unless that is lumen. Without values every pixel counts as shown.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -87,11 +89,15 @@ pub fn silhouette_of_leaps(
     work: &Work,
     parameters: &SilhouetteParameters,
     leap: &[u32],
+    value: &[f32],
     strength: &mut [f32],
 ) -> Result<()> {
     work.expect_whole(Image::Leap, leap);
+    if !value.is_empty() {
+        work.expect_whole(Image::Value, value);
+    }
     work.expect_whole(Image::Strength, strength);
-    let lines = LeapLines::new(leap, work.size[0], parameters.line_width);
+    let lines = LeapLines::new(leap, value, work.size[0], parameters.line_width);
     strength.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, strength)| {
         work.go_on()?;
         lines.fill_row(row, strength);

@@ -12,9 +12,13 @@ const STEPS: [Place; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
 /// The leaps of a view and how wide their lines are.
 pub(super) struct LeapLines<'a> {
     leap: &'a [u32],
+    /// The values on the surface, NaN where it shows nothing; none where all of it counts as shown.
+    value: &'a [f32],
     size: Place,
-    /// How wide a line is (pixels).
+    /// How wide a line is (pixels), at least one.
     line_width: f32,
+    /// The most of a pixel that a line covers.
+    most: f32,
     /// How far from a pixel the leaps lie whose lines can cover it (pixels).
     reach: isize,
 }
@@ -27,9 +31,12 @@ struct Border {
 }
 
 impl<'a> LeapLines<'a> {
-    pub fn new(leap: &'a [u32], width: usize, line_width: f32) -> Self {
+    pub fn new(leap: &'a [u32], value: &'a [f32], width: usize, line_width: f32) -> Self {
         let size = [width as isize, (leap.len() / width) as isize];
-        Self { leap, size, line_width, reach: line_width.ceil() as isize }
+        let most = line_width.min(1.0);
+        // A line narrower than a pixel is one of a pixel, only fainter.
+        let line_width = line_width.max(1.0);
+        Self { leap, value, size, line_width, most, reach: line_width.ceil() as isize }
     }
 
     /// Writes how much of each pixel of a row the lines cover.
@@ -72,7 +79,7 @@ impl<'a> LeapLines<'a> {
         let mut cover = 0f32;
         for step in STEPS {
             if ends(here, step) {
-                cover = 1.0;
+                cover = self.most;
             } else if !self.border(here, step).is_leap && ends(ahead(here, step), step) {
                 cover = cover.max(self.cover_at(1.5, 0.0));
             }
@@ -81,18 +88,22 @@ impl<'a> LeapLines<'a> {
     }
 
     /// How much of a pixel beside all lumens the lines cover: by its distance to the nearest leap on whose line's side it
-    /// lies.
-    fn cover_beside_lumen(&self, [i, j]: Place) -> f32 {
+    /// lies; nothing where the pixel itself is the other side of a leap.
+    fn cover_beside_lumen(&self, here: Place) -> f32 {
+        let mut leaps = STEPS.into_iter().filter(|step| self.border(here, *step).is_leap).peekable();
+        if leaps.peek().is_some() && !leaps.any(|step| self.shows_line(here, step)) {
+            return 0.0;
+        }
         let mut cover = 0f32;
         for down in -self.reach..=self.reach {
             for right in -self.reach..=self.reach {
                 // The pixel as seen from the one whose leaps these are.
-                let bits = self.bits([i - right, j - down]);
-                let (x, y) = (right as f32, down as f32);
-                if bits & TO_THE_RIGHT != 0 && (bits & LINE_TO_THE_RIGHT != 0) == (right > 0) {
+                let owner = [here[0] - right, here[1] - down];
+                let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
+                if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {
                     cover = cover.max(self.cover_at(x - 0.5, y));
                 }
-                if bits & DOWNWARDS != 0 && (bits & LINE_DOWNWARDS != 0) == (down > 0) {
+                if bits & DOWNWARDS != 0 && self.shows_line_of(owner, [0, 1], down > 0) {
                     cover = cover.max(self.cover_at(x, y - 0.5));
                 }
             }
@@ -100,9 +111,25 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
+    /// Whether the line of the leap from a pixel to the neighbour a step away is shown on one side of it, beyond it or not.
+    fn shows_line_of(&self, owner: Place, step: Place, beyond: bool) -> bool {
+        if beyond {
+            self.shows_line(ahead(owner, step), [-step[0], -step[1]])
+        } else {
+            self.shows_line(owner, step)
+        }
+    }
+
+    /// Whether the line of the leap to a neighbour is shown in a pixel: it lies there, or it would lie where nothing is shown
+    /// and there is no lumen here.
+    fn shows_line(&self, here: Place, step: Place) -> bool {
+        let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
+        self.is_shown(here) && (self.border(here, step).has_line || may_lie_here)
+    }
+
     /// How much of a pixel a line covers whose leap has its middle this far from that of the pixel (pixels).
     fn cover_at(&self, x: f32, y: f32) -> f32 {
-        (self.line_width + 0.5 - (x * x + y * y).sqrt()).clamp(0.0, 1.0)
+        self.most * (self.line_width + 0.5 - (x * x + y * y).sqrt()).clamp(0.0, 1.0)
     }
 
     /// The border between a pixel and the neighbour one of the [`STEPS`] away.
@@ -117,6 +144,11 @@ impl<'a> LeapLines<'a> {
 
     fn is_lumen(&self, here: Place) -> bool {
         self.bits(here) & LUMEN != 0
+    }
+
+    /// Whether a pixel of the image shows anything.
+    fn is_shown(&self, [i, j]: Place) -> bool {
+        self.value.is_empty() || !self.value[(j * self.size[0] + i) as usize].is_nan()
     }
 
     /// The bits of a pixel; none beyond the image.
