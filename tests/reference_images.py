@@ -59,7 +59,9 @@ def silhouettes(surface, camera, tolerance):
     vague_here = surface.unsure_depth | surface.unsure_vessel | (np.abs(surface.beyond) < tolerance)
     doubt, leaps = _near(vague_here), leaps_between(surface, camera)
     for here, there, least in leaps:
-        if abs(least) < tolerance or (least > 0 and abs(surface.depth[there] - surface.depth[here]) < tolerance):
+        if abs(least) < tolerance or (
+            least > 0 and abs(surface.depth[there] - surface.depth[here]) < tolerance
+        ):
             doubt |= _near(_at(here, strength.shape)) | _near(_at(there, strength.shape))
     leaps = {(here, there) for here, there, least in leaps if least > 0}
     width, sides = np.clip(1 / camera.pixel_spacing, 0.5, 1.5), []

@@ -94,8 +94,10 @@ fn lines(device: &Device, size: [usize; 2], spacing: f64) -> [Vec<f32>; 2] {
     let (camera, settings, mut random) = (front(size, spacing), Settings::default(), Random::new(17));
     let pixels = size[0] * size[1];
     let leap: Vec<u32> = (0..pixels)
-        .map(|_| {
+        .map(|p| {
             let [right, down, lumen] = [0.2, 0.2, 0.6].map(|share| random.between(0.0, 1.0) < share);
+            // Beyond the last column and the last row there is nothing to leap to.
+            let (right, down) = (right && (p + 1) % size[0] != 0, down && p + size[0] < pixels);
             let [line_right, line_down] = [0; 2].map(|_| random.between(0.0, 1.0) < 0.5);
             let bits = [
                 (TO_THE_RIGHT, right),
