@@ -8,6 +8,7 @@ pub mod backend;
 pub mod devices;
 pub mod extent;
 mod fused;
+pub mod lumen_points;
 pub mod placement;
 pub mod places;
 pub mod positions;

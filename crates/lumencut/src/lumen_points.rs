@@ -62,8 +62,7 @@ pub fn lumen_count(volume: &Volume, lines: &Lines, place: Place) -> LumenCount {
     for n in &looked_at {
         let (point, radius) = (lines.points[*n] * scale, lines.radii[*n] * mm);
         let is_known = radius > 0.0;
-        let (own, away) =
-            if is_known { (0.5 * radius, radius + radius.max(BESIDE)) } else { UNKNOWN };
+        let (own, away) = if is_known { (0.5 * radius, radius + radius.max(BESIDE)) } else { UNKNOWN };
         if let Some((below, above, all)) = ranks(volume, point, own, away) {
             brighter += usize::from(4 * below >= 3 * all);
             darker += usize::from(4 * above >= 3 * all);
@@ -104,9 +103,8 @@ fn numbers(values: &[f32]) -> Vec<f64> {
 
 /// The directions from the middle of a cube to its corners, edges and faces.
 fn directions() -> Vec<DVec3> {
-    let steps = [-1.0, 0.0, 1.0];
-    let all = steps.iter().flat_map(|x| steps.iter().flat_map(move |y| steps.iter().map(move |z| DVec3::new(*x, *y, *z))));
-    all.filter(|step| *step != DVec3::ZERO).map(DVec3::normalize).collect()
+    let step = |n: u32| DVec3::new(f64::from(n % 3), f64::from(n / 3 % 3), f64::from(n / 9)) - 1.0;
+    (0..27).map(step).filter(|step| *step != DVec3::ZERO).map(DVec3::normalize).collect()
 }
 
 #[cfg(test)]
