@@ -72,7 +72,7 @@ def silhouettes(surface, camera, tolerance):
     for side, other in sides:
         draw_line(strength, side, other, width, lumen, leaps)
     for pixel in {other for _, other in sides} - {side for side, _ in sides}:
-        strength[pixel] = 0
+        strength[pixel] *= lumen[pixel]
     return strength, doubt
 
 
@@ -119,9 +119,9 @@ def _at(pixel, shape):
 
 
 def _near(pixels):
-    """The pixels and all that are up to three pixels away along both axes."""
-    padded = np.pad(pixels, 3)
-    return np.lib.stride_tricks.sliding_window_view(padded, (7, 7)).any(axis=(2, 3))
+    """The pixels and all that are up to two pixels away along both axes."""
+    padded = np.pad(pixels, 2)
+    return np.lib.stride_tricks.sliding_window_view(padded, (5, 5)).any(axis=(2, 3))
 
 
 def position(depth, camera):

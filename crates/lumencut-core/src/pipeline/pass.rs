@@ -201,10 +201,10 @@ impl Lines<'_> {
             (vec![0.0; work.pixels()], SilhouetteParameters::new(settings, camera));
         match settings.silhouette_rule {
             SilhouetteRule::Leap => {
-                silhouette_of_leaps(work, &parameters, self.leap, self.value, &mut strength)?
+                silhouette_of_leaps(work, &parameters, self.leap, self.value, &mut strength)?;
             }
             SilhouetteRule::Gradient => {
-                silhouette(work, &parameters, self.depth, self.vessel, &mut strength)?
+                silhouette(work, &parameters, self.depth, self.vessel, &mut strength)?;
             }
         }
         Ok(strength)
