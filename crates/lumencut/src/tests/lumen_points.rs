@@ -31,9 +31,9 @@ fn is_lumen(p: DVec3) -> bool {
 /// Numbers from 0 to 1 that have nothing to do with each other.
 fn noise(p: DVec3) -> f32 {
     let [x, y, z] = p.as_i64vec3().to_array();
-    let mixed = (x * 73_856_093 ^ y * 19_349_663 ^ z * 83_492_791).wrapping_mul(2_654_435_761) as u64;
-    let mixed = (mixed ^ mixed >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    ((mixed ^ mixed >> 32) & 0xFFFF) as f32 / 65535.0
+    let mixed = ((x * 73_856_093) ^ (y * 19_349_663) ^ (z * 83_492_791)).wrapping_mul(2_654_435_761) as u64;
+    let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    ((mixed ^ (mixed >> 32)) & 0xFFFF) as f32 / 65535.0
 }
 
 #[test]
