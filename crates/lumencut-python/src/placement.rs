@@ -4,6 +4,7 @@ use glam::DVec3;
 use lumencut::centerlines::{Space, Unit};
 use lumencut::extent::Extent;
 use lumencut::lumen_points::{Lines, lumen_count};
+use lumencut::misplaced;
 use lumencut::placement::{self as decision, Judge, Known};
 use lumencut::places::{LARGEST, SMALLEST, signs};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -144,7 +145,7 @@ pub fn better_place(
     volume: VolumeArgument<'_>,
 ) -> PyResult<Option<String>> {
     let points = points_of(&points)?;
-    judged(py, (&points, &radii), &volume, |judge| decision::better_place(&points, judge))
+    judged(py, (&points, &radii), &volume, |judge| misplaced::better_place(&points, judge))
 }
 
 /// Whether points (n, 3) (mm, LPS) miss a volume in whatever space and unit they might be meant.
@@ -156,5 +157,5 @@ pub fn fits_nowhere(
     volume: GridArgument,
 ) -> PyResult<bool> {
     let (points, extent) = (points_of(&points)?, volume.extent());
-    Ok(py.detach(|| decision::fits_nowhere(&points, &extent)))
+    Ok(py.detach(|| misplaced::fits_nowhere(&points, &extent)))
 }

@@ -1,6 +1,7 @@
 use glam::DAffine3;
 
 use super::*;
+use crate::misplaced::{better_place, fits_nowhere};
 
 /// A volume of 100 mm along each axis, far enough from the origin that only one space fits it.
 fn volume() -> Extent {
