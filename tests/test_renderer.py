@@ -141,7 +141,9 @@ def test_silhouettes_stand_where_the_surface_leaps():
     border = lined.vessel != np.roll(lined.vessel, 1, axis=0)
     rows, columns = np.nonzero(border[20:-20, 20:-20] & ~np.isnan(lined.value[20:-20, 20:-20]))
     assert len(rows) > 50
-    assert yellow[rows + 20, columns + 20].mean() > 0.9
+    # A line lies on one side of a leap.
+    either = yellow | np.roll(yellow, 1, axis=0)
+    assert either[rows + 20, columns + 20].mean() > 0.9
     row, column = pixel(lined.camera, (0, -10, 0))
     assert not yellow[row, column]
     tube = phantom.straight_tube()

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
-import numpy as np
-
 from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError, SpaceWarning
@@ -18,6 +16,7 @@ from lumencut.file_kinds import kind_of
 from lumencut.placement import (
     MILLIMETRES,
     Coordinates,
+    Lines,
     Placement,
     Stated,
     Unit,
@@ -46,8 +45,8 @@ class CenterlineReport:
         The space and unit in which its coordinates were read.
     stated, stated_unit : str or None
         The space and unit that the file itself states.
-    space_from, unit_from : "asked", "stated", "volume" or "assumed"
-        Who said so: the caller, the file, the extent of the volume, or nobody.
+    space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
+        Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
     vessels, points : int
         How many vessels it forms, and how many points they have.
     radius : bool
@@ -55,7 +54,7 @@ class CenterlineReport:
     decision : str
         What was assumed or decided of space and unit, and by what; empty where file or caller said it.
     is_unusual : bool
-        Whether the volume decided against LPS or the usual unit of the format.
+        Whether the volume decided against LPS or the usual unit of the format, or the space by its values.
     notes : tuple of str
         What was odd about the file, one sentence each.
     """
@@ -122,8 +121,9 @@ class CenterlineFile:
         )
         likely = unit or stated.unit or stated.usual_unit
         vessels, notes = content.vessels(MILLIMETRES[likely])
-        points = np.concatenate([points for points, _, _ in vessels]) / MILLIMETRES[likely]
-        place = placement(self.path.name, points, stated, coordinates, unit, volume)
+        in_mm = Lines.of((points, radius) for points, radius, _ in vessels)
+        lines = Lines(in_mm.points / MILLIMETRES[likely], in_mm.radii / MILLIMETRES[likely])
+        place = placement(self.path.name, lines, stated, coordinates, unit, volume)
         if place.unit != likely:
             # Lines are joined by distances in mm.
             vessels, notes = content.vessels(MILLIMETRES[place.unit])
@@ -193,8 +193,10 @@ def read_centerlines(
         The unit of the file's coordinates and radii. By default the one that the file states, else the one
         that fits the volume, else that of its format: cm for `.pth`, mm for all others.
     volume : Volume, or whatever else :func:`lumencut.render` takes as one, optional
-        Where given, its extent decides what the file leaves open, and what the file states is compared with
-        it.
+        Where given, its extent decides what the file leaves open. Where both spaces fit the extent, the
+        values along the lines decide if at least three times as many points look like lumen in the one space
+        as in the other, and at least half of all and twenty of them. What the file states is compared with
+        both.
 
     Raises
     ------
@@ -202,15 +204,16 @@ def read_centerlines(
         Where the file cannot be read.
     FormatError
         Where its content is not what its format promises, or holds no centerline; where several spaces or
-        units fit the volume, or none does.
+        units fit the volume and its values do not tell which, or none does.
     VolumeError
         For what is no volume.
 
     Warns
     -----
     SpaceWarning
-        Where the volume decides against LPS or the usual unit; where what the file states fits the volume
-        clearly worse than another space or unit, which is not repaired. The text names both counts.
+        Where the volume decides against LPS or the usual unit, or the space by its values; where what the
+        file states fits the volume clearly worse than another space or unit, which is not repaired. The text
+        names both counts.
         What else was assumed (without a volume) or decided is logged.
     """
     volume = None if volume is None else as_volume(volume)

@@ -8,6 +8,8 @@ pub mod backend;
 pub mod devices;
 pub mod extent;
 mod fused;
+pub mod lumen_points;
+pub mod misplaced;
 pub mod placement;
 pub mod places;
 pub mod positions;

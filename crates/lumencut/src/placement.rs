@@ -1,5 +1,5 @@
-//! Space and unit of centerlines: what the caller says, else what their file states, else what fits the volume, else
-//! what is usual.
+//! Space and unit of centerlines: what the caller says, else what their file states, else what fits the volume, by its
+//! extent or, between two spaces, by its values along the lines, else what is usual.
 //!
 //! Nothing is decided in silence: every choice that the file does not state comes with the counts behind it.
 
@@ -9,6 +9,7 @@ use glam::DVec3;
 use lumencut_io::{Error, Result, Space, Unit};
 
 use crate::extent::Extent;
+use crate::lumen_points::LumenCount;
 use crate::places::{Place, Reading, places, readings};
 
 /// A place is as good as another if it brings at least this part of the other's points into the volume.
@@ -38,6 +39,8 @@ pub enum Origin {
     Stated,
     /// The extent of the volume.
     Volume,
+    /// The values of the volume along the lines.
+    Values,
     /// Nobody.
     Assumed,
 }
@@ -49,6 +52,7 @@ impl Origin {
             Self::Asked => "asked",
             Self::Stated => "stated",
             Self::Volume => "volume",
+            Self::Values => "values",
             Self::Assumed => "assumed",
         }
     }
@@ -78,8 +82,17 @@ pub struct Placement {
     pub unit_from: Origin,
     /// What was decided, and by what; empty where the file or the caller said everything.
     pub decision: String,
-    /// Whether the volume decided against LPS or the usual unit.
+    /// Whether the volume decided against LPS or the usual unit, or the space by its values alone.
     pub is_unusual: bool,
+}
+
+/// What the volume can say.
+#[derive(Clone, Copy)]
+pub struct Judge<'a> {
+    /// The space that it fills.
+    pub extent: Extent,
+    /// How many points look like lumen in it where they are read in a place.
+    pub lumen: &'a dyn Fn(Place) -> LumenCount,
 }
 
 /// Decides how the points of a file, as they stand in it, are to be understood; without a volume by what is usual.
@@ -87,7 +100,7 @@ pub struct Placement {
 /// # Errors
 /// An [`Error`] without the file's name where the volume is there to decide and cannot: several places fit it alike, or
 /// none does.
-pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Extent>) -> Result<Placement> {
+pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Result<Placement> {
     let usual = known.usual();
     let space_from = Origin::of(known.asked_space, known.stated_space);
     let unit_from = Origin::of(known.asked_unit, known.stated_unit);
@@ -109,11 +122,17 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Extent>) -> Re
             if space_from == Origin::Assumed { &Space::ALL } else { std::slice::from_ref(&usual.space) },
             if unit_from == Origin::Assumed { &Unit::ALL } else { std::slice::from_ref(&usual.unit) },
         );
-        let choice = Choice { readings: readings(points, &candidates, volume), usual, total: points.len() };
-        let best = choice.best()?;
-        if best.inside > 0 {
-            let decision = format!("{nothing}; {}", choice.told(best));
-            return Ok(told(best.place, space_from.decided(), unit_from.decided(), decision));
+        let readings = readings(points, &candidates, &volume.extent);
+        let choice = Choice { readings, usual, total: points.len() };
+        let found = choice.best(volume.lumen)?;
+        if let Some(by_values) = found.by_values {
+            let decision = format!("{nothing}; {by_values}");
+            let placement = told(found.best.place, Origin::Values, unit_from.decided(), decision);
+            return Ok(Placement { is_unusual: true, ..placement });
+        }
+        if found.best.inside > 0 {
+            let decision = format!("{nothing}; {}", choice.told(found.best));
+            return Ok(told(found.best.place, space_from.decided(), unit_from.decided(), decision));
         }
     }
     let decision = format!("{nothing}; {usual} is assumed");
@@ -151,13 +170,26 @@ struct Choice {
     total: usize,
 }
 
+/// The place that was chosen.
+struct Chosen {
+    best: Reading,
+    /// Where the values of the volume have chosen: what they say.
+    by_values: Option<String>,
+}
+
+impl Chosen {
+    fn by_extent(best: Reading) -> Self {
+        Self { best, by_values: None }
+    }
+}
+
 impl Choice {
     /// The place that fits the volume; the usual one where the file states a space and none fits.
-    fn best(&self) -> Result<Reading> {
+    fn best(&self, lumen: &dyn Fn(Place) -> LumenCount) -> Result<Chosen> {
         let most = self.readings.iter().map(|reading| reading.inside).max().unwrap_or(0);
         let spaces: BTreeSet<&str> = self.readings.iter().map(|reading| reading.place.space.name()).collect();
         if most == 0 && spaces.len() == 1 {
-            return Ok(Reading { place: self.usual, inside: 0 });
+            return Ok(Chosen::by_extent(Reading { place: self.usual, inside: 0 }));
         }
         if most == 0 {
             return Err(self.nowhere(&spaces));
@@ -169,9 +201,41 @@ impl Choice {
             fitting.iter().filter(|reading| reading.place.unit == self.usual.unit).copied().collect();
         let fitting = if usual.is_empty() { fitting } else { usual };
         match fitting[..] {
-            [only] => Ok(only),
+            [only] => Ok(Chosen::by_extent(only)),
+            [one, other] if one.place.unit == other.place.unit => {
+                self.by_values(one, other, lumen).ok_or_else(|| self.undecided(&fitting))
+            }
             _ => Err(self.undecided(&fitting)),
         }
+    }
+
+    /// The one of two spaces in which the points look like lumen, where that is evident.
+    fn by_values(&self, one: Reading, other: Reading, lumen: &dyn Fn(Place) -> LumenCount) -> Option<Chosen> {
+        let (of_one, of_other) = (lumen(one.place), lumen(other.place));
+        let (best, other, count, few) = if of_one.is_evident_beside(of_other) {
+            (one, other, of_one, of_other)
+        } else if of_other.is_evident_beside(of_one) {
+            (other, one, of_other, of_one)
+        } else {
+            return None;
+        };
+        let by_values = format!(
+            "both {} ({} of {} points inside) and {} ({}) fit the volume; of {} points looked at, {} look like lumen in {} and \
+             {} in {}: read in {}; {} confirms it",
+            best.place,
+            best.inside,
+            self.total,
+            other.place,
+            other.inside,
+            count.of,
+            count.like_lumen,
+            best.place.space.name(),
+            few.like_lumen,
+            other.place.space.name(),
+            best.place.space.name(),
+            space_option(best.place.space),
+        );
+        Some(Chosen { best, by_values: Some(by_values) })
     }
 
     fn nowhere(&self, spaces: &BTreeSet<&str>) -> Error {
@@ -244,7 +308,7 @@ impl Choice {
 }
 
 impl Reading {
-    fn is_as_good_as(&self, inside: usize) -> bool {
+    pub(crate) fn is_as_good_as(&self, inside: usize) -> bool {
         self.inside as f64 >= AS_GOOD * inside as f64
     }
 }
@@ -255,31 +319,6 @@ fn space_option(space: Space) -> String {
 
 fn unit_option(unit: Unit) -> String {
     format!("unit=\"{}\"", unit.name())
-}
-
-/// Whether points in LPS and mm miss the volume, in whatever space and unit they might be meant.
-pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
-    readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(|reading| reading.inside == 0)
-}
-
-/// What is to be said of points in LPS and mm where another place brings twice as many of them into the volume, and a
-/// tenth of all more: as when RAS was read as LPS, or centimetres as millimetres.
-pub fn better_place(points: &[DVec3], volume: &Extent) -> Option<String> {
-    let mut candidates = places(&Space::ALL, &Unit::ALL);
-    // The likeliest mistakes first: of places that fit alike the first one is named.
-    candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
-    let readings = readings(points, &candidates, volume);
-    let as_read = readings[0].inside;
-    let best = readings.iter().rev().max_by_key(|reading| reading.inside)?;
-    let better = best.inside;
-    if better < 2 * as_read || better < as_read + (points.len() / 10).max(1) {
-        return None;
-    }
-    let (how, mend) = best.place.mistaken();
-    let total = points.len();
-    Some(format!(
-        "{as_read} of {total} points lie inside the volume as read, but {better} {how}; read the centerlines with {mend}"
-    ))
 }
 
 #[cfg(test)]

@@ -124,7 +124,7 @@ impl Search for LowestKeySearch<'_> {
 }
 
 /// What is known of the surface beside its depth in a pixel: how its depth changes to the right and upwards (mm per mm),
-/// the radius of its vessel (mm), and the gap along the vessel between the two places that are blended there
+/// the radius of its vessel (mm, negative beside the lumen), and the gap along the vessel between the two places that are blended there
 /// (mm; [`crate::math::lanes::FAR`] where they belong to different vessels).
 pub type Sheet = [f32; 4];
 

@@ -189,7 +189,7 @@ impl Stage {
             Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
             Self::Surface => &[Image::Depth],
-            Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap],
+            Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
             Self::Context => &[Image::Depth, Image::Value],
             Self::Composite => &[Image::Value, Image::Strength, Image::Gathered],
         }

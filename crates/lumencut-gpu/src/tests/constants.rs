@@ -79,7 +79,8 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/blocks": blocks::SIDE_BITS, Range::ALL;
         "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::SETTLED, hierarchy::NO_SLOT,
             blocks::HUGE;
-        "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS;
+        "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS, leaps::LINE_TO_THE_RIGHT, leaps::LINE_DOWNWARDS,
+            leaps::LUMEN;
         "math/levels": settings::MAX_LEVELS;
         "math/light": light::AMBIENT, light::DIFFUSE, light::SPECULAR, light::STEEPEST, light::UNSHADED;
         "math/projection": projection::COLLINEAR_LENGTH, cut_surface::POINT_THREADS;
