@@ -10,6 +10,7 @@ pub mod extent;
 mod fused;
 pub mod placement;
 pub mod places;
+mod populations;
 pub mod positions;
 mod samples;
 mod statistics;
