@@ -1,4 +1,4 @@
-"""Which shares of the grey range a window gives to the tissues of an angiography, and how far a lumen stands out."""
+"""Which shares of the grey range a window gives to tissues, and how far a lumen stands out."""
 
 from __future__ import annotations
 

@@ -126,7 +126,9 @@ KINDS = {
     "CTA, vessels at −1024": Kind(HU, 15.0, finish=_kept(VESSELS, -1024.0)),
     "CTA, lumen at 0": Kind(HU, 15.0, finish=_kept((CALCIFIED, LUMEN), 0.0)),
     "CTA, lumen in NaN": Kind(HU, 15.0, finish=_kept(VESSELS, np.nan, "float32")),
-    "rotational, 0 to 563": Kind(ROTATIONAL, 14.0, "head", _cropped_values(0, 563, "uint16"), brighter=(CALCIFIED,)),
+    "rotational, 0 to 563": Kind(
+        ROTATIONAL, 14.0, "head", _cropped_values(0, 563, "uint16"), brighter=(CALCIFIED,)
+    ),
     "TOF MRA": Kind(TIME_OF_FLIGHT, 14.0, "head", _as("uint16"), brighter=()),
     "TOF MRA, brain alone": Kind(TIME_OF_FLIGHT, 14.0, "head", _kept((SOFT, *VESSELS), 0.0), brighter=()),
     "TOF MRA, 99 % zeros": Kind(
@@ -168,8 +170,8 @@ def tree() -> VesselTree:
     left = fork + along * (9.0, -2.0, 19.0) + np.sin(np.pi * along) * (2.0, 3.0, 0.0)
     right = fork + along * (-9.0, -3.0, 19.0) - np.sin(np.pi * along) * (2.0, -2.0, 0.0)
     branch = trunk[20] + along * (-11.0, -7.0, 3.0) + np.sin(np.pi * along) * (0.0, -2.0, 4.0)
-    radii = (3.2, 2.1, 2.1, 1.4)
-    return VesselTree([Vessel(line, radius) for line, radius in zip((trunk, left, right, branch), radii)])
+    lines, radii = (trunk, left, right, branch), (3.2, 2.1, 2.1, 1.4)
+    return VesselTree([Vessel(line, radius) for line, radius in zip(lines, radii, strict=True)])
 
 
 @functools.cache

@@ -106,11 +106,11 @@ pub fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
 
 /// What stands for tissue and lumen in a volume without centerlines.
 ///
-/// Padding, a dark value that a twentieth of all voxels has, is left out, then air: what is darker than a quarter of the
-/// way from the 1st to the 99th percentile. Where less than 8 % of the volume is left, it is vessels alone: their
-/// edges stand for the tissue, three quarters of them lie below what stands for the lumen.
+/// Padding, a dark value that a twentieth of all voxels has, is left out. Where less than 8 % of the volume is left, it is
+/// vessels alone: their edges stand for the tissue, three quarters of them lie below what stands for the lumen.
 ///
-/// Otherwise cubes of 4 × 4 × 4 voxels are told apart by their largest value: noise hardly moves it, and thin vessels
+/// Otherwise air is left out too, what is darker than a quarter of the way from the 1st to the 99th percentile, unless
+/// hardly anything would be left. Cubes of 4 × 4 × 4 voxels are told apart by their largest value: noise hardly moves it, and thin vessels
 /// have a larger part in it than of the voxels. Above the median the cubes are parted in two groups, on a scale that
 /// compresses what is far brighter so that bone does not count more than lumen (asinh), and the brighter group again
 /// until it is less than a third of all. The 95th percentile of the darker cubes is the brightest tissue; the lumen is
@@ -135,17 +135,26 @@ impl Populations {
         let enough = VESSELS_ALONE * looked.count as f64;
         let shown = without_padding(&mut looked.voxels);
         let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
-        let air = ends[0] + AIR * (ends[1] - ends[0]);
-        let mut brighter: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
-        let [tissue, brightest_tissue, lumen] = if (shown.len() as f64) < enough || brighter.is_empty() {
+        let [tissue, brightest_tissue, lumen] = if (shown.len() as f64) < enough {
             of_vessels(darkest, shown)?
-        } else if (brighter.len() as f64) < enough {
-            of_vessels(darkest, &mut brighter)?
         } else {
-            let cubes = looked.largest.iter().copied().filter(|value| *value > air).collect();
-            of_body(median(&mut brighter)?, cubes)?
+            let air = ends[0] + AIR * (ends[1] - ends[0]);
+            // The percentiles may have changed their order.
+            shown.sort_unstable_by(f64::total_cmp);
+            let first = shown.partition_point(|value| *value <= air);
+            // Where air is padding, tissue may be as dark as air is elsewhere.
+            let first = if ((shown.len() - first) as f64) < enough { 0 } else { first };
+            let body = &mut shown[first..];
+            let darkest_of_body = *body.first()?;
+            let cubes = looked.largest.iter().copied().filter(|value| *value >= darkest_of_body).collect();
+            of_body(median(body)?, cubes)?
         };
         Some(Self { darkest, tissue, brightest_tissue, lumen, brightest: ends[1] })
+    }
+
+    /// Whether the tissue is where vessels have edges, and no guess.
+    pub fn has_edges(&self) -> bool {
+        self.lumen - self.tissue > ALONE_DIFFERENCE * (self.lumen - self.darkest)
     }
 }
 

@@ -36,7 +36,7 @@ const ALONE_BELOW: [f64; 2] = [0.4, 0.56];
 const ALONE_NARROWEST: f64 = 0.1;
 
 /// Which part of what is around vessels must be inside the volume, and no padding, to stand for the tissue.
-const SHOWN: f64 = 0.25;
+const SHOWN: f64 = 0.5;
 
 /// Which parts of the voxels are darker than a window of the whole volume, and at most as bright as its white end.
 const DARKEST: f64 = 0.01;
@@ -89,16 +89,16 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     })
 }
 
-/// The median around the vessels. Where most of that is padding or outside, only vessels are shown: then what stands for
-/// the tissue of the volume alone, if that is darker than the lumen.
+/// The median around the vessels. Where most of that is padding or outside, and vessels have edges, these.
 fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, looked: &mut Looked) -> Option<f64> {
     let places = beside(tree, BESIDE);
     let mut around = finite(&sample(volume, &places));
     let padding = padding(&mut looked.voxels).unwrap_or(f64::NEG_INFINITY);
     let shown = around.iter().filter(|value| **value > padding).count();
     if (shown as f64) < SHOWN * places.len() as f64 {
-        let alone = Populations::of(looked).map(|found| found.tissue).filter(|tissue| *tissue < lumen);
-        return alone.or_else(|| median(&mut around));
+        let found = Populations::of(looked)?;
+        let has_edges = found.tissue < lumen && (found.has_edges() || around.is_empty());
+        return if has_edges { Some(found.tissue) } else { median(&mut around) };
     }
     around.retain(|value| *value > padding);
     median(&mut around)

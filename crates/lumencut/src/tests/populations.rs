@@ -67,7 +67,7 @@ fn few_voxels_beside_padding_are_vessels() {
 fn body() -> Vec<f32> {
     let value = |[i, j, k]: [usize; 3]| match (i, j, k) {
         (0..8, ..) => -1000.0,
-        (20..24, 8..12, _) => 300.0,
+        (20..24, 8..16, _) => 300.0,
         (32..40, 32..40, _) => 1000.0,
         _ => 40.0 + ((7 * i + 5 * j + 3 * k) % 21) as f32,
     };

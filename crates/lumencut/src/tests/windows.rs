@@ -70,7 +70,9 @@ fn white_is_the_brightest_there_is_and_black_the_darkest_within_what_the_lumen_n
 fn noise_widens_a_window_until_the_tissue_would_be_grey() {
     let ends = [-1000.0, 5000.0];
     let black = |spread| around_lumen(300.0, 200.0, spread, ends)[0];
-    assert_eq!([10.0, 75.0, 100.0, 110.0, 190.0].map(black), [150.0, 150.0, 100.0, 80.0, 80.0]);
+    for (spread, expected) in [(10.0, 150.0), (75.0, 150.0), (100.0, 100.0), (110.0, 80.0), (190.0, 80.0)] {
+        assert!((black(spread) - expected).abs() < 1e-9, "noise of {spread}: {}", black(spread));
+    }
     // A lumen that cannot be told from its tissue has the window of its noise.
     assert_eq!(black(210.0), -120.0);
     for spread in [0.0, 60.0, 190.0] {
@@ -82,15 +84,15 @@ fn noise_widens_a_window_until_the_tissue_would_be_grey() {
 #[test]
 fn vessels_without_tissue_have_their_edges_for_it() {
     for nothing in [0.0, f32::NAN] {
-        let voxels = grid([40; 3], |[_, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
+        let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
             (0..2, 0..2) => 300.0,
-            (0..3, 0..3) => 200.0,
+            (0..3, 0..3) => 180.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32,
             _ => nothing,
         });
         let found = along(&volume(&voxels, [40; 3]), &tree(Some(2.0))).unwrap();
-        assert!((share(found, 300.0) - LUMEN_AT[1]).abs() < 1e-12);
+        assert!((share(found, 300.0) - LUMEN_AT[1]).abs() < 1e-12, "{nothing}: {found:?}");
         let black = found.level - found.width / 2.0;
-        assert!((black - 150.0).abs() < 1e-9 || (black - 200.0).abs() < 1e-9, "black at {black}");
+        assert!((100.0..200.0).contains(&black), "black at {black}");
     }
 }
 
