@@ -20,6 +20,7 @@ from lumencut import (
     phantom,
     read_centerlines,
     read_volume,
+    write_centerlines,
 )
 from lumencut.cli import main
 from lumencut.cli.parameters import WINDOW_NAMES as CLI_NAMES
@@ -176,7 +177,7 @@ def files(tmp_path):
     scene = angiography("CTA, HU")
     volume, lines = tmp_path / "ct.nii.gz", tmp_path / "lines.vtp"
     SimpleITK.WriteImage(SimpleITK.GetImageFromArray(scene.volume.array), str(volume))
-    scene.tree.save(lines)
+    write_centerlines(scene.tree, lines)
     return volume, lines
 
 

@@ -16,6 +16,9 @@ const DARKEST: f64 = 0.01;
 /// Voxels brighter than air are farther from the darkest than this part of the way to the brightest.
 const AIR: f64 = 0.25;
 
+/// Padding is air where the darkest other voxel is nearer to it than this part of the way to the brightest.
+const GAP: f64 = 0.05;
+
 /// Where fewer voxels than this part are left, they are vessels alone.
 const VESSELS_ALONE: f64 = 0.08;
 
@@ -32,6 +35,8 @@ const ALONE_EDGES: f64 = 0.05;
 const ALONE_LUMEN: f64 = 0.75;
 /// The least difference of the two, as a part of the way from the darkest voxel to the lumen.
 const ALONE_DIFFERENCE: f64 = 0.25;
+/// How much darker than the lumen edges are at least, as a part of the same.
+const EDGE: f64 = 0.1;
 
 /// Voxels of cubes that are evenly spread over a volume, at most about two million.
 pub struct Looked {
@@ -106,11 +111,11 @@ pub fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
 
 /// What stands for tissue and lumen in a volume without centerlines.
 ///
-/// Padding, a dark value that a twentieth of all voxels has, is left out. Where less than 8 % of the volume is left, it is
-/// vessels alone: their edges stand for the tissue, three quarters of them lie below what stands for the lumen.
+/// Padding, a dark value that a twentieth of all voxels has, is left out, then air: what is darker than a quarter of the
+/// way from the 1st to the 99th percentile. Where less than 8 % of the volume is left, it is vessels alone: their edges
+/// stand for the tissue, three quarters of them lie below what stands for the lumen.
 ///
-/// Otherwise air is left out too, what is darker than a quarter of the way from the 1st to the 99th percentile, unless
-/// hardly anything would be left. Cubes of 4 × 4 × 4 voxels are told apart by their largest value: noise hardly moves it, and thin vessels
+/// Otherwise cubes of 4 × 4 × 4 voxels are told apart by their largest value: noise hardly moves it, and thin vessels
 /// have a larger part in it than of the voxels. Above the median the cubes are parted in two groups, on a scale that
 /// compresses what is far brighter so that bone does not count more than lumen (asinh), and the brighter group again
 /// until it is less than a third of all. The 95th percentile of the darker cubes is the brightest tissue; the lumen is
@@ -126,6 +131,8 @@ pub struct Populations {
     pub lumen: f64,
     /// The brightest voxels (99th percentile of what is no padding).
     pub brightest: f64,
+    /// Whether vessels alone are shown, and their edges are darker than their lumen.
+    pub has_edges: bool,
 }
 
 impl Populations {
@@ -134,38 +141,29 @@ impl Populations {
         let darkest = quantile(&mut looked.voxels, DARKEST)?;
         let enough = VESSELS_ALONE * looked.count as f64;
         let shown = without_padding(&mut looked.voxels);
+        let first = *shown.first()?;
         let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
-        let [tissue, brightest_tissue, lumen] = if (shown.len() as f64) < enough {
-            of_vessels(darkest, shown)?
+        // Padding that the other values follow without a gap is air that was cut off.
+        let is_air = first - darkest < GAP * (ends[1] - darkest);
+        let low = if is_air { darkest } else { ends[0] };
+        let air = low + AIR * (ends[1] - low);
+        let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
+        let vessels = if (shown.len() as f64) < enough || body.is_empty() { shown } else { &mut body };
+        let is_vessels = (vessels.len() as f64) < enough;
+        let [edges, bright] = [quantile(vessels, ALONE_EDGES)?, quantile(vessels, ALONE_LUMEN)?];
+        let [tissue, brightest_tissue, lumen] = if is_vessels {
+            let tissue = bright - (bright - edges).max(ALONE_DIFFERENCE * (bright - darkest));
+            [tissue, tissue, bright]
         } else {
-            let air = ends[0] + AIR * (ends[1] - ends[0]);
-            // The percentiles may have changed their order.
-            shown.sort_unstable_by(f64::total_cmp);
-            let first = shown.partition_point(|value| *value <= air);
-            // Where air is padding, tissue may be as dark as air is elsewhere.
-            let first = if ((shown.len() - first) as f64) < enough { 0 } else { first };
-            let body = &mut shown[first..];
-            let darkest_of_body = *body.first()?;
-            let cubes = looked.largest.iter().copied().filter(|value| *value >= darkest_of_body).collect();
-            of_body(median(body)?, cubes)?
+            let cubes = looked.largest.iter().copied().filter(|value| *value > air).collect();
+            of_body(median(vessels)?, cubes)?
         };
-        Some(Self { darkest, tissue, brightest_tissue, lumen, brightest: ends[1] })
-    }
-
-    /// Whether the tissue is where vessels have edges, and no guess.
-    pub fn has_edges(&self) -> bool {
-        self.lumen - self.tissue > ALONE_DIFFERENCE * (self.lumen - self.darkest)
+        let has_edges = is_vessels && bright - edges > EDGE * (bright - darkest);
+        Some(Self { darkest, tissue, brightest_tissue, lumen, brightest: ends[1], has_edges })
     }
 }
 
-/// Tissue, the brightest tissue and lumen of vessels without anything around them.
-fn of_vessels(darkest: f64, voxels: &mut [f64]) -> Option<[f64; 3]> {
-    let [edges, lumen] = [quantile(voxels, ALONE_EDGES)?, quantile(voxels, ALONE_LUMEN)?];
-    let tissue = lumen - (lumen - edges).max(ALONE_DIFFERENCE * (lumen - darkest));
-    Some([tissue, tissue, lumen])
-}
-
-/// The same of vessels among tissue and bone, by the largest values of cubes.
+/// The tissue, the brightest tissue and the lumen of vessels among tissue and bone, by the largest values of cubes.
 fn of_body(tissue: f64, mut cubes: Vec<f64>) -> Option<[f64; 3]> {
     let middle = median(&mut cubes)?;
     let scale = quantile(&mut cubes, 0.75)? - quantile(&mut cubes, 0.25)?;

@@ -97,7 +97,7 @@ fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, looked: &mut Lo
     let shown = around.iter().filter(|value| **value > padding).count();
     if (shown as f64) < SHOWN * places.len() as f64 {
         let found = Populations::of(looked)?;
-        let has_edges = found.tissue < lumen && (found.has_edges() || around.is_empty());
+        let has_edges = found.tissue < lumen && (found.has_edges || around.is_empty());
         return if has_edges { Some(found.tissue) } else { median(&mut around) };
     }
     around.retain(|value| *value > padding);

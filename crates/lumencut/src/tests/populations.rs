@@ -63,10 +63,11 @@ fn few_voxels_beside_padding_are_vessels() {
     );
 }
 
-/// Air, tissue of 40 to 60, in it a rod of 300 and a thicker one of 1000.
+/// Air that is cut off at −1000, tissue of 40 to 60, in it a rod of 300 and a thicker one of 1000.
 fn body() -> Vec<f32> {
     let value = |[i, j, k]: [usize; 3]| match (i, j, k) {
-        (0..8, ..) => -1000.0,
+        (0..6, ..) => -1000.0,
+        (6..8, ..) => -990.0 + (5 * j + 3 * k) as f32 % 50.0,
         (20..24, 8..16, _) => 300.0,
         (32..40, 32..40, _) => 1000.0,
         _ => 40.0 + ((7 * i + 5 * j + 3 * k) % 21) as f32,
