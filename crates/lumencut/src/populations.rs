@@ -148,17 +148,19 @@ impl Populations {
         let low = if is_air { darkest } else { ends[0] };
         let air = low + AIR * (ends[1] - low);
         let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
-        let vessels = if (shown.len() as f64) < enough || body.is_empty() { shown } else { &mut body };
-        let is_vessels = (vessels.len() as f64) < enough;
+        let is_body = body.len() as f64 >= enough && !body.is_empty();
+        // Of one value alone, or of few voxels beside padding, all count.
+        let is_few = (shown.len() as f64) < enough || body.is_empty();
+        let vessels = if is_few { shown } else { &mut body };
         let [edges, bright] = [quantile(vessels, ALONE_EDGES)?, quantile(vessels, ALONE_LUMEN)?];
-        let [tissue, brightest_tissue, lumen] = if is_vessels {
-            let tissue = bright - (bright - edges).max(ALONE_DIFFERENCE * (bright - darkest));
-            [tissue, tissue, bright]
-        } else {
+        let [tissue, brightest_tissue, lumen] = if is_body {
             let cubes = looked.largest.iter().copied().filter(|value| *value > air).collect();
             of_body(median(vessels)?, cubes)?
+        } else {
+            let tissue = bright - (bright - edges).max(ALONE_DIFFERENCE * (bright - darkest));
+            [tissue, tissue, bright]
         };
-        let has_edges = is_vessels && bright - edges > EDGE * (bright - darkest);
+        let has_edges = !is_body && bright - edges > EDGE * (bright - darkest);
         Some(Self { darkest, tissue, brightest_tissue, lumen, brightest: ends[1], has_edges })
     }
 }

@@ -96,9 +96,10 @@ fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, looked: &mut Lo
     let padding = padding(&mut looked.voxels).unwrap_or(f64::NEG_INFINITY);
     let shown = around.iter().filter(|value| **value > padding).count();
     if (shown as f64) < SHOWN * places.len() as f64 {
-        let found = Populations::of(looked)?;
-        let has_edges = found.tissue < lumen && (found.has_edges || around.is_empty());
-        return if has_edges { Some(found.tissue) } else { median(&mut around) };
+        let edges = Populations::of(looked)
+            .filter(|found| found.tissue < lumen && (found.has_edges || around.is_empty()))
+            .map(|found| found.tissue);
+        return edges.or_else(|| median(&mut around));
     }
     around.retain(|value| *value > padding);
     median(&mut around)
