@@ -137,7 +137,7 @@ KINDS = {
     "0.8 % at 200": Kind(
         (0.0,) * LUMEN + (200.0, 0.0), 0.0, finish=lambda _, labels: np.uint8(200) * (labels == LUMEN)
     ),
-    "mask, 0 and 1": Kind((0.0,) * 9, finish=lambda _, labels: np.float32(labels == LUMEN)),
+    "mask, 0 and 1": Kind((0.0,) * 9, finish=lambda _, labels: (labels == LUMEN).astype("float32")),
     "contrast MRA": Kind(CONTRAST_MR, 30.0, finish=_as("float32")),
     "contrast MRA, 1e-6": Kind(CONTRAST_MR, 30.0, finish=_as("float64", 1e-9)),
     "contrast MRA, subtracted": Kind(
