@@ -10,9 +10,9 @@ from lumencut._wording import a
 from lumencut.errors import SettingsError
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
-from lumencut.window import Opacity, Window
+from lumencut.window import Opacity, checked_window
 
-_CLASSES = {"window": Window, "opacity": Opacity, "slab": Slab}
+_CLASSES = {"opacity": Opacity, "slab": Slab}
 
 
 class CheckedSettings:
@@ -79,6 +79,8 @@ def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
             return integers(SettingsError, name, value, 0, 255, len(setting.default))
         case "choice":
             choice(SettingsError, name, value, setting.choices, or_none)
+        case "window":
+            return checked_window(name, value)
         case "transfer":
             if not isinstance(value, TransferFunction):
                 choice(SettingsError, name, value, setting.choices, f", a TransferFunction{or_none}")

@@ -223,7 +223,7 @@ class Renderer:
         VolumeError
             Without a volume.
         """
-        window, context_window = settings.window, settings.context_window
+        window, context_window = map(self._known, (settings.window, settings.context_window))
         if window is None and self._tree is not None:
             window = self.window
         if context_window is None and settings.context is not None:
@@ -233,6 +233,10 @@ class Renderer:
         if (window, context_window) == (settings.window, settings.context_window):
             return settings
         return replace(settings, window=window, context_window=context_window)
+
+    def _known(self, window: Window | str | None) -> Window | None:
+        """The window of a name that says how it is taken from the volume."""
+        return self._named_window(window) if isinstance(window, str) else window
 
     @property
     def window(self) -> Window:
@@ -249,6 +253,16 @@ class Renderer:
     @functools.cached_property
     def _whole_window(self) -> Window:
         return Window.whole(self._shown)
+
+    def _named_window(self, name: str) -> Window:
+        """A window that is taken from all of the volume, once."""
+        if name not in self._named:
+            self._named[name] = Window.named(name, self._shown)
+        return self._named[name]
+
+    @functools.cached_property
+    def _named(self) -> dict[str, Window]:
+        return {}
 
     @property
     def _shown(self) -> Volume:

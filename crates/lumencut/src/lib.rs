@@ -12,6 +12,7 @@ pub mod lumen_points;
 pub mod misplaced;
 pub mod placement;
 pub mod places;
+mod populations;
 pub mod positions;
 mod samples;
 mod statistics;

@@ -78,7 +78,7 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
     yield "left", Camera.left(scene, _SIZE), Settings()
     yield "oblique", oblique, Settings()
     yield "inferior", Camera.inferior(scene, _SIZE), Settings()
-    # A window from the data has the tissue at 1/6: it and what is darker give way to what is behind.
+    # A window from the data has the tissue at about a fifth: it and what is darker give way.
     tissue = Opacity(window.level - window.width / 3, window.level - window.width / 6)
     yield "context", oblique, Settings(opacity=tissue)
 

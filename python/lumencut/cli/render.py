@@ -9,7 +9,15 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.report import detail, say, timings, verbose_option
-from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
+from lumencut.cli.scene import (
+    check_scene,
+    is_empty,
+    read_scene,
+    scene_from,
+    shown,
+    warn_of_emptiness,
+    warn_of_window,
+)
 from lumencut.cli.settings import paper_option, setting_options, settings_from
 
 
@@ -50,6 +58,7 @@ def render(
     for path in output:
         options.check_picture(path)
     renderer = read_scene(files, chosen)
+    warn_of_window(settings, renderer)
     frame = renderer.render(options.placed(view, renderer.scene, chosen), settings)
     timings("rendered", frame.timings)
     detail(f"device: {renderer.device}")

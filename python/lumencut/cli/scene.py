@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
+    from lumencut.window import Window
 
 
 @dataclass(frozen=True)
@@ -107,10 +108,29 @@ def is_empty(frame: Frame) -> bool:
 
 def shown(camera: Camera, settings: Settings, renderer: Renderer) -> str:
     """Say in words what a picture of a renderer shows."""
-    used = renderer.windowed(settings)
-    if renderer.tree is None:
-        return described(camera, "context window", used.context_window or renderer.window)
-    return described(camera, "window", used.window or renderer.window)
+    name, used = _main_window(settings, renderer)
+    return described(camera, name.replace("_", " "), used)
+
+
+def _main_window(settings: Settings, renderer: Renderer) -> tuple[str, Window]:
+    """The setting and the window of what a picture shows first: the cut surface, or else the context."""
+    name = "context_window" if renderer.tree is None else "window"
+    return name, getattr(renderer.windowed(settings), name) or renderer.window
+
+
+def warn_of_window(settings: Settings, renderer: Renderer) -> None:
+    """Say where a window that was asked for shows all of the volume in one grey, as HU of what has no HU."""
+    name, window = _main_window(settings, renderer)
+    if getattr(settings, name) is None or renderer.volume is None:
+        return
+    full = type(window).named("full", renderer.volume)
+    low, high = full.level - full.width / 2, full.level + full.width / 2
+    black, white = window.level - window.width / 2, window.level + window.width / 2
+    if min(high, white) - max(low, black) < window.width / 50:
+        warn(
+            f"--{name.replace('_', '-')} {window.width:.4g}/{window.level:.4g} shows the volume in one grey: "
+            f"its values reach from {low:.4g} to {high:.4g}; auto, mra and full are windows from the data"
+        )
 
 
 def _meets(camera: Camera, corners: npt.NDArray[np.float64]) -> bool:

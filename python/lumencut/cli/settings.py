@@ -9,7 +9,7 @@ import click
 
 from lumencut._lumencut import PAPER, SETTINGS, Setting
 from lumencut.cli.options import Command, added
-from lumencut.cli.parameters import RGB, RGBA, WINDOW, Parts, Thickness, Transfer
+from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
@@ -25,7 +25,12 @@ _FIRST = ("window", "opacity", "background")
 _METAVARS = {"mm": "MM", "mm per level": "MM", "mm per mm": "SLOPE", "radii": "RADII"}
 
 #: What the help says about how values of a kind are written, after the sentence about the setting.
-_WRITTEN = {"flag": " (yes or no)", "color": " (hexadecimal)", "slab": ", such as 4mm:mean"}
+_WRITTEN = {
+    "window": f", such as 900/300 (width, then level), or one of {', '.join(WINDOW_NAMES)}",
+    "flag": " (yes or no)",
+    "color": " (hexadecimal)",
+    "slab": ", such as 4mm:mean",
+}
 
 
 def paper_option(command: Command) -> Command:
@@ -68,7 +73,7 @@ def _type(setting: Setting) -> tuple[Any, str | None]:
         case "color":
             return (RGB if len(setting.default) == 3 else RGBA), None
         case "window":
-            return WINDOW, None
+            return WINDOW, f"{WINDOW.name}|NAME"
         case "opacity":
             return Parts("TRANSPARENT:OPAQUE", ":", float), None
         case "slab":
@@ -119,7 +124,7 @@ def _as_field(setting: Setting, value: Any) -> Any:
     from lumencut.window import Opacity, Window
 
     match setting.kind:
-        case "window":
+        case "window" if not isinstance(value, str):
             width, level = value
             return Window(level=level, width=width)
         case "opacity":

@@ -11,7 +11,15 @@ import click
 from lumencut.cli import options
 from lumencut.cli.parameters import Named
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
-from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
+from lumencut.cli.scene import (
+    check_scene,
+    is_empty,
+    read_scene,
+    scene_from,
+    shown,
+    warn_of_emptiness,
+    warn_of_window,
+)
 from lumencut.cli.settings import paper_option, setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
 
@@ -84,6 +92,7 @@ def turntable(
     write = _checked_writer(output, fps, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
     renderer = read_scene(files, chosen)
+    warn_of_window(settings, renderer)
 
     from lumencut import turntables as library
 
