@@ -54,7 +54,7 @@ pub fn silhouette(
     let (chunk, width) = (work.tile_row(), work.size[0]);
     let mut raised = vec![0.0; depth.len()];
     raised.par_chunks_mut(chunk).enumerate().try_for_each(|(row, raised)| {
-        work.go_on()?;
+        work.begin(raised.len())?;
         dispatch(work.isa, SlopeRows { depth, vessel, width, first: row * ROWS, per_slope, raised });
         Ok(())
     })?;
@@ -73,7 +73,7 @@ pub fn silhouette_of_leaps(work: &Work, leap: &[u32], strength: &mut [f32]) -> R
     let width = work.size[0];
     let mut beside = vec![0.0; leap.len()];
     beside.par_chunks_mut(width).enumerate().try_for_each(|(j, beside)| {
-        work.go_on()?;
+        work.begin(beside.len())?;
         let row = &leap[j * width..(j + 1) * width];
         let above = &leap[j.saturating_sub(1) * width..];
         for (i, beside) in beside.iter_mut().enumerate() {
