@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 import click
 
 from lumencut.cli import options
-from lumencut.cli.mistakes import check_files, check_measured, check_reading
+from lumencut.cli.mistakes import check_files, check_measured, check_options, check_reading
 from lumencut.cli.parameters import SIZE
 from lumencut.cli.report import bar, say, verbose_option
 from lumencut.cli.scene import SceneFiles, read_files, scene_from
@@ -80,6 +80,7 @@ def evaluate(
     _check_outputs(scene, csv, markdown, pictures)
     if pictures is None:
         check_measured(chosen)
+    check_options(chosen, settings, has_centerlines=True)
     volume, tree = read_files(scene, chosen)
 
     from lumencut.evaluation import evaluate as library
