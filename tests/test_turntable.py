@@ -278,9 +278,9 @@ def test_the_command_takes_rotation_and_degrees_from_the_options(tmp_path, monke
     views = []
     original = Renderer.render
 
-    def watched(self, camera=None, settings=None):
+    def watched(self, camera=None, settings=None, **more):
         views.append(camera)
-        return original(self, camera, settings)
+        return original(self, camera, settings, **more)
 
     monkeypatch.setattr(Renderer, "render", watched)
     result = spun(

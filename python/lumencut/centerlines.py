@@ -135,14 +135,32 @@ class CenterlineFile:
         self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
     ) -> VesselTree:
         """Give the vessels in world space, and say what was assumed or decided as `read_centerlines` does."""
+        return self.told(coordinates, unit, volume)[0]
+
+    def told(
+        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
+    ) -> tuple[VesselTree, CenterlineReport]:
+        """Do as `tree`, and tell how the file was read."""
         tree, report = self.placed(coordinates, unit, volume)
         if report.is_unusual:
-            warnings.warn(f"{self.path.name}: {report.decision}", SpaceWarning, stacklevel=3)
+            warnings.warn(f"{self.path.name}: {report.decision}", SpaceWarning, stacklevel=4)
         elif report.decision:
             weak = report.space_from == "volume" and _mostly_outside(tree, volume)
             level = logging.WARNING if weak or report.space_from == "assumed" else logging.INFO
             _log.log(level, "%s: %s", self.path, report.decision)
-        return tree
+        return tree, report
+
+    def beside(
+        self, volume: Volume | None, coordinates: Coordinates | None = None, unit: Unit | None = None
+    ) -> tuple[VesselTree, CenterlineReport]:
+        """Do as `told` for the caller's caller, and say where vessels do not lie in the volume as they should."""
+        tree, report = self.told(coordinates, unit, volume)
+        if volume is not None:
+            check_space_once(tree, volume, self.path.name, stacklevel=4)
+            if fits_nowhere(tree.points, volume):
+                missed = "no point lies inside the volume; perhaps the centerlines are of another scan"
+                _log.warning("%s: %s", self.path, missed)
+        return tree, report
 
     def _report(
         self, tree: VesselTree, stated: Stated, place: Placement, notes: list[str]
@@ -175,13 +193,18 @@ def read_centerlines(
     unit: Unit | None = None,
     volume: Any = None,
 ) -> VesselTree:
-    """Read a centerline file, or lines of VTK in memory, as vessels that meet at shared end points (mm, LPS).
+    """Read centerline files, or lines of VTK in memory, as vessels that meet at shared end points (mm, LPS).
 
-    Lines that repeat a trunk are joined. Coordinates in RAS get x and y negated.
+    Lines of one file that repeat a trunk are joined. Coordinates in RAS get x and y negated.
+
+    The vessels of several files follow each other in the order of the files. Space and unit are decided for each file by
+    itself, and vessels of several files are kept as they were read: none is joined to one of another file, and those with
+    the same name keep it. A vessel without a name that is the only one of its file gets the name of the file, as 3D
+    Slicer shows it.
 
     Parameters
     ----------
-    path : path or vtkPolyData
+    path : path or vtkPolyData, or a list or tuple of them
         VTK `.vtp` or legacy `.vtk`, 3D Slicer `.mrk.json` or `.fcsv`, SimVascular `.pth`, SWC, ITK `.tre`,
         a Rotterdam reference, a text table (`.csv`, `.txt`) or NumPy `.npy`. Poly data is read
         as its `.vtp` file would be: its lines, with their array ``MaximumInscribedSphereRadius`` or
@@ -214,14 +237,15 @@ def read_centerlines(
         What else was assumed (without a volume) or decided is logged.
     """
     volume = None if volume is None else as_volume(volume)
-    file = CenterlineFile(path)
-    tree = file.tree(coordinates, unit, volume)
-    if volume is not None:
-        check_space_once(tree, volume, file.path.name)
-        if fits_nowhere(tree.points, volume):
-            missed = "no point lies inside the volume; perhaps the centerlines are of another scan"
-            _log.warning("%s: %s", file.path, missed)
-    return tree
+    if isinstance(path, (list, tuple)):
+        from lumencut.several_centerlines import CenterlineFiles
+
+        files, read = CenterlineFiles(path), []
+        # No further function between here and the warnings: they name the line of the caller.
+        for file in files:
+            read.append(file.beside(volume, coordinates, unit))  # noqa: PERF401
+        return files.joined(read)
+    return CenterlineFile(path).beside(volume, coordinates, unit)[0]
 
 
 def inspect_centerlines(

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="Measure how much of the truth methods show.")
-@click.argument("files", type=options.FILE, nargs=-1, required=True, metavar="[VOLUME] CENTERLINES")
+@click.argument("files", type=options.FILE, nargs=-1, required=True, metavar="[VOLUME] CENTERLINES...")
 @options.reading_options
 @click.option(
     "--methods",
@@ -102,11 +102,13 @@ def evaluate(
 
 
 def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
-    """The files of the scene, of which the last one holds the centerlines."""
-    if len(files) > 2:
-        raise click.UsageError(f"found {len(files)} files; expected [VOLUME] CENTERLINES")
-    volume = files[0] if len(files) == 2 else None
-    scene = scene_from({**chosen, "volume": volume, "centerlines": files[-1]})
+    """The files of the scene: the volume, if the first of several files is none of centerlines, and centerlines."""
+    from lumencut.file_kinds import kind_of
+
+    roles = [None if kind is None else kind.role for kind in map(kind_of, files)]
+    has_volume = len(files) > 1 and (roles[0] != "centerlines" or "volume" in roles)
+    volume, lines = (files[0], files[1:]) if has_volume else (None, files)
+    scene = scene_from({**chosen, "volume": volume, "centerlines": lines})
     check_files(volume, scene.centerlines)
     check_reading(chosen, [] if volume is None else [volume], has_centerlines=True)
     return scene
