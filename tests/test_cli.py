@@ -342,7 +342,7 @@ def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("command", ["", "render", "turntable", "evaluate", "info", "demo"])
+@pytest.mark.parametrize("command", ["", "render", "turntable", "evaluate", "info", "settings", "demo"])
 def test_help_imports_nothing_heavy(command):
     code = (
         "import sys; from lumencut.cli import main; main(sys.argv[1:], standalone_mode=False); "
@@ -358,7 +358,7 @@ def test_version():
     assert re.fullmatch(r"lumencut \d+\.\d+\.\d+\S*\n", result.stdout)
 
 
-@pytest.mark.parametrize(("command", "examples"), [("render", 4), ("turntable", 2), ("evaluate", 2)])
+@pytest.mark.parametrize(("command", "examples"), [("render", 4), ("turntable", 2), ("evaluate", 2), ("settings", 1)])
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
     assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == examples

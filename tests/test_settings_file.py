@@ -35,7 +35,7 @@ def other(name):
         case "flag":
             return not setting.default
         case "number" | "count":
-            low, high = setting.range
+            low = setting.range[0]
             step = 0.1 + 0.2 if setting.kind == "number" else 1
             return setting.default + step if setting.default else max(step, low)
         case "choice":

@@ -36,7 +36,7 @@ NAMES = ("LAD", "LCX", "RCA")
 
 @pytest.fixture
 def tree():
-    return VesselTree([Vessel(LEFT + (3 * n, 0, n), 1.0 + n, name) for n, name in enumerate(NAMES)])
+    return VesselTree([Vessel(LEFT + np.array([3 * n, 0, n]), 1.0 + n, name) for n, name in enumerate(NAMES)])
 
 
 # A choice of vessels
@@ -100,7 +100,9 @@ def test_vessels_follow_in_the_order_of_the_files_and_keep_their_names(tmp_path,
     assert read_centerlines(tuple(paths[:1])) == read_centerlines(paths[0])
 
 
-@pytest.mark.parametrize(("name", "called"), [("LAD.mrk.json", "LAD"), ("a.b.vtp", "a.b"), ("LCX.csv", "LCX")])
+@pytest.mark.parametrize(
+    ("name", "called"), [("LAD.mrk.json", "LAD"), ("a.b.vtp", "a.b"), ("LCX.csv", "LCX")]
+)
 def test_a_single_vessel_without_a_name_is_called_as_its_file(tmp_path, name, called):
     write_centerlines(VesselTree([Vessel(LEFT)]), tmp_path / name)
     assert [vessel.name for vessel in read_centerlines([tmp_path / name])] == [called]

@@ -51,9 +51,10 @@ class CheckedSettings:
     def from_file(cls, path: str | os.PathLike[str]) -> Self:
         """Return the settings of a TOML file as :meth:`save` writes it.
 
-        Each key is the name of a setting; settings that the file leaves out have their defaults. Windows, opacities
-        and slabs are tables of their fields, colours texts such as ``"#ffdc00"``, control points of a transfer function
-        an array of tables with ``intensity``, ``color`` and ``opacity``. ``"none"`` stands for None.
+        Each key is the name of a setting; settings that the file leaves out have their defaults. Windows,
+        opacities and slabs are tables of their fields, colours texts such as ``"#ffdc00"``, control points of
+        a transfer function an array of tables with ``intensity``, ``color`` and ``opacity``. ``"none"``
+        stands for None.
 
         Parameters
         ----------
@@ -67,7 +68,8 @@ class CheckedSettings:
         FormatError
             For a file that is no TOML.
         SettingsError
-            For a key that no setting has, or a value of another type or outside its range. The error names the file.
+            For a key that no setting has, or a value of another type or outside its range. The error names
+            the file.
         """
         from lumencut.settings_file import read_settings
 
@@ -76,7 +78,8 @@ class CheckedSettings:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write all settings as a TOML file with comments, which appears only once it is whole.
 
-        :meth:`from_file` gives equal settings back. What is taken from the data (None) is left out, in a comment.
+        :meth:`from_file` gives equal settings back. What is taken from the data (None) is left out, in a
+        comment.
 
         Parameters
         ----------

@@ -1,7 +1,8 @@
 """Moving pictures written frame by frame: WebP and APNG, of which no more than one frame is held in memory.
 
-Pillow encodes each frame as a picture of its own; here its parts are put into the file of all frames, as the WebP container
-specification and the third edition of the PNG specification say. (Pillow itself wants all frames at once.)
+Pillow encodes each frame as a picture of its own; here its parts are put into the file of all frames, as the
+WebP container specification and the third edition of the PNG specification say. (Pillow itself wants all
+frames at once.)
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ class Apng:
 
     def add(self, picture: Image, milliseconds: int) -> None:
         """Add a frame, of the same size as all others."""
-        # All frames are of the kind that the first chunk states: with an opacity, if any frame could have one.
+        # All frames are of the kind that the first chunk states, and a later one may have an opacity.
         parts = list(_png_chunks(_encoded(picture.convert("RGBA"), "PNG")))
         if not self._frames:
             self._file.write(_SIGNATURE + _png_chunk(b"IHDR", parts[0][1]))

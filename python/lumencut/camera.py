@@ -253,7 +253,9 @@ def scene_points(scene: Scene) -> npt.NDArray[np.float64]:
         found = (
             f"a bare array of shape {scene.shape}" if isinstance(scene, np.ndarray) else type(scene).__name__
         )
-        raise CameraError("scene of the view", found, "a VesselTree, a Vessel, a Volume or an image that render takes")
+        raise CameraError(
+            "scene of the view", found, "a VesselTree, a Vessel, a Volume or an image that render takes"
+        )
     return as_volume(scene).corners
 
 

@@ -153,7 +153,7 @@ class CenterlineFile:
     def beside(
         self, volume: Volume | None, coordinates: Coordinates | None = None, unit: Unit | None = None
     ) -> tuple[VesselTree, CenterlineReport]:
-        """Do as `told` for the caller's caller, and say where vessels do not lie in the volume as they should."""
+        """Do as `told` for the caller's caller, and say where vessels lie wrongly in the volume."""
         tree, report = self.told(coordinates, unit, volume)
         if volume is not None:
             check_space_once(tree, volume, self.path.name, stacklevel=4)
@@ -197,10 +197,10 @@ def read_centerlines(
 
     Lines of one file that repeat a trunk are joined. Coordinates in RAS get x and y negated.
 
-    The vessels of several files follow each other in the order of the files. Space and unit are decided for each file by
-    itself, and vessels of several files are kept as they were read: none is joined to one of another file, and those with
-    the same name keep it. A vessel without a name that is the only one of its file gets the name of the file, as 3D
-    Slicer shows it.
+    The vessels of several files follow each other in the order of the files. Space and unit are decided for
+    each file by itself, and vessels of several files are kept as they were read: none is joined to one of
+    another file, and those with the same name keep it. A vessel without a name that is the only one of its
+    file gets the name of the file, as 3D Slicer shows it.
 
     Parameters
     ----------

@@ -122,7 +122,7 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
 def check_space_once(
     tree: VesselTree, volume: Volume, subject: str = "vessel tree", stacklevel: int = 3
 ) -> None:
-    """Do as `check_space`, by default for the caller's caller, unless the space was asked for or warned about."""
+    """Do as `check_space` for the caller's caller, unless the space was asked for or warned about."""
     if not tree._space_settled:
         tree._space_settled = _warn_if_another_fits(tree.points, volume, subject, stacklevel)
 

@@ -145,9 +145,9 @@ class Renderer:
             its way back. ``Frame.position`` needs the depth. The distance is computed at once where it is
             named here; where nothing is, ``Frame.distance`` may compute it when it is first asked for.
         progress : callable, optional
-            Called with (done, total) about every 50 ms, and once at the end: how much of the view is rendered,
-            in parts of which the total is always 1000. A GPU tells nothing before the end of each sample. What
-            it raises ends the rendering.
+            Called with (done, total) about every 50 ms, and once at the end: how much of the view is
+            rendered, in parts of which the total is always 1000. A GPU tells nothing before the end of each
+            sample. What it raises ends the rendering.
 
         Raises
         ------

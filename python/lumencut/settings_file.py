@@ -1,4 +1,4 @@
-"""Settings as a TOML file: a key for each setting, under its name in `Settings`, with a comment that says what it does."""
+"""Settings as a TOML file: a key for each setting, with a comment that says what it does."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def write_settings(settings: Any, path: str | os.PathLike[str]) -> None:
 
 
 def read_settings(path: str | os.PathLike[str], make: Callable[..., _Settings]) -> _Settings:
-    """Return what ``make``, the class of the settings, makes of those that a file names; all errors name the file."""
+    """Return what ``make``, the class of the settings, makes of a file; all errors name the file."""
     place = checked_path(path, _EXPECTED)
     found = _parsed(place)
     for name in found:
@@ -151,7 +151,7 @@ def _read(subject: str, setting: _lumencut.Setting, value: Any) -> Any:
         case "color":
             return _color(subject, value, len(setting.default))
         case "transfer" if isinstance(value, list):
-            return TransferFunction([_point(subject, point) for point in value])
+            return TransferFunction(tuple(_point(subject, point) for point in value))
         case "transfer":
             return _of_type(subject, value, str, "a name, or an array of control points")
     make, names = _TABLES[setting.kind]
@@ -177,7 +177,7 @@ def _color(subject: str, value: Any, channels: int) -> tuple[int, ...]:
     return (*color, *[255] * (channels - len(color)))
 
 
-def _point(subject: str, value: Any) -> tuple[Any, tuple[int, ...], Any]:
+def _point(subject: str, value: Any) -> tuple[Any, Any, Any]:
     fields = _fields(f"control point of {subject}", value, _POINT)
     return fields["intensity"], _color(subject, fields["color"], 3), fields["opacity"]
 

@@ -44,7 +44,7 @@ class CenterlineFiles:
     def tree(
         self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
     ) -> VesselTree:
-        """Give the vessels of all files in world space; parameters, errors and warnings as `read_centerlines`."""
+        """Give the vessels of all files in world space, as `read_centerlines` does."""
         volume = None if volume is None else as_volume(volume)
         return self.joined([file.beside(volume, coordinates, unit) for file in self._files])
 

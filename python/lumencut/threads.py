@@ -13,8 +13,9 @@ _MOST = 1024
 def set_threads(count: int | None) -> None:
     """Let ``count`` threads compute from now on, in all of this process; results do not depend on it.
 
-    It holds for renderers that are already there too, and bounds the processes that decode DICOM slices. A GPU is not
-    concerned. Without a call the environment variable ``RAYON_NUM_THREADS`` counts, else the number of cores.
+    It holds for renderers that are already there too, and bounds the processes that decode DICOM slices. A
+    GPU is not concerned. Without a call the environment variable ``RAYON_NUM_THREADS`` counts, else the
+    number of cores.
 
     Parameters
     ----------

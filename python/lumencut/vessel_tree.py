@@ -15,7 +15,6 @@ from lumencut._values import Value, content_of
 from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
 
-
 #: How many names an error lists.
 _MOST_NAMES = 24
 
@@ -206,7 +205,9 @@ class VesselTree(Value):
             except (IndexError, TypeError) as error:
                 expected = f"an id from 0 to {len(self) - 1}, or a name"
                 raise VesselTreeError(
-                    "vessel of the tree", f"{vessel!r:.80} in a tree of {counted(len(self), 'vessel')}", expected
+                    "vessel of the tree",
+                    f"{vessel!r:.80} in a tree of {counted(len(self), 'vessel')}",
+                    expected,
                 ) from error
         return found
 

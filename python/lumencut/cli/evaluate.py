@@ -102,7 +102,7 @@ def evaluate(
 
 
 def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
-    """The files of the scene: the volume, if the first of several files is none of centerlines, and centerlines."""
+    """The files of the scene: the first of several is the volume, unless all are centerlines."""
     from lumencut.file_kinds import kind_of
 
     roles = [None if kind is None else kind.role for kind in map(kind_of, files)]

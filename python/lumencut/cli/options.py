@@ -103,7 +103,8 @@ threads_option = click.option(
     metavar="N",
     expose_value=False,
     callback=_remember_threads,
-    help="How many threads compute on the CPU; default: as many as it runs at once. Results do not depend on it.",
+    help="How many threads compute on the CPU; default: as many as it runs at once. "
+    "Results do not depend on it.",
 )
 
 
@@ -155,7 +156,9 @@ def view_options(command: Command) -> Command:
 
 def several_views_options(command: Command) -> Command:
     """Add the options that make the cameras of several views."""
-    return added((_view_option("; may be repeated", default=("anterior",), multiple=True), _camera_options), command)
+    return added(
+        (_view_option("; may be repeated", default=("anterior",), multiple=True), _camera_options), command
+    )
 
 
 def _view_option(more: str = "", **how: Any) -> Callable[[Command], Command]:

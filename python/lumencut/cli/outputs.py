@@ -34,8 +34,8 @@ class Picture:
 def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
     """Give the files of each view, and refuse those that cannot be written before any file is read.
 
-    The name of the view takes the place of ``{view}`` in an output. Of several views it comes before the ending of an
-    output without ``{view}``.
+    The name of the view takes the place of ``{view}`` in an output. Of several views it comes before the
+    ending of an output without ``{view}``.
     """
     planned = [
         Picture(view, tuple(_path(output, name_of(view), is_one=len(views) == 1) for output in outputs))
@@ -44,7 +44,9 @@ def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
     paths = [path for picture in planned for path in picture.paths]
     for n, path in enumerate(paths):
         if path.resolve() in {other.resolve() for other in paths[:n]}:
-            raise click.UsageError(f"{path} would be written twice; give each view once, and each -o another name")
+            raise click.UsageError(
+                f"{path} would be written twice; give each view once, and each -o another name"
+            )
         check_picture(path)
     return planned
 

@@ -23,8 +23,8 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
     multiple=True,
     required=True,
     help="Picture (.png, .tif, .webp, …), or .npz for depth, vessels, values and positions too; "
-    "may be repeated. Of several views each is written to every output, with its name before the ending, or in the "
-    "place of {view}.",
+    "may be repeated. Each of several views is written to every output, with its name before the ending or "
+    "in the place of {view}.",
 )
 @options.several_views_options
 @paper_option
@@ -36,8 +36,8 @@ def render(
 ) -> None:
     """Render VOLUME along CENTERLINES as one picture, or one for each --view.
 
-    VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp, .vtk,
-    .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
+    VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp,
+    .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
     Without CENTERLINES the context alone is shown, all of the volume. The view fits all vessels, or the
     volume, unless --center, --pixel-spacing or --zoom say otherwise.
 

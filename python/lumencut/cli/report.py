@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import logging
 import re
+import sys
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
@@ -155,8 +156,7 @@ def _log_shown() -> Iterator[None]:
 @contextmanager
 def busy(what: str) -> Iterator[None]:
     """Say on a terminal what is done, as long as it is."""
-    stream = click.get_text_stream("stderr")
-    if not stream.isatty():
+    if not sys.stderr.isatty():
         yield
         return
     click.echo(f"{what} …", err=True, nl=False)

@@ -49,8 +49,8 @@ settings_option = click.option(
     "--settings",
     "settings_file",
     type=FILE,
-    help="Start from the settings in this TOML file, as lumencut settings writes it. Options beside it change them "
-    "further.",
+    help="Start from the settings in this TOML file, as lumencut settings writes it. Options beside it "
+    "change them further.",
 )
 
 

@@ -32,7 +32,7 @@ def _end(number: int, _: FrameType | None) -> None:
 
 @contextmanager
 def ended_by_signals() -> Iterator[None]:
-    """Raise an `EndedError` where a signal asks to end; one that is ignored, as under ``nohup``, stays ignored."""
+    """Raise an `EndedError` where a signal asks to end; an ignored one, as under ``nohup``, stays so."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def chosen_of(tree: VesselTree, chosen: dict[str, Any]) -> tuple[VesselTree, VesselTree]:
-    """Return the vessels that are shown, and those that the view is fitted to: the former, unless others are named."""
+    """Return the vessels that are shown, and those that the view is fitted to."""
     shown, left_out, fitted = (_ids(tree, chosen[name]) for name in ("vessel", "exclude", "zoom_to"))
     wanted = set(shown or range(len(tree))) - set(left_out)
     if not wanted:
