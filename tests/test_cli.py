@@ -324,8 +324,8 @@ def test_the_process_leaves_with_1_and_one_line(tmp_path):
 
 def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     code = """if True:
-        import sys, time, lumencut.centerlines
-        lumencut.centerlines.CenterlineFile = lambda *_: print("reading", flush=True) or time.sleep(60)
+        import sys, time, lumencut.centerline_file
+        lumencut.centerline_file.CenterlineFile = lambda *_: print("reading", flush=True) or time.sleep(60)
         from lumencut.cli import main
         main(["render", "ct.nii", "lines.vtk", "-o", sys.argv[1]])
     """
@@ -358,7 +358,9 @@ def test_version():
     assert re.fullmatch(r"lumencut \d+\.\d+\.\d+\S*\n", result.stdout)
 
 
-@pytest.mark.parametrize(("command", "examples"), [("render", 4), ("turntable", 2), ("evaluate", 2), ("settings", 1)])
+@pytest.mark.parametrize(
+    ("command", "examples"), [("render", 4), ("turntable", 2), ("evaluate", 2), ("settings", 1)]
+)
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
     assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == examples

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from lumencut.centerlines import CenterlineFile, CenterlineReport
+from lumencut.centerline_file import CenterlineFile, CenterlineReport
 from lumencut.errors import FormatError
 from lumencut.placement import Coordinates, Unit
 from lumencut.vessel_tree import Vessel, VesselTree

@@ -71,12 +71,12 @@ impl<'a> Request<'a> {
         if scene.volume.is_some() {
             stages.extend(Stage::of_look(self.settings, &Geometry::rays(*self.camera), made));
         }
-        progress.begin_view(&stages, self.camera.size().iter().product());
+        progress.begin_view(stages.iter().map(|stage| stage.cost()), self.camera.size().iter().product());
     }
 
     fn begin_stage(&self, stage: Stage) {
         if let Some(progress) = self.progress {
-            progress.begin_stage(stage);
+            progress.begin_stage(stage.cost());
         }
     }
 }

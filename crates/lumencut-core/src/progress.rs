@@ -2,8 +2,6 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::stages::Stage;
-
 /// How far the views are that one call renders. The CPU tells it stage by stage and pixel by pixel; of a view on a GPU
 /// nothing is known before it is whole.
 #[derive(Debug, Default)]
@@ -27,20 +25,20 @@ impl Progress {
         set(&self.whole, 0);
     }
 
-    /// A view of so many pixels begins, of these stages.
-    pub fn begin_view(&self, stages: &[Stage], pixels: usize) {
+    /// A view of so many pixels begins, whose stages have these costs for each pixel.
+    pub fn begin_view(&self, costs: impl Iterator<Item = usize>, pixels: usize) {
         for number in [&self.ended, &self.running, &self.begun] {
             set(number, 0);
         }
         set(&self.pixels, pixels);
-        set(&self.planned, stages.iter().map(|stage| cost(*stage)).sum());
+        set(&self.planned, costs.sum());
     }
 
-    /// A stage begins; the one before has ended.
-    pub fn begin_stage(&self, stage: Stage) {
+    /// A stage of this cost for each pixel begins; the one before has ended.
+    pub fn begin_stage(&self, cost: usize) {
         self.begun.store(0, Ordering::Relaxed);
         self.ended.fetch_add(self.running.load(Ordering::Relaxed), Ordering::Relaxed);
-        set(&self.running, cost(stage));
+        set(&self.running, cost);
     }
 
     /// The stage has begun so many pixels more.
@@ -71,19 +69,6 @@ fn set(number: &AtomicU64, value: usize) {
     number.store(value as u64, Ordering::Relaxed);
 }
 
-/// How long a stage usually takes for a pixel beside the others. Nothing but the share that is told depends on it.
-const fn cost(stage: Stage) -> usize {
-    match stage {
-        Stage::Levels | Stage::Projection | Stage::Blocks => 0,
-        Stage::Distance => 8,
-        Stage::Depth => 12,
-        Stage::Leap | Stage::Surface => 4,
-        Stage::DepthFilter | Stage::Silhouette => 2,
-        Stage::Context => 14,
-        Stage::Composite => 10,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,12 +78,12 @@ mod tests {
         let progress = Progress::default();
         assert_eq!(progress.share(), 0.0);
         progress.expect_views(2);
-        let stages = [Stage::Depth, Stage::Surface, Stage::Leap];
+        let costs = [12, 4, 4];
         let mut shares = Vec::new();
         for _ in 0..2 {
-            progress.begin_view(&stages, 50);
-            for stage in stages {
-                progress.begin_stage(stage);
+            progress.begin_view(costs.into_iter(), 50);
+            for cost in costs {
+                progress.begin_stage(cost);
                 shares.push(progress.share());
                 progress.begin_pixels(25);
                 shares.push(progress.share());
@@ -107,7 +92,7 @@ mod tests {
             }
             progress.end_view();
         }
-        // Of 40 parts for both views, 12 are the depth's, 4 those of each other stage.
+        // Of 40 parts for both views.
         let expected = [0.0, 6.0, 12.0, 14.0, 16.0, 18.0, 20.0, 26.0, 32.0, 34.0, 36.0, 38.0];
         assert_eq!(shares, expected.map(|parts| parts / 40.0));
         assert_eq!(progress.share(), 1.0);

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from lumencut.camera import Camera
-    from lumencut.centerlines import CenterlineFile
+    from lumencut.centerline_file import CenterlineFile
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
@@ -90,7 +90,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
 
 def _centerlines(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
     """Read the files of centerlines. A single one is compared with the volume by the renderer alone."""
-    from lumencut.centerlines import CenterlineFile
+    from lumencut.centerline_file import CenterlineFile
 
     if len(paths) < 2:
         return CenterlineFile(paths[0]) if paths else None
