@@ -224,12 +224,10 @@ def test_rows_and_nodes(tmp_path):
 @given(tree=trees())
 def test_the_points_of_any_tree_come_back_from_the_other_formats(tmp_path_factory, ending, tree):
     path = tmp_path_factory.getbasetemp() / f"tree{ending}"
-    try:
-        write_centerlines(tree, path)
-    except VesselTreeError as error:
-        # The only thing that a format cannot hold.
-        assert "name of line" in str(error)
-        return
+    if ending == ".csv":
+        # A table cannot hold names with line breaks, and gives none back.
+        tree = VesselTree(Vessel(vessel.points, vessel.radius) for vessel in tree)
+    write_centerlines(tree, path)
     found = lumencut.read_centerlines(path, "lps", unit="mm")
     read, written = ({tuple(point) for point in one.points} for one in (found, tree))
     # Lines of a table that meet within some hundredths of a millimetre are joined at one of their points.
@@ -240,7 +238,7 @@ def test_the_points_of_any_tree_come_back_from_the_other_formats(tmp_path_factor
 def test_a_large_tree_is_written_and_read(tmp_path, ending):
     along = np.arange(200_000.0)
     line = np.stack([along / 1000, np.sin(along / 500), np.cos(along / 500)], axis=1)
-    tree = VesselTree([Vessel(line + (0, 5 * n, 0), 1.5) for n in range(2)])
+    tree = VesselTree([Vessel(line + np.array([0, 5 * n, 0]), 1.5) for n in range(2)])
     write_centerlines(tree, tmp_path / f"tree{ending}")
     found = lumencut.read_centerlines(tmp_path / f"tree{ending}", "lps", unit="mm")
     assert [len(vessel) for vessel in found] == [200_000, 200_000]
