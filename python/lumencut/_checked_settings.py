@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Self
 
 from lumencut import _lumencut
@@ -45,6 +46,54 @@ class CheckedSettings:
             For a setting outside its range.
         """
         return cls(**{**_lumencut.PAPER, **changes})
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Self:
+        """Return the settings of a TOML file as :meth:`save` writes it.
+
+        Each key is the name of a setting; settings that the file leaves out have their defaults. Windows,
+        opacities and slabs are tables of their fields, colours texts such as ``"#ffdc00"``, control points of
+        a transfer function an array of tables with ``intensity``, ``color`` and ``opacity``. ``"none"``
+        stands for None.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, of at most 1 MiB.
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be read.
+        FormatError
+            For a file that is no TOML.
+        SettingsError
+            For a key that no setting has, or a value of another type or outside its range. The error names
+            the file.
+        """
+        from lumencut.settings_file import read_settings
+
+        return read_settings(path, cls)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write all settings as a TOML file with comments, which appears only once it is whole.
+
+        :meth:`from_file` gives equal settings back. What is taken from the data (None) is left out, in a
+        comment.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; ``.toml`` is the usual ending.
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be written.
+        """
+        from lumencut.settings_file import write_settings
+
+        write_settings(self, path)
 
     def __getstate__(self) -> dict[str, Any]:
         return vars(self)

@@ -15,6 +15,7 @@ import numpy as np
 
 from lumencut._checks import number
 from lumencut._files import WRITABLE, checked_path, move, private_folder, replace_whole
+from lumencut._moving_pictures import Apng, MovingPicture, WebP
 from lumencut._wording import a
 from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
 
@@ -26,9 +27,7 @@ Writer: TypeAlias = "Callable[[Iterable[Frame], float], None]"
 #: Frames per second: a frame of an APNG lasts from 1 ms to 65 s.
 _SLOWEST, _FASTEST = 1 / 60, 1000.0
 _NUMBER = re.compile(r"%0?\d*d")
-_MOVING = {".webp": "WEBP", ".png": "PNG", ".apng": "PNG"}
-# Lossless is five times larger without a difference that an eye finds at this quality.
-_OPTIONS: dict[str, dict[str, Any]] = {"WEBP": {"quality": 90, "method": 4}, "PNG": {}}
+_MOVING: dict[str, type[MovingPicture]] = {".webp": WebP, ".png": Apng, ".apng": Apng}
 
 
 def writer_for(path: str | os.PathLike[str]) -> Writer:
@@ -90,22 +89,19 @@ def _is_folder(name: str, path: Path) -> bool:
     return path.is_dir() or name.endswith(("/", os.sep)) or not path.suffix
 
 
-def _save_moving(path: Path, kind: str, frames: Iterable[Frame], fps: float) -> None:
+def _save_moving(path: Path, kind: type[MovingPicture], frames: Iterable[Frame], fps: float) -> None:
+    """Write frames into one file as they come."""
     from PIL import Image
 
-    pictures = [Image.fromarray(_without_idle_alpha(frame.image)) for frame in frames]
-    if not pictures:
-        raise _empty(path)
-    ends = np.round(np.arange(len(pictures) + 1) * 1000 / fps).astype(int)
-    durations = np.diff(ends).tolist()
-
     def write(temporary: Path) -> None:
-        first, *rest = pictures
-        # The duration of a single picture is a number.
-        duration = durations if rest else durations[0]
-        first.save(
-            temporary, kind, save_all=True, append_images=rest, duration=duration, loop=0, **_OPTIONS[kind]
-        )
+        with temporary.open("wb") as file:
+            moving, end = kind(file), 0
+            for count, frame in enumerate(frames, 1):
+                begin, end = end, round(count * 1000 / fps)
+                moving.add(Image.fromarray(_without_idle_alpha(frame.image)), end - begin)
+            if end == 0:
+                raise _empty(path)
+            moving.close()
 
     replace_whole(path, write)
 

@@ -142,10 +142,12 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
     tree._space_settled |= _warn_if_another_fits(tree, volume, subject)
 
 
-def check_space_once(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
+def check_space_once(
+    tree: VesselTree, volume: Volume, subject: str = "vessel tree", stacklevel: int = 3
+) -> None:
     """Do as `check_space` for the caller's caller, unless the space was asked for or warned about."""
     if not tree._space_settled:
-        tree._space_settled = _warn_if_another_fits(tree, volume, subject, stacklevel=3)
+        tree._space_settled = _warn_if_another_fits(tree, volume, subject, stacklevel)
 
 
 def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stacklevel: int = 2) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -129,6 +129,7 @@ class Renderer:
         settings: Settings | None = None,
         *,
         images: Iterable[str] | None = None,
+        progress: Callable[[int, int], object] | None = None,
     ) -> Frame:
         """Return the picture of one view.
 
@@ -143,6 +144,10 @@ class Renderer:
             ``"value"`` and ``"context"``; all where not given. On a GPU each one that is not asked for saves
             its way back. ``Frame.position`` needs the depth. The distance is computed at once where it is
             named here; where nothing is, ``Frame.distance`` may compute it when it is first asked for.
+        progress : callable, optional
+            Called with (done, total) about every 50 ms, and once at the end: how much of the view is
+            rendered, in parts of which the total is always 1000. A GPU tells nothing before the end of each
+            sample. What it raises ends the rendering.
 
         Raises
         ------
@@ -167,7 +172,7 @@ class Renderer:
         asked = None if images is None else _names(images)
         settings = self.windowed(settings)
         names = asked if asked is not None else self._at_once(settings)
-        buffers = self._core.render(self._volume, camera, checked(settings), names)
+        buffers = self._core.render(self._volume, camera, checked(settings), names, progress)
         return self._frame(camera, settings, buffers, asked)
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
@@ -276,6 +281,8 @@ def render(
     tree: VesselTree | None = None,
     camera: Camera | None = None,
     settings: Settings | None = None,
+    *,
+    progress: Callable[[int, int], object] | None = None,
 ) -> Frame:
     """Return the picture of one view of an angiography and its centerlines.
 
@@ -289,8 +296,10 @@ def render(
         The view; from the front, fitted to the tree or else the volume, where not given.
     settings : Settings, optional
         The knobs; their defaults, with windows from the data, where not given.
+    progress : callable, optional
+        Called with (done, total) while it renders, as by :meth:`Renderer.render`.
     """
-    return Renderer(volume, tree).render(camera, settings)
+    return Renderer(volume, tree).render(camera, settings, progress=progress)
 
 
 def _check_kind(tree: Any) -> None:

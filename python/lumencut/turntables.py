@@ -75,7 +75,7 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
     ----------
     camera : Camera
         The first view; its direction, up and size are kept.
-    scene : VesselTree, Volume, or whatever else :func:`lumencut.render` takes as a volume
+    scene : VesselTree, Vessel, Volume, or whatever else :func:`lumencut.render` takes as a volume
         What is to fit.
     degrees, axis
         As for :func:`turntable`.

@@ -169,7 +169,7 @@ fn the_leap_image_is_the_rule_applied_pixel_by_pixel_at_any_size() {
         let (camera, (depth, sheet)) = (front(size, 0.7), noise(&mut random, width * height));
         let by = |isa: Isa| {
             let mut found = vec![9; depth.len()];
-            let work = Work { size, isa, stop: &|| false };
+            let work = Work { size, isa, stop: &|| false, progress: None };
             leap(&work, &LeapParameters::new(&camera), &depth, &sheet, &mut found).unwrap();
             found
         };
@@ -209,7 +209,7 @@ fn the_leaps_of_a_view_are_those_of_its_depth_and_sheet() {
             let SurfaceDetails { sheet, leap: found, strength } = details(&scene, &camera, &settings);
             let depth = by_hierarchy(&scene, &camera, &settings);
             let mut expected = vec![9; found.len()];
-            let work = Work { size, isa: Isa::widest(), stop: &|| false };
+            let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };
             leap(&work, &LeapParameters::new(&camera), depth.depth(), &sheet, &mut expected).unwrap();
             assert_eq!(found, expected, "{size:?}");
             assert!(strength.iter().all(|s| (0.0..=1.0001).contains(s)));

@@ -55,5 +55,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
     module.add_function(wrap_pyfunction!(write_centerlines::write_centerlines, module)?)?;
+    module.add_function(wrap_pyfunction!(pool::set_threads, module)?)?;
+    module.add_function(wrap_pyfunction!(pool::threads, module)?)?;
     Ok(())
 }

@@ -11,7 +11,7 @@ from lumencut.cli.report import one_line
 from lumencut.errors import FormatError
 
 if TYPE_CHECKING:
-    from lumencut.centerlines import CenterlineFile, CenterlineReport
+    from lumencut.centerline_file import CenterlineFile, CenterlineReport
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 

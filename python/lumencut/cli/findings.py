@@ -77,7 +77,7 @@ def of_centerlines(
     volumes: list[dict[str, Any]],
 ) -> dict[str, Any]:
     """Look into a centerline file; the volume that it fits best decides what it leaves open."""
-    from lumencut.centerlines import CenterlineFile
+    from lumencut.centerline_file import CenterlineFile
 
     file = CenterlineFile(path)
     place = best(file, coordinates, unit, volumes)

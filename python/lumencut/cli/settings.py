@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from lumencut._lumencut import PAPER, SETTINGS, Setting
-from lumencut.cli.options import Command, added
+from lumencut.cli.options import FILE, Command, added
 from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
 
@@ -48,10 +49,20 @@ def _words(name: str, value: Any) -> str:
     return f"--{words} {value:g}" if isinstance(value, float) else f"--{words} {value}"
 
 
+#: A file of settings, which options change further.
+settings_option = click.option(
+    "--settings",
+    "settings_file",
+    type=FILE,
+    help="Start from the settings in this TOML file, as lumencut settings writes it. Options beside it "
+    "change them further.",
+)
+
+
 def setting_options(command: Command) -> Command:
     """Add one option for each field of `Settings`, under its name."""
     names = [*_FIRST, *(name for name in SETTINGS if name not in _FIRST)]
-    return added(tuple(_option(name, SETTINGS[name]) for name in names), command)
+    return added((settings_option, *(_option(name, SETTINGS[name]) for name in names)), command)
 
 
 def _option(name: str, setting: Setting) -> Any:
@@ -110,9 +121,16 @@ def settings_from(chosen: dict[str, Any]) -> Settings:
     from lumencut.settings import Settings
 
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
-    start = Settings.paper if chosen.get("paper") else Settings
+    path = chosen.get("settings_file")
+    if path is not None and chosen.get("paper"):
+        mend = "lumencut settings --paper writes a file of the paper's rules"
+        raise click.UsageError(f"--settings and --paper exclude each other; {mend}")
+    if path is not None:
+        start = Settings.from_file(path)
+    else:
+        start = Settings.paper() if chosen.get("paper") else Settings()
     try:
-        return start(**{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
+        return replace(start, **{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
     except SettingsError as error:
         raise click.UsageError(str(error)) from error
 

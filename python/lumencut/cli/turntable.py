@@ -91,12 +91,12 @@ def turntable(
     check_scene(files, chosen, settings)
     write = _checked_writer(output, fps, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
-    renderer = read_scene(files, chosen)
+    renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
 
     from lumencut import turntables as library
 
-    camera = options.placed_like(library.fitted_turn(view, renderer.scene, degrees, axis), chosen)
+    camera = options.placed_like(library.fitted_turn(view, scene, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
     empty: list[Camera] = []
     write(watched(turn, frames, empty), fps)

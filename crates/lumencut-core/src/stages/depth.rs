@@ -169,7 +169,7 @@ pub(crate) fn depth_by<S: Search>(
     sheets.resize_with(depth.len().div_ceil(chunk), Default::default);
     let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets);
     rows.enumerate().try_for_each(|(row, ((depth, vessel), sheet))| {
-        work.go_on()?;
+        work.begin(depth.len())?;
         let from = (row * chunk).min(distance.len());
         let distance = &distance[from..(from + depth.len()).min(distance.len())];
         let (row, search) = (DepthRow { surface, row, distance, depth, vessel, sheet }, search());

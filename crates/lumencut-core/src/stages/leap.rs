@@ -48,7 +48,7 @@ pub fn leap(
     work.expect_whole(Image::Leap, leap);
     let (side, width) = (parameters.pixel_spacing, work.size[0]);
     leap.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, leap)| {
-        work.go_on()?;
+        work.begin(leap.len())?;
         let surface = Surface { depth, sheet, width };
         dispatch(work.isa, LeapRows { surface, first: row * ROWS, side, leap });
         Ok(())

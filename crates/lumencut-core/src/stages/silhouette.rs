@@ -70,7 +70,7 @@ pub fn silhouette(
     let (chunk, width) = (work.tile_row(), work.size[0]);
     let mut raised = vec![0.0; depth.len()];
     raised.par_chunks_mut(chunk).enumerate().try_for_each(|(row, raised)| {
-        work.go_on()?;
+        work.begin(raised.len())?;
         dispatch(work.isa, SlopeRows { depth, vessel, width, first: row * ROWS, per_slope, raised });
         Ok(())
     })?;
@@ -99,7 +99,7 @@ pub fn silhouette_of_leaps(
     work.expect_whole(Image::Strength, strength);
     let lines = LeapLines::new(leap, value, work.size[0], parameters.line_width);
     strength.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, strength)| {
-        work.go_on()?;
+        work.begin(strength.len())?;
         lines.fill_row(row, strength);
         Ok(())
     })

@@ -106,7 +106,7 @@ pub fn surface(
 /// Fills the values row by row: slabs can take their time.
 fn fill(work: &Work, places: &impl Places, slab: &SlabSamples, value: &mut [f32]) -> Result<()> {
     value.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, value)| {
-        work.go_on()?;
+        work.begin(value.len())?;
         dispatch(work.isa, SurfaceRow { places, slab, row, value });
         Ok(())
     })
