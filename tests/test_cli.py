@@ -358,7 +358,7 @@ def test_version():
     assert re.fullmatch(r"lumencut \d+\.\d+\.\d+\S*\n", result.stdout)
 
 
-@pytest.mark.parametrize(("command", "examples"), [("render", 3), ("turntable", 2), ("evaluate", 2)])
+@pytest.mark.parametrize(("command", "examples"), [("render", 4), ("turntable", 2), ("evaluate", 2)])
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
     assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == examples

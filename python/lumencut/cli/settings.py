@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -100,14 +101,18 @@ def _default(setting: Setting) -> str:
             return f"default {number:g}"
 
 
-def settings_from(chosen: dict[str, Any]) -> Settings:
-    """Return the settings that the options stand for; the others are the defaults, or the paper's."""
+def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Settings:
+    """Return the settings that the options stand for; the others are those of `base` or the paper's.
+
+    Without `base` they are the defaults.
+    """
     from lumencut.settings import Settings
 
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
-    start = Settings.paper if chosen.get("paper") else Settings
+    paper = PAPER if chosen.get("paper") else {}
     try:
-        return start(**{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
+        fields = {name: _as_field(SETTINGS[name], value) for name, value in given.items()}
+        return replace(base or Settings(), **{**paper, **fields})
     except SettingsError as error:
         raise click.UsageError(str(error)) from error
 
