@@ -54,17 +54,23 @@ def view_name(camera: Camera) -> str:
     name = next(named, None)
     top = VIEWS["anterior" if name is None else name][1]
     # Where the head lies in the picture, counterclockwise from its top.
-    turned = round(math.degrees(math.atan2(-np.dot(top, camera.right_axis), np.dot(top, camera.up))))
+    turned = _whole_degrees(-np.dot(top, camera.right_axis), np.dot(top, camera.up))
     return (name or _c_arm_angles(-camera.direction)) + (f" turned {turned}°" if turned else "")
 
 
 def _c_arm_angles(viewer: npt.NDArray[np.float64]) -> str:
     """The angles of a viewer in this direction (LPS, a unit vector) from the patient."""
-    to_the_left = round(math.degrees(math.atan2(viewer[0], -viewer[1])))
-    to_the_head = round(math.degrees(math.asin(min(1.0, max(-1.0, viewer[2])))))
+    to_the_left = _whole_degrees(viewer[0], -viewer[1])
+    to_the_head = _whole_degrees(viewer[2], math.hypot(viewer[0], viewer[1]))
     parts = ((to_the_left, "LAO", "RAO"), (to_the_head, "CRA", "CAU"))
     words = [f"{above if degrees > 0 else below} {abs(degrees)}°" for degrees, above, below in parts if degrees]
     return " ".join(words) or "anterior"
+
+
+def _whole_degrees(opposite: float, adjacent: float) -> int:
+    """The angle from -179 to 180 degrees."""
+    degrees = round(math.degrees(math.atan2(opposite, adjacent)))
+    return 180 if degrees == -180 else degrees
 
 
 def _angle(first: npt.ArrayLike, second: npt.ArrayLike) -> float:

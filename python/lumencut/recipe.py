@@ -50,8 +50,8 @@ def png_options(recipe: Recipe, *, states_spacing: bool) -> dict[str, Any]:
     info.add_text("Software", f"Lumencut {_lumencut.__version__}")
     info.add_text(KEYWORD, json.dumps(_as_json(recipe), allow_nan=False))
     per_metre = round(1000 / recipe.camera.pixel_spacing)
-    # PNG counts whole pixels in a metre, in 31 bits; pixels beyond that have their size in the recipe alone.
-    if not states_spacing or not 0 < per_metre < 2**31:
+    # PNG counts whole pixels in a metre: longer ones have their size in the recipe alone.
+    if not states_spacing or per_metre == 0:
         return {"pnginfo": info}
     return {"pnginfo": info, "dpi": (per_metre * 0.0254,) * 2}
 
