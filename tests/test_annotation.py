@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import pickle
 
 import numpy as np
 import pytest
 
 from label_reading import edge_parts, heights, read, read_sides
-from lumencut import VIEWS, Camera, Renderer, Settings, SettingsError, Vessel, VesselTree, Volume, VolumeError
-from lumencut import TransferFunction, Window, phantom
+from lumencut import (
+    VIEWS,
+    Camera,
+    Renderer,
+    Settings,
+    SettingsError,
+    TransferFunction,
+    Vessel,
+    VesselTree,
+    Volume,
+    VolumeError,
+    Window,
+    phantom,
+)
 
 #: Each side of the patient and the way to it (LPS).
 WAYS = {
@@ -30,7 +43,14 @@ def cameras():
     """The six views, and oblique ones."""
     ahead = Camera((0, 0, 0), *VIEWS["anterior"])
     yield from (Camera((0, 0, 0), *VIEWS[name]) for name in VIEWS)
-    for turn, tilt, roll in ((30, 0, 0), (-40, 20, 0), (75, -50, 0), (140, 35, 0), (-100, 5, 65), (45, 45, 170)):
+    for turn, tilt, roll in (
+        (30, 0, 0),
+        (-40, 20, 0),
+        (75, -50, 0),
+        (140, 35, 0),
+        (-100, 5, 65),
+        (45, 45, 170),
+    ):
         side = ahead.rotated(degrees=turn).rotated(degrees=-tilt, axis="right")
         yield side.rotated(degrees=roll, axis="direction")
 
@@ -70,7 +90,7 @@ def test_letters_stand_where_the_side_of_the_patient_is_seen(grid):
                 possible = {letter for letter, part in parts.items() if part > 0.14}
                 assert sure <= set(letters[edge]) <= possible, (camera, edge, parts)
                 written = [parts[letter] for letter in letters[edge]]
-                assert all(one > other - 0.12 for one, other in zip(written, written[1:], strict=False))
+                assert all(one > other - 0.12 for one, other in itertools.pairwise(written))
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +129,9 @@ def bar_of(picture):
     return int(lit[base]), words[read(corner[:top], list(words), small)]
 
 
-@pytest.mark.parametrize("size", [(200, 200), (201, 333), (256, 256), (768, 768), (1600, 220), (220, 1600), (3001, 2700)])
+@pytest.mark.parametrize(
+    "size", [(200, 200), (201, 333), (256, 256), (768, 768), (1600, 220), (220, 1600), (3001, 2700)]
+)
 @pytest.mark.parametrize("spacing", [0.00123, 0.1, 0.37, 1.0, 7.7, 250.0])
 def test_the_bar_is_as_long_as_it_says(frame, size, spacing):
     pixels, millimetres = bar_of(resized(frame, size, spacing).annotated())
@@ -232,7 +254,12 @@ def test_windows_from_the_data_are_the_ones_that_were_used():
 def test_names_go_to_the_free_end():
     a, b, c, d = (np.array([x, 0.0, 0.0]) for x in (0, 10, 20, 30))
     tree = VesselTree(
-        [Vessel([a, b], 1.0, "trunk"), Vessel([c, b], 1.0, "branch"), Vessel([b, d], 1.0, "other"), Vessel([a, d], 1.0)]
+        [
+            Vessel([a, b], 1.0, "trunk"),
+            Vessel([c, b], 1.0, "branch"),
+            Vessel([b, d], 1.0, "other"),
+            Vessel([a, d], 1.0),
+        ]
     )
     camera = Camera((0, 0, 0), *VIEWS["anterior"], size=(10, 10))
     shown = Renderer(Volume(np.zeros((4, 4, 40), np.int16)), tree).render(camera)

@@ -80,7 +80,12 @@ def test_arrays_are_never_labelled(rendered, files):
 @pytest.mark.parametrize(
     ("options", "output", "lines", "said"),
     [
-        (("--no-annotate", "--vessel-names"), "out.png", True, "--vessel-names does nothing with --no-annotate"),
+        (
+            ("--no-annotate", "--vessel-names"),
+            "out.png",
+            True,
+            "--vessel-names does nothing with --no-annotate",
+        ),
         (("--vessel-names",), "out.png", False, "--vessel-names does nothing without CENTERLINES"),
         (("--annotate",), "out.npz", True, "--annotate does nothing with .npz"),
         (("--vessel-names",), "out.npz", True, "--vessel-names does nothing with .npz"),
@@ -95,9 +100,7 @@ def test_labels_that_nothing_could_show_are_usage_errors(rendered, tmp_path, opt
 def test_too_small_a_picture_is_said_only_to_whoever_asked(rendered):
     assert rendered("--size", "199x300")[1] == ""
     _, told = rendered("--size", "199x300", "--annotate")
-    assert told == (
-        "lumencut: warning: no labels on 199 × 300 pixels: they need 200 on the shorter side\n"
-    )
+    assert told == ("lumencut: warning: no labels on 199 × 300 pixels: they need 200 on the shorter side\n")
 
 
 VIEWS = [
@@ -167,7 +170,9 @@ def test_another_size_shows_all_that_was_in_view(rendered):
     first, _ = rendered(*SIZE, output="first.png")
     before = read_recipe(first).camera
     for size in ((480, 440), (100, 440), (2400, 220)):
-        camera = read_recipe(rendered("--like", first, "--size", f"{size[0]}x{size[1]}", output="a.png")[0]).camera
+        camera = read_recipe(
+            rendered("--like", first, "--size", f"{size[0]}x{size[1]}", output="a.png")[0]
+        ).camera
         shown = np.array(camera.size) * camera.pixel_spacing
         wanted = np.array(before.size) * before.pixel_spacing
         assert (shown >= wanted * (1 - 1e-12)).all()

@@ -77,7 +77,7 @@ def test_turning_by_the_options_of_a_camera_gives_its_angles():
 @pytest.mark.parametrize(
     ("name", "up", "expected"),
     [
-        # The top is 30 degrees to the patient's right of the head, which is thus seen to the right of the top.
+        # The top is 30 degrees to the patient's right of the head: the head is seen right of the top.
         ("anterior", (-0.5, 0, math.sqrt(0.75)), "anterior turned -30°"),
         ("anterior", (0.5, 0, math.sqrt(0.75)), "anterior turned 30°"),
         ("anterior", (0, 0, -1), "anterior turned 180°"),

@@ -12,8 +12,19 @@ import pytest
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from lumencut import Camera, FileError, FormatError, Opacity, Renderer, Settings, Slab, TransferFunction, Window
-from lumencut import phantom, read_volume
+from lumencut import (
+    Camera,
+    FileError,
+    FormatError,
+    Opacity,
+    Renderer,
+    Settings,
+    Slab,
+    TransferFunction,
+    Window,
+    phantom,
+    read_volume,
+)
 from lumencut.recipe import KEYWORD, Recipe, png_options, read_recipe
 
 RAMP = TransferFunction([(-100.5, (0, 10, 20), 0), (0.1 + 0.2, (255, 0, 1), 1 / 3)])
@@ -33,7 +44,9 @@ def written(path, recipe, *, states_spacing=True):
 
 def turned(seed):
     random = np.random.default_rng(seed)
-    camera = Camera(random.normal(size=3) * 100, random.normal(size=3), random.normal(size=3), (640, 480), 1 / 3)
+    camera = Camera(
+        random.normal(size=3) * 100, random.normal(size=3), random.normal(size=3), (640, 480), 1 / 3
+    )
     return camera.rotated(random.normal()).rotated(random.normal(), "right").zoomed(1.3).panned(0.1, 7.7)
 
 
@@ -61,7 +74,9 @@ def test_saved_pictures_hold_what_was_used(frame, tmp_path):
     made = phantom.calcified_wall()
     renderer = Renderer(made.volume, made.tree)
     # The windows from the data are there as numbers.
-    assert recipe.settings == dataclasses.replace(Settings(), window=renderer.window, context_window=renderer.window)
+    assert recipe.settings == dataclasses.replace(
+        Settings(), window=renderer.window, context_window=renderer.window
+    )
     again = renderer.render(recipe.camera, recipe.settings)
     np.testing.assert_array_equal(again.image, frame.image)
 
@@ -221,8 +236,10 @@ def test_texts_that_cannot_be_rendered_are_refused_without_quoting_them(tmp_path
 
 @pytest.mark.parametrize(
     "text",
-    ["", "SECRET", "{", "[" * 90_000, '{"format": NaN}', '{"format": 1e999}', "1" * 5000, "\0", '"x"', "é" * 9]
-    + ["x" * 100_001, " " * 100_001 + "1"],
+    [
+        *("", "SECRET", "{", "[" * 90_000, '{"format": NaN}', '{"format": 1e999}', "1" * 5000, "\0", '"x"'),
+        *("é" * 9, "x" * 100_001, " " * 100_001 + "1"),
+    ],
     ids=lambda text: f"{text[:10]!r} of {len(text)}",
 )
 def test_texts_that_are_no_recipe(tmp_path, text):
@@ -256,7 +273,9 @@ def test_a_text_that_unpacks_to_more_than_memory_is_refused(tmp_path):
 
 def test_pictures_of_others_and_other_files(tmp_path):
     Image.new("RGB", (4, 3)).save(tmp_path / "bare.png")
-    with pytest.raises(FormatError, match="without the text that says how it was rendered; expected a PNG picture"):
+    with pytest.raises(
+        FormatError, match="without the text that says how it was rendered; expected a PNG picture"
+    ):
         read_recipe(tmp_path / "bare.png")
     for ending in ("jpg", "tif", "webp"):
         Image.new("RGB", (4, 3)).save(tmp_path / f"view.{ending}")

@@ -1,4 +1,4 @@
-"""Whether a volume's source states spacing and orientation: only then do labels name sides and millimetres."""
+"""Whether a volume's source states spacing and orientation: only then do labels name sides and mm."""
 
 from __future__ import annotations
 
@@ -43,7 +43,10 @@ def test_arrays_state_what_their_caller_gives(given, expected):
 
 
 def test_the_words_for_a_volume_say_what_is_assumed():
-    assert repr(Volume(VOXELS)) == "Volume(5 × 4 × 3 int16, spacing 1 × 1 × 1 mm (assumed), orientation not stated)"
+    assert (
+        repr(Volume(VOXELS))
+        == "Volume(5 × 4 × 3 int16, spacing 1 × 1 × 1 mm (assumed), orientation not stated)"
+    )
     assert repr(Volume(VOXELS, (1, 1, 1))).endswith("spacing 1 × 1 × 1 mm, orientation not stated)")
     assert repr(Volume(VOXELS, world_from_index=np.eye(4))).endswith("spacing 1 × 1 × 1 mm)")
 
@@ -106,7 +109,10 @@ def test_two_placements_in_nifti_that_name_other_sides_state_none(tmp_path):
         ("space: scanner-xyz\nspace directions: (1,0,0) (0,1,0) (0,0,1)", (True, False)),
         ("space dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1)", (True, False)),
         ('space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace units: "mm" "mm" "mm"', (True, True)),
-        ('space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace units: "ells" "ells" "ells"', (False, True)),
+        (
+            'space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace units: "ells" "ells" "ells"',
+            (False, True),
+        ),
     ],
 )
 def test_nrrd(tmp_path, fields, expected):
@@ -124,7 +130,10 @@ def test_nrrd(tmp_path, fields, expected):
         ("Offset = 1 2 3", (False, False)),
         ("TransformMatrix = 1 0 0 0 1 0 0 0 1", (False, True)),
         ("AnatomicalOrientation = RAI", (False, True)),
-        ("AnatomicalOrientation = RAI\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nElementSpacing = 1 1 1", (True, True)),
+        (
+            "AnatomicalOrientation = RAI\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nElementSpacing = 1 1 1",
+            (True, True),
+        ),
         ("AnatomicalOrientation = ???\nTransformMatrix = 1 0 0 0 1 0 0 0 1", (False, True)),
         # Two orientations are none that can be relied on.
         ("AnatomicalOrientation = LAI\nTransformMatrix = 1 0 0 0 1 0 0 0 1", (False, False)),
@@ -176,7 +185,9 @@ def test_vtk_knows_no_patient(grid, expected):
     image = vtkImageData()
     image.SetDimensions(5, 4, 3)
     for name, values in grid.items():
-        getattr(image, f"Set{name.capitalize()}" + ("Matrix" if name == "direction" else ""))(*map(float, values))
+        getattr(image, f"Set{name.capitalize()}" + ("Matrix" if name == "direction" else ""))(
+            *map(float, values)
+        )
     image.GetPointData().SetScalars(numpy_to_vtk(VOXELS.ravel()))
     assert stated(as_volume(image)) == (expected[0], False)
 

@@ -20,7 +20,7 @@ def pictures(named: dict[str, tuple[float, float]], volume: Volume = VOLUME):
     vessels = []
     for name, (column, row) in named.items():
         end = np.array([200 + column - MIDDLE[0], 200, 200 - row + MIDDLE[1]])
-        vessels.append(Vessel([end + (0, 50, 0), end], 1.0, name or None))
+        vessels.append(Vessel([end + np.array([0, 50, 0]), end], 1.0, name or None))
     settings = Settings(context=None, silhouettes=False, window=Window(1000, 10))
     frame = Renderer(volume, VesselTree(vessels)).render(camera, settings)
     assert not frame.image[..., :3].any()

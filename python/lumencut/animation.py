@@ -32,9 +32,7 @@ _MOVING = {".webp": "WEBP", ".png": "PNG", ".apng": "PNG"}
 _OPTIONS: dict[str, dict[str, Any]] = {"WEBP": {"quality": 90, "method": 4}, "PNG": {}}
 
 
-def writer_for(
-    path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False
-) -> Writer:
+def writer_for(path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False) -> Writer:
     """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
     checked = checked_path(path, WRITABLE)
     labels = {"annotate": annotate, "vessel_names": vessel_names}

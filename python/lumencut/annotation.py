@@ -55,10 +55,9 @@ def _write_words(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
     lines = [view_name(camera) if source.states_orientation else "orientation not stated"]
     if source.window is not None:
         lines.append(window_words(source.window))
-    top: float = sheet.margin
-    for line in (part for line in lines for part in sheet.wrapped(line)):
-        sheet.write(line, (sheet.margin, top), "la")
-        top += sheet.line_height
+    pieces = [piece for line in lines for piece in sheet.wrapped(line)]
+    for number, piece in enumerate(pieces):
+        sheet.write(piece, (sheet.margin, sheet.margin + number * sheet.line_height), "la")
 
 
 def _write_scale(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
@@ -88,5 +87,5 @@ def window_words(window: Window) -> str:
 
 
 def _short(value: float) -> str:
-    """A number in at most about four digits, without an exponent where it is an intensity of a usual scale."""
+    """A number in about four digits, without an exponent where it is an intensity of a usual scale."""
     return f"{value:.0f}" if 100 <= abs(value) < 1e7 else f"{value:.3g}"

@@ -233,9 +233,7 @@ def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:
     return content.getvalue()
 
 
-def save_picture(
-    image: npt.NDArray[np.uint8], path: Path, png_options: dict[str, Any] | None = None
-) -> None:
+def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str, Any] | None = None) -> None:
     """Write an RGBA picture in the format that the ending names; a PNG with what else Pillow can write."""
     from PIL import Image
 

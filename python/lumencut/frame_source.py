@@ -27,7 +27,7 @@ class FrameSource:
     settings : Settings
         The settings with the windows that were used, those from the data among them.
     window : Window or None
-        The window of the picture: of the cut surface, or of the context alone; None where nothing is windowed.
+        The window of the picture: of the cut surface, or of the context alone; None where nothing has one.
     states_spacing, states_orientation : bool
         As for the volume.
     vessel_ends : tuple of (str, (float, float, float))
@@ -54,7 +54,7 @@ def _context_window(settings: Settings) -> Window | None:
 
 
 def vessel_ends(tree: VesselTree) -> tuple[VesselEnd, ...]:
-    """Return the named vessels and their ends: the last point, or the first if other vessels meet the last."""
+    """Return the named vessels and their ends: the last point, or the first if only that one is free."""
     ends = [tuple(vessel.points[place].tolist()) for vessel in tree for place in (0, -1)]
     vessels_at = Counter(ends)
     found = []

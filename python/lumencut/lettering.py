@@ -125,7 +125,7 @@ def around(place: tuple[float, float], radius: float) -> Box:
 
 
 def writable(name: str) -> str:
-    """Return a name in letters that the font has: without accents, `?` for others, the end of long ones cut."""
+    """Return a name in letters that the font has: without accents, with `?` for others, cut if long."""
     bare = (letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
     known = "".join(letter if letter.isascii() and letter.isprintable() else "?" for letter in bare).strip()
     return known if len(known) <= _LONGEST_NAME else known[: _LONGEST_NAME - 1] + "…"

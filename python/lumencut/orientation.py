@@ -27,7 +27,7 @@ def sides(vector: npt.NDArray[np.float64]) -> str:
     R and L are right and left, A and P anterior and posterior, S and I superior and inferior. Parts of the
     unit vector below 0.2 are not named.
     """
-    parts = np.asarray(vector, dtype=np.float64) / np.linalg.norm(vector)
+    parts: list[float] = (vector / np.linalg.norm(vector)).tolist()
     # The order of the axes decides between equal parts; rounding must not.
     order = sorted(range(3), key=lambda axis: (-round(abs(parts[axis]), 6), axis))
     return "".join(_SIDES[axis][int(parts[axis] > 0)] for axis in order if abs(parts[axis]) >= LEAST_PART)
@@ -42,11 +42,12 @@ def edges(camera: Camera) -> dict[str, str]:
 def view_name(camera: Camera) -> str:
     """Return what a view is called.
 
-    A view along an axis of the patient has its name, such as ``anterior``. All others have the angles at which
-    a C-arm sees the patient so: how far the viewer stands to the left (LAO) or right (RAO) of the patient's
-    front, and how far towards the head (CRA) or the feet (CAU). These are the positioner angles of DICOM, in
-    whole degrees; LAO and RAO go up to 180 degrees, at the patient's back. Where the head, or the front in
-    views along the body, is not on top, the view is turned in its plane, by so many degrees counterclockwise.
+    A view along an axis of the patient has its name, such as ``anterior``. All others have the angles at
+    which a C-arm sees the patient so: how far the viewer stands to the left (LAO) or right (RAO) of the
+    patient's front, and how far towards the head (CRA) or the feet (CAU). These are the positioner angles of
+    DICOM, in whole degrees; LAO and RAO go up to 180 degrees, at the patient's back. Where the head, or the
+    front in views along the body, is not on top, the view is turned in its plane, by so many degrees
+    counterclockwise.
     """
     from lumencut.camera import VIEWS
 
@@ -63,7 +64,9 @@ def _c_arm_angles(viewer: npt.NDArray[np.float64]) -> str:
     to_the_left = _whole_degrees(viewer[0], -viewer[1])
     to_the_head = _whole_degrees(viewer[2], math.hypot(viewer[0], viewer[1]))
     parts = ((to_the_left, "LAO", "RAO"), (to_the_head, "CRA", "CAU"))
-    words = [f"{above if degrees > 0 else below} {abs(degrees)}°" for degrees, above, below in parts if degrees]
+    words = [
+        f"{above if degrees > 0 else below} {abs(degrees)}°" for degrees, above, below in parts if degrees
+    ]
     return " ".join(words) or "anterior"
 
 
@@ -73,7 +76,8 @@ def _whole_degrees(opposite: float, adjacent: float) -> int:
     return 180 if degrees == -180 else degrees
 
 
-def _angle(first: npt.ArrayLike, second: npt.ArrayLike) -> float:
+def _angle(first: npt.NDArray[np.float64], other: tuple[float, float, float]) -> float:
     """The angle (degrees) between two vectors."""
+    second = np.array(other)
     across, along = np.linalg.norm(np.cross(first, second)), np.dot(first, second)
     return math.degrees(math.atan2(across, along))

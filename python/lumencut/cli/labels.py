@@ -55,7 +55,7 @@ def check_labels(chosen: dict[str, Any], outputs: Iterable[Path], size: tuple[in
 
 
 def labels_of(path: Path, chosen: dict[str, Any], recipe: Recipe | None) -> dict[str, bool]:
-    """Return which labels a file gets, as `Frame.save` takes them; a picture made like another has its labels."""
+    """Return which labels a file gets, as `Frame.save` takes them: with a recipe, those of its picture."""
     names = chosen["vessel_names"]
     annotate = chosen["annotate"]
     if annotate is None:

@@ -22,8 +22,8 @@ like_option = click.option(
     type=FILE,
     metavar="PICTURE.png",
     help="Render with the view, the settings and the labels of a .png that lumencut wrote. Options beside it "
-    "come on top: --view and --up turn it, --rotate, --tilt and --zoom go on from it, --size keeps what is in "
-    "view.",
+    "come on top: --view and --up turn it, --rotate, --tilt and --zoom go on from it, --size keeps what is "
+    "in view.",
 )
 
 
@@ -37,7 +37,7 @@ def recipe_from(path: Path | None) -> Recipe | None:
 
 
 def typed(chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return the options that the user typed: a default, or one out of a file, must not change the picture."""
+    """Return the options that the user typed: no default may change the picture."""
     context = click.get_current_context()
     given = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
     return {name: value for name, value in chosen.items() if context.get_parameter_source(name) in given}
@@ -63,12 +63,14 @@ def _resized(camera: Camera, given: dict[str, Any]) -> Camera:
 
 
 def _turned(camera: Camera, given: dict[str, Any]) -> Camera:
+    import numpy as np
+
     from lumencut.camera import VIEWS, upright
 
     if "view" in given or "up" in given:
         view = given.get("view", camera.direction)
         ahead, up = VIEWS[view] if isinstance(view, str) else (view, upright(view))
-        camera = replace(camera, direction=ahead, up=given.get("up", up))
+        camera = replace(camera, direction=np.array(ahead), up=np.array(given.get("up", up)))
     if "rotate" in given:
         camera = camera.rotated(math.radians(given["rotate"]), "up")
     # A right-handed turn about the right axis would lower the viewer.

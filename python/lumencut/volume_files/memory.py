@@ -87,7 +87,7 @@ def _affine(spacing: Any, origin: Any, direction: Any, first: Any) -> npt.NDArra
 
 
 def _stated(spacing: Any, origin: Any, direction: Any) -> dict[str, bool]:
-    """What an image states whose package gives every image a grid: nothing where that is the one of new images.
+    """What an image states whose package gives every image a grid: nothing where it is that of new images.
 
     Such an image was made of bare voxels, or read from a file without a grid.
     """

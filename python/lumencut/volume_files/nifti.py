@@ -32,6 +32,7 @@ _OTHER_TYPES = {
     2304: _COLOUR,
     1536: ("voxels of 128-bit floats", "write 64-bit floats"),
 }
+_SAME_AXIS = np.cos(np.radians(25))
 _MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
 
 
@@ -229,17 +230,15 @@ def states_spacing(header: Any) -> bool:
 
 
 def states_orientation(header: Any) -> bool:
-    """Tell whether a header places its axes in the patient, in one way."""
-    from nibabel.orientations import aff2axcodes
-
+    """Tell whether a header places its axes in the patient, and no second time more than 25 degrees apart."""
     if not _is_placed(header):
         return False
     try:
         forms = [header.get_qform(coded=True)[0], header.get_sform(coded=True)[0]]
     except ValueError:  # a qform that is no rotation, beside the sform that is used
         return True
-    sides = {aff2axcodes(form) for form in forms if form is not None}
-    return len(sides) == 1
+    axes = [form[:3, :3] / np.linalg.norm(form[:3, :3], axis=0) for form in forms if form is not None]
+    return len(axes) == 1 or bool(((axes[0] * axes[1]).sum(axis=0) > _SAME_AXIS).all())
 
 
 def _is_placed(header: Any) -> bool:
