@@ -6,6 +6,7 @@ import itertools
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -30,10 +31,13 @@ _NUMBER = re.compile(r"%0?\d*d")
 _MOVING: dict[str, type[MovingPicture]] = {".webp": WebP, ".png": Apng, ".apng": Apng}
 
 
-def writer_for(path: str | os.PathLike[str]) -> Writer:
+def writer_for(path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False) -> Writer:
     """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
     checked = checked_path(path, WRITABLE)
-    return partial(_save_checked, checked, _writer(os.fspath(path), checked))
+    labels = {"annotate": annotate, "vessel_names": vessel_names}
+    if vessel_names and not annotate:
+        raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
+    return partial(_save_checked, checked, labels, _writer(os.fspath(path), checked, labels))
 
 
 def is_sequence(path: str | os.PathLike[str]) -> bool:
@@ -49,8 +53,16 @@ def checked_fps(fps: float) -> float:
     return value
 
 
-def _save_checked(path: Path, write: Writer, frames: Iterable[Frame], fps: float) -> None:
-    write(_alike(path, frames), checked_fps(fps))
+def _save_checked(
+    path: Path, labels: dict[str, bool], write: Writer, frames: Iterable[Frame], fps: float
+) -> None:
+    alike = _alike(path, frames)
+    write(_labelled(alike, labels["vessel_names"]) if labels["annotate"] else alike, checked_fps(fps))
+
+
+def _labelled(frames: Iterable[Frame], vessel_names: bool) -> Iterator[Frame]:
+    """Pass frames on with labels on their pictures."""
+    return (replace(frame, _image=frame.annotated(vessel_names=vessel_names)) for frame in frames)
 
 
 def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
@@ -71,12 +83,12 @@ def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
         del frame
 
 
-def _writer(name: str, path: Path) -> Writer:
+def _writer(name: str, path: Path, labels: dict[str, bool]) -> Writer:
     suffix = path.suffix.lower()
     if _is_folder(name, path):
-        return partial(_save_sequence, path / "frame-%03d.png")
+        return partial(_save_sequence, path / "frame-%03d.png", labels)
     if "%" in path.name:
-        return partial(_save_sequence, _checked_pattern(path))
+        return partial(_save_sequence, _checked_pattern(path), labels)
     if suffix in _MOVING:
         return partial(_save_moving, path, _MOVING[suffix])
     if suffix == ".mp4":
@@ -106,7 +118,7 @@ def _save_moving(path: Path, kind: type[MovingPicture], frames: Iterable[Frame],
     replace_whole(path, write)
 
 
-def _save_sequence(pattern: Path, frames: Iterable[Frame], _: float) -> None:
+def _save_sequence(pattern: Path, labels: dict[str, bool], frames: Iterable[Frame], _: float) -> None:
     """Write one picture per frame, all of which appear together at the end."""
     from PIL import Image
 
@@ -114,7 +126,9 @@ def _save_sequence(pattern: Path, frames: Iterable[Frame], _: float) -> None:
     with private_folder(parent, parent if parent.is_dir() else parent.parent) as folder:
         count = 0
         for count, frame in enumerate(frames, 1):
-            Image.fromarray(_without_idle_alpha(frame.image)).save(folder / (pattern.name % (count - 1)))
+            options = frame._png_options(**labels) if pattern.suffix.lower() == ".png" else {}
+            picture = Image.fromarray(_without_idle_alpha(frame.image))
+            picture.save(folder / (pattern.name % (count - 1)), **options)
         if not count:
             raise _empty(pattern)
         if (stale := parent / (pattern.name % count)).exists():

@@ -16,6 +16,7 @@ from lumencut.camera import Camera
 from lumencut.device import look_for_no_display
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.frame import IMAGES, Frame
+from lumencut.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -173,7 +174,8 @@ class Renderer:
         settings = self.windowed(settings)
         names = asked if asked is not None else self._at_once(settings)
         buffers = self._core.render(self._volume, camera, checked(settings), names, progress)
-        return self._frame(camera, settings, buffers, asked)
+        source = frame_source(settings, self._volume, self._tree, self._vessel_ends)
+        return self._frame(camera, settings, buffers, asked, source)
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
@@ -201,7 +203,12 @@ class Renderer:
         return [name for name in IMAGES if name != "distance"]
 
     def _frame(
-        self, camera: Camera, settings: Settings, buffers: dict[str, Any], asked: list[str] | None
+        self,
+        camera: Camera,
+        settings: Settings,
+        buffers: dict[str, Any],
+        asked: list[str] | None,
+        source: FrameSource | None = None,
     ) -> Frame:
         """The frame of some images, with a distance that comes later where it was left out."""
         arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
@@ -210,7 +217,8 @@ class Renderer:
             arrays["_distance"] = lambda: core.render(None, camera, checked(settings), ["distance"])[
                 "distance"
             ]
-        return Frame(camera, buffers["timings"], **arrays, _asked=None if asked is None else tuple(asked))
+        names = None if asked is None else tuple(asked)
+        return Frame(camera, buffers["timings"], **arrays, _asked=names, _source=source)
 
     def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
         """The camera and the settings, or their defaults."""
@@ -268,6 +276,10 @@ class Renderer:
     @functools.cached_property
     def _named(self) -> dict[str, Window]:
         return {}
+
+    @functools.cached_property
+    def _vessel_ends(self) -> tuple[VesselEnd, ...]:
+        return () if self._tree is None else vessel_ends(self._tree)
 
     @property
     def _shown(self) -> Volume:

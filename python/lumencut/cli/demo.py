@@ -43,7 +43,7 @@ def demo(directory: Path, cache: Path | None, device: Literal["auto", "cpu", "gp
     for name, camera, settings in _views(renderer):
         frame = renderer.render(camera, settings)
         timings(name, frame.timings)
-        frame.save(directory / f"{name}.png")
+        frame.save(directory / f"{name}.png", annotate=True)
         say(str(directory / f"{name}.png"))
     _spin(renderer, directory / "turntable.webp")
     detail(f"device: {renderer.device}")

@@ -21,8 +21,8 @@ class Picture:
 
     Attributes
     ----------
-    view : str or tuple of 3 float
-        The name of the view, or its direction.
+    view : str, tuple of 3 float or None
+        The name of the view, or its direction; None for that of another picture.
     paths : tuple of Path
         Its files.
     """
@@ -38,7 +38,7 @@ def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
     ending of an output without ``{view}``.
     """
     planned = [
-        Picture(view, tuple(_path(output, name_of(view), is_one=len(views) == 1) for output in outputs))
+        Picture(view, tuple(_path(output, view, is_one=len(views) == 1) for output in outputs))
         for view in views
     ]
     paths = [path for picture in planned for path in picture.paths]
@@ -56,7 +56,13 @@ def name_of(view: Any) -> str:
     return view if isinstance(view, str) else "_".join(f"{number:g}" for number in view)
 
 
-def _path(output: Path, name: str, *, is_one: bool) -> Path:
+def _path(output: Path, view: Any, *, is_one: bool) -> Path:
+    if view is None:
+        if PLACE in output.name:
+            found = f"{PLACE} in {output} stands for the name of the view, and a picture tells none"
+            raise click.UsageError(f"{found}; give --view beside --like, or another name")
+        return output
+    name = name_of(view)
     if PLACE in output.name:
         return output.with_name(output.name.replace(PLACE, name))
     return output if is_one else output.with_name(f"{output.stem}-{name}{output.suffix}")

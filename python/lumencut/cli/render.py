@@ -8,6 +8,8 @@ from typing import Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.labels import check_labels, label_options, labels_of
+from lumencut.cli.like import camera_of, like_option, recipe_from, typed, views_of, warn_of_vessels
 from lumencut.cli.outputs import name_of, pictures
 from lumencut.cli.report import bar, busy, detail, say, timings, verbose_option
 from lumencut.cli.scene import (
@@ -35,6 +37,8 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
     "in the place of {view}.",
 )
 @options.several_views_options
+@like_option
+@label_options
 @paper_option
 @setting_options
 @verbose_option
@@ -53,17 +57,22 @@ def render(
     lumencut render ct.nii.gz centerlines.vtp -o anterior.png
     lumencut render dicom/ lines.mrk.json -o oblique.png --rotate 30 --tilt 15 --window 900/300
     lumencut render ct.nrrd LAD.mrk.json LCX.mrk.json --view left --view 0,1,1 --zoom-to LAD -o {view}.png
+    lumencut render later.nii.gz lines.vtp -o later.png --like oblique.png
     lumencut render ct.nii.gz -o body.png --context dvr --context-transfer soft-tissue
     """  # noqa: D301 - click needs the control character itself
-    settings = settings_from(chosen)
-    views = [options.view_from({**chosen, "view": view}) for view in chosen["view"]]
-    planned = pictures(chosen["view"], output)
+    recipe = recipe_from(chosen["like"])
+    given = chosen if recipe is None else typed(chosen)
+    settings = settings_from(given, None if recipe is None else recipe.settings)
+    views = views_of(chosen, recipe)
+    planned = pictures([view for view, _ in views], output)
     files = scene_from(chosen)
     check_scene(files, chosen, settings)
+    check_labels(chosen, output, views[0][1].size)
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
-    for picture, view in zip(planned, views, strict=True):
-        camera = options.placed(view, scene, chosen)
+    warn_of_vessels(chosen["like"], recipe, renderer)
+    for picture, (_, view) in zip(planned, views, strict=True):
+        camera = camera_of(view, scene, chosen, recipe)
         name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
         with bar(f"rendering{name}", "share") as told:
             frame = renderer.render(camera, settings, progress=told)
@@ -72,6 +81,6 @@ def render(
             warn_of_emptiness(f"no pixel of the view{name}", frame.camera, renderer)
         for path in picture.paths:
             with busy(f"writing {path.name}"):
-                frame.save(path)
+                frame.save(path, **labels_of(path, chosen, recipe))
             say(f"{path}: {shown(frame.camera, settings, renderer)}")
     detail(f"device: {renderer.device}")

@@ -116,21 +116,26 @@ def _default(setting: Setting) -> str:
             return f"default {number:g}"
 
 
-def settings_from(chosen: dict[str, Any]) -> Settings:
-    """Return the settings that the options stand for; the others are the defaults, or the paper's."""
+def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Settings:
+    """Return the settings that the options stand for; the others are those of `base` or the paper's.
+
+    Without `base` they are the defaults.
+    """
     from lumencut.settings import Settings
 
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
     path = chosen.get("settings_file")
+    if path is not None and base is not None:
+        mend = "leave --settings out, or name single settings as options beside --like"
+        raise click.UsageError(f"--settings and --like exclude each other, for both name all settings; {mend}")
     if path is not None and chosen.get("paper"):
         mend = "lumencut settings --paper writes a file of the paper's rules"
         raise click.UsageError(f"--settings and --paper exclude each other; {mend}")
-    if path is not None:
-        start = Settings.from_file(path)
-    else:
-        start = Settings.paper() if chosen.get("paper") else Settings()
+    start = base or Settings() if path is None else Settings.from_file(path)
+    paper = PAPER if chosen.get("paper") else {}
     try:
-        return replace(start, **{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
+        fields = {name: _as_field(SETTINGS[name], value) for name, value in given.items()}
+        return replace(start, **{**paper, **fields})
     except SettingsError as error:
         raise click.UsageError(str(error)) from error
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.labels import check_labels, label_options
 from lumencut.cli.parameters import Named
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
 from lumencut.cli.scene import (
@@ -62,6 +63,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @click.option("--fps", type=click.FloatRange(0.1, 100), help="Frames per second; default 12.")
 @click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Duration in all (s), instead of --fps.")
 @options.view_options
+@label_options
 @paper_option
 @setting_options
 @verbose_option
@@ -89,7 +91,10 @@ def turntable(
     settings, view = settings_from(chosen), options.view_from(chosen)
     files = scene_from(chosen)
     check_scene(files, chosen, settings)
-    write = _checked_writer(output, fps, is_timed=is_timed)
+    check_labels(chosen, [Path(output)], view.size)
+    labels = {name: bool(chosen[name]) for name in ("annotate", "vessel_names")}
+    labels["annotate"] |= labels["vessel_names"]
+    write = _checked_writer(output, fps, labels, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
@@ -129,13 +134,13 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
         raise click.UsageError(str(error)) from error
 
 
-def _checked_writer(output: str, fps: float, *, is_timed: bool) -> Writer:
+def _checked_writer(output: str, fps: float, labels: dict[str, bool], *, is_timed: bool) -> Writer:
     """Refuse an output that cannot be written before any file is read."""
     from lumencut.animation import checked_fps, is_sequence, writer_for
 
     try:
         checked_fps(fps)
-        write = writer_for(output)
+        write = writer_for(output, **labels)
         if is_timed and is_sequence(output):
             found = f"--fps and --seconds do nothing with one picture per frame ({output})"
             raise click.UsageError(f"{found}; leave them out, or name a moving file such as .webp")
