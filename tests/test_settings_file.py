@@ -68,10 +68,12 @@ def test_every_setting_survives(tmp_path, name):
         Settings.paper(),
         Settings(context=None),
         Settings(context_transfer="bone"),
+        Settings(window="mra", context_window="full"),
+        Settings(window="cta"),
         # Other contexts than mida have no gamma.
         Settings(**{name: other(name) for name in _lumencut.SETTINGS if name != "context"}),
     ],
-    ids=["default", "paper", "no-context", "named-transfer", "all"],
+    ids=["default", "paper", "no-context", "named-transfer", "named-windows", "fixed-window", "all"],
 )
 def test_settings_survive_together(tmp_path, settings):
     settings.save(tmp_path / "look.toml")
@@ -114,6 +116,7 @@ def test_what_a_file_leaves_out_is_the_default(tmp_path):
         ("zzz = 3", "lumencut settings lists them all"),
         ("[window]\nlevel = 3", r"window in .*look\.toml: found 'level'; expected a table of level, width"),
         ("window = 300", "expected a table of level, width"),
+        ("window = 'soft'", r"window in .*look\.toml: found 'soft'"),
         ("window = { level = 'a', width = 3 }", r"window level in .*look\.toml: found 'a'"),
         ("window = { level = 3, width = -3 }", r"look\.toml: found"),
         ("levels = 2.5", r"levels in .*look\.toml: found 2\.5; expected a whole number"),

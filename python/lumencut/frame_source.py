@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from lumencut.settings import Settings
 from lumencut.transfer import TransferFunction
@@ -47,13 +47,14 @@ class FrameSource:
 def frame_source(
     settings: Settings, volume: Volume, tree: VesselTree | None, ends: tuple[VesselEnd, ...]
 ) -> FrameSource:
-    """Return the source of a frame with these settings; `ends` are those of the tree."""
-    window = _context_window(settings) if tree is None else settings.window
+    """Return the source of a frame with these settings, windows as numbers; `ends` are those of the tree."""
+    # The renderer has put a window in the place of each name.
+    window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
     vessels = 0 if tree is None else len(tree)
     return FrameSource(settings, window, volume.states_spacing, volume.states_orientation, vessels, ends)
 
 
-def _context_window(settings: Settings) -> Window | None:
+def _context_window(settings: Settings) -> Window | str | None:
     """The window of the context, None where control points alone say what an intensity looks like."""
     has_points = isinstance(settings.context_transfer, TransferFunction)
     return None if has_points and settings.context in ("dvr", "mip") else settings.context_window

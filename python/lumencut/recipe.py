@@ -1,7 +1,8 @@
 """The text in a PNG that says how the picture was rendered, and the way back from it.
 
-It holds the camera, the settings with the windows that were used, what is labelled, the number of vessels that
-were shown, and the version. It names no file and no vessel, and takes over nothing that the files say of the patient or the scan.
+It holds the camera, the settings with the windows that were used, what is labelled, the number of vessels,
+and the version. It names no file and no vessel, and takes over nothing that the files say of the patient or
+the scan.
 """
 
 from __future__ import annotations

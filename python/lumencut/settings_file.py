@@ -16,7 +16,7 @@ from lumencut._wording import listed
 from lumencut.errors import FileError, FormatError, SettingsError
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
-from lumencut.window import Opacity, Window
+from lumencut.window import WINDOW_NAMES, Opacity, Window
 
 _Settings = TypeVar("_Settings")
 
@@ -84,6 +84,8 @@ def _comment(setting: _lumencut.Setting) -> list[str]:
     if setting.kind == "choice":
         names = [*setting.choices, *([_NONE] if setting.optional else [])]
         others = f"; one of {', '.join(map(_written, names))}"
+    elif setting.kind == "window":
+        others = f"; or one of {', '.join(map(_written, WINDOW_NAMES))}"
     elif setting.range is not None:
         others = f"; {setting.range[0]:g} to {setting.range[1]:g}"
     texts = (setting.sentence.replace("`", ""), f"Default: {default}{others}.")
@@ -150,6 +152,8 @@ def _read(subject: str, setting: _lumencut.Setting, value: Any) -> Any:
             return _of_type(subject, value, str, ", ".join(f'"{name}"' for name in setting.choices))
         case "color":
             return _color(subject, value, len(setting.default))
+        case "window" if isinstance(value, str):
+            return value
         case "transfer" if isinstance(value, list):
             return TransferFunction(tuple(_point(subject, point) for point in value))
         case "transfer":

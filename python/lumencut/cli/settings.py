@@ -126,8 +126,8 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
     path = chosen.get("settings_file")
     if path is not None and base is not None:
-        mend = "leave --settings out, or name single settings as options beside --like"
-        raise click.UsageError(f"--settings and --like exclude each other, for both name all settings; {mend}")
+        found = "--settings and --like exclude each other: both name all settings"
+        raise click.UsageError(f"{found}; give single settings as options beside --like")
     if path is not None and chosen.get("paper"):
         mend = "lumencut settings --paper writes a file of the paper's rules"
         raise click.UsageError(f"--settings and --paper exclude each other; {mend}")
