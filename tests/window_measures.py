@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import Camera, Renderer, Settings, Window
+from lumencut.settings import ContextName
 from window_scenes import BONE, FAT, LUMEN, SOFT, WALL, Angiography
 
 PICTURE = (96, 96)
@@ -22,7 +23,8 @@ def share(window: Window, values: npt.ArrayLike) -> float:
 def along_centerlines(scene: Angiography) -> npt.NDArray[np.float64]:
     """The voxels nearest to the points of the centerlines."""
     index = np.rint(np.concatenate([vessel.points for vessel in scene.tree])).astype(int)
-    return scene.array[tuple(index.T)].astype(np.float64)
+    i, j, k = index.T
+    return np.asarray(scene.array[i, j, k], np.float64)
 
 
 def shares(scene: Angiography, window: Window) -> dict[str, float]:
@@ -43,14 +45,14 @@ def shares(scene: Angiography, window: Window) -> dict[str, float]:
 
 def _near_vessels(scene: Angiography) -> npt.NDArray[np.bool_]:
     """Within 6 mm of a lumen, along each axis."""
-    near = scene.labels == LUMEN
+    near: npt.NDArray[np.bool_] = scene.labels == LUMEN
     for axis in range(3):
         reach = [np.roll(near, step, axis) for step in range(-6, 7)]
-        near = np.any(reach, axis=0)
+        near = np.logical_or.reduce(reach)
     return near
 
 
-def contrast(scene: Angiography, context: str, window: Window | None = None) -> tuple[float, float]:
+def contrast(scene: Angiography, context: ContextName, window: Window | None = None) -> tuple[float, float]:
     """The brightness of the lumen and of what is around it in a picture of the volume alone, 0 to 1.
 
     Each is a median of pixels, of those whose rays meet neither bone nor calcifications.

@@ -200,6 +200,7 @@ def _beyond_wall(place: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """How far each place lies beyond the nearest wall (mm), below 0 inside a lumen."""
     nearest = np.full(place.shape[:3], np.inf)
     for vessel in tree():
+        assert vessel.radius is not None
         for point, radius in zip(vessel.points, vessel.radius, strict=True):
             np.minimum(nearest, np.linalg.norm(place - point, axis=-1) - radius, out=nearest)
     return nearest

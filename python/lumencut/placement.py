@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.errors import SettingsError, SpaceWarning
+from lumencut.errors import SettingsError, SpaceWarning, VesselTreeError
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
@@ -148,6 +148,25 @@ def check_space_once(
     """Do as `check_space` for the caller's caller, unless the space was asked for or warned about."""
     if not tree._space_settled:
         tree._space_settled = _warn_if_another_fits(tree, volume, subject, stacklevel)
+
+
+def check_meeting(volume: Volume, tree: VesselTree) -> None:
+    """Refuse a tree wholly outside the volume, and for the caller's caller do as `check_space_once`.
+
+    Raises
+    ------
+    VesselTreeError
+        Where no point lies inside the volume.
+    """
+    points = tree.points
+    if not volume.contains(points).any():
+        low, high = np.round(tree.bounds, 1).tolist()
+        box = np.round([volume.corners.min(axis=0), volume.corners.max(axis=0)], 1).tolist()
+        found = f"none of its {len(points)} points inside the volume (points from {low} to {high} mm)"
+        flipped = volume.contains(points * (-1, -1, 1)).sum()
+        mend = f'{flipped} points would be inside as RAS: read them with coordinates="ras"' if flipped else ""
+        raise VesselTreeError("vessel tree", found, f"points within {box[0]} to {box[1]} mm", mend)
+    check_space_once(tree, volume)
 
 
 def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stacklevel: int = 2) -> bool:

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from typing import Any, Literal
-
-import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
@@ -17,6 +14,7 @@ from lumencut.device import look_for_no_display
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.frame import IMAGES, Frame
 from lumencut.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
+from lumencut.scene_windows import SceneWindows
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -64,6 +62,7 @@ class Renderer:
 
             volume = as_volume(volume)
         self._set_scene(volume, tree)
+        self._windows = SceneWindows(volume, tree)
         if device != "cpu":
             look_for_no_display()
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
@@ -74,7 +73,9 @@ class Renderer:
         if scene is None:
             raise VolumeError("scene of the renderer", "neither a volume nor a tree", "one of them or both")
         if volume is not None and tree is not None:
-            _check_meeting(volume, tree)
+            from lumencut.placement import check_meeting
+
+            check_meeting(volume, tree)
         self._volume, self._tree, self._scene = volume, tree, scene
 
     def with_tree(self, tree: VesselTree | None) -> Renderer:
@@ -95,10 +96,7 @@ class Renderer:
         other = object.__new__(Renderer)
         other._set_scene(self._volume, tree)
         other._core = self._core.with_tree(None if tree is None else tree._arrays())
-        if self._volume is not None:
-            # Taken from the data now, while the tree is there that it is taken along.
-            vars(other)["_window"] = self._window
-            vars(other).update({name: vars(self)[name] for name in ("_whole_window",) if name in vars(self)})
+        other._windows = self._windows
         return other
 
     def __repr__(self) -> str:
@@ -236,20 +234,7 @@ class Renderer:
         VolumeError
             Without a volume.
         """
-        window, context_window = map(self._known, (settings.window, settings.context_window))
-        if window is None and self._tree is not None:
-            window = self.window
-        if context_window is None and settings.context is not None:
-            # The smallest values and the means along rays lie far below those of the vessels.
-            low = settings.context in ("minip", "average")
-            context_window = self._whole_window if low else self.window
-        if (window, context_window) == (settings.window, settings.context_window):
-            return settings
-        return replace(settings, window=window, context_window=context_window)
-
-    def _known(self, window: Window | str | None) -> Window | None:
-        """The window of a name that says how it is taken from the volume."""
-        return self._named_window(window) if isinstance(window, str) else window
+        return self._windows.used(settings, has_tree=self._tree is not None)
 
     @property
     def window(self) -> Window:
@@ -257,35 +242,11 @@ class Renderer:
 
         Contexts of minimum and mean have their own, see :meth:`windowed`.
         """
-        return self._window
-
-    @functools.cached_property
-    def _window(self) -> Window:
-        return Window.from_data(self._shown, self._tree)
-
-    @functools.cached_property
-    def _whole_window(self) -> Window:
-        return Window.whole(self._shown)
-
-    def _named_window(self, name: str) -> Window:
-        """A window that is taken from all of the volume, once."""
-        if name not in self._named:
-            self._named[name] = Window.named(name, self._shown)
-        return self._named[name]
-
-    @functools.cached_property
-    def _named(self) -> dict[str, Window]:
-        return {}
+        return self._windows.main
 
     @functools.cached_property
     def _vessel_ends(self) -> tuple[VesselEnd, ...]:
         return () if self._tree is None else vessel_ends(self._tree)
-
-    @property
-    def _shown(self) -> Volume:
-        if self._volume is None:
-            raise VolumeError("volume of the renderer", "None", "a volume to take the window from")
-        return self._volume
 
 
 def render(
@@ -318,20 +279,6 @@ def _check_kind(tree: Any) -> None:
     if not isinstance(tree, (VesselTree, type(None))):
         expected = "a VesselTree, such as read_centerlines returns, or None"
         raise VesselTreeError("tree", type(tree).__name__, expected)
-
-
-def _check_meeting(volume: Volume, tree: VesselTree) -> None:
-    from lumencut.placement import check_space_once
-
-    points = tree.points
-    if not volume.contains(points).any():
-        low, high = np.round(tree.bounds, 1).tolist()
-        box = np.round([volume.corners.min(axis=0), volume.corners.max(axis=0)], 1).tolist()
-        found = f"none of its {len(points)} points inside the volume (points from {low} to {high} mm)"
-        flipped = volume.contains(points * (-1, -1, 1)).sum()
-        mend = f'{flipped} points would be inside as RAS: read them with coordinates="ras"' if flipped else ""
-        raise VesselTreeError("vessel tree", found, f"points within {box[0]} to {box[1]} mm", mend)
-    check_space_once(tree, volume)
 
 
 def _names(images: Iterable[str]) -> list[str]:

@@ -5,6 +5,7 @@
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
 pub mod backend;
+mod choice;
 pub mod devices;
 pub mod extent;
 mod fused;

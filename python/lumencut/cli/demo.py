@@ -28,9 +28,12 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
     type=click.Path(path_type=Path, file_okay=False),
     help="Where the CT is kept; default: lumencut in the user's cache folder.",
 )
+@click.option("--no-annotate", is_flag=True, help="Leave the labels of the pictures out.")
 @device_option
 @verbose_option
-def demo(directory: Path, cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> None:
+def demo(
+    directory: Path, cache: Path | None, no_annotate: bool, device: Literal["auto", "cpu", "gpu"]
+) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
     Four pictures, one more that shows what lies behind a transparent cut surface, and a turntable. The CT
@@ -43,7 +46,7 @@ def demo(directory: Path, cache: Path | None, device: Literal["auto", "cpu", "gp
     for name, camera, settings in _views(renderer):
         frame = renderer.render(camera, settings)
         timings(name, frame.timings)
-        frame.save(directory / f"{name}.png", annotate=True)
+        frame.save(directory / f"{name}.png", annotate=not no_annotate)
         say(str(directory / f"{name}.png"))
     _spin(renderer, directory / "turntable.webp")
     detail(f"device: {renderer.device}")

@@ -11,7 +11,7 @@ import click
 from click.core import ParameterSource
 
 from lumencut._wording import counted
-from lumencut.cli.options import FILE, placed, placed_like, view_from
+from lumencut.cli import options
 from lumencut.cli.report import warn
 from lumencut.errors import CameraError
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 like_option = click.option(
     "--like",
-    type=FILE,
+    type=options.FILE,
     metavar="PICTURE.png",
     help="Render with the view, the settings and the labels of a .png that lumencut wrote. Options beside it "
     "come on top: --view and --up turn it, --rotate, --tilt and --zoom go on from it, --size keeps what is "
@@ -55,7 +55,7 @@ def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, C
     The one view of a recipe is None where no ``--view`` is beside it.
     """
     if recipe is None:
-        return [(view, view_from({**chosen, "view": view})) for view in chosen["view"]]
+        return [(view, options.view_from({**chosen, "view": view})) for view in chosen["view"]]
     given = typed(chosen)
     views = given.pop("view", (None,))
     if len(views) > 1:
@@ -70,7 +70,7 @@ def camera_of(
     view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any], recipe: Recipe | None
 ) -> Camera:
     """Return the camera of a view: a recipe says its place too, unless it is to fit other vessels."""
-    return placed(view, scene, chosen) if recipe is None or chosen["zoom_to"] else view
+    return options.placed(view, scene, chosen) if recipe is None or chosen["zoom_to"] else view
 
 
 def warn_of_vessels(path: Path | None, recipe: Recipe | None, renderer: Renderer) -> None:
@@ -89,7 +89,7 @@ def camera_like(camera: Camera, given: dict[str, Any]) -> Camera:
         camera = _turned(_resized(camera, given), given)
         if not given.keys() & {"center", "pixel_spacing", "zoom"}:
             return camera
-        return placed_like(camera, {"center": None, "pixel_spacing": None, "zoom": 1.0, **given})
+        return options.placed_like(camera, {"center": None, "pixel_spacing": None, "zoom": 1.0, **given})
     except CameraError as error:
         raise click.UsageError(str(error)) from error
 
