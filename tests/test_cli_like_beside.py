@@ -115,6 +115,8 @@ def test_another_number_of_vessels_is_told(scene):
         f"lumencut: warning: {first} shows 1 vessel, the new picture 2; "
         "--vessel and --exclude choose vessels, beside --like too\n"
     )
+    assert scene.render("--like", first, "--exclude", "LAD", "--zoom-to", "LCX", output="third.png")[1] == ""
+    assert scene.render("--like", other, "--vessel", "LAD", output="third.png")[1] == ""
     assert read_recipe(other).camera == read_recipe(first).camera
     assert (pixels(other) != pixels(first)).any()
 

@@ -73,13 +73,16 @@ def camera_of(
     return options.placed(view, scene, chosen) if recipe is None or chosen["zoom_to"] else view
 
 
-def warn_of_vessels(path: Path | None, recipe: Recipe | None, renderer: Renderer) -> None:
-    """Say where a picture showed another number of vessels: it does not tell which were chosen."""
-    if recipe is None:
+def warn_of_vessels(chosen: dict[str, Any], recipe: Recipe | None, renderer: Renderer) -> None:
+    """Say where a picture showed another number of vessels, whose choice it does not tell.
+
+    Whoever chooses vessels now knows.
+    """
+    if recipe is None or chosen["vessel"] or chosen["exclude"]:
         return
     count = 0 if renderer.tree is None else len(renderer.tree)
     if recipe.vessels != count:
-        shown = f"{path} shows {counted(recipe.vessels, 'vessel')}, the new picture {count}"
+        shown = f"{chosen['like']} shows {counted(recipe.vessels, 'vessel')}, the new picture {count}"
         warn(f"{shown}; --vessel and --exclude choose vessels, beside --like too")
 
 

@@ -70,7 +70,7 @@ def render(
     check_labels(chosen, output, views[0][1].size)
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
-    warn_of_vessels(chosen["like"], recipe, renderer)
+    warn_of_vessels(chosen, recipe, renderer)
     for picture, (_, view) in zip(planned, views, strict=True):
         camera = camera_of(view, scene, chosen, recipe)
         name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
