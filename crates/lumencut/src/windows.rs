@@ -132,7 +132,7 @@ fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
 
 /// A window that tells lumen from its surroundings in a picture of all of the volume, where there are no centerlines.
 ///
-/// What stands for lumen and tissue is found from the distribution of the voxels, see [`Populations`].
+/// What stands for lumen and tissue is found from the distribution of the voxels, see `populations.rs`.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
