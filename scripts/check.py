@@ -31,7 +31,7 @@ SCRIPTS = tuple(
     f"scripts/{name}.py"
     for name in (
         *("check", "frames", "fuzz", "licences", "render_phantom"),
-        *("settings", "toolchain", "wasm_size", "wheel"),
+        *("settings", "toolchain", "wasm_size", "wheel", "window_table"),
     )
 )
 FUZZ_RUNS = 110_000

@@ -38,7 +38,7 @@ def verdicts_of(cases: Iterable[Case], readers: Mapping[str, Reader]) -> Iterato
                 warnings.simplefilter("ignore")
                 made = case.write(Path(folder))
             for name, reader in readers.items():
-                yield case, name, judged(case, made, reader(made.path, case.series))
+                yield case, name, judged(case, made, reader(made.path, case))
 
 
 def grouped(cases: Iterable[Case], readers: Mapping[str, Reader]) -> dict[str, Verdicts]:

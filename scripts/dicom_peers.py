@@ -1,4 +1,7 @@
-"""Other readers of DICOM, each used as its documentation says and with its default settings."""
+"""Readers of DICOM: others, each used as its documentation says and with its default settings, and Lumencut.
+
+Lumencut alone is told what a case asks for: the others have no such option, or choose by themselves.
+"""
 
 from __future__ import annotations
 
@@ -18,6 +21,8 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from dicom_series import Case
 
 Grid = tuple[npt.NDArray[Any], npt.NDArray[np.float64]]
 """Voxels [k, j, i] and the affine from (i, j, k) to world (mm, LPS)."""
@@ -66,7 +71,7 @@ def attempt(answer: Answer, read: Callable[[], Grid | None]) -> None:
             answer.volumes.append(volume)
 
 
-def simpleitk(path: Path, series: str | None) -> Answer:
+def simpleitk(path: Path, case: Case) -> Answer:
     """Every series that GDCM finds in the folder, by ImageSeriesReader."""
     import SimpleITK
 
@@ -107,7 +112,7 @@ def multiframe(names: tuple[str, ...]) -> bool:
     return int(first.get("NumberOfFrames") or 1) > 1
 
 
-def highdicom(path: Path, series: str | None) -> Answer:
+def highdicom(path: Path, case: Case) -> Answer:
     """Every series by get_volume_from_series, every multi-frame file by imread and get_volume."""
     import highdicom as hd
     import pydicom
@@ -140,7 +145,7 @@ def highdicom(path: Path, series: str | None) -> Answer:
     return answer
 
 
-def dcm2niix(path: Path, series: str | None) -> Answer:
+def dcm2niix(path: Path, case: Case) -> Answer:
     """Everything that dcm2niix converts, back from NIfTI."""
     import nibabel
 
@@ -178,7 +183,7 @@ def _dcm2niix_binary() -> str:
     return str(package.bin)
 
 
-def lumencut(path: Path, series: str | None) -> Answer:
+def lumencut(path: Path, case: Case) -> Answer:
     """Lumencut, whose warnings are log messages."""
     from lumencut import read_volume
 
@@ -188,7 +193,7 @@ def lumencut(path: Path, series: str | None) -> Answer:
     log.addHandler(handler)
 
     def read() -> Grid:
-        volume = read_volume(path, series=series)
+        volume = read_volume(path, series=case.series, resample_slices=case.resample_slices)
         return volume.array, volume.world_from_index
 
     try:
@@ -198,7 +203,7 @@ def lumencut(path: Path, series: str | None) -> Answer:
     return answer
 
 
-Reader = Callable[[Path, str | None], Answer]
+Reader = Callable[[Path, Case], Answer]
 PEERS: dict[str, Reader] = {"SimpleITK": simpleitk, "highdicom": highdicom, "dcm2niix": dcm2niix}
 
 

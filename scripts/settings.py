@@ -9,6 +9,7 @@ import textwrap
 from pathlib import Path
 
 from lumencut._lumencut import SETTINGS, Setting
+from lumencut.window import WINDOW_NAMES
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -60,7 +61,6 @@ PLAIN = {
     "flag": "bool",
     "number": "float",
     "count": "int",
-    "window": "Window",
     "opacity": "Opacity",
     "slab": "Slab",
 }
@@ -110,6 +110,8 @@ def kind_in_words(setting: Setting) -> str:
             return f"{{{names(setting)}}}" + (" or None" if setting.optional else "")
         case "transfer":
             return f"{{{names(setting)}}} or TransferFunction"
+        case "window":
+            return f"Window or {{{window_names()}}}"
     return PLAIN[setting.kind]
 
 
@@ -122,6 +124,8 @@ def annotation(name: str, setting: Setting) -> str:
             kind = alias(name)
         case "transfer":
             kind = "str | TransferFunction"
+        case "window":
+            kind = "Window | str"
         case _:
             kind = PLAIN[setting.kind]
     return f"{kind} | None" if setting.optional else kind
@@ -130,6 +134,11 @@ def annotation(name: str, setting: Setting) -> str:
 def alias(name: str) -> str:
     """What the type of the names of a setting is called."""
     return "".join(word.capitalize() for word in name.split("_")) + "Name"
+
+
+def window_names() -> str:
+    """The names that a window can have."""
+    return ", ".join(f'"{name}"' for name in WINDOW_NAMES)
 
 
 def names(setting: Setting) -> str:
@@ -175,6 +184,8 @@ def page_kind(setting: Setting) -> str:
             return f"one of {named}" + (" or None" if setting.optional else "")
         case "transfer":
             return "name or `TransferFunction`"
+        case "window":
+            return "`Window` or " + ", ".join(f"`{name}`" for name in WINDOW_NAMES)
         case "flag" | "number" | "count":
             return {"flag": "yes or no", "number": "number", "count": "whole number"}[setting.kind]
     return f"`{PLAIN[setting.kind]}`"

@@ -40,6 +40,7 @@ from dicom_series import (
     doubled,
     kernel,
     localiser,
+    resampled,
     sets,
     shuffled,
     together,
@@ -89,6 +90,9 @@ def half_a_slice_up() -> list[Image]:
     return images(affine, contrast=120.0)
 
 
+TWO_DISTANCES = moved({k: 1.0 * (k > 12) for k in range(COUNT)})
+ONE_OFF = moved({9: 0.5, 10: -0.5})
+ON_A_GRID = "unevenly spaced slices, with `--resample-slices`"
 PLAIN = "plain stacks: axial, coronal, sagittal, oblique, any order"
 _STACKS = {
     "axial": Stack(PLAIN_STACK, change=helical),
@@ -121,15 +125,22 @@ _GEOMETRY = [
     Case(
         "slices 2 to 3 mm apart",
         "unevenly spaced slices",
-        Stack(moved({k: 1.0 * (k > 12) for k in range(COUNT)}), wanted=None),
+        Stack(TWO_DISTANCES, wanted=None),
         ("uneven|missing",),
     ),
     Case(
         "one slice 0.5 mm off",
         "unevenly spaced slices",
-        Stack(moved({9: 0.5, 10: -0.5}), wanted=None),
+        Stack(ONE_OFF, wanted=None),
         ("uneven",),
     ),
+    Case(
+        "slices 2 to 3 mm apart, on a grid",
+        ON_A_GRID,
+        resampled(TWO_DISTANCES, 1.0),
+        resample_slices=True,
+    ),
+    Case("one slice 0.5 mm off, on a grid", ON_A_GRID, resampled(ONE_OFF, 0.5), resample_slices=True),
     Case(
         "phases of the heart",
         "two phases or kernels in one series",

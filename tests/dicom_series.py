@@ -31,11 +31,14 @@ class Made:
         All images with a place, of every stack.
     wanted : str, optional
         The part that is the volume; None where nothing is one volume.
+    distance : float, optional
+        The distance (mm) of the regular grid that slices of uneven distances are put on.
     """
 
     path: Path
     images: list[Image]
     wanted: str | None = "only"
+    distance: float | None = None
 
     @property
     def truth(self) -> tuple[Affine, Array]:
@@ -43,9 +46,20 @@ class Made:
         stack = [one for one in self.images if one.part == self.wanted]
         normal = np.cross(stack[0].plane[:3, 0], stack[0].plane[:3, 1])
         stack.sort(key=lambda one: float(one.plane[:3, 3] @ normal))
-        affine = stack[0].plane.copy()
-        affine[:3, 2] = (stack[-1].plane[:3, 3] - affine[:3, 3]) / (len(stack) - 1)
-        return affine, np.stack([one.values for one in stack])
+        affine, voxels = stack[0].plane.copy(), np.stack([one.values for one in stack])
+        heights = np.array([np.linalg.norm(one.plane[:3, 3] - affine[:3, 3]) for one in stack])
+        last = len(stack) - 1 if self.distance is None else round(heights[-1] / self.distance)
+        affine[:3, 2] = (stack[-1].plane[:3, 3] - affine[:3, 3]) / last
+        return affine, voxels if self.distance is None else on_grid(voxels, heights, last)
+
+
+def on_grid(voxels: Array, heights: Array, last: int) -> Array:
+    """Slices at these heights (mm) on a regular grid, linearly between neighbours."""
+    wanted = np.linspace(heights[0], heights[-1], last + 1)
+    above = np.searchsorted(heights, wanted).clip(1, len(heights) - 1)
+    share = (wanted - heights[above - 1]) / (heights[above] - heights[above - 1])
+    share = share[:, None, None]
+    return np.rint((1 - share) * voxels[above - 1] + share * voxels[above]).astype(np.int32)
 
 
 @dataclass(frozen=True)
@@ -68,6 +82,8 @@ class Case:
         How much a value may be off, where compression loses some.
     series : str, optional
         The series that is asked for.
+    resample_slices : bool
+        Whether slices of uneven distances are to be put on a regular grid.
     needs : str
         A package that only this case needs.
     """
@@ -79,6 +95,7 @@ class Case:
     notes: tuple[str, ...] = ()
     loss: float = 0.0
     series: str | None = None
+    resample_slices: bool = False
     needs: str = ""
 
 
@@ -183,6 +200,11 @@ def truncated(stack: Sequence[Image]) -> Callable[[Path], Made]:
         return replace(made, wanted=None)
 
     return write
+
+
+def resampled(stack: Sequence[Image], distance: float) -> Callable[[Path], Made]:
+    """A stack of uneven distances that belongs on a regular grid of this distance (mm)."""
+    return lambda folder: replace(Stack(stack)(folder), distance=distance)
 
 
 def zipped(stack: Sequence[Image]) -> Callable[[Path], Made]:

@@ -50,14 +50,54 @@ def pairs_along(depth, vessel, leap, tolerance):
 
 
 def silhouettes(surface, camera, tolerance):
-    """The strength of silhouettes of the rule leap, and where rounding may make a leap or not.
+    """The strength of silhouettes of the rule leap, and where rounding may make it another one.
 
     Two neighbours leap where the depth differs from what the slope of either of them alone makes it, each
-    time by more than the diameter of the vessel, and by more than 2 mm.
+    time by more than the diameter of the vessel, and by more than 2 mm. Each leap draws its own line.
     """
-    side, beside = camera.pixel_spacing, np.zeros(surface.depth.shape)
-    doubt = surface.unsure_depth | surface.unsure_vessel
-    beside_doubt = doubt.astype(float)
+    lumen, strength = surface.beyond <= 0, np.zeros(surface.depth.shape)
+    vague_here = surface.unsure_depth | surface.unsure_vessel | (np.abs(surface.beyond) < tolerance)
+    doubt, leaps = _near(vague_here), leaps_between(surface, camera)
+    for here, there, least in leaps:
+        if abs(least) < tolerance or (
+            least > 0 and abs(surface.depth[there] - surface.depth[here]) < tolerance
+        ):
+            doubt |= _near(_at(here, strength.shape)) | _near(_at(there, strength.shape))
+    leaps = {(here, there) for here, there, least in leaps if least > 0}
+    width, sides = np.clip(1 / camera.pixel_spacing, 0.5, 1.5), []
+    for here, there in leaps:
+        far = max(here, there, key=lambda pixel: surface.depth[pixel])
+        side = far if lumen[here] == lumen[there] else there if lumen[here] else here
+        sides.append((side, there if side == here else here))
+    for side, other in sides:
+        draw_line(strength, side, other, width, lumen, leaps)
+    for pixel in {other for _, other in sides} - {side for side, _ in sides}:
+        strength[pixel] *= lumen[pixel]
+    return strength, doubt
+
+
+def draw_line(strength, side, other, width, lumen, leaps):
+    """Draw the line of one leap on the side of the pixel `side`."""
+    middle, outwards = (np.add(side, other)) / 2, np.subtract(side, other)
+    for step in np.ndindex(5, 5):
+        pixel = (side[0] + step[0] - 2, side[1] + step[1] - 2)
+        if not (0 <= pixel[0] < strength.shape[0] and 0 <= pixel[1] < strength.shape[1]):
+            continue
+        apart = np.subtract(pixel, middle)
+        if apart @ outwards <= 0:
+            continue
+        if lumen[pixel]:
+            straight = tuple(np.add(side, outwards))
+            goes_on = pixel == straight and not {(side, pixel), (pixel, side)} & leaps
+            if not (lumen[side] and lumen[other] and (pixel == side or goes_on)):
+                continue
+        cover = np.clip(max(width, 1) + 0.5 - np.hypot(*apart), 0, 1) * min(width, 1)
+        strength[pixel] = max(strength[pixel], cover)
+
+
+def leaps_between(surface, camera):
+    """Of each pair of neighbours both pixels and by how much they exceed the smaller bound of a leap (mm)."""
+    side, pairs = camera.pixel_spacing, []
     for axis, along in ((1, (side, 0.0)), (0, (0.0, -side))):
         ends = [slice(None, -1), slice(1, None)]
         here, there = (tuple(end if n == axis else slice(None) for n in (0, 1)) for end in ends)
@@ -67,11 +107,21 @@ def silhouettes(surface, camera, tolerance):
             for end in (here, there)
         ]
         least = np.minimum(*off)
-        for end in (here, there):
-            beside[end] = np.maximum(beside[end], least > 0)
-            vague = (np.abs(least) < tolerance) | doubt[here] | doubt[there]
-            beside_doubt[end] = np.maximum(beside_doubt[end], vague)
-    return depth_filter(beside), depth_filter(beside_doubt) > 0
+        for j, i in np.ndindex(least.shape):
+            pairs.append(((j, i), (j + (axis == 0), i + (axis == 1)), least[j, i]))
+    return pairs
+
+
+def _at(pixel, shape):
+    image = np.zeros(shape, bool)
+    image[pixel] = True
+    return image
+
+
+def _near(pixels):
+    """The pixels and all that are up to two pixels away along both axes."""
+    padded = np.pad(pixels, 2)
+    return np.lib.stride_tricks.sliding_window_view(padded, (5, 5)).any(axis=(2, 3))
 
 
 def position(depth, camera):

@@ -31,6 +31,9 @@ class Surface:
     unsure_depth: np.ndarray
     unsure_vessel: np.ndarray
     radius: np.ndarray  # of the winner at level 0 (mm)
+    beyond: (
+        np.ndarray
+    )  # how far beyond the lumen of the winner at level 0 the pixel lies (mm), negative within
     slope: np.ndarray  # change of depth to the right and upwards, (H, W, 2)
     gap: np.ndarray  # arc length between the two places that are blended (mm)
 
@@ -182,6 +185,9 @@ def cut_surface(tree, camera, settings, depth_tolerance=1e-3):
         balanced = (np.abs(weight - 0.5) < blur + 1e-5) & ~same
         other = np.where(weight > 0.5, second["other_vessel"], first["other_vessel"]) | balanced
     gap = np.where(same, np.abs(second["s"] - first["s"]) * (weight > 0), np.inf)
-    flat = (mixed("z"), vessel, distance, mixed("slack"), unsure, other, decided.r, mixed("slope"), gap)
+    flat = (
+        *(mixed("z"), vessel, distance, mixed("slack"), unsure, other),
+        *(decided.r, decided.d - decided.r, mixed("slope"), gap),
+    )
     size = camera.size[::-1]
     return Surface(*(image.reshape(*size, *image.shape[1:]) for image in flat))

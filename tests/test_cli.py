@@ -47,9 +47,9 @@ def rendered(run, monkeypatch):
     asked = []
     original = Renderer.render
 
-    def watched(self, camera=None, settings=None):
+    def watched(self, camera=None, settings=None, **more):
         asked.append((camera, settings))
-        return original(self, camera, settings)
+        return original(self, camera, settings, **more)
 
     monkeypatch.setattr(Renderer, "render", watched)
 
@@ -324,8 +324,8 @@ def test_the_process_leaves_with_1_and_one_line(tmp_path):
 
 def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     code = """if True:
-        import sys, time, lumencut.centerlines
-        lumencut.centerlines.CenterlineFile = lambda *_: print("reading", flush=True) or time.sleep(60)
+        import sys, time, lumencut.centerline_file
+        lumencut.centerline_file.CenterlineFile = lambda *_: print("reading", flush=True) or time.sleep(60)
         from lumencut.cli import main
         main(["render", "ct.nii", "lines.vtk", "-o", sys.argv[1]])
     """
@@ -342,7 +342,7 @@ def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("command", ["", "render", "turntable", "evaluate", "info", "demo"])
+@pytest.mark.parametrize("command", ["", "render", "turntable", "evaluate", "info", "settings", "demo"])
 def test_help_imports_nothing_heavy(command):
     code = (
         "import sys; from lumencut.cli import main; main(sys.argv[1:], standalone_mode=False); "
@@ -358,7 +358,9 @@ def test_version():
     assert re.fullmatch(r"lumencut \d+\.\d+\.\d+\S*\n", result.stdout)
 
 
-@pytest.mark.parametrize(("command", "examples"), [("render", 3), ("turntable", 2), ("evaluate", 2)])
+@pytest.mark.parametrize(
+    ("command", "examples"), [("render", 5), ("turntable", 2), ("evaluate", 2), ("settings", 1)]
+)
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
     assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == examples

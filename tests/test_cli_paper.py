@@ -52,9 +52,9 @@ def test_pictures_are_rendered_by_the_rules(files, tmp_path, monkeypatch, comman
     asked = []
     original = Renderer.render
 
-    def watched(self, camera=None, settings=None):
+    def watched(self, camera=None, settings=None, **more):
         asked.append(settings)
-        return original(self, camera, settings)
+        return original(self, camera, settings, **more)
 
     monkeypatch.setattr(Renderer, "render", watched)
     output = str(tmp_path / "out.png")

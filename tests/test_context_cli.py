@@ -27,9 +27,9 @@ def asked(monkeypatch):
     found = []
     original = Renderer.render
 
-    def watched(self, camera=None, settings=None):
+    def watched(self, camera=None, settings=None, **more):
         found.append(settings)
-        return original(self, camera, settings)
+        return original(self, camera, settings, **more)
 
     monkeypatch.setattr(Renderer, "render", watched)
     return found

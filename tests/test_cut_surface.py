@@ -337,7 +337,8 @@ def test_silhouettes_of_leaps_and_how_far_apart_blends_are(seed, direction, spac
     surface = reference_surface.cut_surface(tree, camera, Settings(), TOLERANCE)
     strength, doubt = reference_images.silhouettes(surface, camera, 0.01)
     assert doubt.mean() < 0.1
-    assert (strength[~doubt] > 0.5).any()
+    # At 2 mm per pixel the lines have half their strength.
+    assert (strength[~doubt] > 0.4).any()
     np.testing.assert_allclose(found["strength"][~doubt], strength[~doubt], rtol=0, atol=1e-5)
     sure = ~(surface.unsure_depth | surface.unsure_vessel)
     assert sure.mean() > 0.99

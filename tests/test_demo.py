@@ -12,8 +12,9 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from lumencut import FormatError, Vessel, VesselTree, Volume, demo
+from lumencut import FormatError, Renderer, Vessel, VesselTree, Volume, demo
 from lumencut.cli import main
+from lumencut.recipe import read_recipe
 
 PICTURES = ["anterior.png", "context.png", "inferior.png", "left.png", "oblique.png", "turntable.webp"]
 
@@ -47,8 +48,10 @@ def offline(monkeypatch):
     monkeypatch.setattr(demo.subprocess, "run", refused)
 
 
-def run_demo(tmp_path):
-    return CliRunner().invoke(main, ["demo", str(tmp_path / "shown"), "--cache", str(tmp_path / "cache")])
+def run_demo(tmp_path, *more, folder="shown"):
+    return CliRunner().invoke(
+        main, ["demo", str(tmp_path / folder), "--cache", str(tmp_path / "cache"), *more]
+    )
 
 
 def test_the_volume_is_taken_once(index, tmp_path):
@@ -115,6 +118,22 @@ def test_the_demo_makes_five_pictures_and_a_turntable(index, tmp_path):
     assert all(str(tmp_path / "shown" / name) in result.stdout for name in PICTURES)
     with Image.open(tmp_path / "shown" / "turntable.webp") as picture:
         assert (picture.n_frames, picture.size) == (24, (384, 384))
+
+
+def test_pictures_without_labels_are_those_that_were_rendered(index, tmp_path):
+    run_demo(tmp_path)
+    result = run_demo(tmp_path, "--no-annotate", folder="bare")
+    assert (result.exit_code, result.stderr) == (0, "")
+    for name in PICTURES[:-1]:
+        labelled, bare = (read_recipe(tmp_path / folder / name) for folder in ("shown", "bare"))
+        assert (labelled.annotate, bare.annotate) == (True, False)
+        with Image.open(tmp_path / "shown" / name) as one, Image.open(tmp_path / "bare" / name) as other:
+            assert one.tobytes() != other.tobytes()
+    renderer = Renderer(*demo.stent_scene(tmp_path / "cache"))
+    recipe = read_recipe(tmp_path / "bare" / "anterior.png")
+    with Image.open(tmp_path / "bare" / "anterior.png") as picture:
+        expected = renderer.render(recipe.camera, recipe.settings).image
+        np.testing.assert_array_equal(np.asarray(picture.convert("RGBA")), expected)
 
 
 def test_offline_a_phantom_is_shown_and_said(offline, tmp_path, monkeypatch):

@@ -26,7 +26,7 @@ def test_series(tmp_path, caplog, case):
         for word in case.words:
             assert re.search(word, str(caught.value)), str(caught.value)
         return
-    volume = read_volume(made.path, series=case.series)
+    volume = read_volume(made.path, series=case.series, resample_slices=case.resample_slices)
     affine, voxels = made.truth
     np.testing.assert_allclose(volume.world_from_index, affine, atol=1e-5)
     assert volume.array.shape == voxels.shape
@@ -48,7 +48,7 @@ def test_datasets_in_memory_are_what_their_files_are(tmp_path, case):
         datasets = [pydicom.dcmread(path) for path in sorted(made.path.rglob("*")) if path.is_file()]
     except Exception as unreadable:  # not by pydicom either
         pytest.skip(f"{type(unreadable).__name__}: there are no datasets")
-    if case.words:
+    if case.words or case.resample_slices:
         with pytest.raises(VolumeError):
             as_volume(datasets)
         return

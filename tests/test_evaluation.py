@@ -288,7 +288,6 @@ def test_the_command_writes_files(scene, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["a", "b", "c"], "found 3 files; expected [VOLUME] CENTERLINES"),
         (["a", "--methods", "csr,cpr"], "found 'cpr'"),
         (["a", "--methods", ","], "no method"),
         (["a", "--pictures", "x"], "--pictures without VOLUME"),

@@ -36,11 +36,11 @@ def computed(scene, monkeypatch):
     class Watched:
         interrupted = False
 
-        def render(self, volume, camera, settings, images=None):
+        def render(self, volume, camera, settings, images=None, told=None):
             asked.append(images)
             if self.interrupted:
                 raise KeyboardInterrupt
-            return core.render(volume, camera, settings, images)
+            return core.render(volume, camera, settings, images, told)
 
     monkeypatch.setattr(renderer, "_core", Watched())
     return renderer, asked

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lumencut import Camera, FileError, FormatError, Renderer, VolumeError, phantom
+from lumencut import (
+    Camera,
+    FileError,
+    FormatError,
+    Renderer,
+    SettingsError,
+    VolumeError,
+    phantom,
+    save_animation,
+)
 from scenes import wandering
 
 
@@ -127,3 +136,16 @@ def test_an_interrupted_save_leaves_no_part(frame, tmp_path, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         frame.save(tmp_path / "view.npz")
     assert os.listdir(tmp_path) == []
+
+
+def test_frames_of_an_animation_have_labels_on_request(tmp_path):
+    made = phantom.calcified_wall()
+    shown = Renderer(made.volume, made.tree).render(Camera.anterior(made.tree, (240, 200)))
+    for annotate, expected in ((False, shown.image), (True, shown.annotated())):
+        folder = tmp_path / str(annotate)
+        save_animation([shown, shown], folder, annotate=annotate)
+        for name in ("frame-000.png", "frame-001.png"):
+            with Image.open(folder / name) as picture:
+                np.testing.assert_array_equal(np.asarray(picture), expected[..., :3])
+    with pytest.raises(SettingsError, match="vessel_names: found True without annotate"):
+        save_animation([shown], tmp_path / "spin.webp", vessel_names=True)

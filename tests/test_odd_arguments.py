@@ -31,7 +31,7 @@ from lumencut.volume_files import inspect_volume
 from scene_files import bent_line
 
 READERS = [read_volume, inspect_volume, read_centerlines, inspect_centerlines]
-NO_PATHS = [None, 5, b"ct.nii", ["ct.nii"]]
+NO_PATHS = [None, 5, b"ct.nii", {"ct.nii"}]
 NO_FILES = ["", "a\0b.vtp", "a\0b.nii", "a" * 5000 + ".nii", "\ud800.png"]
 needs_pipes = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
 

@@ -118,19 +118,52 @@ def test_a_single_frame_is_an_animation_too(renderer, tmp_path):
         assert picture.size == (24, 20)
 
 
+def two_alive(frames):
+    """Passes frames on, of which the receiver may keep the one before."""
+    alive = []
+    for frame in frames:
+        alive.append(weakref.ref(frame.image))
+        yield frame
+        del frame
+        assert sum(one() is not None for one in alive) <= 2
+
+
+@pytest.mark.parametrize("name", ["spin.webp", "spin.png"])
+def test_animations_hold_one_frame_at_a_time(renderer, tmp_path, name):
+    save_animation(two_alive(turn(renderer, 6)), tmp_path / name)
+    with Image.open(tmp_path / name) as picture:
+        assert picture.n_frames == 6
+
+
+@pytest.mark.parametrize("name", ["spin.webp", "spin.png"])
+def test_opaque_and_transparent_frames_follow_each_other(renderer, tmp_path, name):
+    opaque, clear = Settings(background=(90, 0, 200, 255)), Settings(background=(0, 200, 0, 0), context=None)
+    camera = Camera.anterior(renderer.tree, (24, 20)).zoomed(0.5)
+    frames = [renderer.render(camera, settings) for settings in (opaque, clear, opaque)]
+    assert frames[1].image[..., 3].min() == 0
+    save_animation(frames, tmp_path / name)
+    with Image.open(tmp_path / name) as picture:
+        for number, frame in enumerate(frames):
+            picture.seek(number)
+            found = np.asarray(picture.convert("RGBA"))
+            np.testing.assert_array_equal(found[..., 3], frame.image[..., 3])
+
+
+def test_durations_add_up_where_frames_are_no_whole_milliseconds(renderer, tmp_path):
+    save_animation(turn(renderer, 7), tmp_path / "spin.png", fps=7)
+    with Image.open(tmp_path / "spin.png") as picture:
+        durations = []
+        for number in range(7):
+            picture.seek(number)
+            durations.append(picture.info["duration"])
+    assert sum(durations) == 1000
+    assert set(durations) == {142, 143}
+
+
 @pytest.mark.parametrize("target", ["new", "old", "old/view-%02d.tif"])
 def test_sequences_are_one_picture_per_frame_and_hold_one_frame_at_a_time(renderer, tmp_path, target):
     (tmp_path / "old").mkdir()
-    alive = []
-
-    def watched():
-        for frame in turn(renderer, 4):
-            alive.append(weakref.ref(frame.depth))
-            yield frame
-            del frame
-            assert sum(one() is not None for one in alive) <= 2
-
-    save_animation(watched(), tmp_path / target)
+    save_animation(two_alive(turn(renderer, 4)), tmp_path / target)
     folder, name = (target, "frame-%03d.png") if "%" not in target else ("old", "view-%02d.tif")
     assert sorted(path.name for path in (tmp_path / folder).iterdir()) == [
         name % number for number in range(4)
@@ -158,8 +191,9 @@ def test_a_turn_that_fails_leaves_nothing(renderer, tmp_path, target):
 
 @pytest.mark.parametrize("target", ["spin.webp", "frames"])
 def test_a_full_disk_leaves_nothing(renderer, tmp_path, target, monkeypatch):
-    def full(self, path, *_, **__):
-        Path(path).write_bytes(b"half")
+    def full(self, target, *_, **__):
+        if isinstance(target, Path):
+            target.write_bytes(b"half")
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(Image.Image, "save", full)
@@ -244,9 +278,9 @@ def test_the_command_takes_rotation_and_degrees_from_the_options(tmp_path, monke
     views = []
     original = Renderer.render
 
-    def watched(self, camera=None, settings=None):
+    def watched(self, camera=None, settings=None, **more):
         views.append(camera)
-        return original(self, camera, settings)
+        return original(self, camera, settings, **more)
 
     monkeypatch.setattr(Renderer, "render", watched)
     result = spun(

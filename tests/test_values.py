@@ -255,8 +255,12 @@ def test_what_cannot_be_projected(wrong):
 
 
 def test_the_article_fits_the_name():
-    for name, kind in (("opacity", "an Opacity"), ("window", "a Window"), ("slab", "a Slab")):
-        with pytest.raises(SettingsError, match=f"{name}: found 3; expected {kind} or None"):
+    for name, kind in (
+        ("opacity", "an Opacity or None"),
+        ("window", "a Window, one of"),
+        ("slab", "a Slab or None"),
+    ):
+        with pytest.raises(SettingsError, match=f"{name}: found 3; expected {kind}"):
             Settings(**{name: 3})
 
 

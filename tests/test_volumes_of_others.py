@@ -103,7 +103,7 @@ def test_what_is_no_volume_is_refused_as_such(tmp_path):
     (tmp_path / "line.csv").write_text("0,0,0\n1,2,3\n")
     for thing in ("ct.nii", np.zeros((3, 3, 3)), [], [1, 2], [*STACK, None]):
         with pytest.raises(
-            CameraError, match=r"scene of the view: found .*; expected a VesselTree, a Volume"
+            CameraError, match=r"scene of the view: found .*; expected a VesselTree, a Vessel, a Volume"
         ):
             Camera.anterior(thing)
         for take in (Window.whole, Window.from_data, as_volume):

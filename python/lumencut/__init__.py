@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer, render
     from lumencut.settings import Settings
     from lumencut.slab import Slab
+    from lumencut.threads import get_threads, set_threads
     from lumencut.transfer import TransferFunction
     from lumencut.turntables import fitted_turn, save_animation, turntable
     from lumencut.vessel_tree import Vessel, VesselTree
@@ -71,6 +72,7 @@ _HOME = {
     "renderer": ("Renderer", "render"),
     "settings": ("Settings",),
     "slab": ("Slab",),
+    "threads": ("get_threads", "set_threads"),
     "transfer": ("TransferFunction",),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
     "vessel_tree": ("Vessel", "VesselTree"),
@@ -112,11 +114,13 @@ __all__ = [
     "devices",
     "evaluate",
     "fitted_turn",
+    "get_threads",
     "list_series",
     "read_centerlines",
     "read_volume",
     "render",
     "save_animation",
+    "set_threads",
     "turntable",
     "write_centerlines",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Self
 
 from lumencut import _lumencut
@@ -10,9 +11,9 @@ from lumencut._wording import a
 from lumencut.errors import SettingsError
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
-from lumencut.window import Opacity, Window
+from lumencut.window import Opacity, checked_window
 
-_CLASSES = {"window": Window, "opacity": Opacity, "slab": Slab}
+_CLASSES = {"opacity": Opacity, "slab": Slab}
 
 
 class CheckedSettings:
@@ -45,6 +46,54 @@ class CheckedSettings:
             For a setting outside its range.
         """
         return cls(**{**_lumencut.PAPER, **changes})
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Self:
+        """Return the settings of a TOML file as :meth:`save` writes it.
+
+        Each key is the name of a setting; settings that the file leaves out have their defaults. Windows,
+        opacities and slabs are tables of their fields, colours texts such as ``"#ffdc00"``, control points of
+        a transfer function an array of tables with ``intensity``, ``color`` and ``opacity``. ``"none"``
+        stands for None.
+
+        Parameters
+        ----------
+        path : path-like
+            The file, of at most 1 MiB.
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be read.
+        FormatError
+            For a file that is no TOML.
+        SettingsError
+            For a key that no setting has, or a value of another type or outside its range. The error names
+            the file.
+        """
+        from lumencut.settings_file import read_settings
+
+        return read_settings(path, cls)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write all settings as a TOML file with comments, which appears only once it is whole.
+
+        :meth:`from_file` gives equal settings back. What is taken from the data (None) is left out, in a
+        comment.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; ``.toml`` is the usual ending.
+
+        Raises
+        ------
+        FileError
+            Where the file cannot be written.
+        """
+        from lumencut.settings_file import write_settings
+
+        write_settings(self, path)
 
     def __getstate__(self) -> dict[str, Any]:
         return vars(self)
@@ -79,6 +128,8 @@ def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
             return integers(SettingsError, name, value, 0, 255, len(setting.default))
         case "choice":
             choice(SettingsError, name, value, setting.choices, or_none)
+        case "window":
+            return checked_window(name, value)
         case "transfer":
             if not isinstance(value, TransferFunction):
                 choice(SettingsError, name, value, setting.choices, f", a TransferFunction{or_none}")

@@ -43,7 +43,8 @@ def integers(
     """Return ``value`` as ``count`` whole numbers from ``low`` to ``high``."""
     array = numbers(error, subject, value, (count,))
     if not ((array >= low) & (array <= high) & (array == np.floor(array))).all():
-        raise error(subject, _short(value), f"{count} whole numbers from {low} to {high}")
+        found, what = (value[0], "a whole number") if count == 1 else (value, f"{count} whole numbers")
+        raise error(subject, _short(found), f"{what} from {low} to {high}")
     return tuple(int(n) for n in array)
 
 

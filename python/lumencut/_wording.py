@@ -18,7 +18,7 @@ def a(name: str) -> str:
     return f"{'an' if name[:1].lower() in 'aeio' else 'a'} {name}"
 
 
-def listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str], most: int = _MENTIONED) -> str:
     """Give the first few names and how many more there are."""
-    tail = f" and {len(names) - _MENTIONED} more" if len(names) > _MENTIONED else ""
-    return ", ".join(names[:_MENTIONED]) + tail
+    tail = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + tail

@@ -6,6 +6,7 @@ import itertools
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -15,6 +16,7 @@ import numpy as np
 
 from lumencut._checks import number
 from lumencut._files import WRITABLE, checked_path, move, private_folder, replace_whole
+from lumencut._moving_pictures import Apng, MovingPicture, WebP
 from lumencut._wording import a
 from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
 
@@ -26,15 +28,16 @@ Writer: TypeAlias = "Callable[[Iterable[Frame], float], None]"
 #: Frames per second: a frame of an APNG lasts from 1 ms to 65 s.
 _SLOWEST, _FASTEST = 1 / 60, 1000.0
 _NUMBER = re.compile(r"%0?\d*d")
-_MOVING = {".webp": "WEBP", ".png": "PNG", ".apng": "PNG"}
-# Lossless is five times larger without a difference that an eye finds at this quality.
-_OPTIONS: dict[str, dict[str, Any]] = {"WEBP": {"quality": 90, "method": 4}, "PNG": {}}
+_MOVING: dict[str, type[MovingPicture]] = {".webp": WebP, ".png": Apng, ".apng": Apng}
 
 
-def writer_for(path: str | os.PathLike[str]) -> Writer:
+def writer_for(path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False) -> Writer:
     """Return what writes frames in the format that the path names, or refuse before anything is rendered."""
     checked = checked_path(path, WRITABLE)
-    return partial(_save_checked, checked, _writer(os.fspath(path), checked))
+    labels = {"annotate": annotate, "vessel_names": vessel_names}
+    if vessel_names and not annotate:
+        raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
+    return partial(_save_checked, checked, labels, _writer(os.fspath(path), checked, labels))
 
 
 def is_sequence(path: str | os.PathLike[str]) -> bool:
@@ -50,8 +53,16 @@ def checked_fps(fps: float) -> float:
     return value
 
 
-def _save_checked(path: Path, write: Writer, frames: Iterable[Frame], fps: float) -> None:
-    write(_alike(path, frames), checked_fps(fps))
+def _save_checked(
+    path: Path, labels: dict[str, bool], write: Writer, frames: Iterable[Frame], fps: float
+) -> None:
+    alike = _alike(path, frames)
+    write(_labelled(alike, labels["vessel_names"]) if labels["annotate"] else alike, checked_fps(fps))
+
+
+def _labelled(frames: Iterable[Frame], vessel_names: bool) -> Iterator[Frame]:
+    """Pass frames on with labels on their pictures."""
+    return (replace(frame, _image=frame.annotated(vessel_names=vessel_names)) for frame in frames)
 
 
 def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
@@ -72,12 +83,12 @@ def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
         del frame
 
 
-def _writer(name: str, path: Path) -> Writer:
+def _writer(name: str, path: Path, labels: dict[str, bool]) -> Writer:
     suffix = path.suffix.lower()
     if _is_folder(name, path):
-        return partial(_save_sequence, path / "frame-%03d.png")
+        return partial(_save_sequence, path / "frame-%03d.png", labels)
     if "%" in path.name:
-        return partial(_save_sequence, _checked_pattern(path))
+        return partial(_save_sequence, _checked_pattern(path), labels)
     if suffix in _MOVING:
         return partial(_save_moving, path, _MOVING[suffix])
     if suffix == ".mp4":
@@ -90,27 +101,24 @@ def _is_folder(name: str, path: Path) -> bool:
     return path.is_dir() or name.endswith(("/", os.sep)) or not path.suffix
 
 
-def _save_moving(path: Path, kind: str, frames: Iterable[Frame], fps: float) -> None:
+def _save_moving(path: Path, kind: type[MovingPicture], frames: Iterable[Frame], fps: float) -> None:
+    """Write frames into one file as they come."""
     from PIL import Image
 
-    pictures = [Image.fromarray(_without_idle_alpha(frame.image)) for frame in frames]
-    if not pictures:
-        raise _empty(path)
-    ends = np.round(np.arange(len(pictures) + 1) * 1000 / fps).astype(int)
-    durations = np.diff(ends).tolist()
-
     def write(temporary: Path) -> None:
-        first, *rest = pictures
-        # The duration of a single picture is a number.
-        duration = durations if rest else durations[0]
-        first.save(
-            temporary, kind, save_all=True, append_images=rest, duration=duration, loop=0, **_OPTIONS[kind]
-        )
+        with temporary.open("wb") as file:
+            moving, end = kind(file), 0
+            for count, frame in enumerate(frames, 1):
+                begin, end = end, round(count * 1000 / fps)
+                moving.add(Image.fromarray(_without_idle_alpha(frame.image)), end - begin)
+            if end == 0:
+                raise _empty(path)
+            moving.close()
 
     replace_whole(path, write)
 
 
-def _save_sequence(pattern: Path, frames: Iterable[Frame], _: float) -> None:
+def _save_sequence(pattern: Path, labels: dict[str, bool], frames: Iterable[Frame], _: float) -> None:
     """Write one picture per frame, all of which appear together at the end."""
     from PIL import Image
 
@@ -118,7 +126,9 @@ def _save_sequence(pattern: Path, frames: Iterable[Frame], _: float) -> None:
     with private_folder(parent, parent if parent.is_dir() else parent.parent) as folder:
         count = 0
         for count, frame in enumerate(frames, 1):
-            Image.fromarray(_without_idle_alpha(frame.image)).save(folder / (pattern.name % (count - 1)))
+            options = frame._png_options(**labels) if pattern.suffix.lower() == ".png" else {}
+            picture = Image.fromarray(_without_idle_alpha(frame.image))
+            picture.save(folder / (pattern.name % (count - 1)), **options)
         if not count:
             raise _empty(pattern)
         if (stale := parent / (pattern.name % count)).exists():

@@ -15,14 +15,14 @@ from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
 from lumencut._values import Value, content_of
 from lumencut.errors import CameraError
-from lumencut.vessel_tree import VesselTree
+from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
 
 #: The six views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = _lumencut.VIEWS
 
-#: A tree, a volume, or whatever else `render` takes as a volume.
-Scene: TypeAlias = VesselTree | Volume | Any
+#: A tree, a vessel, a volume, or whatever else `render` takes as a volume.
+Scene: TypeAlias = VesselTree | Vessel | Volume | Any
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +95,8 @@ class Camera(Value):
 
         Parameters
         ----------
-        scene : VesselTree, Volume, or whatever else :func:`lumencut.render` takes as a volume
-            What is to fit.
+        scene : VesselTree, Vessel, Volume, or whatever else :func:`lumencut.render` takes as a volume
+            What is to fit: ``tree["LAD"]`` zooms to one vessel.
         direction : array_like, shape (3,)
             From the viewer into the scene; any length.
         up : array_like, shape (3,)
@@ -245,7 +245,7 @@ def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float
 
 def scene_points(scene: Scene) -> npt.NDArray[np.float64]:
     """Return the points (mm, LPS) that a view shows all of when it shows all of ``scene``, shape (n, 3)."""
-    if isinstance(scene, VesselTree):
+    if isinstance(scene, (VesselTree, Vessel)):
         return scene.points
     from lumencut.volume_files.memory import as_volume, is_image
 
@@ -253,7 +253,9 @@ def scene_points(scene: Scene) -> npt.NDArray[np.float64]:
         found = (
             f"a bare array of shape {scene.shape}" if isinstance(scene, np.ndarray) else type(scene).__name__
         )
-        raise CameraError("scene of the view", found, "a VesselTree, a Volume or an image that render takes")
+        raise CameraError(
+            "scene of the view", found, "a VesselTree, a Vessel, a Volume or an image that render takes"
+        )
     return as_volume(scene).corners
 
 

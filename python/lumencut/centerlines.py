@@ -2,170 +2,14 @@
 
 from __future__ import annotations
 
-import logging
 import os
-import warnings
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-import numpy as np
-
-from lumencut import _lumencut
-from lumencut._files import checked_path
-from lumencut.errors import FileError, FormatError, SpaceWarning
-from lumencut.file_kinds import kind_of
-from lumencut.placement import (
-    MILLIMETRES,
-    Coordinates,
-    Placement,
-    Stated,
-    Unit,
-    check_choice,
-    check_space_once,
-    fits_nowhere,
-    placement,
-)
-from lumencut.vessel_tree import Vessel, VesselTree
-from lumencut.volume import Volume
+from lumencut.centerline_file import CenterlineFile, CenterlineReport
+from lumencut.placement import Coordinates, Unit
+from lumencut.several_centerlines import CenterlineFiles
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume_files.memory import as_volume
-from lumencut.vtk_lines import file_of, is_poly_data
-
-_log = logging.getLogger("lumencut")
-
-
-@dataclass(frozen=True)
-class CenterlineReport:
-    """How a centerline file was read.
-
-    Attributes
-    ----------
-    format : str
-        Such as ``VTK XML PolyData``.
-    space, unit : str
-        The space and unit in which its coordinates were read.
-    stated, stated_unit : str or None
-        The space and unit that the file itself states.
-    space_from, unit_from : "asked", "stated", "volume" or "assumed"
-        Who said so: the caller, the file, the extent of the volume, or nobody.
-    vessels, points : int
-        How many vessels it forms, and how many points they have.
-    radius : bool
-        Whether every vessel has radii.
-    decision : str
-        What was assumed or decided of space and unit, and by what; empty where file or caller said it.
-    is_unusual : bool
-        Whether the volume decided against LPS or the usual unit of the format.
-    notes : tuple of str
-        What was odd about the file, one sentence each.
-    """
-
-    format: str
-    space: Coordinates
-    unit: Unit
-    stated: Coordinates | None
-    stated_unit: Unit | None
-    space_from: str
-    unit_from: str
-    vessels: int
-    points: int
-    radius: bool
-    decision: str
-    is_unusual: bool
-    notes: tuple[str, ...]
-
-
-class CenterlineFile:
-    """A centerline file whose content is read and checked, and whose place is still to be decided.
-
-    Parameters
-    ----------
-    source : path or vtkPolyData
-        The file, or lines in memory.
-
-    Raises
-    ------
-    FileError
-        Where the file cannot be read.
-    FormatError
-        Where its content is not what its format promises, or holds no centerline.
-    """
-
-    def __init__(self, source: str | os.PathLike[str] | Any) -> None:
-        expected = "a readable centerline file"
-        if is_poly_data(source):
-            self.path = Path("vtkPolyData")
-            self._content = _lumencut.CenterlineFile(file_of(source), self.path.name)
-            return
-        self.path = checked_path(source, expected)
-        try:
-            content = self.path.read_bytes()
-        except OSError as error:
-            raise FileError(str(self.path), error.strerror or str(error), expected) from error
-        kind = kind_of(self.path)
-        if kind is not None and (kind.mend or (kind.role == "volume" and not kind.is_dicom)):
-            mend = kind.mend if kind.role == "centerlines" else "read_volume reads volumes"
-            raise FormatError(str(self.path), kind.name, "a file of centerlines", mend)
-        self._content = _lumencut.CenterlineFile(content, self.path.name)
-
-    def placed(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
-    ) -> tuple[VesselTree, CenterlineReport]:
-        """Give the vessels in world space and tell how they were read; parameters as `read_centerlines`."""
-        check_choice(coordinates, unit)
-        volume = None if volume is None else as_volume(volume)
-        content = self._content
-        stated = Stated(
-            cast(Coordinates | None, content.space),
-            cast(Unit | None, content.unit),
-            cast(Unit, content.conventional_unit),
-        )
-        likely = unit or stated.unit or stated.usual_unit
-        vessels, notes = content.vessels(MILLIMETRES[likely])
-        points = np.concatenate([points for points, _, _ in vessels]) / MILLIMETRES[likely]
-        place = placement(self.path.name, points, stated, coordinates, unit, volume)
-        if place.unit != likely:
-            # Lines are joined by distances in mm.
-            vessels, notes = content.vessels(MILLIMETRES[place.unit])
-        tree = VesselTree([Vessel(points * place.signs, radius, name) for points, radius, name in vessels])
-        tree._space_settled = place.space_from == "asked" or place.is_unusual
-        return tree, self._report(tree, stated, place, notes)
-
-    def tree(
-        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
-    ) -> VesselTree:
-        """Give the vessels in world space, and say what was assumed or decided as `read_centerlines` does."""
-        tree, report = self.placed(coordinates, unit, volume)
-        if report.is_unusual:
-            warnings.warn(f"{self.path.name}: {report.decision}", SpaceWarning, stacklevel=3)
-        elif report.decision:
-            weak = report.space_from == "volume" and _mostly_outside(tree, volume)
-            level = logging.WARNING if weak or report.space_from == "assumed" else logging.INFO
-            _log.log(level, "%s: %s", self.path, report.decision)
-        return tree
-
-    def _report(
-        self, tree: VesselTree, stated: Stated, place: Placement, notes: list[str]
-    ) -> CenterlineReport:
-        return CenterlineReport(
-            format=self._content.format,
-            space=place.space,
-            unit=place.unit,
-            stated=stated.space,
-            stated_unit=stated.unit,
-            space_from=place.space_from,
-            unit_from=place.unit_from,
-            vessels=len(tree),
-            points=sum(len(vessel) for vessel in tree),
-            radius=all(vessel.radius is not None for vessel in tree),
-            decision=place.decision,
-            is_unusual=place.is_unusual,
-            notes=tuple(notes),
-        )
-
-
-def _mostly_outside(tree: VesselTree, volume: Volume | None) -> bool:
-    return volume is not None and 2 * int(volume.contains(tree.points).sum()) < len(tree.points)
 
 
 def read_centerlines(
@@ -175,13 +19,18 @@ def read_centerlines(
     unit: Unit | None = None,
     volume: Any = None,
 ) -> VesselTree:
-    """Read a centerline file, or lines of VTK in memory, as vessels that meet at shared end points (mm, LPS).
+    """Read centerline files, or lines of VTK in memory, as vessels that meet at shared end points (mm, LPS).
 
-    Lines that repeat a trunk are joined. Coordinates in RAS get x and y negated.
+    Lines of one file that repeat a trunk are joined. Coordinates in RAS get x and y negated.
+
+    The vessels of several files follow each other in the order of the files. Space and unit are decided for
+    each file by itself, and vessels of several files are kept as they were read: none is joined to one of
+    another file, and those with the same name keep it. A vessel without a name that is the only one of its
+    file gets the name of the file, as 3D Slicer shows it.
 
     Parameters
     ----------
-    path : path or vtkPolyData
+    path : path or vtkPolyData, or a list or tuple of them
         VTK `.vtp` or legacy `.vtk`, 3D Slicer `.mrk.json` or `.fcsv`, SimVascular `.pth`, SWC, ITK `.tre`,
         a Rotterdam reference, a text table (`.csv`, `.txt`) or NumPy `.npy`. Poly data is read
         as its `.vtp` file would be: its lines, with their array ``MaximumInscribedSphereRadius`` or
@@ -193,8 +42,10 @@ def read_centerlines(
         The unit of the file's coordinates and radii. By default the one that the file states, else the one
         that fits the volume, else that of its format: cm for `.pth`, mm for all others.
     volume : Volume, or whatever else :func:`lumencut.render` takes as one, optional
-        Where given, its extent decides what the file leaves open, and what the file states is compared with
-        it.
+        Where given, its extent decides what the file leaves open. Where both spaces fit the extent, the
+        values along the lines decide if at least three times as many points look like lumen in the one space
+        as in the other, and at least half of all and twenty of them. What the file states is compared with
+        both.
 
     Raises
     ------
@@ -202,26 +53,26 @@ def read_centerlines(
         Where the file cannot be read.
     FormatError
         Where its content is not what its format promises, or holds no centerline; where several spaces or
-        units fit the volume, or none does.
+        units fit the volume and its values do not tell which, or none does.
     VolumeError
         For what is no volume.
 
     Warns
     -----
     SpaceWarning
-        Where the volume decides against LPS or the usual unit; where what the file states fits the volume
-        clearly worse than another space or unit, which is not repaired. The text names both counts.
+        Where the volume decides against LPS or the usual unit, or the space by its values; where what the
+        file states fits the volume clearly worse than another space or unit, which is not repaired. The text
+        names both counts.
         What else was assumed (without a volume) or decided is logged.
     """
     volume = None if volume is None else as_volume(volume)
-    file = CenterlineFile(path)
-    tree = file.tree(coordinates, unit, volume)
-    if volume is not None:
-        check_space_once(tree, volume, file.path.name)
-        if fits_nowhere(tree.points, volume):
-            missed = "no point lies inside the volume; perhaps the centerlines are of another scan"
-            _log.warning("%s: %s", file.path, missed)
-    return tree
+    if isinstance(path, (list, tuple)):
+        files, read = CenterlineFiles(path), []
+        # No further function between here and the warnings: they name the line of the caller.
+        for file in files:
+            read.append(file.beside(volume, coordinates, unit))  # noqa: PERF401
+        return files.joined(read)
+    return CenterlineFile(path).beside(volume, coordinates, unit)[0]
 
 
 def inspect_centerlines(

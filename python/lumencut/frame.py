@@ -16,7 +16,8 @@ from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut._values import KeepsReadOnly
 from lumencut.camera import Camera
-from lumencut.errors import FormatError, VolumeError
+from lumencut.errors import FormatError, SettingsError, VolumeError
+from lumencut.frame_source import FrameSource
 
 #: Formats of Pillow without transparency.
 _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
@@ -53,6 +54,7 @@ class Frame(KeepsReadOnly):
     _value: npt.NDArray[np.float32] | None = None
     _context: npt.NDArray[np.uint8] | None = None
     _asked: tuple[str, ...] | None = None
+    _source: FrameSource | None = None
 
     @property
     def image(self) -> npt.NDArray[np.uint8]:
@@ -145,13 +147,49 @@ class Frame(KeepsReadOnly):
             mend = "give the renderer a vessel tree"
         raise VolumeError(f"{name} of the frame", found, expected, mend)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def annotated(self, *, vessel_names: bool = False) -> npt.NDArray[np.uint8]:
+        """Return the picture with labels, RGBA, uint8, shape (H, W, 4); the frame itself stays as it is.
+
+        At the edges stand the sides of the patient that they look to: R, L, A, P, S and I for right, left,
+        anterior, posterior, superior and inferior, several where the view is oblique, the main one first.
+        In the upper left corner stand the view and the window (W width, L level), in the lower left one a
+        scale bar of a round length in mm. Where the source of the volume states no orientation or no spacing
+        (`Volume.states_orientation`, `Volume.states_spacing`), the letters and the view, or the bar, are left
+        out, and words say so. Pictures with a side below 200 pixels get no labels.
+
+        Parameters
+        ----------
+        vessel_names : bool, default False
+            Write the names of the vessels beside their ends, as far as there is room.
+
+        Raises
+        ------
+        VolumeError
+            For a frame without a picture.
+        """
+        from lumencut import annotation
+
+        if self._source is None:
+            raise VolumeError("source of the frame", "a frame made by hand", "a rendered frame", "use render")
+        return annotation.annotated(self.image, self.camera, self._source, vessel_names=vessel_names)
+
+    def save(
+        self, path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False
+    ) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
+
+        A ``.png`` says how large its pixels are, where the source of the volume states a spacing, and how it
+        was rendered, for ``lumencut render --like``: with which view, settings and version. It names no file
+        and nothing that the files say of the patient or the scan.
 
         Parameters
         ----------
         path : path-like
             The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …) or ``.npz``.
+        annotate : bool, default False
+            Write the picture with labels, see :meth:`annotated`. The arrays of ``.npz`` have none.
+        vessel_names : bool, default False
+            The names of the vessels among the labels.
 
         Raises
         ------
@@ -159,12 +197,28 @@ class Frame(KeepsReadOnly):
             For an ending that names no format.
         FileError
             Where the file cannot be written.
+        SettingsError
+            For names of vessels on a picture without labels.
         """
         path = checked_path(path, WRITABLE)
+        if vessel_names and not annotate:
+            raise SettingsError("vessel_names", "True without annotate", "annotate=True beside it")
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
-        else:
-            save_picture(self.image, path)
+            return
+        image = self.annotated(vessel_names=vessel_names) if annotate else self.image
+        save_picture(image, path, self._png_options(annotate=annotate, vessel_names=vessel_names))
+
+    def _png_options(self, *, annotate: bool, vessel_names: bool) -> dict[str, Any]:
+        """What Pillow writes into a PNG beside the picture."""
+        from lumencut.recipe import Recipe, png_options
+
+        if self._source is None:
+            return {}
+        source = self._source
+        labels = {"annotate": annotate, "vessel_names": vessel_names}
+        recipe = Recipe(self.camera, source.settings, **labels, vessels=source.vessels)
+        return png_options(recipe, states_spacing=source.states_spacing)
 
     def _write_arrays(self, path: Path) -> None:
         arrays: dict[str, Any] = {name: getattr(self, name) for name in _IMAGES if self.has(name)}
@@ -181,8 +235,8 @@ def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:
     return content.getvalue()
 
 
-def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
-    """Write an RGBA picture in the format that the ending names."""
+def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str, Any] | None = None) -> None:
+    """Write an RGBA picture in the format that the ending names; a PNG with what else Pillow can write."""
     from PIL import Image
 
     expected = "a picture format such as .png, .tif or .webp"
@@ -193,9 +247,11 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path) -> None:
     if kind in _OPAQUE:
         picture = picture.convert("RGB")
 
+    options = png_options or {} if kind == "PNG" else {}
+
     def write(temporary: Path) -> None:
         try:
-            picture.save(temporary, format=kind)
+            picture.save(temporary, format=kind, **options)
         except (OSError, ValueError) as error:
             # Errors of the system have a number; those of Pillow, for what a format cannot hold, have none.
             if isinstance(error, OSError) and error.errno is not None:

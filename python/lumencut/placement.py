@@ -1,11 +1,14 @@
 """Space and unit of centerlines: what their file states, else what fits the volume, else what is asked for.
 
+A volume tells by its extent, and between two spaces by its values along the lines where those are evident.
+
 Nothing is decided in silence: every choice that the file does not state is noted with the counts behind it.
 """
 
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -13,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.errors import SettingsError, SpaceWarning
+from lumencut.errors import SettingsError, SpaceWarning, VesselTreeError
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
@@ -21,7 +24,9 @@ if TYPE_CHECKING:
 
 Coordinates: TypeAlias = Literal["lps", "ras"]
 Unit: TypeAlias = Literal["um", "mm", "cm", "dm", "m"]
-Origin: TypeAlias = Literal["asked", "stated", "volume", "assumed"]
+Origin: TypeAlias = Literal["asked", "stated", "volume", "values", "assumed"]
+
+_PointsAndRadius: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 
 MILLIMETRES: dict[Unit, float] = _lumencut.MILLIMETRES
 
@@ -46,12 +51,12 @@ class Placement:
     ----------
     space, unit : str
         The space and unit in which they are read.
-    space_from, unit_from : "asked", "stated", "volume" or "assumed"
-        Who said so: the caller, the file, the extent of the volume, or nobody.
+    space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
+        Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
     decision : str
         What was decided, and by what; empty where the file or the caller said everything.
     is_unusual : bool
-        Whether the volume decided against LPS or the usual unit.
+        Whether the volume decided against LPS or the usual unit, or the space by its values alone.
     """
 
     space: Coordinates
@@ -67,15 +72,32 @@ class Placement:
         return np.array(_lumencut.SIGNS[self.space])
 
 
+@dataclass(frozen=True)
+class Lines:
+    """Points (n, 3) of lines and the radius at each, (n,), NaN where it is not known, in one unit."""
+
+    points: npt.NDArray[np.float64]
+    radii: npt.NDArray[np.float64]
+
+    @classmethod
+    def of(cls, vessels: Iterable[_PointsAndRadius]) -> Lines:
+        """Join the lines of vessels, given by their points and their radius, which may be None."""
+        parts = [
+            (points, np.full(len(points), np.nan) if radius is None else radius) for points, radius in vessels
+        ]
+        points, radii = (np.concatenate(part) for part in zip(*parts, strict=True))
+        return cls(points, np.asarray(radii, np.float64))
+
+
 def placement(
     subject: str,
-    points: npt.NDArray[np.float64],
+    lines: Lines,
     stated: Stated,
     coordinates: Coordinates | None,
     unit: Unit | None,
     volume: Volume | None,
 ) -> Placement:
-    """Decide how the points (n, 3) of a file are to be understood.
+    """Decide how the lines of a file, as they stand in it, are to be understood.
 
     Raises
     ------
@@ -89,7 +111,7 @@ def placement(
         "stated_unit": stated.unit,
         "usual_unit": stated.usual_unit,
     }
-    return Placement(**_lumencut.placement(subject, points, known, volume))
+    return Placement(**_lumencut.placement(subject, lines.points, lines.radii, known, volume))
 
 
 def fits_nowhere(points: npt.NDArray[np.float64], volume: Volume) -> bool:
@@ -106,33 +128,55 @@ def check_choice(coordinates: object, unit: object) -> None:
 
 
 def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
-    """Compare a tree with the extent of a volume.
+    """Compare a tree with the extent of a volume, and with its values along the lines.
 
     Warns
     -----
     SpaceWarning
         Where clearly more points lie inside the volume with x and y negated, or in another unit, as when RAS
-        was read as LPS or centimetres as millimetres. The text names both counts and the option that mends
-        it.
+        was read as LPS or centimetres as millimetres; or where both spaces fit the volume, and at least three
+        times as many points look like lumen with x and y negated. The text names both counts and the option
+        that mends it.
     """
     # Whoever was warned once knows.
-    tree._space_settled |= _warn_if_another_fits(tree.points, volume, subject)
+    tree._space_settled |= _warn_if_another_fits(tree, volume, subject)
 
 
-def check_space_once(tree: VesselTree, volume: Volume, subject: str = "vessel tree") -> None:
+def check_space_once(
+    tree: VesselTree, volume: Volume, subject: str = "vessel tree", stacklevel: int = 3
+) -> None:
     """Do as `check_space` for the caller's caller, unless the space was asked for or warned about."""
     if not tree._space_settled:
-        tree._space_settled = _warn_if_another_fits(tree.points, volume, subject, stacklevel=3)
+        tree._space_settled = _warn_if_another_fits(tree, volume, subject, stacklevel)
 
 
-def _warn_if_another_fits(
-    points: npt.NDArray[np.float64], volume: Volume, subject: str, stacklevel: int = 2
-) -> bool:
+def check_meeting(volume: Volume, tree: VesselTree) -> None:
+    """Refuse a tree wholly outside the volume, and for the caller's caller do as `check_space_once`.
+
+    Raises
+    ------
+    VesselTreeError
+        Where no point lies inside the volume.
+    """
+    points = tree.points
+    if not volume.contains(points).any():
+        low, high = np.round(tree.bounds, 1).tolist()
+        box = np.round([volume.corners.min(axis=0), volume.corners.max(axis=0)], 1).tolist()
+        found = f"none of its {len(points)} points inside the volume (points from {low} to {high} mm)"
+        flipped = volume.contains(points * (-1, -1, 1)).sum()
+        mend = f'{flipped} points would be inside as RAS: read them with coordinates="ras"' if flipped else ""
+        raise VesselTreeError("vessel tree", found, f"points within {box[0]} to {box[1]} mm", mend)
+    check_space_once(tree, volume)
+
+
+def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stacklevel: int = 2) -> bool:
     """Warn where another place brings twice as many points into the volume, and a tenth of all more.
 
-    Returns whether it warned. `stacklevel` counts as for `warnings.warn` from whoever calls this.
+    Or where the values of the volume evidently speak for the other space. Returns whether it warned.
+    `stacklevel` counts as for `warnings.warn` from whoever calls this.
     """
-    text = _lumencut.better_place(points, volume)
+    lines = Lines.of((vessel.points, vessel.radius) for vessel in tree)
+    text = _lumencut.better_place(lines.points, lines.radii, volume)
     if text is not None:
         warnings.warn(f"{subject}: {text}", SpaceWarning, stacklevel=stacklevel + 1)
     return text is not None

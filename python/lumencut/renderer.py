@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Callable, Iterable
 from typing import Any, Literal
-
-import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
@@ -16,6 +13,8 @@ from lumencut.camera import Camera
 from lumencut.device import look_for_no_display
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.frame import IMAGES, Frame
+from lumencut.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
+from lumencut.scene_windows import SceneWindows
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -63,6 +62,7 @@ class Renderer:
 
             volume = as_volume(volume)
         self._set_scene(volume, tree)
+        self._windows = SceneWindows(volume, tree)
         if device != "cpu":
             look_for_no_display()
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
@@ -73,7 +73,9 @@ class Renderer:
         if scene is None:
             raise VolumeError("scene of the renderer", "neither a volume nor a tree", "one of them or both")
         if volume is not None and tree is not None:
-            _check_meeting(volume, tree)
+            from lumencut.placement import check_meeting
+
+            check_meeting(volume, tree)
         self._volume, self._tree, self._scene = volume, tree, scene
 
     def with_tree(self, tree: VesselTree | None) -> Renderer:
@@ -94,10 +96,7 @@ class Renderer:
         other = object.__new__(Renderer)
         other._set_scene(self._volume, tree)
         other._core = self._core.with_tree(None if tree is None else tree._arrays())
-        if self._volume is not None:
-            # Taken from the data now, while the tree is there that it is taken along.
-            vars(other)["_window"] = self._window
-            vars(other).update({name: vars(self)[name] for name in ("_whole_window",) if name in vars(self)})
+        other._windows = self._windows
         return other
 
     def __repr__(self) -> str:
@@ -129,6 +128,7 @@ class Renderer:
         settings: Settings | None = None,
         *,
         images: Iterable[str] | None = None,
+        progress: Callable[[int, int], object] | None = None,
     ) -> Frame:
         """Return the picture of one view.
 
@@ -143,6 +143,10 @@ class Renderer:
             ``"value"`` and ``"context"``; all where not given. On a GPU each one that is not asked for saves
             its way back. ``Frame.position`` needs the depth. The distance is computed at once where it is
             named here; where nothing is, ``Frame.distance`` may compute it when it is first asked for.
+        progress : callable, optional
+            Called with (done, total) about every 50 ms, and once at the end: how much of the view is
+            rendered, in parts of which the total is always 1000. A GPU tells nothing before the end of each
+            sample. What it raises ends the rendering.
 
         Raises
         ------
@@ -167,8 +171,9 @@ class Renderer:
         asked = None if images is None else _names(images)
         settings = self.windowed(settings)
         names = asked if asked is not None else self._at_once(settings)
-        buffers = self._core.render(self._volume, camera, checked(settings), names)
-        return self._frame(camera, settings, buffers, asked)
+        buffers = self._core.render(self._volume, camera, checked(settings), names, progress)
+        source = frame_source(settings, self._volume, self._tree, self._vessel_ends)
+        return self._frame(camera, settings, buffers, asked, source)
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
@@ -196,7 +201,12 @@ class Renderer:
         return [name for name in IMAGES if name != "distance"]
 
     def _frame(
-        self, camera: Camera, settings: Settings, buffers: dict[str, Any], asked: list[str] | None
+        self,
+        camera: Camera,
+        settings: Settings,
+        buffers: dict[str, Any],
+        asked: list[str] | None,
+        source: FrameSource | None = None,
     ) -> Frame:
         """The frame of some images, with a distance that comes later where it was left out."""
         arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
@@ -205,7 +215,8 @@ class Renderer:
             arrays["_distance"] = lambda: core.render(None, camera, checked(settings), ["distance"])[
                 "distance"
             ]
-        return Frame(camera, buffers["timings"], **arrays, _asked=None if asked is None else tuple(asked))
+        names = None if asked is None else tuple(asked)
+        return Frame(camera, buffers["timings"], **arrays, _asked=names, _source=source)
 
     def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
         """The camera and the settings, or their defaults."""
@@ -223,16 +234,7 @@ class Renderer:
         VolumeError
             Without a volume.
         """
-        window, context_window = settings.window, settings.context_window
-        if window is None and self._tree is not None:
-            window = self.window
-        if context_window is None and settings.context is not None:
-            # The smallest values and the means along rays lie far below those of the vessels.
-            low = settings.context in ("minip", "average")
-            context_window = self._whole_window if low else self.window
-        if (window, context_window) == (settings.window, settings.context_window):
-            return settings
-        return replace(settings, window=window, context_window=context_window)
+        return self._windows.used(settings, has_tree=self._tree is not None)
 
     @property
     def window(self) -> Window:
@@ -240,21 +242,11 @@ class Renderer:
 
         Contexts of minimum and mean have their own, see :meth:`windowed`.
         """
-        return self._window
+        return self._windows.main
 
     @functools.cached_property
-    def _window(self) -> Window:
-        return Window.from_data(self._shown, self._tree)
-
-    @functools.cached_property
-    def _whole_window(self) -> Window:
-        return Window.whole(self._shown)
-
-    @property
-    def _shown(self) -> Volume:
-        if self._volume is None:
-            raise VolumeError("volume of the renderer", "None", "a volume to take the window from")
-        return self._volume
+    def _vessel_ends(self) -> tuple[VesselEnd, ...]:
+        return () if self._tree is None else vessel_ends(self._tree)
 
 
 def render(
@@ -262,6 +254,8 @@ def render(
     tree: VesselTree | None = None,
     camera: Camera | None = None,
     settings: Settings | None = None,
+    *,
+    progress: Callable[[int, int], object] | None = None,
 ) -> Frame:
     """Return the picture of one view of an angiography and its centerlines.
 
@@ -275,28 +269,16 @@ def render(
         The view; from the front, fitted to the tree or else the volume, where not given.
     settings : Settings, optional
         The knobs; their defaults, with windows from the data, where not given.
+    progress : callable, optional
+        Called with (done, total) while it renders, as by :meth:`Renderer.render`.
     """
-    return Renderer(volume, tree).render(camera, settings)
+    return Renderer(volume, tree).render(camera, settings, progress=progress)
 
 
 def _check_kind(tree: Any) -> None:
     if not isinstance(tree, (VesselTree, type(None))):
         expected = "a VesselTree, such as read_centerlines returns, or None"
         raise VesselTreeError("tree", type(tree).__name__, expected)
-
-
-def _check_meeting(volume: Volume, tree: VesselTree) -> None:
-    from lumencut.placement import check_space_once
-
-    points = tree.points
-    if not volume.contains(points).any():
-        low, high = np.round(tree.bounds, 1).tolist()
-        box = np.round([volume.corners.min(axis=0), volume.corners.max(axis=0)], 1).tolist()
-        found = f"none of its {len(points)} points inside the volume (points from {low} to {high} mm)"
-        flipped = volume.contains(points * (-1, -1, 1)).sum()
-        mend = f'{flipped} points would be inside as RAS: read them with coordinates="ras"' if flipped else ""
-        raise VesselTreeError("vessel tree", found, f"points within {box[0]} to {box[1]} mm", mend)
-    check_space_once(tree, volume)
 
 
 def _names(images: Iterable[str]) -> list[str]:

@@ -75,7 +75,7 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
     ----------
     camera : Camera
         The first view; its direction, up and size are kept.
-    scene : VesselTree, Volume, or whatever else :func:`lumencut.render` takes as a volume
+    scene : VesselTree, Vessel, Volume, or whatever else :func:`lumencut.render` takes as a volume
         What is to fit.
     degrees, axis
         As for :func:`turntable`.
@@ -104,7 +104,14 @@ def _views(camera: Camera, frames: int, degrees: float, axis: Axis) -> Iterator[
     return (camera.rotated(float(angle), about) for angle in frame_angles(frames, degrees))
 
 
-def save_animation(frames: Iterable[Frame], path: str | os.PathLike[str], fps: float = 12.0) -> None:
+def save_animation(
+    frames: Iterable[Frame],
+    path: str | os.PathLike[str],
+    fps: float = 12.0,
+    *,
+    annotate: bool = False,
+    vessel_names: bool = False,
+) -> None:
     """Write frames as an animation that appears only once it is whole.
 
     Parameters
@@ -116,13 +123,15 @@ def save_animation(frames: Iterable[Frame], path: str | os.PathLike[str], fps: f
         ``[video]``); a name with a number such as ``frame-%03d.png`` or a folder: one picture per frame.
     fps : float, default 12
         Frames per second, from 1/60 to 1000.
+    annotate, vessel_names : bool, default False
+        Labels on the frames, as for :meth:`Frame.save`.
 
     Raises
     ------
     FormatError
         For an ending that names no animation, no frames, or frames of several sizes.
     SettingsError
-        For frames per second beyond their range.
+        For frames per second beyond their range, or names of vessels without labels.
     FileError
         Where the file cannot be written.
     MissingPackageError
@@ -130,4 +139,4 @@ def save_animation(frames: Iterable[Frame], path: str | os.PathLike[str], fps: f
     """
     from lumencut.animation import writer_for
 
-    writer_for(path)(frames, fps)
+    writer_for(path, annotate=annotate, vessel_names=vessel_names)(frames, fps)

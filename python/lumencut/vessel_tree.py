@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, SupportsIndex, overload
 
@@ -11,8 +12,11 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
 from lumencut._values import Value, content_of
-from lumencut._wording import listed
+from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
+
+#: How many names an error lists.
+_MOST_NAMES = 24
 
 
 class Vessel(Value):
@@ -159,6 +163,70 @@ class VesselTree(Value):
         smoothed._space_settled = self._space_settled
         return smoothed
 
+    def ids(self, *vessels: SupportsIndex | str) -> list[int]:
+        """Return the ids of vessels, rising, each once; parameters and errors are those of :meth:`select`."""
+        return sorted(self._ids(vessels))
+
+    def select(self, *vessels: SupportsIndex | str) -> VesselTree:
+        """Return a tree of these vessels alone; they keep their order in this tree, and their ids count anew.
+
+        Parameters
+        ----------
+        *vessels : int or str
+            Ids and names. A name stands for all vessels that have it.
+
+        Raises
+        ------
+        VesselTreeError
+            For an id or a name that no vessel has, or no vessels at all.
+        """
+        wanted = self._ids(vessels)
+        return self._part(index for index in range(len(self)) if index in wanted)
+
+    def without(self, *vessels: SupportsIndex | str) -> VesselTree:
+        """Return the tree without these vessels; parameters and errors are those of :meth:`select`."""
+        unwanted = self._ids(vessels)
+        return self._part(index for index in range(len(self)) if index not in unwanted)
+
+    def _part(self, ids: Iterable[int]) -> VesselTree:
+        part = VesselTree(self._vessels[index] for index in ids)
+        part._space_settled = self._space_settled
+        return part
+
+    def _ids(self, vessels: Iterable[SupportsIndex | str]) -> set[int]:
+        """The ids of vessels by their ids and names."""
+        found: set[int] = set()
+        for vessel in vessels:
+            if isinstance(vessel, str):
+                found.update(self._named(vessel))
+                continue
+            try:
+                found.add(range(len(self))[vessel])
+            except (IndexError, TypeError) as error:
+                expected = f"an id from 0 to {len(self) - 1}, or a name"
+                raise VesselTreeError(
+                    "vessel of the tree",
+                    f"{vessel!r:.80} in a tree of {counted(len(self), 'vessel')}",
+                    expected,
+                ) from error
+        return found
+
+    def _named(self, name: str) -> list[int]:
+        """The ids of the vessels of a name, at least one."""
+        meant = [index for index, vessel in enumerate(self._vessels) if vessel.name == name]
+        if meant:
+            return meant
+        names = list(dict.fromkeys(vessel.name for vessel in self._vessels if vessel.name is not None))
+        alike = {known.lower(): known for known in names}
+        close = difflib.get_close_matches(name.lower(), alike, 1)
+        expected = (
+            f"one of {listed([repr(known) for known in names], _MOST_NAMES)}"
+            if names
+            else "an id: no vessel of the tree has a name"
+        )
+        mend = f"perhaps {alike[close[0]]!r} is meant" if close else ""
+        raise _VesselNameError(f"vessel {name!r}", "no vessel of this name", expected, mend)
+
     @property
     def bounds(self) -> npt.NDArray[np.float64]:
         """Corners of the axis-aligned box around all points, shape (2, 3), mm, LPS."""
@@ -191,15 +259,11 @@ class VesselTree(Value):
     def __getitem__(self, vessel_id: SupportsIndex | str | slice) -> Vessel | tuple[Vessel, ...]:
         if not isinstance(vessel_id, str):
             return self._vessels[vessel_id]
-        meant = [index for index, vessel in enumerate(self._vessels) if vessel.name == vessel_id]
+        meant = self._named(vessel_id)
         if len(meant) == 1:
             return self._vessels[meant[0]]
-        names = list(dict.fromkeys(repr(vessel.name) for vessel in self._vessels if vessel.name is not None))
-        if meant:
-            found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
-            raise _VesselNameError(f"vessel {vessel_id!r}", found, "one vessel", "take it by its id")
-        expected = f"one of {listed(names)}" if names else "an id: no vessel of the tree has a name"
-        raise _VesselNameError(f"vessel {vessel_id!r}", "no vessel of this name", expected)
+        found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
+        raise _VesselNameError(f"vessel {vessel_id!r}", found, "one vessel", "take it by its id")
 
     def __contains__(self, vessel: object) -> bool:
         if isinstance(vessel, str):

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut._checks import flag
 from lumencut._values import KeepsReadOnly
 from lumencut.errors import VolumeError
 
@@ -32,6 +33,12 @@ class Volume(KeepsReadOnly):
         Columns are the unit vectors of i, j, k in world space.
     world_from_index : array_like, shape (4, 4), optional
         The general form instead of the three above: an affine that may be oblique, left-handed or sheared.
+    states_spacing : bool, optional
+        Whether distances in mm are known, so that labelled pictures may have a scale bar. Where not given:
+        whether ``spacing`` or ``world_from_index`` is given.
+    states_orientation : bool, optional
+        Whether it is known where the patient's left, back and head are, so that labelled pictures may name
+        the sides. Where not given: whether ``direction`` or ``world_from_index`` is given.
 
     Raises
     ------
@@ -49,7 +56,16 @@ class Volume(KeepsReadOnly):
         direction: npt.ArrayLike | None = None,
         *,
         world_from_index: npt.ArrayLike | None = None,
+        states_spacing: bool | None = None,
+        states_orientation: bool | None = None,
     ) -> None:
+        is_general = world_from_index is not None
+        self._states_spacing = _stated(
+            "states_spacing", states_spacing, is_general or spacing is not _UNIT_SPACING
+        )
+        self._states_orientation = _stated(
+            "states_orientation", states_orientation, is_general or direction is not None
+        )
         if world_from_index is None:
             world_from_index = _affine(spacing, origin, np.eye(3) if direction is None else direction)
         elif spacing is not _UNIT_SPACING or origin is not _NO_OFFSET or direction is not None:
@@ -109,6 +125,19 @@ class Volume(KeepsReadOnly):
         return np.asarray(self._world_from_index[:3, :3] / self.spacing, dtype=np.float64)
 
     @property
+    def states_spacing(self) -> bool:
+        """Whether its source states the distances between voxels; where it does not, 1 mm is assumed."""
+        return self._states_spacing
+
+    @property
+    def states_orientation(self) -> bool:
+        """Whether its source states where the patient's left, back and head are.
+
+        Where it does not, the axes i, j, k are taken to run to the left, to the back and to the head.
+        """
+        return self._states_orientation
+
+    @property
     def filled_slices(self) -> tuple[int, ...]:
         """The indices k of slices that the file lacked and its reader interpolated, as it was asked to."""
         return self._filled_slices
@@ -152,7 +181,13 @@ class Volume(KeepsReadOnly):
     def __repr__(self) -> str:
         ni, nj, nk = self.size
         spacing = " × ".join(f"{s:.4g}" for s in self.spacing)
-        return f"Volume({ni} × {nj} × {nk} {self._array.dtype}, spacing {spacing} mm)"
+        assumed = "" if self._states_spacing else " (assumed)"
+        placed = "" if self._states_orientation else ", orientation not stated"
+        return f"Volume({ni} × {nj} × {nk} {self._array.dtype}, spacing {spacing} mm{assumed}{placed})"
+
+
+def _stated(name: str, given: bool | None, otherwise: bool) -> bool:
+    return otherwise if given is None else flag(VolumeError, f"{name} of the volume", given)
 
 
 def _affine(

@@ -6,11 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lumencut import _lumencut
-from lumencut._checks import number
+from lumencut._checks import choice, number
 from lumencut.errors import SettingsError, VesselTreeError
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
+
+#: The windows that have a name, in the order to show them to users.
+WINDOW_NAMES = ("cta", "mra", "bone", "lung", "full", "auto")
+
+#: Level and width of those that are the same for every volume (HU).
+_FIXED = {"cta": (300, 900), "bone": (480, 2500), "lung": (-600, 1500)}
 
 
 @dataclass(frozen=True)
@@ -27,14 +33,18 @@ class Window:
 
     @classmethod
     def from_data(cls, volume: Any, tree: VesselTree | None = None) -> Window:
-        """Return a window that shows lumen as middle grey, tissue darker, calcifications and stents brighter.
+        """Return a window that tells lumen from its surroundings; ``"auto"`` by name.
 
-        The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for
-        the tissue around it; the window is centred on the lumen, three times as wide as their difference.
+        With a tree the median along the centerlines stands for the lumen, the median 10 mm beyond the
+        vessels' walls for the tissue. Black lies 1.5 times their difference below the lumen, but not below
+        what the volume holds; white where the brightest voxels are, as far as the lumen stays at 52 to 65 %
+        of the range. A lumen darker than its tissue has the mirrored window: it lies at 35 to 48 %, and its
+        surroundings are brighter.
 
-        Without a tree the 99th percentile of the volume stands for the lumen, and for the tissue the median
-        of the voxels above a quarter of the way to it from the 1st percentile; of at most about a million
-        voxels, evenly spread.
+        Without a tree padding and air are left out first. Small cubes are told apart by their largest voxel:
+        most are tissue, which becomes dark, and of the brighter ones the darker stand for the lumen, which
+        lies at 67 % of the range. Where little but vessels is left, their edges stand for the tissue. A dark
+        lumen cannot be found without a tree: the bright tissue is shown.
 
         Parameters
         ----------
@@ -60,7 +70,10 @@ class Window:
 
     @classmethod
     def whole(cls, volume: Any) -> Window:
-        """Return a window that shows air to lumen: from the 1st percentile of the volume to the 99th.
+        """Return a window that shows air to lumen.
+
+        It begins at the 1st percentile of the volume and ends at the 99th of all that is no padding, which
+        is a dark value that a twentieth of the voxels has.
 
         Parameters
         ----------
@@ -76,6 +89,44 @@ class Window:
 
         return cls(*_lumencut.whole_window(as_volume(volume)))
 
+    @classmethod
+    def named(cls, name: str, volume: Any = None, tree: VesselTree | None = None) -> Window:
+        """Return the window that has a name.
+
+        Those of fixed values are for HU: ``"cta"`` 900/300 (width/level), which shows contrast medium as
+        middle grey and calcifications brighter, ``"bone"`` 2500/480 and ``"lung"`` 1500/-600, as the OHIF
+        viewer has them. The others are taken from the volume: ``"auto"`` as :meth:`from_data` does,
+        ``"full"`` from the smallest voxel to the largest, and ``"mra"`` all tissues of an MR angiography,
+        whose values have no unit: from the 1st percentile to the 99.9th of all that is no padding.
+
+        Parameters
+        ----------
+        name : {"cta", "mra", "bone", "lung", "full", "auto"}
+            What the window is called.
+        volume : Volume, or whatever else :func:`lumencut.render` takes as one, optional
+            The angiography; ``"cta"``, ``"bone"`` and ``"lung"`` need none.
+        tree : VesselTree, optional
+            Its centerlines, for ``"auto"``.
+
+        Raises
+        ------
+        SettingsError
+            For another name.
+        VolumeError
+            For what is no volume, or values beyond all windows.
+        VesselTreeError
+            For what is no tree.
+        """
+        choice(SettingsError, "window", name, WINDOW_NAMES)
+        if name in _FIXED:
+            return cls(*_FIXED[name])
+        if name == "auto":
+            return cls.from_data(volume, tree)
+        from lumencut.volume_files.memory import as_volume
+
+        found = _lumencut.full_window if name == "full" else _lumencut.mra_window
+        return cls(*found(as_volume(volume)))
+
 
 @dataclass(frozen=True)
 class Opacity:
@@ -88,3 +139,20 @@ class Opacity:
         for name in ("transparent", "opaque"):
             object.__setattr__(self, name, number(SettingsError, f"opacity {name}", getattr(self, name)))
         _lumencut.check_opacity(self.transparent, self.opaque)
+
+
+def checked_window(name: str, value: Any) -> Window | str | None:
+    """Return what a setting keeps of a window or its name: a name only where a volume is needed to know it.
+
+    None stands for ``"auto"``, which differs with the context.
+    """
+    if isinstance(value, Window):
+        return value
+    if not isinstance(value, str):
+        raise SettingsError(
+            name, repr(value), f"a Window, one of {', '.join(map(repr, WINDOW_NAMES))} or None"
+        )
+    choice(SettingsError, name, value, WINDOW_NAMES, ", a Window or None")
+    if value == "auto":
+        return None
+    return Window.named(value) if value in _FIXED else value

@@ -10,6 +10,7 @@ pub mod frame;
 pub mod geometry;
 pub mod math;
 pub mod pipeline;
+pub mod progress;
 pub mod scene;
 pub mod settings;
 pub mod shaders;

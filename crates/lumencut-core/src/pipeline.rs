@@ -22,6 +22,7 @@ use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::math::lanes::Isa;
 use crate::math::projection::{Level, ProjectedLevel, Radii};
+use crate::progress::Progress;
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::Settings;
 use crate::stages::depth::{CutSurface, Sheet};
@@ -39,12 +40,14 @@ pub struct Request<'a> {
     pub images: ImageSet,
     /// Whether to stop.
     pub stop: Stop<'a>,
+    /// Where to tell how far the view is.
+    pub progress: Option<&'a Progress>,
 }
 
 impl<'a> Request<'a> {
-    /// All images of a view, without a way to stop.
+    /// All images of a view, without a way to stop or to tell how far it is.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
-        Self { camera, settings, images: ImageSet::ALL, stop: &|| false }
+        Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
 
     /// The same without the picture where the scene has no volume to show: nothing is made for it then.
@@ -52,6 +55,29 @@ impl<'a> Request<'a> {
     pub fn without_unseen_picture(self, scene: &Scene) -> Self {
         let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
         Self { images, ..self }
+    }
+
+    /// Tells that the view begins on the CPU, and by which stages.
+    fn begin_view(&self, scene: &Scene) {
+        let Some(progress) = self.progress else { return };
+        let asked = self.without_unseen_picture(scene).images;
+        let mut stages = Vec::new();
+        let mut made = ImageSet::of(&[]);
+        if scene.tree.is_some() {
+            stages = Stage::of_cut_surface(self.settings, asked);
+            let written = stages.iter().flat_map(|stage| stage.writes()).copied().collect::<Vec<_>>();
+            made = ImageSet::of(&written).and(ImageSet::of(&[Image::Depth]));
+        }
+        if scene.volume.is_some() {
+            stages.extend(Stage::of_look(self.settings, &Geometry::rays(*self.camera), made));
+        }
+        progress.begin_view(stages.iter().map(|stage| stage.cost()), self.camera.size().iter().product());
+    }
+
+    fn begin_stage(&self, stage: Stage) {
+        if let Some(progress) = self.progress {
+            progress.begin_stage(stage.cost());
+        }
     }
 }
 
@@ -86,6 +112,7 @@ impl CpuRenderer {
     /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         request.settings.check()?;
+        request.begin_view(scene);
         let frame = match &scene.tree {
             Some(tree) => self.cut_surface(tree, &request.without_unseen_picture(scene))?,
             None => Frame::of(Geometry::rays(*request.camera)),
@@ -118,6 +145,7 @@ impl CpuRenderer {
         clock.lap(Stage::Projection);
         let pass = self.pass(request);
         for stage in Stage::of_cut_surface(request.settings, request.images) {
+            request.begin_stage(stage);
             pass.run(stage, &mut images)?;
             clock.lap(stage);
         }
@@ -136,12 +164,13 @@ impl CpuRenderer {
     }
 
     fn show(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
-        let &Request { settings, stop, .. } = request;
-        let work = Work { size: frame.size(), isa: self.isa, stop };
+        let &Request { settings, stop, progress, .. } = request;
+        let work = Work { size: frame.size(), isa: self.isa, stop, progress };
         let (mut clock, mut images) = (Clock::start(), Images::default());
         let Frame { geometry, vessel, leap, .. } = &frame;
         let pass = LookPass { work, volume, settings, geometry, vessel, leap };
         for stage in Stage::of_look(settings, &frame.geometry, frame.images()) {
+            request.begin_stage(stage);
             pass.run(stage, &mut images)?;
             clock.lap(stage);
         }
@@ -169,10 +198,10 @@ impl CpuRenderer {
 
     /// What the stages of the cut surface read, once the levels are projected into the view.
     pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
-        let &Request { camera, settings, images, stop } = request;
+        let &Request { camera, settings, images, stop, progress } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
         CutSurfacePass {
-            work: Work { size: camera.size(), isa: self.isa, stop },
+            work: Work { size: camera.size(), isa: self.isa, stop, progress },
             surface: CutSurface::new(levels, projected, camera, settings),
             has_sheet: Stage::has_sheet(settings, images),
             settings,

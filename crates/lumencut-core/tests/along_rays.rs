@@ -101,7 +101,7 @@ fn reduced(
     isa: Isa,
     chord: &(dyn Fn(usize) -> [f64; 2] + Sync),
 ) -> Vec<f32> {
-    let work = Work { size: camera.size(), isa, stop: &|| false };
+    let work = Work { size: camera.size(), isa, stop: &|| false, progress: None };
     let limit = if reduction == Reduction::Smallest { -HUGE } else { HUGE };
     let to = IndexFromView::new(volume, camera);
     let along = AlongRays { size: work.size, volume, blocks, reduction, limit, step: to.voxel() };

@@ -71,7 +71,7 @@ fn traced(
 ) -> Vec<[u32; 4]> {
     let start = starts(camera);
     let mut pixels = vec![[-1.0f32; 4]; start.len()];
-    let work = Work { size: camera.size(), isa, stop: &|| false };
+    let work = Work { size: camera.size(), isa, stop: &|| false, progress: None };
     let surroundings = Surroundings { camera, volume, blocks };
     context(&work, &surroundings, &Settings::default(), settings, &start, &mut pixels).unwrap();
     assert!(

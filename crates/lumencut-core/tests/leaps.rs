@@ -3,7 +3,7 @@
 
 use lumencut_core::camera::Camera;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::math::leaps::{DOWNWARDS, TO_THE_RIGHT};
+use lumencut_core::math::leaps::{DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 use lumencut_core::pipeline::{CpuRenderer, Request, SurfaceDetails};
 use lumencut_core::scene::LeveledTree;
 use lumencut_core::settings::{LevelChoice, Settings};
@@ -26,8 +26,9 @@ fn details(scene: &VesselTree, camera: &Camera, settings: &Settings) -> SurfaceD
     CpuRenderer::default().details(&scene, &Request::new(camera, settings)).unwrap()
 }
 
+/// The leaps alone.
 fn leaps(scene: &VesselTree, camera: &Camera) -> Vec<u32> {
-    details(scene, camera, &Settings::default()).leap
+    details(scene, camera, &Settings::default()).leap.iter().map(|bits| bits & LEAPS).collect()
 }
 
 /// A tube across the view.
@@ -69,14 +70,23 @@ fn leaps_to_the_right_are_those_downwards_of_the_view_turned_by_a_right_angle() 
 }
 
 #[test]
-fn the_sheet_of_a_straight_tube_is_its_slope_and_radius_without_a_gap() {
+fn the_sheet_of_a_straight_tube_is_its_slope_and_radius_negative_beside_the_lumen_without_a_gap() {
     // 40 mm of depth over 80 mm to the right and 40 mm upwards: (80, 40) · 40 / (80² + 40²).
     let slanted = tree(vec![vessel(&[[-80., -40., -40.], [0.; 3], [80., 40., 40.]], 3.0)]);
     let slope = [0.4f32, 0.2];
-    for level_choice in [LevelChoice::Own, LevelChoice::Nearest] {
-        let settings = Settings { level_choice, ..Settings::default() };
-        for sheet in details(&slanted, &front(SIZE, 1.0), &settings).sheet {
-            CLOSED_FORM.assert_same(&sheet, &[slope[0], slope[1], 3.0, 0.0], "sheet");
+    let camera = front(SIZE, 1.0);
+    for (level_choice, lumen_first) in [
+        (LevelChoice::Own, true),
+        (LevelChoice::Own, false),
+        (LevelChoice::Nearest, true),
+        (LevelChoice::Nearest, false),
+    ] {
+        let settings = Settings { level_choice, lumen_first, ..Settings::default() };
+        for (p, sheet) in details(&slanted, &camera, &settings).sheet.iter().enumerate() {
+            let (x, y) = (camera.view_x(p % SIZE[0]), camera.view_y(p / SIZE[0]));
+            let is_lumen = (2.0 * y - x).abs() < 3.0 * 5f64.sqrt();
+            let radius = if is_lumen { 3.0 } else { -3.0 };
+            CLOSED_FORM.assert_same(sheet, &[slope[0], slope[1], radius, 0.0], "sheet");
         }
     }
 }
@@ -131,30 +141,11 @@ fn a_leap_is_more_than_the_larger_diameter_and_more_than_two_mm() {
     }
 }
 
-#[test]
-fn the_strength_beside_a_leap_does_not_depend_on_pixel_spacing() {
-    let scene = tree(vec![tube(8.0, 0.0, 2.0), tube(-8.0, 30.0, 2.0)]);
-    let profile = |spacing: f64| {
-        let camera = front(SIZE, spacing);
-        let SurfaceDetails { leap, strength, .. } = details(&scene, &camera, &Settings::default());
-        let border = leap.iter().position(|leap| *leap != 0).unwrap() / SIZE[0];
-        let middle = SIZE[0] / 2;
-        (0..10).map(|n| strength[(border + n - 4) * SIZE[0] + middle].to_bits()).collect::<Vec<_>>()
-    };
-    let expected = profile(0.5);
-    for spacing in [0.3, 1.0] {
-        assert_eq!(profile(spacing), expected, "{spacing} mm");
-    }
-    let strengths: Vec<f32> = expected.iter().map(|bits| f32::from_bits(*bits)).collect();
-    assert!(strengths[4] > 0.5 && strengths[4] == strengths[5], "{strengths:?}");
-    assert!(strengths[0] == 0.0 && strengths[9] == 0.0, "{strengths:?}");
-}
-
 /// Depths in mm, and sheets that explain some of their changes.
 fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
     let sheet = |random: &mut Random| {
         let [x, y] = [0; 2].map(|_| random.between(-6.0, 6.0));
-        [x, y, random.between(0.0, 3.0), 0.0]
+        [x, y, random.between(-3.0, 3.0), 0.0]
     };
     let depth = random.image(pixels, -8.0, 8.0);
     (depth, (0..pixels).map(|_| sheet(random)).collect())
@@ -164,7 +155,7 @@ fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
 fn stated(change: f32, sheets: [Sheet; 2], step: [f64; 2]) -> Option<bool> {
     let over = sheets.map(|[x, y, radius, _]| {
         let expected = f64::from(x) * step[0] + f64::from(y) * step[1];
-        (f64::from(change) - expected).abs() - (2.0 * f64::from(radius)).max(2.0)
+        (f64::from(change) - expected).abs() - (2.0 * f64::from(radius.abs())).max(2.0)
     });
     let is_certain = over.iter().all(|over| over.abs() > 1e-4);
     is_certain.then(|| over.iter().all(|over| *over > 0.0))
@@ -178,19 +169,21 @@ fn the_leap_image_is_the_rule_applied_pixel_by_pixel_at_any_size() {
         let (camera, (depth, sheet)) = (front(size, 0.7), noise(&mut random, width * height));
         let by = |isa: Isa| {
             let mut found = vec![9; depth.len()];
-            let work = Work { size, isa, stop: &|| false };
+            let work = Work { size, isa, stop: &|| false, progress: None };
             leap(&work, &LeapParameters::new(&camera), &depth, &sheet, &mut found).unwrap();
             found
         };
         let found = by(Isa::Baseline);
         assert!(Isa::available().into_iter().all(|isa| by(isa) == found), "{size:?}");
         for (p, leap) in found.iter().enumerate() {
-            assert_eq!(leap & !(TO_THE_RIGHT | DOWNWARDS), 0);
+            assert_eq!(leap & !(LEAPS | LINE_TO_THE_RIGHT | LINE_DOWNWARDS | LUMEN), 0);
+            let is_lumen = |p: usize| sheet[p][2] > 0.0;
+            assert_eq!(leap & LUMEN != 0, is_lumen(p));
             let ways = [
-                (TO_THE_RIGHT, p % width + 1 < width, 1, [0.7, 0.0]),
-                (DOWNWARDS, p / width + 1 < height, width, [0.0, -0.7]),
+                (TO_THE_RIGHT, LINE_TO_THE_RIGHT, p % width + 1 < width, 1, [0.7, 0.0]),
+                (DOWNWARDS, LINE_DOWNWARDS, p / width + 1 < height, width, [0.0, -0.7]),
             ];
-            for (bit, has_neighbour, ahead, step) in ways {
+            for (bit, line, has_neighbour, ahead, step) in ways {
                 let to = if has_neighbour { p + ahead } else { p };
                 let rule = if has_neighbour {
                     stated(depth[to] - depth[p], [sheet[p], sheet[to]], step)
@@ -198,9 +191,11 @@ fn the_leap_image_is_the_rule_applied_pixel_by_pixel_at_any_size() {
                     Some(false)
                 };
                 assert!(rule.is_none_or(|rule| rule == (leap & bit != 0)), "{size:?}, pixel {p}, bit {bit}");
+                let beyond = if is_lumen(p) == is_lumen(to) { depth[to] > depth[p] } else { is_lumen(p) };
+                assert_eq!(leap & line != 0, beyond && leap & bit != 0, "{size:?}, pixel {p}, bit {line}");
             }
         }
-        assert_eq!(found.iter().any(|leap| *leap != 0), width * height > 1, "{size:?}");
+        assert_eq!(found.iter().any(|leap| *leap & LEAPS != 0), width * height > 1, "{size:?}");
     }
 }
 
@@ -214,7 +209,7 @@ fn the_leaps_of_a_view_are_those_of_its_depth_and_sheet() {
             let SurfaceDetails { sheet, leap: found, strength } = details(&scene, &camera, &settings);
             let depth = by_hierarchy(&scene, &camera, &settings);
             let mut expected = vec![9; found.len()];
-            let work = Work { size, isa: Isa::widest(), stop: &|| false };
+            let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };
             leap(&work, &LeapParameters::new(&camera), depth.depth(), &sheet, &mut expected).unwrap();
             assert_eq!(found, expected, "{size:?}");
             assert!(strength.iter().all(|s| (0.0..=1.0001).contains(s)));

@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::geometry::Geometry;
-use lumencut_core::math::leaps::TO_THE_RIGHT;
+use lumencut_core::math::leaps::{LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 use lumencut_core::settings::{Opacity, Settings, Slab, SlabMode, Window};
 use lumencut_core::stages::Stage;
 use lumencut_core::stages::composite::{CompositeParameters, Layers, composite};
@@ -264,6 +264,8 @@ fn leaps_are_where_neither_side_goes_on_and_never_beyond_the_image() {
     let mut found = vec![9; depths.len()];
     leap(&on_cpu(&camera), &LeapParameters::new(&camera), &depths, &sheets, &mut found).unwrap();
     for (p, bits) in found.iter().enumerate() {
-        assert_eq!(*bits, if place(p).0 == 2 { TO_THE_RIGHT } else { 0 }, "at {:?}", place(p));
+        // All of it is lumen, and what is to the right lies farther.
+        let leap = if place(p).0 == 2 { TO_THE_RIGHT | LINE_TO_THE_RIGHT } else { 0 };
+        assert_eq!(*bits, leap | LUMEN, "at {:?}", place(p));
     }
 }

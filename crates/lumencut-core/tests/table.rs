@@ -97,6 +97,6 @@ fn what_nothing_reads_is_not_made() {
 #[should_panic(expected = "entries of the image UnfilteredDepth of 4 × 3 pixels")]
 fn images_of_another_size_are_refused() {
     let camera: Camera = front([4, 3], 1.0);
-    let work = Work { size: camera.size(), isa: Isa::Baseline, stop: &|| false };
+    let work = Work { size: camera.size(), isa: Isa::Baseline, stop: &|| false, progress: None };
     let _ = depth_filter(&work, &DepthFilterParameters::new(), &[0.0; 11], None, &mut [0.0; 12]);
 }

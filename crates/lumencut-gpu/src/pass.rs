@@ -164,10 +164,10 @@ impl<'a> Pass<'a> {
         let Geometry::Orthographic { camera, .. } = &self.geometry else { return };
         let Images { depth, vessel, raised, strength, size, .. } = self.images;
         let Stages { view, depth_filter, silhouette, .. } = &*self.stages;
-        if self.request.settings.silhouette_rule == SilhouetteRule::Leap {
-            return silhouette.record_leaps(&mut self.recording, depth_filter, view, self.images);
-        }
         silhouette.write(self.device, self.request.settings, camera);
+        if self.request.settings.silhouette_rule == SilhouetteRule::Leap {
+            return silhouette.record_leaps(&mut self.recording, view, self.images);
+        }
         let images = SilhouetteImages { size: *size, depth, vessel, raised, strength };
         silhouette.record(&mut self.recording, depth_filter, view, images);
     }
@@ -185,7 +185,7 @@ impl<'a> Pass<'a> {
         let has_surface = self.made.has(Image::Value);
         let images = ContextImages { size: *size, has_surface, depth, value, start, gathered };
         let Stages { view, grid, context: stage, .. } = &mut *self.stages;
-        stage.write(self.device, settings, context, &shared.volume, blocks)?;
+        stage.write(self.device, settings, context, (&shared.volume, self.request.camera), blocks)?;
         stage.record(&mut self.recording, [view, grid], (on_device, blocks), context, images);
         Ok(())
     }

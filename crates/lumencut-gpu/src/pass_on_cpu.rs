@@ -55,7 +55,7 @@ impl Pass<'_> {
             Geometry::Curved(curved) => Geometry::Curved(curved.clone()),
         };
         let &Request { settings, stop, .. } = self.request;
-        let work = Work { size: self.images.size, isa: Isa::widest(), stop };
+        let work = Work { size: self.images.size, isa: Isa::widest(), stop, progress: None };
         let vessel = std::mem::take(&mut images.vessel);
         let leap = std::mem::take(&mut images.leap);
         let pass = LookPass { work, volume, settings, geometry: &geometry, vessel: &vessel, leap: &leap };

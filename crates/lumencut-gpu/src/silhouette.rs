@@ -12,12 +12,12 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// The slope of the depth, filtered, as the strength of a line.
+/// The lines of leaps; or the slope of the depth, filtered, as the strength of a line.
 #[derive(Debug)]
 pub(crate) struct Silhouette {
     raise: Stage,
     strength: Stage,
-    beside_leaps: Stage,
+    lines: Stage,
     parameters: Buffer,
 }
 
@@ -42,7 +42,7 @@ impl Silhouette {
         Self {
             raise: Stage::new(device, ROOM, &[]),
             strength: Stage::entry(device, ROOM, "strength", &[]),
-            beside_leaps: Stage::entry(device, ROOM, "beside_leaps", &[]),
+            lines: Stage::entry(device, ROOM, "lines", &[]),
             parameters: device.uniform::<SilhouetteParameters>("silhouette parameters"),
         }
     }
@@ -52,18 +52,11 @@ impl Silhouette {
         device.write(&self.parameters, &[SilhouetteParameters::new(settings, camera)]);
     }
 
-    /// Writes the strength of the silhouettes beside leaps.
-    pub fn record_leaps(
-        &self,
-        recording: &mut Recording,
-        filter: &DepthFilter,
-        view: &Buffer,
-        images: &Images,
-    ) {
-        let Images { size, leap, raised, strength, .. } = images;
-        let buffers = [view, leap, raised].map(Buffer::as_entire_binding);
-        recording.run(&self.beside_leaps, &buffers, groups(*size, GROUP));
-        filter.record_as(self.raise.name, recording, view, *size, [raised, strength]);
+    /// Writes how much of each pixel the lines of the leaps cover.
+    pub fn record_leaps(&self, recording: &mut Recording, view: &Buffer, images: &Images) {
+        let Images { size, leap, strength, value, .. } = images;
+        let buffers = [view, leap, strength, &self.parameters, value].map(Buffer::as_entire_binding);
+        recording.run(&self.lines, &buffers, groups(*size, GROUP));
     }
 
     /// Writes the strength of the silhouettes of a steep depth.

@@ -46,6 +46,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(views::positions, module)?)?;
     module.add_function(wrap_pyfunction!(windows::window_from_data, module)?)?;
     module.add_function(wrap_pyfunction!(windows::whole_window, module)?)?;
+    module.add_function(wrap_pyfunction!(windows::full_window, module)?)?;
+    module.add_function(wrap_pyfunction!(windows::mra_window, module)?)?;
     module.add_function(wrap_pyfunction!(placement::placement, module)?)?;
     module.add_function(wrap_pyfunction!(placement::better_place, module)?)?;
     module.add_function(wrap_pyfunction!(placement::fits_nowhere, module)?)?;
@@ -53,5 +55,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
     module.add_function(wrap_pyfunction!(write_centerlines::write_centerlines, module)?)?;
+    module.add_function(wrap_pyfunction!(pool::set_threads, module)?)?;
+    module.add_function(wrap_pyfunction!(pool::threads, module)?)?;
     Ok(())
 }

@@ -1,16 +1,20 @@
 //! Space and unit of centerlines, for `lumencut.placement`.
 
+use glam::DVec3;
 use lumencut::centerlines::{Space, Unit};
-use lumencut::placement::{self as decision, Known};
+use lumencut::extent::Extent;
+use lumencut::lumen_points::{Lines, lumen_count};
+use lumencut::misplaced;
+use lumencut::placement::{self as decision, Judge, Known};
 use lumencut::places::{LARGEST, SMALLEST, signs};
-use numpy::PyReadonlyArray2;
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::centerlines::raised;
 use crate::tree::points_of;
-use crate::volume::GridArgument;
+use crate::volume::{GridArgument, VolumeArgument};
 
 /// A space by its name.
 pub struct SpaceArgument(Space);
@@ -81,19 +85,44 @@ pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("LARGEST_EXTENT", LARGEST)
 }
 
-/// How the points (n, 3) of the file `subject` are to be understood: the attributes of `lumencut.placement.Placement`.
+/// Asks what a decision needs of a volume: its extent, and its values along points (n, 3) with radii (n,).
+fn judged<T: Send>(
+    py: Python<'_>,
+    (points, radii): (&[DVec3], &PyReadonlyArray1<'_, f64>),
+    volume: &VolumeArgument<'_>,
+    decide: impl Fn(&Judge) -> T + Sync,
+) -> PyResult<T> {
+    if radii.len() != points.len() {
+        return Err(PyValueError::new_err(format!("{} points, {} radii", points.len(), radii.len())));
+    }
+    let (borrowed, radii) = (volume.borrow()?, radii.as_array().to_vec());
+    let volume = volume.volume(&borrowed)?;
+    let lines = Lines { points, radii: &radii };
+    let lumen = |place| lumen_count(&volume, &lines, place);
+    Ok(py.detach(|| decide(&Judge { extent: Extent::from(&volume), lumen: &lumen })))
+}
+
+/// How the points (n, 3) with radii (n,), NaN where unknown, of the file `subject` are to be understood: the attributes of
+/// `lumencut.placement.Placement`.
 #[pyfunction]
-#[pyo3(signature = (subject, points, known, volume))]
+#[pyo3(signature = (subject, points, radii, known, volume))]
 #[allow(clippy::needless_pass_by_value)]
 pub fn placement<'py>(
     py: Python<'py>,
     subject: &str,
     points: PyReadonlyArray2<'py, f64>,
+    radii: PyReadonlyArray1<'py, f64>,
     known: KnownArgument,
-    volume: Option<GridArgument>,
+    volume: Option<VolumeArgument<'py>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (points, extent) = (points_of(&points)?, volume.map(|grid| grid.extent()));
-    let found = py.detach(|| decision::placement(&known.known(), &points, extent.as_ref()));
+    let (points, known) = (points_of(&points)?, known.known());
+    let found = match volume {
+        Some(volume) => {
+            let decide = |judge: &Judge| decision::placement(&known, &points, Some(judge));
+            judged(py, (&points, &radii), &volume, decide)?
+        }
+        None => decision::placement(&known, &points, None),
+    };
     let found = found.map_err(|error| raised(&error.in_file(subject)))?;
     let fields = PyDict::new(py);
     fields.set_item("space", found.place.space.name())?;
@@ -105,16 +134,18 @@ pub fn placement<'py>(
     Ok(fields)
 }
 
-/// What is to be said of points (n, 3) (mm, LPS) that another space or unit brings into a volume.
+/// What is to be said of points (n, 3) (mm, LPS) with radii (n,) (mm), NaN where unknown, that another space or unit brings
+/// into a volume, or that look like lumen in another space alone.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn better_place(
     py: Python<'_>,
     points: PyReadonlyArray2<'_, f64>,
-    volume: GridArgument,
+    radii: PyReadonlyArray1<'_, f64>,
+    volume: VolumeArgument<'_>,
 ) -> PyResult<Option<String>> {
-    let (points, extent) = (points_of(&points)?, volume.extent());
-    Ok(py.detach(|| decision::better_place(&points, &extent)))
+    let points = points_of(&points)?;
+    judged(py, (&points, &radii), &volume, |judge| misplaced::better_place(&points, judge))
 }
 
 /// Whether points (n, 3) (mm, LPS) miss a volume in whatever space and unit they might be meant.
@@ -126,5 +157,5 @@ pub fn fits_nowhere(
     volume: GridArgument,
 ) -> PyResult<bool> {
     let (points, extent) = (points_of(&points)?, volume.extent());
-    Ok(py.detach(|| decision::fits_nowhere(&points, &extent)))
+    Ok(py.detach(|| misplaced::fits_nowhere(&points, &extent)))
 }

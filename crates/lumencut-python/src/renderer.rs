@@ -11,6 +11,7 @@ use lumencut::frame::Frame;
 use lumencut::geometry::Geometry;
 use lumencut::math::lanes::FAR;
 use lumencut::pipeline::{CpuRenderer, Request};
+use lumencut::progress::Progress;
 use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
 use lumencut::stages::{Image, ImageSet};
 use lumencut::stop::Stop;
@@ -27,6 +28,9 @@ use crate::volume::VolumeArgument;
 
 /// How often a rendering asks Python for signals such as Ctrl-C.
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
+
+/// Into how many parts a rendering is divided for whoever is told how far it is.
+const SHARES: u32 = 1000;
 
 /// Renders views of one tree, or of a volume alone; every view is of the same volume. Renderers of the same volume with
 /// other trees share what computes and what is known of the volume.
@@ -75,7 +79,7 @@ impl Renderer {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
         let all = PyDict::new(py);
         let Some(tree) = &self.tree else { return Ok(all) };
-        let details = interruptible(py, |stop| {
+        let details = interruptible(py, None, |stop| {
             let request = Request { stop, ..Request::new(&camera, settings) };
             pool::install(|| CpuRenderer::default().details(tree, &request))?.map_err(to_python)
         })?;
@@ -90,7 +94,8 @@ impl Renderer {
 
     /// The buffers of one view by name, those that are asked for: those of the cut surface where there are vessels, those
     /// of the picture where there is a volume.
-    #[pyo3(signature = (volume, camera, settings, images=None))]
+    /// While it renders, `told` is called now and then with how much is done, in `SHARES` parts of the whole.
+    #[pyo3(signature = (volume, camera, settings, images=None, told=None))]
     #[allow(clippy::needless_pass_by_value)]
     fn render<'py>(
         &self,
@@ -99,6 +104,7 @@ impl Renderer {
         camera: CameraArgument,
         settings: &Bound<'py, Checked>,
         images: Option<Vec<String>>,
+        told: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
         let images = images.map_or(Ok(ImageSet::ALL), |names| image_set(&names))?;
@@ -110,8 +116,11 @@ impl Renderer {
             _ => None,
         };
         let scene = Scene { volume, tree: self.tree.clone() };
-        let (frame, given_up) = interruptible(py, |stop| {
-            let request = Request { camera: &camera, settings, images, stop };
+        let progress = Progress::default();
+        let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
+        let (frame, given_up) = interruptible(py, watched.as_ref(), |stop| {
+            let progress = watched.as_ref().map(|watched| watched.progress);
+            let request = Request { camera: &camera, settings, images, stop, progress };
             // Locked outside the pool: one of its threads, waiting for a part of this view, could take up another
             // view and wait for the lock that it holds itself.
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
@@ -119,6 +128,9 @@ impl Renderer {
             let backend = &mut *locked;
             pool::install(|| pollster::block_on(backend.render(&scene, &request)))?.map_err(to_python)
         })?;
+        if let Some(watched) = watched {
+            watched.tell(py, SHARES)?;
+        }
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)
     }
@@ -141,8 +153,31 @@ fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult
     given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
 }
 
-/// Runs `work` on a thread of its own without the GIL while this one listens for signals.
-fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send) -> PyResult<T> {
+/// How far a rendering is, and the function of Python that is told so.
+struct Watched<'a> {
+    progress: &'a Progress,
+    told: &'a Py<PyAny>,
+}
+
+impl Watched<'_> {
+    /// Tells how much is done, of `SHARES` parts.
+    fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
+        self.told.call1(py, (done, SHARES)).map(drop)
+    }
+
+    /// Tells it while the work goes on.
+    fn tell_so_far(&self, py: Python<'_>) -> PyResult<()> {
+        // A share of 0 to 1: at most `SHARES`.
+        self.tell(py, (self.progress.share() * f64::from(SHARES)) as u32)
+    }
+}
+
+/// Runs `work` on a thread of its own without the GIL while this one listens for signals, and tells how far it is.
+fn interruptible<T: Send>(
+    py: Python<'_>,
+    watched: Option<&Watched<'_>>,
+    work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,
+) -> PyResult<T> {
     let stopped = AtomicBool::new(false);
     let stop = || stopped.load(Ordering::Relaxed);
     py.detach(|| {
@@ -158,7 +193,10 @@ fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(Stop<'_>) -> PyResul
             let mut signal = Ok(());
             while !worker.is_finished() && signal.is_ok() {
                 if finished.recv_timeout(SIGNAL_PERIOD).is_err() {
-                    signal = Python::attach(|py| py.check_signals());
+                    signal = Python::attach(|py| {
+                        py.check_signals()?;
+                        watched.map_or(Ok(()), |watched| watched.tell_so_far(py))
+                    });
                 } else {
                     break;
                 }

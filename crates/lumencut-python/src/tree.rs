@@ -9,6 +9,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArra
 use pyo3::prelude::*;
 
 use crate::errors::{exception, to_python};
+use crate::pool;
 
 /// Points (n, 3) and radii (n,) of one vessel.
 pub type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
@@ -71,7 +72,7 @@ pub fn smoothed<'py>(
 ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
     Settings { centerline_smoothing: radii, ..Settings::default() }.check().map_err(to_python)?;
     let tree = tree(&vessels)?;
-    let smoothed = py.detach(|| smooth_centerlines(&tree, radii));
+    let smoothed = py.detach(|| pool::install(|| smooth_centerlines(&tree, radii)))?;
     smoothed.vessels().iter().map(|v| arrays(py, v).map(|(points, _)| points)).collect()
 }
 

@@ -6,6 +6,7 @@ use lumencut::settings::{
     ControlPoint, Kind, Named, Opacity, Slab, SlabMode, TransferFunction, Value, Window,
 };
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 
 use crate::errors::to_python;
 
@@ -20,6 +21,8 @@ pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
         Kind::Count => Value::Count(object.extract()?),
         Kind::Color(_) => Value::Color(object.extract()?),
         Kind::Choice => Value::Name(object.extract()?),
+        // A name of a window from the data: known once there is a volume.
+        Kind::Window if object.is_instance_of::<PyString>() => Value::None,
         Kind::Window => Value::Window(object.extract::<WindowArgument>()?.window()),
         Kind::Opacity => Value::Opacity(object.extract::<OpacityArgument>()?.opacity()),
         Kind::Slab => Value::Slab(object.extract::<SlabArgument>()?.slab().map_err(to_python)?),

@@ -33,6 +33,20 @@ pub fn whole_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64
     found(py, &volume, windows::whole)
 }
 
+/// Level and width of a window from the smallest voxel to the largest.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn full_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64, f64)> {
+    found(py, &volume, windows::full)
+}
+
+/// Level and width of a window that shows all tissues of an MR angiography.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn mra_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64, f64)> {
+    found(py, &volume, windows::mra)
+}
+
 fn found(
     py: Python<'_>,
     volume: &VolumeArgument<'_>,

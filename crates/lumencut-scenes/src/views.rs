@@ -39,7 +39,7 @@ pub fn fitted(tree: &VesselTree, direction: DVec3, side: usize) -> Camera {
 
 /// What the stages of the CPU are given for a camera: the widest instruction set, and no request to stop.
 pub fn on_cpu(camera: &Camera) -> Work<'static> {
-    Work { size: camera.size(), isa: Isa::widest(), stop: &|| false }
+    Work { size: camera.size(), isa: Isa::widest(), stop: &|| false, progress: None }
 }
 
 /// The pixel whose centre is nearest to view (x, y).

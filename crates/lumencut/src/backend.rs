@@ -59,11 +59,16 @@ impl Backend {
     /// [`ErrorKind::Device`] where the GPU fails and the CPU may not stand in for it.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
         let views = sub_views(request.camera, request.settings.samples)?;
+        let has_samples = views.len() > 1 && scene.volume.is_some() && request.images.has(Image::Picture);
+        if let Some(progress) = request.progress {
+            // The middle one of an odd number of samples is the view itself.
+            let samples = views.iter().filter(|camera| *camera != request.camera).count();
+            progress.expect_views(if has_samples { 1 + samples } else { 1 });
+        }
         let mut frame = self.render_once(scene, request).await?;
-        if views.len() > 1 && !frame.image.is_empty() {
+        if has_samples {
             let mut mean = Mean::of(frame.image.len());
             for camera in &views {
-                // The middle one of an odd number is the view itself.
                 if camera == request.camera {
                     mean.add(&frame.image);
                     continue;
@@ -80,6 +85,15 @@ impl Backend {
 
     /// One picture with one sample per pixel.
     async fn render_once(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
+        let frame = self.computed(scene, request).await?;
+        if let Some(progress) = request.progress {
+            progress.end_view();
+        }
+        Ok(frame)
+    }
+
+    /// The same from the GPU, or from the CPU.
+    async fn computed(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         let gpu = match &mut self.computer {
             Computer::Cpu(cpu) => return cpu.render(scene, request),
             Computer::Gpu(gpu) => gpu,

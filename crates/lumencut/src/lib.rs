@@ -5,11 +5,15 @@
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
 pub mod backend;
+mod choice;
 pub mod devices;
 pub mod extent;
 mod fused;
+pub mod lumen_points;
+pub mod misplaced;
 pub mod placement;
 pub mod places;
+mod populations;
 pub mod positions;
 mod samples;
 mod statistics;
@@ -19,7 +23,7 @@ pub mod views;
 pub mod windows;
 
 pub use lumencut_core::{
-    camera, error, frame, geometry, math, pipeline, scene, settings, stages, stop, vessel_tree, volume,
-    with_voxels,
+    camera, error, frame, geometry, math, pipeline, progress, scene, settings, stages, stop, vessel_tree,
+    volume, with_voxels,
 };
 pub use lumencut_io as centerlines;

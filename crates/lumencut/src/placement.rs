@@ -1,18 +1,15 @@
-//! Space and unit of centerlines: what the caller says, else what their file states, else what fits the volume, else
-//! what is usual.
+//! Space and unit of centerlines: what the caller says, else what their file states, else what fits the volume, by its
+//! extent or, between two spaces, by its values along the lines, else what is usual.
 //!
 //! Nothing is decided in silence: every choice that the file does not state comes with the counts behind it.
 
-use std::collections::BTreeSet;
-
 use glam::DVec3;
-use lumencut_io::{Error, Result, Space, Unit};
+use lumencut_io::{Result, Space, Unit};
 
+use crate::choice::Choice;
 use crate::extent::Extent;
-use crate::places::{Place, Reading, places, readings};
-
-/// A place is as good as another if it brings at least this part of the other's points into the volume.
-const AS_GOOD: f64 = 0.8;
+use crate::lumen_points::LumenCount;
+use crate::places::{Place, places, readings};
 
 /// What is known of the coordinates of a file before the volume is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +35,8 @@ pub enum Origin {
     Stated,
     /// The extent of the volume.
     Volume,
+    /// The values of the volume along the lines.
+    Values,
     /// Nobody.
     Assumed,
 }
@@ -49,6 +48,7 @@ impl Origin {
             Self::Asked => "asked",
             Self::Stated => "stated",
             Self::Volume => "volume",
+            Self::Values => "values",
             Self::Assumed => "assumed",
         }
     }
@@ -78,16 +78,25 @@ pub struct Placement {
     pub unit_from: Origin,
     /// What was decided, and by what; empty where the file or the caller said everything.
     pub decision: String,
-    /// Whether the volume decided against LPS or the usual unit.
+    /// Whether the volume decided against LPS or the usual unit, or the space by its values alone.
     pub is_unusual: bool,
+}
+
+/// What the volume can say.
+#[derive(Clone, Copy)]
+pub struct Judge<'a> {
+    /// The space that it fills.
+    pub extent: Extent,
+    /// How many points look like lumen in it where they are read in a place.
+    pub lumen: &'a dyn Fn(Place) -> LumenCount,
 }
 
 /// Decides how the points of a file, as they stand in it, are to be understood; without a volume by what is usual.
 ///
 /// # Errors
-/// An [`Error`] without the file's name where the volume is there to decide and cannot: several places fit it alike, or
+/// An [`lumencut_io::Error`] without the file's name where the volume is there to decide and cannot: several places fit it alike, or
 /// none does.
-pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Extent>) -> Result<Placement> {
+pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Result<Placement> {
     let usual = known.usual();
     let space_from = Origin::of(known.asked_space, known.stated_space);
     let unit_from = Origin::of(known.asked_unit, known.stated_unit);
@@ -109,11 +118,17 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Extent>) -> Re
             if space_from == Origin::Assumed { &Space::ALL } else { std::slice::from_ref(&usual.space) },
             if unit_from == Origin::Assumed { &Unit::ALL } else { std::slice::from_ref(&usual.unit) },
         );
-        let choice = Choice { readings: readings(points, &candidates, volume), usual, total: points.len() };
-        let best = choice.best()?;
-        if best.inside > 0 {
-            let decision = format!("{nothing}; {}", choice.told(best));
-            return Ok(told(best.place, space_from.decided(), unit_from.decided(), decision));
+        let readings = readings(points, &candidates, &volume.extent);
+        let choice = Choice { readings, usual, total: points.len() };
+        let found = choice.best(volume.lumen)?;
+        if let Some(by_values) = found.by_values {
+            let decision = format!("{nothing}; {by_values}");
+            let placement = told(found.best.place, Origin::Values, unit_from.decided(), decision);
+            return Ok(Placement { is_unusual: true, ..placement });
+        }
+        if found.best.inside > 0 {
+            let decision = format!("{nothing}; {}", choice.told(found.best));
+            return Ok(told(found.best.place, space_from.decided(), unit_from.decided(), decision));
         }
     }
     let decision = format!("{nothing}; {usual} is assumed");
@@ -141,145 +156,6 @@ impl Known {
         });
         overruled.collect::<Vec<_>>().join("; ")
     }
-}
-
-/// The choice of a place by the points that it brings into the volume.
-struct Choice {
-    readings: Vec<Reading>,
-    usual: Place,
-    /// How many points there are.
-    total: usize,
-}
-
-impl Choice {
-    /// The place that fits the volume; the usual one where the file states a space and none fits.
-    fn best(&self) -> Result<Reading> {
-        let most = self.readings.iter().map(|reading| reading.inside).max().unwrap_or(0);
-        let spaces: BTreeSet<&str> = self.readings.iter().map(|reading| reading.place.space.name()).collect();
-        if most == 0 && spaces.len() == 1 {
-            return Ok(Reading { place: self.usual, inside: 0 });
-        }
-        if most == 0 {
-            return Err(self.nowhere(&spaces));
-        }
-        let fitting: Vec<Reading> =
-            self.readings.iter().filter(|reading| reading.is_as_good_as(most)).copied().collect();
-        // Another unit is only thought of where the usual one does not fit.
-        let usual: Vec<Reading> =
-            fitting.iter().filter(|reading| reading.place.unit == self.usual.unit).copied().collect();
-        let fitting = if usual.is_empty() { fitting } else { usual };
-        match fitting[..] {
-            [only] => Ok(only),
-            _ => Err(self.undecided(&fitting)),
-        }
-    }
-
-    fn nowhere(&self, spaces: &BTreeSet<&str>) -> Error {
-        let spaces: Vec<&str> = spaces.iter().copied().collect();
-        let units = Unit::ALL.into_iter().filter(|unit| self.readings.iter().any(|r| r.place.unit == *unit));
-        let units: Vec<&str> = units.map(Unit::name).collect();
-        let found =
-            format!("no point inside the volume, in {}, in {}", spaces.join(" or "), units.join(", "));
-        Error::new("", found, "centerlines of this volume")
-            .mend("give coordinates=\"lps\" or \"ras\" and the unit if the file belongs to this volume")
-    }
-
-    fn undecided(&self, fitting: &[Reading]) -> Error {
-        let told = |reading: &Reading| {
-            format!("{} ({} of {} points inside)", reading.place, reading.inside, self.total)
-        };
-        let several: Vec<String> = fitting.iter().map(told).collect();
-        let mut options: BTreeSet<String> = fitting.iter().map(|r| space_option(r.place.space)).collect();
-        if options.len() == 1 {
-            options = fitting.iter().map(|r| unit_option(r.place.unit)).collect();
-        }
-        let options: Vec<String> = options.into_iter().collect();
-        let found = "neither stated nor to be told by the volume what its coordinates are";
-        Error::new("", format!("{found}: {}", several.join(", ")), "one that fits")
-            .mend(format!("give {}", options.join(" or ")))
-    }
-
-    /// The choice in words, with the counts that it rests on.
-    fn told(&self, best: Reading) -> String {
-        if best.place == self.usual {
-            return self.told_as_usual(best);
-        }
-        let usual = self.readings.iter().find(|reading| reading.place == self.usual);
-        let mut options = Vec::new();
-        if best.place.space != self.usual.space {
-            options.push(space_option(best.place.space));
-        }
-        if best.place.unit != self.usual.unit {
-            options.push(unit_option(best.place.unit));
-        }
-        format!(
-            "{} of {} points lie inside the volume in {}, but {} in {}: read so; {} confirms it",
-            usual.map_or(0, |reading| reading.inside),
-            self.total,
-            self.usual,
-            best.inside,
-            best.place,
-            options.join(" and "),
-        )
-    }
-
-    fn told_as_usual(&self, best: Reading) -> String {
-        let others = self.readings.iter().filter(|reading| {
-            reading.place.space != best.place.space && reading.place.unit == best.place.unit
-        });
-        let others: String =
-            others.map(|reading| format!(", {} in {}", reading.inside, reading.place.space.name())).collect();
-        let also = self
-            .readings
-            .iter()
-            .filter(|reading| reading.place.unit != best.place.unit && reading.is_as_good_as(best.inside));
-        let also: Vec<String> = also.map(|reading| reading.place.to_string()).collect();
-        let doubt = match &also[..] {
-            [] => String::new(),
-            _ => format!(", but {} would fit too", also.join(" and ")),
-        };
-        let counts = format!("{} of {} points inside{others}", best.inside, self.total);
-        format!("{} fits the volume ({counts}){doubt}", best.place)
-    }
-}
-
-impl Reading {
-    fn is_as_good_as(&self, inside: usize) -> bool {
-        self.inside as f64 >= AS_GOOD * inside as f64
-    }
-}
-
-fn space_option(space: Space) -> String {
-    format!("coordinates=\"{}\"", space.name())
-}
-
-fn unit_option(unit: Unit) -> String {
-    format!("unit=\"{}\"", unit.name())
-}
-
-/// Whether points in LPS and mm miss the volume, in whatever space and unit they might be meant.
-pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
-    readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(|reading| reading.inside == 0)
-}
-
-/// What is to be said of points in LPS and mm where another place brings twice as many of them into the volume, and a
-/// tenth of all more: as when RAS was read as LPS, or centimetres as millimetres.
-pub fn better_place(points: &[DVec3], volume: &Extent) -> Option<String> {
-    let mut candidates = places(&Space::ALL, &Unit::ALL);
-    // The likeliest mistakes first: of places that fit alike the first one is named.
-    candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
-    let readings = readings(points, &candidates, volume);
-    let as_read = readings[0].inside;
-    let best = readings.iter().rev().max_by_key(|reading| reading.inside)?;
-    let better = best.inside;
-    if better < 2 * as_read || better < as_read + (points.len() / 10).max(1) {
-        return None;
-    }
-    let (how, mend) = best.place.mistaken();
-    let total = points.len();
-    Some(format!(
-        "{as_read} of {total} points lie inside the volume as read, but {better} {how}; read the centerlines with {mend}"
-    ))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Medians, percentiles and deviations of values.
+//! Medians, percentiles and groups of values.
 
 /// The median; the mean of the two in the middle where their number is even. None of no values.
 pub fn median(values: &mut [f64]) -> Option<f64> {
@@ -21,40 +21,27 @@ pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
 }
 
-/// The standard deviation of all values, 0 of no values.
-pub fn deviation(values: &[f64]) -> f64 {
-    let count = values.len().max(1) as f64;
-    let mean = sum(values) / count;
-    let squares: Vec<f64> = values.iter().map(|value| (value - mean) * (value - mean)).collect();
-    (sum(&squares) / count).sqrt()
+/// Where the second of two groups of rising values begins, parted so that their means differ most (Otsu 1979); None
+/// where all values are the same.
+pub fn two_groups(rising: &[f64]) -> Option<usize> {
+    let first = *rising.first()?;
+    let all: f64 = rising.iter().map(|value| value - first).sum();
+    let mut below = 0.0;
+    let mut best = (0.0, None);
+    for (n, pair) in (1..rising.len()).zip(rising.windows(2)) {
+        below += pair[0] - first;
+        let (count, others) = (n as f64, (rising.len() - n) as f64);
+        let difference = (all - below) / others - below / count;
+        let between = count * others * difference * difference;
+        if pair[0] < pair[1] && between > best.0 {
+            best = (between, Some(n));
+        }
+    }
+    best.1
 }
 
 fn nth(values: &mut [f64], n: usize) -> f64 {
     *values.select_nth_unstable_by(n, f64::total_cmp).1
-}
-
-/// The sum by halves, in eight columns each: its error grows with the logarithm of their number only.
-fn sum(values: &[f64]) -> f64 {
-    const COLUMNS: usize = 8;
-    const LONGEST: usize = 128;
-    if values.len() < COLUMNS {
-        return values.iter().sum();
-    }
-    if values.len() > LONGEST {
-        let half = values.len() / 2;
-        let (front, back) = values.split_at(half - half % COLUMNS);
-        return sum(front) + sum(back);
-    }
-    let mut rows = values.chunks_exact(COLUMNS);
-    let mut columns = [0.0; COLUMNS];
-    for row in &mut rows {
-        for (column, value) in columns.iter_mut().zip(row) {
-            *column += value;
-        }
-    }
-    let [a, b, c, d, e, f, g, h] = columns;
-    let total = ((a + b) + (c + d)) + ((e + f) + (g + h));
-    rows.remainder().iter().fold(total, |total, value| total + value)
 }
 
 #[cfg(test)]
@@ -81,20 +68,12 @@ mod tests {
     }
 
     #[test]
-    fn the_deviation_of_two_heights_is_half_their_distance() {
-        for pairs in [1, 3, 4, 64, 65, 5000] {
-            let values = [4.0, 10.0].repeat(pairs);
-            assert_eq!(deviation(&values), 3.0);
-        }
-        assert_eq!(deviation(&[5.0]), 0.0);
-        assert_eq!(deviation(&[]), 0.0);
-    }
-
-    #[test]
-    fn whole_numbers_are_summed_exactly_at_every_length() {
-        for count in 0..1000u32 {
-            let values: Vec<f64> = (1..=count).map(f64::from).collect();
-            assert_eq!(sum(&values), f64::from(count * (count + 1) / 2));
+    fn two_groups_part_where_their_means_differ_most() {
+        assert_eq!(two_groups(&[1.0, 2.0, 3.0, 90.0, 91.0]), Some(3));
+        assert_eq!(two_groups(&[0.0, 0.0, 0.0, 5.0]), Some(3));
+        assert_eq!(two_groups(&[7.0, 8.0]), Some(1));
+        for same in [&[][..], &[4.0], &[4.0, 4.0, 4.0]] {
+            assert_eq!(two_groups(same), None);
         }
     }
 }

@@ -8,7 +8,8 @@ use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::Volume;
 use lumencut_core::with_voxels;
 
-use crate::statistics::{deviation, median, quantile};
+use crate::populations::{Looked, Populations, padding, range, without_padding};
+use crate::statistics::{median, quantile};
 use crate::text::rounded;
 
 /// How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
@@ -18,13 +19,29 @@ const UNKNOWN_RADIUS: f64 = 10.0;
 /// The largest level and width that a window can have.
 const LARGEST: f64 = 1e12;
 
-/// How many voxels are looked at where there is no tree.
-const MOST_VOXELS: f64 = 1e6;
+/// Where the lumen lies in a window along centerlines: from black to white, at least and at most.
+const LUMEN_AT: [f64; 2] = [0.52, 0.65];
 
-/// Which parts of the voxels lie below air and below lumen; how far from the one to the other tissue begins.
-const AIR: f64 = 0.01;
-const LUMEN: f64 = 0.99;
-const TISSUE: f64 = 0.25;
+/// How far below the lumen such a window begins, in differences of lumen and tissue: without noise, and at most.
+const BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
+
+/// Which part of a normal distribution lies within a standard deviation below its middle, and within one above.
+const SPREAD: [f64; 2] = [0.16, 0.84];
+
+/// Where the lumen of a volume alone lies in its window, and how far below it the brightest tissue and the middle of it.
+const ALONE_LUMEN_AT: f64 = 0.67;
+const ALONE_BELOW: [f64; 2] = [0.4, 0.56];
+
+/// The least width of such a window, as a part of the way from the darkest to the brightest voxels.
+const ALONE_NARROWEST: f64 = 0.1;
+
+/// Which part of what is around vessels must be inside the volume, and no padding, to stand for the tissue.
+const SHOWN: f64 = 0.5;
+
+/// Which parts of the voxels are darker than a window of the whole volume, and at most as bright as its white end.
+const DARKEST: f64 = 0.01;
+const BRIGHT: f64 = 0.99;
+const BRIGHTEST: f64 = 0.999;
 
 /// The window of volumes without a single number.
 const OF_NOTHING: Window = Window { level: 300.0, width: 900.0 };
@@ -38,67 +55,134 @@ pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
         .collect())
 }
 
-/// A window that shows lumen as middle grey, tissue darker, calcifications and stents brighter.
+/// A window that shows lumen light grey, tissue dark, calcifications and stents white.
 ///
 /// The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for the tissue
-/// around it; the window is centred on the lumen, three times as wide as their difference, and no narrower than four
-/// standard deviations of the lumen.
+/// around it; where most of that is padding or outside the volume, the edges of the vessels do. Black lies 1.5 times their difference below the lumen, farther for a lumen that is noisy, and not below
+/// what the volume holds. White lies where the brightest voxels are, so far as the lumen stays at 52 to 65 % of the
+/// range. Where the lumen is the darker of the two, all this is mirrored: it lies at 35 to 48 %, its surroundings above.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
 pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let mut lumen = finite(&sample(volume, &points));
-    let mut around = finite(&sample(volume, &beside(tree)));
-    let spread = deviation(&lumen);
-    let (Some(level), Some(beyond)) = (median(&mut lumen), median(&mut around)) else {
+    let Some(level) = median(&mut lumen) else {
         return Ok(OF_NOTHING);
     };
-    let width = (3.0 * (level - beyond).abs()).max(4.0 * spread);
-    within(level, width, || {
+    let mut looked = Looked::at(volume);
+    let Some(beyond) = tissue_around(volume, tree, level, &mut looked) else {
+        return Ok(OF_NOTHING);
+    };
+    let mut wall = finite(&sample(volume, &beside(tree, 0.0)));
+    // A dark lumen among bright tissue is a bright one of the negated values.
+    let sign = if level < beyond { -1.0 } else { 1.0 };
+    for value in lumen.iter_mut().chain(&mut wall).chain(&mut looked.voxels) {
+        *value *= sign;
+    }
+    let [lower, upper] = SPREAD.map(|part| quantile(&mut lumen, part).unwrap_or_default());
+    let [low, high] = [DARKEST, BRIGHTEST].map(|part| quantile(&mut looked.voxels, part).unwrap_or_default());
+    let high = high.max(quantile(&mut wall, BRIGHT).unwrap_or(high));
+    let [black, white] = around_lumen(sign * level, sign * beyond, (upper - lower) / 2.0, [low, high]);
+    within(sign * (black + white) / 2.0, white - black, || {
         format!("values around {} along the centerlines, {} beside", rounded(level, 3), rounded(beyond, 3))
     })
 }
 
-/// Six points around each point of the tree, beyond the wall (mm, LPS).
-fn beside(tree: &VesselTree) -> Vec<DVec3> {
+/// The median around the vessels. Where most of that is padding or outside, and vessels have edges, these.
+fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, looked: &mut Looked) -> Option<f64> {
+    let places = beside(tree, BESIDE);
+    let mut around = finite(&sample(volume, &places));
+    let padding = padding(&mut looked.voxels).unwrap_or(f64::NEG_INFINITY);
+    let shown = around.iter().filter(|value| **value > padding).count();
+    if (shown as f64) < SHOWN * places.len() as f64 {
+        let edges = Populations::of(looked)
+            .filter(|found| found.tissue < lumen && (found.has_edges || around.is_empty()))
+            .map(|found| found.tissue);
+        return edges.or_else(|| median(&mut around));
+    }
+    around.retain(|value| *value > padding);
+    median(&mut around)
+}
+
+/// Black and white around a lumen that is brighter than its tissue, in a volume with these ends.
+fn around_lumen(lumen: f64, tissue: f64, spread: f64, ends: [f64; 2]) -> [f64; 2] {
+    let difference = lumen - tissue;
+    let mut below = 2.0 * spread;
+    // A lumen that hardly differs from its tissue has no window but that of its noise.
+    if difference > spread / 2.0 {
+        below = below.clamp(BELOW_LUMEN[0] * difference, BELOW_LUMEN[1] * difference);
+    }
+    let black = (lumen - below).max(ends[0].min(tissue)).min(lumen);
+    let [farthest, nearest] = LUMEN_AT.map(|place| lumen + (lumen - black) * (1.0 / place - 1.0));
+    [black, ends[1].clamp(nearest, farthest)]
+}
+
+/// Six points around each point of the tree, so far beyond the wall (mm, LPS).
+fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
     let sides = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
     let of_vessel = tree.vessels().iter().flat_map(|vessel| {
         vessel.points().iter().enumerate().flat_map(move |(i, point)| {
             let radius = vessel.radius().map_or(UNKNOWN_RADIUS, |radii| radii[i]);
-            sides.map(|side| *point + (radius + BESIDE) * side)
+            sides.map(|side| *point + (radius + beyond) * side)
         })
     });
     of_vessel.collect()
 }
 
-/// A window that shows lumen as middle grey where there are no centerlines.
+/// A window that tells lumen from its surroundings in a picture of all of the volume, where there are no centerlines.
 ///
-/// The 99th percentile of the volume stands for the lumen, and for the tissue the median of the voxels above a quarter
-/// of the way to it from the 1st percentile; of at most about a million voxels, evenly spread.
+/// What stands for lumen and tissue is found from the distribution of the voxels, see `populations.rs`.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
 pub fn of_volume(volume: &Volume) -> Result<Window> {
-    let mut values = spread_voxels(volume);
-    let (Some(air), Some(lumen)) = (quantile(&mut values, AIR), quantile(&mut values, LUMEN)) else {
+    let Some(found) = Populations::of(&mut Looked::at(volume)) else {
         return Ok(OF_NOTHING);
     };
-    let threshold = air + TISSUE * (lumen - air);
-    let mut brighter: Vec<f64> = values.into_iter().filter(|value| *value > threshold).collect();
-    let tissue = median(&mut brighter).unwrap_or(air);
-    within(lumen, 3.0 * (lumen - tissue).abs(), || from_to(air, lumen))
+    let above =
+        [found.brightest_tissue, found.tissue.min(found.brightest_tissue)].map(|tissue| found.lumen - tissue);
+    let least = ALONE_NARROWEST * (found.brightest - found.darkest);
+    let width = (above[0] / ALONE_BELOW[0]).max(above[1] / ALONE_BELOW[1]).max(least);
+    within(found.lumen + (0.5 - ALONE_LUMEN_AT) * width, width, || from_to(found.darkest, found.brightest))
 }
 
-/// A window that shows air to lumen: from the 1st percentile of the volume to the 99th.
+/// A window that shows air to lumen: from the 1st percentile of the volume to the 99th of all that is no padding.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
 pub fn whole(volume: &Volume) -> Result<Window> {
-    let mut values = spread_voxels(volume);
-    let (Some(black), Some(white)) = (quantile(&mut values, AIR), quantile(&mut values, LUMEN)) else {
+    without_unit(volume, BRIGHT)
+}
+
+/// A window that shows all tissues of an MR angiography, whose values have no unit: as [`whole`], but up to the 99.9th
+/// percentile, so that the vessels are not the same white.
+///
+/// # Errors
+/// [`ErrorKind::Volume`] for values beyond all windows.
+pub fn mra(volume: &Volume) -> Result<Window> {
+    without_unit(volume, BRIGHTEST)
+}
+
+/// A window from the smallest of all voxels to the largest.
+///
+/// # Errors
+/// [`ErrorKind::Volume`] for values beyond all windows.
+pub fn full(volume: &Volume) -> Result<Window> {
+    let [black, white] = range(volume);
+    if black > white {
+        return Ok(OF_NOTHING);
+    }
+    within(black + (white - black) / 2.0, white - black, || from_to(black, white))
+}
+
+/// From the 1st percentile to this part of all that is no padding.
+fn without_unit(volume: &Volume, bright: f64) -> Result<Window> {
+    let mut voxels = Looked::at(volume).voxels;
+    let Some(black) = quantile(&mut voxels, DARKEST) else {
         return Ok(OF_NOTHING);
     };
+    let white = quantile(without_padding(&mut voxels), bright).unwrap_or(black);
     within((black + white) / 2.0, white - black, || from_to(black, white))
 }
 
@@ -114,25 +198,6 @@ fn within(level: f64, width: f64, found: impl Fn() -> String) -> Result<Window> 
     }
     let error = Error::new(ErrorKind::Volume, "window from the data", found(), "a window within ±1e+12");
     Err(error.mend("scale the voxels, or give window= and context_window= where they stand for nothing"))
-}
-
-/// About as many finite voxels as are looked at, evenly spread.
-// Of the ten types of voxels some fit into f64 as they are, others only by a cast.
-#[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
-fn spread_voxels(volume: &Volume) -> Vec<f64> {
-    let (size, strides) = (volume.size(), volume.strides());
-    let count = size.iter().product::<usize>() as f64;
-    let step = ((count / MOST_VOXELS).powf(1.0 / 3.0).ceil() as usize).max(1);
-    let along = |axis: usize| (0..size[axis]).step_by(step).map(move |n| n * strides[axis]);
-    let mut values = Vec::new();
-    with_voxels!(volume.voxels(), voxels => {
-        for k in along(2) {
-            for j in along(1) {
-                values.extend(along(0).map(|i| voxels[i + j + k] as f64).filter(|value| value.is_finite()));
-            }
-        }
-    });
-    values
 }
 
 fn finite(values: &[f32]) -> Vec<f64> {

@@ -15,6 +15,7 @@ from lumencut.cli.info import info
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
 from lumencut.cli.turntable import turntable
+from lumencut.cli.write_settings import settings
 
 __all__ = ["main"]
 
@@ -49,5 +50,5 @@ def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
 
 
-for _command in (render, turntable, evaluate, info, demo):
+for _command in (render, turntable, evaluate, info, settings, demo):
     main.add_command(_command)

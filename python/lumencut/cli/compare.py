@@ -11,7 +11,7 @@ from lumencut.cli.report import one_line
 from lumencut.errors import FormatError
 
 if TYPE_CHECKING:
-    from lumencut.centerlines import CenterlineFile, CenterlineReport
+    from lumencut.centerline_file import CenterlineFile, CenterlineReport
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
@@ -51,7 +51,7 @@ def best(
     places: list[Place] = []
     counts: list[tuple[int, int]] = []
     for volume in volumes:
-        grid, undecided = _grid(volume), []
+        grid, undecided = volume["_volume"], []
         try:
             tree, report = file.placed(coordinates, unit, grid)
         except FormatError as error:
@@ -88,7 +88,7 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
     from lumencut.placement import check_space_once
 
-    tree, grid = lines["_tree"], _grid(volume)
+    tree, grid = lines["_tree"], volume["_volume"]
     points = tree.points
     inside, flipped = _counts(tree, grid)
     if volume["file"] == lines["judged_by"]:
@@ -103,17 +103,7 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _grid(volume: dict[str, Any]) -> Volume:
-    """The grid of a volume; memory that nobody touches costs nothing."""
-    import numpy as np
-
-    from lumencut.volume import Volume
-
-    report = volume["_report"]
-    return Volume(np.empty(report.size[::-1], np.uint8), world_from_index=report.world_from_index)
-
-
-def _counts(tree: VesselTree, grid: Volume) -> tuple[int, int]:
+def _counts(tree: VesselTree, volume: Volume) -> tuple[int, int]:
     """How many points lie inside, as read and with x and y negated."""
-    inside, flipped = (int(grid.contains(tree.points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
+    inside, flipped = (int(volume.contains(tree.points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
     return inside, flipped

@@ -28,9 +28,12 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
     type=click.Path(path_type=Path, file_okay=False),
     help="Where the CT is kept; default: lumencut in the user's cache folder.",
 )
+@click.option("--no-annotate", is_flag=True, help="Leave the labels of the pictures out.")
 @device_option
 @verbose_option
-def demo(directory: Path, cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> None:
+def demo(
+    directory: Path, cache: Path | None, no_annotate: bool, device: Literal["auto", "cpu", "gpu"]
+) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
     Four pictures, one more that shows what lies behind a transparent cut surface, and a turntable. The CT
@@ -43,7 +46,7 @@ def demo(directory: Path, cache: Path | None, device: Literal["auto", "cpu", "gp
     for name, camera, settings in _views(renderer):
         frame = renderer.render(camera, settings)
         timings(name, frame.timings)
-        frame.save(directory / f"{name}.png")
+        frame.save(directory / f"{name}.png", annotate=not no_annotate)
         say(str(directory / f"{name}.png"))
     _spin(renderer, directory / "turntable.webp")
     detail(f"device: {renderer.device}")
@@ -78,7 +81,7 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
     yield "left", Camera.left(scene, _SIZE), Settings()
     yield "oblique", oblique, Settings()
     yield "inferior", Camera.inferior(scene, _SIZE), Settings()
-    # A window from the data has the tissue at 1/6: it and what is darker give way to what is behind.
+    # A window from the data has the tissue at about a fifth: it and what is darker give way.
     tissue = Opacity(window.level - window.width / 3, window.level - window.width / 6)
     yield "context", oblique, Settings(opacity=tissue)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 import click
 
 from lumencut.cli import options
-from lumencut.cli.mistakes import check_files, check_measured, check_reading
+from lumencut.cli.mistakes import check_files, check_measured, check_options, check_reading
 from lumencut.cli.parameters import SIZE
 from lumencut.cli.report import bar, say, verbose_option
 from lumencut.cli.scene import SceneFiles, read_files, scene_from
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="Measure how much of the truth methods show.")
-@click.argument("files", type=options.FILE, nargs=-1, required=True, metavar="[VOLUME] CENTERLINES")
+@click.argument("files", type=options.FILE, nargs=-1, required=True, metavar="[VOLUME] CENTERLINES...")
 @options.reading_options
 @click.option(
     "--methods",
@@ -80,6 +80,7 @@ def evaluate(
     _check_outputs(scene, csv, markdown, pictures)
     if pictures is None:
         check_measured(chosen)
+    check_options(chosen, settings, has_centerlines=True)
     volume, tree = read_files(scene, chosen)
 
     from lumencut.evaluation import evaluate as library
@@ -101,11 +102,13 @@ def evaluate(
 
 
 def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
-    """The files of the scene, of which the last one holds the centerlines."""
-    if len(files) > 2:
-        raise click.UsageError(f"found {len(files)} files; expected [VOLUME] CENTERLINES")
-    volume = files[0] if len(files) == 2 else None
-    scene = scene_from({**chosen, "volume": volume, "centerlines": files[-1]})
+    """The files of the scene: the first of several is the volume, unless all are centerlines."""
+    from lumencut.file_kinds import kind_of
+
+    roles = [None if kind is None else kind.role for kind in map(kind_of, files)]
+    has_volume = len(files) > 1 and (roles[0] != "centerlines" or "volume" in roles)
+    volume, lines = (files[0], files[1:]) if has_volume else (None, files)
+    scene = scene_from({**chosen, "volume": volume, "centerlines": lines})
     check_files(volume, scene.centerlines)
     check_reading(chosen, [] if volume is None else [volume], has_centerlines=True)
     return scene

@@ -21,6 +21,7 @@ _ORIGINS = {
     "asked": "as asked",
     "stated": "stated in the file",
     "volume": "the volume fits it",
+    "values": "the values of the volume tell it",
     "assumed": "assumed",
 }
 #: Of centerline smoothing: how much of it a tree is tried with (radii).
@@ -31,10 +32,10 @@ _LETTERS = (("L", "R"), ("P", "A"), ("S", "I"))
 
 def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
     """Look into a volume file, of which the series, phase and filling of gaps may be chosen."""
-    from lumencut.volume_files import inspect_volume
+    from lumencut.volume_files import inspected_volume
 
     with bar(f"reading {path.name}", "slice") as told:
-        report = inspect_volume(path, progress=told, **chosen)
+        report, volume = inspected_volume(path, progress=told, **chosen)
     affine = report.world_from_index
     low_high = None if report.value_range is None else [float(value) for value in report.value_range]
     return {
@@ -52,7 +53,7 @@ def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
         "world_from_index": affine.tolist(),
         "filled_slices": list(report.filled_slices),
         "notes": _with(report.notes, _odd_grid(affine, low_high)),
-        "_report": report,
+        "_volume": volume,
     }
 
 
@@ -76,7 +77,7 @@ def of_centerlines(
     volumes: list[dict[str, Any]],
 ) -> dict[str, Any]:
     """Look into a centerline file; the volume that it fits best decides what it leaves open."""
-    from lumencut.centerlines import CenterlineFile
+    from lumencut.centerline_file import CenterlineFile
 
     file = CenterlineFile(path)
     place = best(file, coordinates, unit, volumes)

@@ -6,7 +6,7 @@ mistake where it does not arise. A switch that is off and a number that is 0 ask
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -23,25 +23,31 @@ _OF_ALL = ("background", "samples", *_CONTEXT)
 #: ``--paper`` chooses rules of the cut surface; it is no setting of the table.
 _CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper")
 _DICOM = ("series", "phase", "fill_gaps", "resample_slices")
-_NOTHING = (None, False, 0)
+_NOTHING = (None, False, 0, ())
+_VESSELS = ("vessel", "exclude", "zoom_to")
 _PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", *_CONTEXT)
 
 
-def check_files(volume: Path | None, centerlines: Path | None) -> None:
+def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
     """Refuse a volume and centerlines in each other's place."""
     from lumencut.file_kinds import kind_of
 
-    found = [None if path is None else kind_of(path) for path in (volume, centerlines)]
-    first, second = (None if one is None else one.role for one in found)
-    if first == "centerlines" and (second == "volume" or centerlines is None):
-        tail = "" if found[1] is None else f" and {found[1].name} in {centerlines}"
-        mend = "swap them" if centerlines else "name the volume before it"
-        raise _wrong(f"{_name(found[0])} in {volume}{tail}", mend)
-    if first == "centerlines":
-        raise _wrong(f"{_name(found[0])} in {volume} as VOLUME", "name the volume first")
-    if second == "volume":
+    first = None if volume is None else kind_of(volume)
+    kinds = {path: kind_of(path) for path in centerlines}
+    swapped = next((path for path, kind in kinds.items() if kind and kind.role == "volume"), None)
+    if first is not None and first.role == "centerlines":
+        found = f"{_name(first)} in {volume}"
+        if swapped is not None:
+            raise _wrong(f"{found} and {_name(kinds[swapped])} in {swapped}", "swap them")
+        if not centerlines:
+            raise _wrong(found, "name the volume before it")
+        raise _wrong(f"{found} as VOLUME", "name the volume first")
+    if swapped is not None:
         mend = "leave it out to show the volume alone, or name a file of centerlines"
-        raise _wrong(f"{_name(found[1])} in {centerlines} as CENTERLINES", mend)
+        raise _wrong(f"{_name(kinds[swapped])} in {swapped} as CENTERLINES", mend)
+    if len(kinds) < len(centerlines):
+        twice = next(path for path in centerlines if centerlines.count(path) > 1)
+        raise click.UsageError(f"found {twice} twice; expected each file of CENTERLINES once")
 
 
 def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_centerlines: bool) -> None:
@@ -56,6 +62,7 @@ def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_center
     if not has_centerlines:
         why = "without CENTERLINES; it says how they are to be understood"
         _refuse(chosen, ("coordinates", "unit"), why, "name their file, or leave it out")
+        _refuse(chosen, _VESSELS, "without CENTERLINES", "name their file, or leave it out")
 
 
 def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines: bool) -> None:

@@ -89,12 +89,32 @@ device_option = click.option(
 )
 
 
+def _remember_threads(ctx: click.Context, _: click.Parameter, count: int | None) -> None:
+    if count is not None and not ctx.resilient_parsing:
+        from lumencut.threads import set_threads
+
+        set_threads(count)
+
+
+#: How many threads compute.
+threads_option = click.option(
+    "--threads",
+    type=click.IntRange(1, 1024),
+    metavar="N",
+    expose_value=False,
+    callback=_remember_threads,
+    help="How many threads compute on the CPU; default: as many as it runs at once. "
+    "Results do not depend on it.",
+)
+
+
 def scene_arguments(command: Command) -> Command:
     """Add the files that every picture is made from."""
     parts = (
         click.argument("volume", type=FILE),
-        click.argument("centerlines", type=FILE, required=False),
+        click.argument("centerlines", type=FILE, nargs=-1),
         reading_options,
+        vessel_options,
     )
     return added(parts, command)
 
@@ -109,21 +129,52 @@ def reading_options(command: Command) -> Command:
         fill_gaps_option,
         resample_slices_option,
         device_option,
+        threads_option,
+    )
+    return added(parts, command)
+
+
+def vessel_options(command: Command) -> Command:
+    """Add the options that choose among the vessels."""
+    named: dict[str, Any] = {"metavar": "NAME|ID", "multiple": True}
+    parts = (
+        click.option("--vessel", help="Show this vessel and no other; may be repeated.", **named),
+        click.option("--exclude", help="Leave this vessel out; may be repeated.", **named),
+        click.option(
+            "--zoom-to",
+            help="Fit the view to this vessel, whatever else is shown; may be repeated.",
+            **named,
+        ),
     )
     return added(parts, command)
 
 
 def view_options(command: Command) -> Command:
     """Add the options that make the camera."""
+    return added((_view_option(default="anterior"), _camera_options), command)
+
+
+def several_views_options(command: Command) -> Command:
+    """Add the options that make the cameras of several views."""
+    return added(
+        (_view_option("; may be repeated", default=("anterior",), multiple=True), _camera_options), command
+    )
+
+
+def _view_option(more: str = "", **how: Any) -> Callable[[Command], Command]:
+    return click.option(
+        "--view",
+        type=VIEW,
+        show_default=True,
+        metavar="NAME|X,Y,Z",
+        help=f"{', '.join(VIEW_NAMES)}, or the direction from the viewer into the scene (LPS){more}.",
+        **how,
+    )
+
+
+def _camera_options(command: Command) -> Command:
+    """Add the options that make a camera of a view."""
     parts = (
-        click.option(
-            "--view",
-            type=VIEW,
-            default="anterior",
-            show_default=True,
-            metavar="NAME|X,Y,Z",
-            help=f"{', '.join(VIEW_NAMES)}, or the direction from the viewer into the scene (LPS).",
-        ),
         click.option("--up", type=VECTOR, help="What points upwards (LPS); default: the patient's head."),
         click.option(
             "--rotate",

@@ -17,6 +17,10 @@ _Parameter: TypeAlias = "click.Parameter | None"
 _Context: TypeAlias = "click.Context | None"
 
 
+#: The names of ``lumencut.window.WINDOW_NAMES``, here so that ``--help`` need not import numpy.
+WINDOW_NAMES = ("cta", "mra", "bone", "lung", "full", "auto")
+
+
 class Parts(_Type):
     """Numbers with a separator between them; ``form`` shows the user how to write them."""
 
@@ -35,6 +39,26 @@ class Parts(_Type):
         if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
             self.fail(f"{value!r} is not of the form {self.name}", param, ctx)
         return numbers
+
+
+class WindowOption(Parts):
+    """A window as its width and level, in this order, or by its name."""
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        super().__init__("WIDTH/LEVEL", "/", float)
+        self.names = names
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
+        """Return the name or the two numbers."""
+        if isinstance(value, str) and value in self.names:
+            return value
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter:
+            known = ", ".join(self.names)
+            self.fail(
+                f"{value!r} is not of the form {self.name}, such as 900/300, nor one of {known}", param, ctx
+            )
 
 
 class Named(_Type):
@@ -118,6 +142,6 @@ class Transfer(_Type):
 
 VECTOR = Parts("X,Y,Z", ",", float)
 SIZE = Parts("WIDTHxHEIGHT", "x", int)
-WINDOW = Parts("WIDTH/LEVEL", "/", float)
+WINDOW = WindowOption(WINDOW_NAMES)
 RGB = Color("RRGGBB", (3,))
 RGBA = Color("RRGGBB[AA]", (3, 4))

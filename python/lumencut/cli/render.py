@@ -1,4 +1,4 @@
-"""``lumencut render``: one picture."""
+"""``lumencut render``: pictures of one scene."""
 
 from __future__ import annotations
 
@@ -8,12 +8,23 @@ from typing import Any
 import click
 
 from lumencut.cli import options
-from lumencut.cli.report import detail, say, timings, verbose_option
-from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
+from lumencut.cli.labels import check_labels, label_options, labels_of
+from lumencut.cli.like import camera_of, like_option, recipe_from, typed, views_of, warn_of_vessels
+from lumencut.cli.outputs import name_of, pictures
+from lumencut.cli.report import bar, busy, detail, say, timings, verbose_option
+from lumencut.cli.scene import (
+    check_scene,
+    is_empty,
+    read_scene,
+    scene_from,
+    shown,
+    warn_of_emptiness,
+    warn_of_window,
+)
 from lumencut.cli.settings import paper_option, setting_options, settings_from
 
 
-@click.command(short_help="Render one picture.")
+@click.command(short_help="Render pictures.")
 @options.scene_arguments
 @click.option(
     "-o",
@@ -22,9 +33,12 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
     multiple=True,
     required=True,
     help="Picture (.png, .tif, .webp, …), or .npz for depth, vessels, values and positions too; "
-    "may be repeated.",
+    "may be repeated. Each of several views is written to every output, with its name before the ending or "
+    "in the place of {view}.",
 )
-@options.view_options
+@options.several_views_options
+@like_option
+@label_options
 @paper_option
 @setting_options
 @verbose_option
@@ -32,29 +46,41 @@ def render(
     output: tuple[Path, ...],
     **chosen: Any,
 ) -> None:
-    """Render VOLUME along CENTERLINES as one picture.
+    """Render VOLUME along CENTERLINES as one picture, or one for each --view.
 
-    VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES a .vtp, .vtk,
-    .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy file.
+    VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp,
+    .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
     Without CENTERLINES the context alone is shown, all of the volume. The view fits all vessels, or the
     volume, unless --center, --pixel-spacing or --zoom say otherwise.
 
     \b
     lumencut render ct.nii.gz centerlines.vtp -o anterior.png
     lumencut render dicom/ lines.mrk.json -o oblique.png --rotate 30 --tilt 15 --window 900/300
+    lumencut render ct.nrrd LAD.mrk.json LCX.mrk.json --view left --view 0,1,1 --zoom-to LAD -o {view}.png
+    lumencut render later.nii.gz lines.vtp -o later.png --like oblique.png
     lumencut render ct.nii.gz -o body.png --context dvr --context-transfer soft-tissue
     """  # noqa: D301 - click needs the control character itself
-    settings, view = settings_from(chosen), options.view_from(chosen)
+    recipe = recipe_from(chosen["like"])
+    given = chosen if recipe is None else typed(chosen)
+    settings = settings_from(given, None if recipe is None else recipe.settings)
+    views = views_of(chosen, recipe)
+    planned = pictures([view for view, _ in views], output)
     files = scene_from(chosen)
     check_scene(files, chosen, settings)
-    for path in output:
-        options.check_picture(path)
-    renderer = read_scene(files, chosen)
-    frame = renderer.render(options.placed(view, renderer.scene, chosen), settings)
-    timings("rendered", frame.timings)
+    check_labels(chosen, output, views[0][1].size)
+    renderer, scene = read_scene(files, chosen)
+    warn_of_window(settings, renderer)
+    warn_of_vessels(chosen, recipe, renderer)
+    for picture, (_, view) in zip(planned, views, strict=True):
+        camera = camera_of(view, scene, chosen, recipe)
+        name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
+        with bar(f"rendering{name}", "share") as told:
+            frame = renderer.render(camera, settings, progress=told)
+        timings(f"rendered{name}", frame.timings)
+        if is_empty(frame):
+            warn_of_emptiness(f"no pixel of the view{name}", frame.camera, renderer)
+        for path in picture.paths:
+            with busy(f"writing {path.name}"):
+                frame.save(path, **labels_of(path, chosen, recipe))
+            say(f"{path}: {shown(frame.camera, settings, renderer)}")
     detail(f"device: {renderer.device}")
-    if is_empty(frame):
-        warn_of_emptiness("no pixel of the view", frame.camera, renderer)
-    for path in output:
-        frame.save(path)
-        say(f"{path}: {shown(frame.camera, settings, renderer)}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import logging
 import re
+import sys
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
@@ -13,12 +14,16 @@ from typing import NoReturn, TextIO
 
 import click
 
+from lumencut.cli.signals import EndedError, ended_by_signals
 from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
 FAILED, INTERRUPTED = 1, 130
 
 _VERBOSE = "lumencut.verbose"
+
+#: How bars are drawn whose steps are no things to count.
+_BAR = {"share": "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}"}
 
 
 def _remember(ctx: click.Context, _: click.Parameter, verbose: bool) -> None:
@@ -72,7 +77,7 @@ def timings(title: str, milliseconds: dict[str, float]) -> None:
 @contextmanager
 def reported(ctx: click.Context) -> Iterator[None]:
     """Turn whatever ends a command into one line and an exit code."""
-    with warnings.catch_warnings(), _log_shown():
+    with ended_by_signals(), warnings.catch_warnings(), _log_shown():
         warnings.simplefilter("always")
         warnings.showwarning = _show_warning
         try:
@@ -80,6 +85,9 @@ def reported(ctx: click.Context) -> Iterator[None]:
         except KeyboardInterrupt:
             click.echo("\nlumencut: interrupted", err=True)
             ctx.exit(INTERRUPTED)
+        except EndedError as end:
+            click.echo(f"\nlumencut: {end}", err=True)
+            ctx.exit(128 + end.number)
         except (click.ClickException, click.exceptions.Exit, click.Abort):
             raise
         except LumencutError as error:
@@ -146,11 +154,27 @@ def _log_shown() -> Iterator[None]:
 
 
 @contextmanager
+def busy(what: str) -> Iterator[None]:
+    """Say on a terminal what is done, as long as it is."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    click.echo(f"{what} …", err=True, nl=False)
+    try:
+        yield
+    finally:
+        # Back to the beginning of the line, which is emptied.
+        click.echo("\r\x1b[K", err=True, nl=False)
+
+
+@contextmanager
 def bar(label: str, unit: str) -> Iterator[Callable[[int, int], None]]:
     """Yield a function of (done, total) that moves a progress bar, drawn only on a terminal."""
     from tqdm import tqdm
 
-    with tqdm(desc=label, unit=unit, disable=None, leave=False, delay=0.3) as drawn:
+    with tqdm(
+        desc=label, unit=unit, disable=None, leave=False, delay=0.3, bar_format=_BAR.get(unit)
+    ) as drawn:
 
         def told(done: int, total: int) -> None:
             drawn.total = total

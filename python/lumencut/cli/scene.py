@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from lumencut.cli import vessels
 from lumencut.cli.mistakes import check_files, check_options, check_radii, check_reading
 from lumencut.cli.options import described
 from lumencut.cli.report import bar, detail, warn
@@ -18,11 +19,14 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from lumencut.camera import Camera
+    from lumencut.centerline_file import CenterlineFile
     from lumencut.frame import Frame
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
+    from lumencut.several_centerlines import CenterlineFiles
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
+    from lumencut.window import Window
 
 
 @dataclass(frozen=True)
@@ -30,7 +34,7 @@ class SceneFiles:
     """The files of a picture, and how they are to be read."""
 
     volume: Path | None
-    centerlines: Path | None
+    centerlines: tuple[Path, ...]
     coordinates: Literal["lps", "ras"] | None
     unit: Literal["um", "mm", "cm", "dm", "m"] | None
     series: str | None
@@ -47,7 +51,7 @@ def scene_from(chosen: dict[str, Any]) -> SceneFiles:
 
 def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -> None:
     """Refuse what a user cannot mean before any file is read."""
-    has_centerlines = files.centerlines is not None
+    has_centerlines = bool(files.centerlines)
     check_files(files.volume, files.centerlines)
     volumes = [] if files.volume is None else [files.volume]
     check_reading(chosen, volumes, has_centerlines=has_centerlines)
@@ -56,29 +60,44 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
         raise click.UsageError("--context none without CENTERLINES shows nothing; give one of them")
 
 
-def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> Renderer:
-    """Return a renderer of the files; options that do nothing with them are refused."""
+def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, VesselTree | Volume]:
+    """Return a renderer of the files, and what views are fitted to; options that do nothing are refused."""
     from lumencut.renderer import Renderer
 
     voxels, tree = read_files(files, chosen)
+    if tree is None:
+        renderer = Renderer(voxels, tree, files.device)
+        return renderer, renderer.scene
+    shown, fitted = vessels.chosen_of(tree, chosen)
     # The renderer compares the tree with the volume and warns where the space looks wrong.
-    return Renderer(voxels, tree, files.device)
+    renderer = Renderer(voxels, tree, files.device)
+    # A part of the tree is shown with the window of the whole: its brightness does not depend on the choice.
+    return (renderer if shown is tree else renderer.with_tree(shown)), fitted
 
 
 def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None, VesselTree | None]:
     """Return the volume and the vessel tree of the files, each None where its file is."""
-    from lumencut.centerlines import CenterlineFile
-
     start = time.perf_counter()
-    # The small file first: what is wrong with it shows before gigabytes are read.
-    lines = None if files.centerlines is None else CenterlineFile(files.centerlines)
+    # The small files first: what is wrong with them shows before gigabytes are read.
+    lines = _centerlines(files.centerlines)
     voxels = None if files.volume is None else _read_volume(files.volume, files)
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
     check_radii(chosen, tree)
     if tree is not None:
-        detail(f"{files.centerlines}: {tree!r}")
+        detail(f"{', '.join(map(str, files.centerlines))}: {tree!r}")
     detail(f"read in {time.perf_counter() - start:.2f} s")
     return voxels, tree
+
+
+def _centerlines(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
+    """Read the files of centerlines. A single one is compared with the volume by the renderer alone."""
+    from lumencut.centerline_file import CenterlineFile
+
+    if len(paths) < 2:
+        return CenterlineFile(paths[0]) if paths else None
+    from lumencut.several_centerlines import CenterlineFiles
+
+    return CenterlineFiles(paths)
 
 
 def _read_volume(path: Path, files: SceneFiles) -> Volume:
@@ -107,10 +126,29 @@ def is_empty(frame: Frame) -> bool:
 
 def shown(camera: Camera, settings: Settings, renderer: Renderer) -> str:
     """Say in words what a picture of a renderer shows."""
-    used = renderer.windowed(settings)
-    if renderer.tree is None:
-        return described(camera, "context window", used.context_window or renderer.window)
-    return described(camera, "window", used.window or renderer.window)
+    name, used = _main_window(settings, renderer)
+    return described(camera, name.replace("_", " "), used)
+
+
+def _main_window(settings: Settings, renderer: Renderer) -> tuple[str, Window]:
+    """The setting and the window of what a picture shows first: the cut surface, or else the context."""
+    name = "context_window" if renderer.tree is None else "window"
+    return name, getattr(renderer.windowed(settings), name) or renderer.window
+
+
+def warn_of_window(settings: Settings, renderer: Renderer) -> None:
+    """Say where a window that was asked for shows all of the volume in one grey, as HU of what has no HU."""
+    name, window = _main_window(settings, renderer)
+    if getattr(settings, name) is None or renderer.volume is None:
+        return
+    full = type(window).named("full", renderer.volume)
+    low, high = full.level - full.width / 2, full.level + full.width / 2
+    black, white = window.level - window.width / 2, window.level + window.width / 2
+    if min(high, white) - max(low, black) < window.width / 50:
+        warn(
+            f"--{name.replace('_', '-')} {window.width:.4g}/{window.level:.4g} shows the volume in one grey: "
+            f"its values reach from {low:.4g} to {high:.4g}; auto, mra and full are windows from the data"
+        )
 
 
 def _meets(camera: Camera, corners: npt.NDArray[np.float64]) -> bool:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from lumencut._lumencut import PAPER, SETTINGS, Setting
-from lumencut.cli.options import Command, added
-from lumencut.cli.parameters import RGB, RGBA, WINDOW, Parts, Thickness, Transfer
+from lumencut.cli.options import FILE, Command, added
+from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
@@ -25,7 +26,12 @@ _FIRST = ("window", "opacity", "background")
 _METAVARS = {"mm": "MM", "mm per level": "MM", "mm per mm": "SLOPE", "radii": "RADII"}
 
 #: What the help says about how values of a kind are written, after the sentence about the setting.
-_WRITTEN = {"flag": " (yes or no)", "color": " (hexadecimal)", "slab": ", such as 4mm:mean"}
+_WRITTEN = {
+    "window": f", such as 900/300 (width, then level), or one of {', '.join(WINDOW_NAMES)}",
+    "flag": " (yes or no)",
+    "color": " (hexadecimal)",
+    "slab": ", such as 4mm:mean",
+}
 
 
 def paper_option(command: Command) -> Command:
@@ -43,10 +49,20 @@ def _words(name: str, value: Any) -> str:
     return f"--{words} {value:g}" if isinstance(value, float) else f"--{words} {value}"
 
 
+#: A file of settings, which options change further.
+settings_option = click.option(
+    "--settings",
+    "settings_file",
+    type=FILE,
+    help="Start from the settings in this TOML file, as lumencut settings writes it. Options beside it "
+    "change them further.",
+)
+
+
 def setting_options(command: Command) -> Command:
     """Add one option for each field of `Settings`, under its name."""
     names = [*_FIRST, *(name for name in SETTINGS if name not in _FIRST)]
-    return added(tuple(_option(name, SETTINGS[name]) for name in names), command)
+    return added((settings_option, *(_option(name, SETTINGS[name]) for name in names)), command)
 
 
 def _option(name: str, setting: Setting) -> Any:
@@ -68,7 +84,7 @@ def _type(setting: Setting) -> tuple[Any, str | None]:
         case "color":
             return (RGB if len(setting.default) == 3 else RGBA), None
         case "window":
-            return WINDOW, None
+            return WINDOW, f"{WINDOW.name}|NAME"
         case "opacity":
             return Parts("TRANSPARENT:OPAQUE", ":", float), None
         case "slab":
@@ -100,14 +116,26 @@ def _default(setting: Setting) -> str:
             return f"default {number:g}"
 
 
-def settings_from(chosen: dict[str, Any]) -> Settings:
-    """Return the settings that the options stand for; the others are the defaults, or the paper's."""
+def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Settings:
+    """Return the settings that the options stand for; the others are those of `base` or the paper's.
+
+    Without `base` they are the defaults.
+    """
     from lumencut.settings import Settings
 
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
-    start = Settings.paper if chosen.get("paper") else Settings
+    path = chosen.get("settings_file")
+    if path is not None and base is not None:
+        found = "--settings and --like exclude each other: both name all settings"
+        raise click.UsageError(f"{found}; give single settings as options beside --like")
+    if path is not None and chosen.get("paper"):
+        mend = "lumencut settings --paper writes a file of the paper's rules"
+        raise click.UsageError(f"--settings and --paper exclude each other; {mend}")
+    start = base or Settings() if path is None else Settings.from_file(path)
+    paper = PAPER if chosen.get("paper") else {}
     try:
-        return start(**{name: _as_field(SETTINGS[name], value) for name, value in given.items()})
+        fields = {name: _as_field(SETTINGS[name], value) for name, value in given.items()}
+        return replace(start, **{**paper, **fields})
     except SettingsError as error:
         raise click.UsageError(str(error)) from error
 
@@ -119,7 +147,7 @@ def _as_field(setting: Setting, value: Any) -> Any:
     from lumencut.window import Opacity, Window
 
     match setting.kind:
-        case "window":
+        case "window" if not isinstance(value, str):
             width, level = value
             return Window(level=level, width=width)
         case "opacity":

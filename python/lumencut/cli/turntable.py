@@ -9,9 +9,18 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.labels import check_labels, label_options
 from lumencut.cli.parameters import Named
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
-from lumencut.cli.scene import check_scene, is_empty, read_scene, scene_from, shown, warn_of_emptiness
+from lumencut.cli.scene import (
+    check_scene,
+    is_empty,
+    read_scene,
+    scene_from,
+    shown,
+    warn_of_emptiness,
+    warn_of_window,
+)
 from lumencut.cli.settings import paper_option, setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
 
@@ -54,6 +63,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @click.option("--fps", type=click.FloatRange(0.1, 100), help="Frames per second; default 12.")
 @click.option("--seconds", type=click.FloatRange(0.01, 3600), help="Duration in all (s), instead of --fps.")
 @options.view_options
+@label_options
 @paper_option
 @setting_options
 @verbose_option
@@ -81,13 +91,17 @@ def turntable(
     settings, view = settings_from(chosen), options.view_from(chosen)
     files = scene_from(chosen)
     check_scene(files, chosen, settings)
-    write = _checked_writer(output, fps, is_timed=is_timed)
+    check_labels(chosen, [Path(output)], view.size)
+    labels = {name: bool(chosen[name]) for name in ("annotate", "vessel_names")}
+    labels["annotate"] |= labels["vessel_names"]
+    write = _checked_writer(output, fps, labels, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
-    renderer = read_scene(files, chosen)
+    renderer, scene = read_scene(files, chosen)
+    warn_of_window(settings, renderer)
 
     from lumencut import turntables as library
 
-    camera = options.placed_like(library.fitted_turn(view, renderer.scene, degrees, axis), chosen)
+    camera = options.placed_like(library.fitted_turn(view, scene, degrees, axis), chosen)
     turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
     empty: list[Camera] = []
     write(watched(turn, frames, empty), fps)
@@ -120,13 +134,13 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
         raise click.UsageError(str(error)) from error
 
 
-def _checked_writer(output: str, fps: float, *, is_timed: bool) -> Writer:
+def _checked_writer(output: str, fps: float, labels: dict[str, bool], *, is_timed: bool) -> Writer:
     """Refuse an output that cannot be written before any file is read."""
     from lumencut.animation import checked_fps, is_sequence, writer_for
 
     try:
         checked_fps(fps)
-        write = writer_for(output)
+        write = writer_for(output, **labels)
         if is_timed and is_sequence(output):
             found = f"--fps and --seconds do nothing with one picture per frame ({output})"
             raise click.UsageError(f"{found}; leave them out, or name a moving file such as .webp")

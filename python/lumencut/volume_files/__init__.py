@@ -173,10 +173,30 @@ def inspect_volume(
     """
     told = progress if progress is not None else _untold
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
+    return _report(file, file.volume(told) if values else None)
+
+
+def inspected_volume(
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    phase: str | float | None = None,
+    fill_gaps: bool = False,
+    resample_slices: bool = False,
+    progress: Progress | None = None,
+) -> tuple[VolumeReport, Volume]:
+    """Give what `inspect_volume` tells of a file, and the volume; parameters and errors are the same."""
+    told = progress if progress is not None else _untold
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
+    volume = file.volume(told)
+    return _report(file, volume), volume
+
+
+def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
+    """What a file holds; without its volume no more than its headers tell."""
     dtype, value_range = file.dtype.newbyteorder("="), None
-    if values:
-        array = file.volume(told).array
-        dtype, value_range = array.dtype, _finite_range(array, file.notes)
+    if volume is not None:
+        dtype, value_range = volume.array.dtype, _finite_range(volume.array, file.notes)
     spacing = np.linalg.norm(file.world_from_index[:3, :3], axis=0)
     return VolumeReport(
         path=file.path,

@@ -86,6 +86,18 @@ def _affine(spacing: Any, origin: Any, direction: Any, first: Any) -> npt.NDArra
     return affine
 
 
+def _stated(spacing: Any, origin: Any, direction: Any) -> dict[str, bool]:
+    """What an image states whose package gives every image a grid: nothing where it is that of new images.
+
+    Such an image was made of bare voxels, or read from a file without a grid.
+    """
+    sides = np.asarray(direction, dtype=np.float64).reshape(3, 3)
+    return {
+        "states_spacing": bool((np.asarray(spacing, dtype=np.float64) != 1).any()),
+        "states_orientation": bool((sides != np.eye(3)).any() or np.any(np.asarray(origin) != 0)),
+    }
+
+
 def _require(name: str, dimension: int, components: int) -> None:
     if dimension != 3:
         raise VolumeError(name, f"{dimension} dimensions", "3", "take one time point out of it")
@@ -109,8 +121,9 @@ def _from_simpleitk(image: Any) -> Volume:
     view = package.GetArrayViewFromImage(image)
     # The second image shares the voxels, copy-on-write: they outlive whatever happens to the caller's image.
     voxels = np.asarray(_Kept(view, package.Image(image)))
-    affine = _affine(image.GetSpacing(), image.GetOrigin(), image.GetDirection(), (0, 0, 0))
-    return Volume(voxels, world_from_index=affine)
+    spacing, origin, direction = image.GetSpacing(), image.GetOrigin(), image.GetDirection()
+    affine = _affine(spacing, origin, direction, (0, 0, 0))
+    return Volume(voxels, world_from_index=affine, **_stated(spacing, origin, direction))
 
 
 def _from_itk(image: Any) -> Volume:
@@ -121,11 +134,17 @@ def _from_itk(image: Any) -> Volume:
     direction = package.array_from_matrix(image.GetDirection())
     spacing, origin = ([float(v[axis]) for axis in range(3)] for v in (image.GetSpacing(), image.GetOrigin()))
     voxels = np.asarray(_Kept(view, (view, image)))
-    return Volume(voxels, world_from_index=_affine(spacing, origin, direction, first))
+    affine = _affine(spacing, origin, direction, first)
+    return Volume(voxels, world_from_index=affine, **_stated(spacing, origin, direction))
 
 
 def _from_nibabel(image: Any) -> Volume:
-    from lumencut.volume_files.nifti import LPS_FROM_RAS, millimetres
+    from lumencut.volume_files.nifti import (
+        LPS_FROM_RAS,
+        millimetres,
+        states_orientation,
+        states_spacing,
+    )
 
     shape = tuple(image.shape)
     _require("nibabel image", 3 if all(length == 1 for length in shape[3:]) else len(shape), 1)
@@ -135,7 +154,14 @@ def _from_nibabel(image: Any) -> Volume:
     voxels = np.asanyarray(image.dataobj).reshape(shape[:3], order="A")
     affine = LPS_FROM_RAS @ np.asarray(image.affine, dtype=np.float64)
     affine[:3] *= millimetres(image.header, [])
-    return Volume(np.asarray(voxels).T, world_from_index=affine)
+    # Other headers than those of NIfTI always place the voxels.
+    is_nifti = hasattr(image.header, "get_sform")
+    return Volume(
+        np.asarray(voxels).T,
+        world_from_index=affine,
+        states_spacing=not is_nifti or states_spacing(image.header),
+        states_orientation=not is_nifti or states_orientation(image.header),
+    )
 
 
 def _from_vtk(image: Any) -> Volume:
@@ -153,7 +179,11 @@ def _from_vtk(image: Any) -> Volume:
     matrix = image.GetDirectionMatrix()
     direction = [[matrix.GetElement(row, column) for column in range(3)] for row in range(3)]
     affine = _affine(image.GetSpacing(), image.GetOrigin(), direction, image.GetExtent()[::2])
-    return Volume(voxels.reshape(nk, nj, ni), world_from_index=affine)
+    # The world of vtk is no patient: neither its axes nor an identity says where left is.
+    stated = _stated(image.GetSpacing(), image.GetOrigin(), direction)
+    return Volume(
+        voxels.reshape(nk, nj, ni), world_from_index=affine, **{**stated, "states_orientation": False}
+    )
 
 
 def _from_pydicom(datasets: Any) -> Volume:

@@ -15,6 +15,8 @@ from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
 
 _HEADER_LIMIT = 1 << 16
 _MOST_DIMS = 10
+_SPACING = ("ElementSpacing", "ElementSize")
+_DIRECTION = ("TransformMatrix", "Rotation", "Orientation")
 _SEPARATOR = re.compile("[=:]")
 _TYPES = {
     "MET_CHAR": "i1",
@@ -48,6 +50,7 @@ def open_metaimage(path: Path) -> VolumeFile:
     notes: list[str] = []
     dtype = _dtype(path, fields)
     affine = _affine(path, fields, dims, notes)
+    agrees = _label_agrees(fields.get("AnatomicalOrientation", ""), affine, notes)
     size = (sizes[0], sizes[1], sizes[2])
     _note_intensity(fields, notes)
     binary = _is_true(fields, "BinaryData", default=True)
@@ -59,7 +62,12 @@ def open_metaimage(path: Path) -> VolumeFile:
             return read_numbers(data_path, size[::-1], dtype, start=start)
         return read_voxels(data_path, size[::-1], dtype, start=start, codec=codec)
 
-    return VolumeFile(path, "MetaImage", size, dtype, "LPS (as every MetaImage)", affine, load, notes)
+    return VolumeFile(
+        path, "MetaImage", size, dtype, "LPS (as every MetaImage)", affine, load, notes,
+        states_spacing=any(name in fields for name in _SPACING),
+        # A matrix that a label contradicts states two orientations, and none that can be relied on.
+        states_orientation=agrees and any(name in fields for name in (*_DIRECTION, "AnatomicalOrientation")),
+    )  # fmt: skip
 
 
 def _fields(path: Path) -> tuple[dict[str, str], int]:
@@ -120,27 +128,27 @@ def _dtype(path: Path, fields: dict[str, str]) -> np.dtype[Any]:
 
 
 def _affine(path: Path, fields: dict[str, str], dims: int, notes: list[str]) -> npt.NDArray[np.float64]:
-    if "ElementSpacing" not in fields and "ElementSize" not in fields:
+    if not any(name in fields for name in _SPACING):
         notes.append("no ElementSpacing: 1 mm assumed")
-    spacing = _numbers(path, fields, ("ElementSpacing", "ElementSize"), dims, np.ones(dims))
+    spacing = _numbers(path, fields, _SPACING, dims, np.ones(dims))
     origin = _numbers(path, fields, ("Offset", "Position", "Origin"), dims, np.zeros(dims))
-    names = ("TransformMatrix", "Rotation", "Orientation")
-    rows = _numbers(path, fields, names, dims * dims, np.eye(dims).ravel()).reshape(dims, dims)
+    rows = _numbers(path, fields, _DIRECTION, dims * dims, np.eye(dims).ravel()).reshape(dims, dims)
     if not (spacing[:3] > 0).all():
         raise FormatError(str(path), f"ElementSpacing = {spacing.tolist()}", "positive distances in mm")
     affine = np.eye(4)
     affine[:3, :3] = rows[:3, :3].T * spacing[:3]
     affine[:3, 3] = origin[:3]
-    _compare_label(fields.get("AnatomicalOrientation", ""), affine, notes)
     return affine
 
 
-def _compare_label(label: str, affine: npt.NDArray[np.float64], notes: list[str]) -> None:
-    """Note a label (the side on which each axis begins, as ITK writes it) that contradicts the matrix."""
+def _label_agrees(label: str, affine: npt.NDArray[np.float64], notes: list[str]) -> bool:
+    """Tell whether a label (the side on which each axis begins, as ITK writes it) goes with the matrix."""
     axes = np.argmax(np.abs(affine[:3, :3]), axis=0)
     sides = [("RL", "AP", "IS")[axis][int(affine[axis, column] < 0)] for column, axis in enumerate(axes)]
-    if len(label) == 3 and set(label) <= set("RLAPIS") and label != "".join(sides):
+    agrees = not (len(label) == 3 and set(label) <= set("RLAPIS")) or label == "".join(sides)
+    if not agrees:
         notes.append(f"AnatomicalOrientation = {label}, the matrix says {''.join(sides)}: the matrix is used")
+    return agrees
 
 
 def _note_intensity(fields: dict[str, str], notes: list[str]) -> None:

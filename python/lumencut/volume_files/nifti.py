@@ -32,6 +32,7 @@ _OTHER_TYPES = {
     2304: _COLOUR,
     1536: ("voxels of 128-bit floats", "write 64-bit floats"),
 }
+_SAME_AXIS = np.cos(np.radians(25))
 _MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
 
 
@@ -61,7 +62,10 @@ def open_nifti(path: Path) -> VolumeFile:
         return rescaled(read_voxels(data_path, size[::-1], dtype, codec=codec, skip=offset), slope, intercept)
 
     space = _stated_space(header)
-    return VolumeFile(path, kind, size, dtype, space, affine, load, notes, remarks=remarks)
+    return VolumeFile(
+        path, kind, size, dtype, space, affine, load, notes, remarks=remarks,
+        states_spacing=states_spacing(header), states_orientation=states_orientation(header),
+    )  # fmt: skip
 
 
 def _partner(path: Path, mine: str, other: str) -> Path:
@@ -199,15 +203,46 @@ def _best_affine(path: Path, header: Any) -> npt.NDArray[np.float64]:
 
 def millimetres(header: Any, notes: list[str]) -> float:
     """Return the millimetres per unit of length that a header states; 1 where it states none."""
-    try:
-        unit = header.get_xyzt_units()[0]
-    except (AttributeError, KeyError):
-        unit = "unknown"
-    if unit not in _MILLIMETRES:
+    unit = _unit(header)
+    if not unit:
         notes.append("the unit of length is not stated: mm assumed")
     elif unit != "mm":
         notes.append(f"lengths are in {unit}s: converted to mm")
     return _MILLIMETRES.get(unit, 1.0)
+
+
+def _unit(header: Any) -> str:
+    """The unit of length that a header states, empty where it states none that is known."""
+    try:
+        unit = str(header.get_xyzt_units()[0])
+    except (AttributeError, KeyError):
+        return ""
+    return unit if unit in _MILLIMETRES else ""
+
+
+def states_spacing(header: Any) -> bool:
+    """Tell whether lengths in mm are known.
+
+    Those of a placement are mm by convention even where no unit is stated; without either they are bare
+    numbers.
+    """
+    return _is_placed(header) or bool(_unit(header))
+
+
+def states_orientation(header: Any) -> bool:
+    """Tell whether a header places its axes in the patient, and no second time more than 25 degrees apart."""
+    if not _is_placed(header):
+        return False
+    try:
+        forms = [header.get_qform(coded=True)[0], header.get_sform(coded=True)[0]]
+    except ValueError:  # a qform that is no rotation, beside the sform that is used
+        return True
+    axes = [form[:3, :3] / np.linalg.norm(form[:3, :3], axis=0) for form in forms if form is not None]
+    return len(axes) == 1 or bool(((axes[0] * axes[1]).sum(axis=0) > _SAME_AXIS).all())
+
+
+def _is_placed(header: Any) -> bool:
+    return int(header["sform_code"]) > 0 or int(header["qform_code"]) > 0
 
 
 def _stated_space(header: Any) -> str:

@@ -78,7 +78,11 @@ def open_nrrd(path: Path) -> VolumeFile:
             return read_voxels(data_path, size[::-1], dtype, start=-1)
         return read_voxels(data_path, size[::-1], dtype, start=begin, codec=_CODECS[encoding], skip=skip)
 
-    return VolumeFile(path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes)
+    return VolumeFile(
+        path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes,
+        states_spacing=_states_spacing(header, axes),
+        states_orientation="space directions" in header and _patient_space(header) in _TO_LPS,
+    )  # fmt: skip
 
 
 def _header(path: Path) -> tuple[dict[str, Any], int]:
@@ -213,8 +217,7 @@ def _affine(path: Path, header: dict[str, Any], axes: list[int], notes: list[str
             raise FormatError(str(path), f"space directions: {len(columns[0])} numbers", "3 numbers per axis")
         affine[:3, :3] = np.stack(columns, axis=1)
     else:
-        spacings = np.asarray(header.get("spacings", np.full(len(header["sizes"]), np.nan)), dtype=np.float64)
-        stated = np.array([spacings[axis] if axis < len(spacings) else np.nan for axis in axes])
+        stated = _spacings(header, axes)
         if not np.isfinite(stated).all():
             notes.append("no spacing stated: 1 mm assumed")
         affine[:3, :3] = np.diag(np.where(np.isfinite(stated), stated, 1.0))
@@ -230,10 +233,27 @@ def _affine(path: Path, header: dict[str, Any], axes: list[int], notes: list[str
     return np.diag([*_signs(path, header, notes), 1.0]) @ affine
 
 
+def _spacings(header: dict[str, Any], axes: list[int]) -> npt.NDArray[np.float64]:
+    """The spacing of each axis of the grid, NaN where none is stated."""
+    spacings = np.asarray(header.get("spacings", np.full(len(header["sizes"]), np.nan)), dtype=np.float64)
+    return np.array([spacings[axis] if axis < len(spacings) else np.nan for axis in axes])
+
+
+def _states_spacing(header: dict[str, Any], axes: list[int]) -> bool:
+    """Tell whether lengths in mm are known: stated, and not in a unit that nobody knows."""
+    is_stated = "space directions" in header or bool(np.isfinite(_spacings(header, axes)).all())
+    return is_stated and _space_unit(header) in ("", *_MILLIMETRES)
+
+
+def _patient_space(header: dict[str, Any]) -> str:
+    """The name of the space in full."""
+    space = str(header.get("space", "")).lower().removesuffix("-time")
+    return _SHORT.get(space, space)
+
+
 def _signs(path: Path, header: dict[str, Any], notes: list[str]) -> tuple[float, float, float]:
     """What turns the file's space into LPS."""
-    space = str(header.get("space", "")).lower().removesuffix("-time")
-    space = _SHORT.get(space, space)
+    space = _patient_space(header)
     if space in _TO_LPS:
         return _TO_LPS[space]
     notes.append(
@@ -246,15 +266,23 @@ def _signs(path: Path, header: dict[str, Any], notes: list[str]) -> tuple[float,
 
 def _unit(header: dict[str, Any], notes: list[str]) -> float:
     """Millimetres per unit of the file."""
-    stated = [str(unit).strip('" ').lower() for unit in header.get("space units", [])][:1]
-    if not stated or stated[0] in ("", "???"):
+    unit = _space_unit(header)
+    if not unit:
         return 1.0
-    unit = stated[0] if stated[0] in _MILLIMETRES else stated[0].removesuffix("s")
     if unit not in _MILLIMETRES:
-        notes.append(f"space units {shown(stated[0])!r} are not known: mm assumed")
+        notes.append(f"space units {shown(unit)!r} are not known: mm assumed")
     elif _MILLIMETRES[unit] != 1.0:
         notes.append(f"lengths are in {unit}: converted to mm")
     return _MILLIMETRES.get(unit, 1.0)
+
+
+def _space_unit(header: dict[str, Any]) -> str:
+    """The unit of the first axis of the space, in the singular where that is known; empty for none."""
+    stated = [str(unit).strip('" ').lower() for unit in header.get("space units", [])][:1]
+    if not stated or stated[0] in ("", "???"):
+        return ""
+    singular = stated[0].removesuffix("s")
+    return singular if stated[0] not in _MILLIMETRES and singular in _MILLIMETRES else stated[0]
 
 
 def _data_place(path: Path, header: dict[str, Any], end: int) -> tuple[Path, int]:

@@ -40,6 +40,8 @@ class VolumeFile:
     details: dict[str, str] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
     """What is told of the file to whoever asks, and is no reason to warn every reader."""
+    states_spacing: bool = True
+    states_orientation: bool = True
 
     def volume(self, progress: Progress) -> Volume:
         """Read the voxels; what `progress` raises passes through."""
@@ -57,7 +59,12 @@ class VolumeFile:
 
 def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:
     try:
-        return Volume(voxels, world_from_index=file.world_from_index)
+        return Volume(
+            voxels,
+            world_from_index=file.world_from_index,
+            states_spacing=file.states_spacing,
+            states_orientation=file.states_orientation,
+        )
     except VolumeError as error:
         found = " ".join(f"{error.subject} {error.found}".split())
         raise FormatError(str(file.path), found, error.expected, error.mend) from error

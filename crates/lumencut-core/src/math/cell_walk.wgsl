@@ -48,9 +48,9 @@ fn walk_cells(start: Place, way: vec3f, sign: f32, limit: f32, wants_mean: bool,
         let corners = corners_at(vec3i(voxel), sign);
         let top = largest_corner(corners);
         if top < HUGE && (wants_mean || min(top, limit) > found.best) {
-            let from = place + (first - voxel);
-            let one = clamp(from + way * enter, vec3f(), vec3f(1.0));
-            let other = clamp(from + way * leave, vec3f(), vec3f(1.0));
+            let beside = place + (first - voxel);
+            let one = clamp(beside + way * enter, vec3f(), vec3f(1.0));
+            let other = clamp(beside + way * leave, vec3f(), vec3f(1.0));
             let cubic = cubic_between(corners, one, other);
             if wants_mean {
                 let share = max(leave - enter, 0.0);

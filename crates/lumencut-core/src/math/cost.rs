@@ -55,6 +55,13 @@ impl Rule {
         if is_lifted { 0.0 } else { beyond }
     }
 
+    /// Whether a piece at distance `d` from its centerline, of radius `r`, shows its lumen; under *lumen first* the key tells.
+    #[inline(always)]
+    pub fn is_lumen<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> bool {
+        // Walls have keys of half a mm above −3/2·lift and more, lumens of half a mm below it and less.
+        if LUMEN_FIRST { key < -1.5 * self.lift } else { d - r <= 0.0 }
+    }
+
     /// A key that nothing at depth ≥ `z` with radius ≤ `r` falls below from a distance ≥ `d`.
     #[inline(always)]
     pub fn bound<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32) -> f32 {

@@ -24,6 +24,12 @@ fn beyond_wall(key: f32, d: f32, r: f32) -> f32 {
     return max(d - r - parameters.margin, 0.0);
 }
 
+// Whether a piece at distance `d` from its centerline, of radius `r`, shows its lumen; under *lumen first* the key tells.
+fn is_lumen(key: f32, d: f32, r: f32) -> bool {
+    // Walls have keys of half a mm above -3/2·lift and more, lumens of half a mm below it and less.
+    return select(d - r <= 0.0, key < -1.5 * parameters.lift, LUMEN_FIRST);
+}
+
 // A key that nothing at depth ≥ `z` with radius ≤ `r` falls below from a distance ≥ `d`.
 fn key_bound(z: f32, d: f32, r: f32) -> f32 {
     let beyond = d - parameters.distance_slack - r;

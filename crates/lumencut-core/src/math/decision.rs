@@ -18,6 +18,8 @@ pub struct Decision {
     pub beyond_wall: [f32; PIXELS],
     /// The radius of the vessel there (mm).
     pub radius: [f32; PIXELS],
+    /// Whether the pixel shows the lumen of the vessel.
+    pub is_lumen: [bool; PIXELS],
     /// How the depth changes to the right and upwards (mm per mm).
     pub slope: [[f32; PIXELS]; 2],
 }
@@ -32,8 +34,14 @@ impl Decision {
         rule: &Rule,
     ) -> Self {
         let zero = [0.0; PIXELS];
-        let mut decision =
-            Self { vessel: [0; PIXELS], arc_length: zero, beyond_wall: zero, radius: zero, slope: [zero; 2] };
+        let mut decision = Self {
+            vessel: [0; PIXELS],
+            arc_length: zero,
+            beyond_wall: zero,
+            radius: zero,
+            is_lumen: [false; PIXELS],
+            slope: [zero; 2],
+        };
         // First all that is read from here and there, then all that is computed: the second in vectors.
         let (mut starts, mut ends) = (Gathered::new(), Gathered::new());
         for l in 0..PIXELS {
@@ -57,11 +65,20 @@ impl Decision {
             let per_mm = inverse * inverse * (ends.z[l] - starts.z[l]);
             decision.radius[l] = radius;
             decision.beyond_wall[l] = rule.beyond_wall::<LUMEN_FIRST>(winners.key[l], distance, radius);
+            decision.is_lumen[l] = rule.is_lumen::<LUMEN_FIRST>(winners.key[l], distance, radius);
             decision.arc_length[l] = starts.arc_length[l] + t * (ends.arc_length[l] - starts.arc_length[l]);
             decision.slope[0][l] = edge[0] * per_mm;
             decision.slope[1][l] = edge[1] * per_mm;
         }
         decision
+    }
+}
+
+impl Decision {
+    /// The radius as a sheet holds it: negative beside the lumen.
+    #[inline(always)]
+    pub fn sheet_radius(&self, l: usize) -> f32 {
+        if self.is_lumen[l] { self.radius[l] } else { -self.radius[l] }
     }
 }
 

@@ -14,8 +14,8 @@ struct Decision {
     arc_length: f32,
     // How far it lies beyond the vessel's wall (mm); 0 within.
     beyond_wall: f32,
-    // The radius of the vessel there (mm).
-    radius: f32,
+    // The radius of the vessel there (mm), as a sheet holds it: negative beside the lumen.
+    sheet_radius: f32,
     // How the depth changes to the right and upwards (mm per mm).
     slope: vec2f,
 }
@@ -56,7 +56,8 @@ fn decide(level: u32, key: f32, piece: u32, vessel: i32, q: vec2f) -> Decision {
     let distance = select(length(q - here.point.xy), at.distance, is_stripe);
     let radius = here.radius + t * (next.radius - here.radius);
     let s = here.arc_length + t * (next.arc_length - here.arc_length);
-    return Decision(vessel, s, beyond_wall(key, distance, radius), radius, slope_of(here, next));
+    let sheet_radius = select(-radius, radius, is_lumen(key, distance, radius));
+    return Decision(vessel, s, beyond_wall(key, distance, radius), sheet_radius, slope_of(here, next));
 }
 
 // The piece of a pixel's vessel so far whose arc length is nearest.

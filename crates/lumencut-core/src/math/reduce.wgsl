@@ -6,7 +6,7 @@
 const STRETCH: i32 = 8;
 
 // Sums of few numbers keep their digits: once there are so many stretches, they are one of the next sum.
-const FEW = 16;
+const FEW: i32 = 16;
 
 // Where part `n` of a ray begins.
 fn part_place(ray: Ray, n: i32) -> Place {

@@ -29,7 +29,7 @@ impl SurfaceDetails {
         }
         let Images { unfiltered_depth, depth, vessel, leap, sheet, .. } = images;
         let depth = if depth.is_empty() { unfiltered_depth } else { depth };
-        let lines = Lines { depth: &depth, vessel: &vessel, leap: &leap };
+        let lines = Lines { depth: &depth, vessel: &vessel, leap: &leap, value: &[] };
         let strength = lines.strength(&pass.work, settings, pass.surface.camera())?;
         Ok(Self { sheet, leap, strength })
     }

@@ -126,7 +126,12 @@ impl LookPass<'_> {
 
     fn silhouette(&self, images: &mut Images) -> Result<()> {
         let Some(camera) = self.geometry.camera() else { return Ok(()) };
-        let lines = Lines { depth: self.geometry.depth(), vessel: self.vessel, leap: self.leap };
+        let lines = Lines {
+            depth: self.geometry.depth(),
+            vessel: self.vessel,
+            leap: self.leap,
+            value: &images.value,
+        };
         images.strength = lines.strength(&self.work, self.settings, camera)?;
         Ok(())
     }
@@ -187,16 +192,20 @@ pub(super) struct Lines<'a> {
     pub depth: &'a [f32],
     pub vessel: &'a [i32],
     pub leap: &'a [u32],
+    /// Empty where there is no volume.
+    pub value: &'a [f32],
 }
 
 impl Lines<'_> {
     /// The strength of the silhouettes by the rule of the settings.
     pub fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
-        let mut strength = vec![0.0; work.pixels()];
+        let (mut strength, parameters) =
+            (vec![0.0; work.pixels()], SilhouetteParameters::new(settings, camera));
         match settings.silhouette_rule {
-            SilhouetteRule::Leap => silhouette_of_leaps(work, self.leap, &mut strength)?,
+            SilhouetteRule::Leap => {
+                silhouette_of_leaps(work, &parameters, self.leap, self.value, &mut strength)?;
+            }
             SilhouetteRule::Gradient => {
-                let parameters = SilhouetteParameters::new(settings, camera);
                 silhouette(work, &parameters, self.depth, self.vessel, &mut strength)?;
             }
         }

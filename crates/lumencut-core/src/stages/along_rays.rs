@@ -86,7 +86,7 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
         values.par_chunks_mut(ROWS * width).enumerate().try_for_each(|(row, values)| {
             for column in (0..width).step_by(PACKET[0]) {
                 if column % TILE == 0 {
-                    work.go_on()?;
+                    work.begin(ROWS * TILE)?;
                 }
                 for first in (0..ROWS).step_by(PACKET[1]) {
                     let place = [column, first];

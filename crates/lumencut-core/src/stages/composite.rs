@@ -54,7 +54,7 @@ pub fn composite(
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
     let rows = image.par_chunks_mut(chunk).zip(layers.value.par_chunks(chunk));
     rows.enumerate().try_for_each(|(row, (image, value))| {
-        work.go_on()?;
+        work.begin(image.len())?;
         let strength = layers.strength.map_or(&absent[..], |s| &s[row * chunk..][..value.len()]);
         let context = layers.context.map_or(&empty[..], |c| &c[row * chunk..][..value.len()]);
         dispatch(work.isa, PaintRows { paint: *parameters, value, strength, context, image });
@@ -71,7 +71,7 @@ pub fn layer(work: &Work, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<
     work.expect_whole(Image::Context, image);
     let chunk = work.tile_row();
     image.par_chunks_mut(chunk).zip(colors.par_chunks(chunk)).try_for_each(|(image, colors)| {
-        work.go_on()?;
+        work.begin(image.len())?;
         dispatch(work.isa, StraightRows { colors, image });
         Ok(())
     })

@@ -124,7 +124,7 @@ impl Search for LowestKeySearch<'_> {
 }
 
 /// What is known of the surface beside its depth in a pixel: how its depth changes to the right and upwards (mm per mm),
-/// the radius of its vessel (mm), and the gap along the vessel between the two places that are blended there
+/// the radius of its vessel (mm, negative beside the lumen), and the gap along the vessel between the two places that are blended there
 /// (mm; [`crate::math::lanes::FAR`] where they belong to different vessels).
 pub type Sheet = [f32; 4];
 
@@ -169,7 +169,7 @@ pub(crate) fn depth_by<S: Search>(
     sheets.resize_with(depth.len().div_ceil(chunk), Default::default);
     let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets);
     rows.enumerate().try_for_each(|(row, ((depth, vessel), sheet))| {
-        work.go_on()?;
+        work.begin(depth.len())?;
         let from = (row * chunk).min(distance.len());
         let distance = &distance[from..(from + depth.len()).min(distance.len())];
         let (row, search) = (DepthRow { surface, row, distance, depth, vessel, sheet }, search());

@@ -88,7 +88,11 @@ fn add_to_sheets(tile: Tile, level: u32) {
                     let vessel = vessel_of_slot[parameters.levels[level].first_slot + piece / 2u];
                     let q = vec2f(quad_x[a][c], row_y[r]);
                     let found = decide(level, winner_key[n][c], piece, vessel, q);
-                    sheets[n][c] += weight[c] * vec4f(found.slope, found.radius, 0.0);
+                    // Lumen is what every level that is blended shows as lumen.
+                    let radius = abs(sheets[n][c].z) + weight[c] * abs(found.sheet_radius);
+                    let is_beside = sheets[n][c].z < 0.0 || found.sheet_radius < 0.0;
+                    let slope = sheets[n][c].xy + weight[c] * found.slope;
+                    sheets[n][c] = vec4f(slope, select(radius, -radius, is_beside), sheets[n][c].w);
                     let counted = u32(vessel) + 1u;
                     if finer_vessel[n][c] != 0u {
                         let apart = abs(found.arc_length - finer_arc_length[n][c]);
@@ -153,7 +157,7 @@ fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
     vessel_image[place] = decision.vessel;
     if HAS_SHEET {
         let slope = (1.0 - weight) * fine_piece.slope + weight * coarse_piece.slope;
-        sheet_image[place] = vec4f(slope, decision.radius, abs(coarse_piece.along - fine_piece.along));
+        sheet_image[place] = vec4f(slope, decision.sheet_radius, abs(coarse_piece.along - fine_piece.along));
     }
 }
 

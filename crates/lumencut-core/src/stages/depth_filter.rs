@@ -71,7 +71,7 @@ pub fn depth_filter(
     work.expect_whole(Image::Depth, smoothed);
     let (weights, width) = (parameters.weights, work.size[0]);
     smoothed.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
-        work.go_on()?;
+        work.begin(smoothed.len())?;
         let first = row * ROWS;
         if let Some(vessel) = vessel {
             dispatch(work.isa, ZoneRows { parameters, image, vessel, width, first, smoothed });

@@ -53,7 +53,7 @@ pub(crate) fn distance_by<M: Measure>(
     work.expect_whole(Image::Distance, distance);
     let camera = surface.camera();
     distance.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, pixels)| {
-        work.go_on()?;
+        work.begin(pixels.len())?;
         dispatch(work.isa, DistanceRow { camera, measure: measure(), row, pixels });
         Ok(())
     })

@@ -1,4 +1,5 @@
-//! Leaps: neighbours whose depths do not belong to one surface. They are decided once, here; silhouettes follow them.
+//! Leaps: neighbours whose depths do not belong to one surface, and on which side of a leap its line lies. Both are decided
+//! once, here; silhouettes follow them.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -8,7 +9,7 @@ use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, larger};
-use crate::math::leaps::{DOWNWARDS, TO_THE_RIGHT};
+use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 
 /// The smallest leap (mm), for vessels whose diameter is smaller.
 pub const SMALLEST_LEAP: f32 = 2.0;
@@ -29,7 +30,9 @@ impl LeapParameters {
 }
 
 /// Writes between which neighbours the depth (mm, before its filter) leaps: where it differs by more than the diameter of
-/// the vessel, and by more than [`SMALLEST_LEAP`], from what the slope of either side alone would make it.
+/// the vessel, and by more than [`SMALLEST_LEAP`], from what the slope of either side alone would make it. Also which
+/// pixels show lumen, and on which side the line of a leap lies: beside the lumen where one side alone is lumen, else on
+/// the farther side, which the nearer one hides in part.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -45,7 +48,7 @@ pub fn leap(
     work.expect_whole(Image::Leap, leap);
     let (side, width) = (parameters.pixel_spacing, work.size[0]);
     leap.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, leap)| {
-        work.go_on()?;
+        work.begin(leap.len())?;
         let surface = Surface { depth, sheet, width };
         dispatch(work.isa, LeapRows { surface, first: row * ROWS, side, leap });
         Ok(())
@@ -83,8 +86,12 @@ impl Kernel for LeapRows<'_> {
                 let down = here.leaps_to(&surface.strip(i, (j + 1).min(last_row)), [0.0, -side]);
                 let right = here.leaps_to(&surface.strip(i + 1, j), [side, 0.0]);
                 for (l, leap) in leap.iter_mut().enumerate() {
-                    let (down, right) = (down[l] & (j < last_row), right[l] & (i + l + 1 < width));
-                    *leap = if down { DOWNWARDS } else { 0 } | if right { TO_THE_RIGHT } else { 0 };
+                    let lumen = if here.is_lumen[l] { LUMEN } else { 0 };
+                    let down = if j < last_row { down[l] } else { 0 };
+                    let right = if i + l + 1 < width { right[l] } else { 0 };
+                    *leap = lumen
+                        | down & (DOWNWARDS | LINE_DOWNWARDS)
+                        | right & (TO_THE_RIGHT | LINE_TO_THE_RIGHT);
                 }
             }
         }
@@ -97,7 +104,8 @@ impl Surface<'_> {
     fn strip(&self, i: usize, j: usize) -> Strip {
         let row = j * self.width..(j + 1) * self.width;
         let (depth, sheet) = (&self.depth[row.clone()], &self.sheet[row]);
-        let mut strip = Strip { z: [0.0; FAN], slope: [[0.0; FAN]; 2], threshold: [0.0; FAN] };
+        let zero = [0.0; FAN];
+        let mut strip = Strip { z: zero, slope: [zero; 2], threshold: zero, is_lumen: [false; FAN] };
         if let (Some(depth), Some(sheet)) = (whole(depth, i), whole(sheet, i)) {
             strip.put(depth, sheet);
         } else {
@@ -122,6 +130,7 @@ struct Strip {
     slope: [[f32; FAN]; 2],
     /// From how much on a change counts as a leap (mm).
     threshold: [f32; FAN],
+    is_lumen: [bool; FAN],
 }
 
 impl Strip {
@@ -131,18 +140,23 @@ impl Strip {
         for l in 0..FAN {
             let [slope_x, slope_y, radius, _] = sheet[l];
             (self.slope[0][l], self.slope[1][l]) = (slope_x, slope_y);
-            self.threshold[l] = larger(2.0 * radius, SMALLEST_LEAP);
+            self.threshold[l] = larger(2.0 * radius.abs(), SMALLEST_LEAP);
+            self.is_lumen[l] = radius > 0.0;
         }
     }
 
-    /// Whether the depth leaps from each of these pixels to one of the others, which lies `step` (view x and y, mm) from
-    /// it.
+    /// The bits, of either way, of a leap from each of these pixels to one of the others, which lies `step` (view x and y,
+    /// mm) from it.
     #[inline(always)]
-    fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [bool; FAN] {
-        let mut leaps = [false; FAN];
+    fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
+        let mut leaps = [0; FAN];
         for l in 0..FAN {
             let change = others.z[l] - self.z[l];
-            leaps[l] = self.is_off(l, change, step) & others.is_off(l, change, step);
+            let is_leap = self.is_off(l, change, step) & others.is_off(l, change, step);
+            let is_farther = (self.is_lumen[l] == others.is_lumen[l]) & (change > 0.0);
+            let line_beyond = is_farther | (self.is_lumen[l] & !others.is_lumen[l]);
+            let line = if line_beyond { LINE_TO_THE_RIGHT | LINE_DOWNWARDS } else { 0 };
+            leaps[l] = if is_leap { line | TO_THE_RIGHT | DOWNWARDS } else { 0 };
         }
         leaps
     }

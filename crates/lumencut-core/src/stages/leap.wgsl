@@ -1,4 +1,4 @@
-// Leaps: neighbours whose depths do not belong to one surface.
+// Leaps: neighbours whose depths do not belong to one surface, and on which side of a leap its line lies.
 // import math/view
 // import math/leaps
 
@@ -18,13 +18,20 @@ struct LeapParameters {
 // Whether a change of depth over a step (view x and y, mm) is another than the slope of a sheet makes it.
 fn is_off(change: f32, sheet: vec4f, step: vec2f) -> bool {
     let expected = sheet.x * step.x + sheet.y * step.y;
-    return abs(change - expected) > max(2.0 * sheet.z, SMALLEST_LEAP);
+    return abs(change - expected) > max(2.0 * abs(sheet.z), SMALLEST_LEAP);
 }
 
-// Whether the depth leaps from one pixel to another.
-fn leaps(here: u32, there: u32, step: vec2f) -> bool {
+// The bits, of either way, of a leap from one pixel to another. The line lies beside the lumen where one side alone is lumen,
+// else on the farther side.
+fn leap_bits(here: u32, there: u32, step: vec2f) -> u32 {
     let change = depth[there] - depth[here];
-    return is_off(change, sheet[here], step) && is_off(change, sheet[there], step);
+    if !(is_off(change, sheet[here], step) && is_off(change, sheet[there], step)) {
+        return 0u;
+    }
+    let from_lumen = sheet[here].z > 0.0;
+    let to_lumen = sheet[there].z > 0.0;
+    let line_beyond = select(from_lumen, change > 0.0, from_lumen == to_lumen);
+    return TO_THE_RIGHT | DOWNWARDS | select(0u, LINE_TO_THE_RIGHT | LINE_DOWNWARDS, line_beyond);
 }
 
 @compute @workgroup_size(16, 4)
@@ -35,12 +42,12 @@ fn leap(@builtin(global_invocation_id) thread: vec3u) {
     let here = place_of(thread.xy);
     let side = parameters.pixel_spacing;
     // Beyond the last column and the last row there is nothing to leap to.
-    var bits = 0u;
-    if thread.y + 1u < view.size.y && leaps(here, here + view.size.x, vec2f(0.0, -side)) {
-        bits |= DOWNWARDS;
+    var bits = select(0u, LUMEN, sheet[here].z > 0.0);
+    if thread.y + 1u < view.size.y {
+        bits |= leap_bits(here, here + view.size.x, vec2f(0.0, -side)) & (DOWNWARDS | LINE_DOWNWARDS);
     }
-    if thread.x + 1u < view.size.x && leaps(here, here + 1u, vec2f(side, 0.0)) {
-        bits |= TO_THE_RIGHT;
+    if thread.x + 1u < view.size.x {
+        bits |= leap_bits(here, here + 1u, vec2f(side, 0.0)) & (TO_THE_RIGHT | LINE_TO_THE_RIGHT);
     }
     leap_image[here] = bits;
 }

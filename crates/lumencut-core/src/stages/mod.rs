@@ -16,6 +16,7 @@ pub use table::{Image, ImageSet, Stage};
 
 use crate::error::Result;
 use crate::math::lanes::{Isa, ROWS};
+use crate::progress::Progress;
 use crate::stop::{Stop, go_on};
 
 /// What every stage of one view shares.
@@ -27,6 +28,8 @@ pub struct Work<'a> {
     pub isa: Isa,
     /// Whether to stop.
     pub stop: Stop<'a>,
+    /// Where to tell how far the view is.
+    pub progress: Option<&'a Progress>,
 }
 
 impl Work<'_> {
@@ -40,11 +43,14 @@ impl Work<'_> {
         ROWS * self.size[0]
     }
 
-    /// An error where the caller asks to stop.
+    /// Begins so many pixels, unless the caller asks to stop.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Interrupted`].
-    pub fn go_on(&self) -> Result<()> {
+    pub fn begin(&self, pixels: usize) -> Result<()> {
+        if let Some(progress) = self.progress {
+            progress.begin_pixels(pixels);
+        }
         go_on(self.stop)
     }
 

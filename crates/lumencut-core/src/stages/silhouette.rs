@@ -1,21 +1,29 @@
-//! Silhouettes: lines where the cut surface leaps; or, as in the paper (section 3.3.5), where it is steep, strongest
+//! Silhouettes: lines beside the leaps of the cut surface; or, as in the paper (section 3.3.5), where it is steep, strongest
 //! between influence zones.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
+mod lines;
+
+use self::lines::LeapLines;
 use super::depth_filter::{DepthFilterParameters, depth_filter};
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
-use crate::math::leaps::{DOWNWARDS, TO_THE_RIGHT};
 use crate::settings::Settings;
 
 /// How much a leap between the influence zones of two vessels counts beside one within a zone.
 pub const ZONE_BORDER: f32 = 4.0;
 /// Far beyond any slope squared.
 pub const STEEPEST: f32 = 1e12;
+/// How wide the line of a leap is (mm), as the wall around a lumen is by default.
+pub const LINE_WIDTH: f64 = 1.0;
+/// The narrowest line of a leap (pixels): less would not be seen.
+pub const NARROWEST_LINE: f64 = 0.5;
+/// The widest line of a leap (pixels), however close the view.
+pub const WIDEST_LINE: f64 = 1.5;
 
 /// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -25,13 +33,21 @@ pub struct SilhouetteParameters {
     pub per_slope: f32,
     /// The square of the slope that has half the strength.
     pub half: f32,
+    /// How wide the line of a leap is (pixels).
+    pub line_width: f32,
 }
 
 impl SilhouetteParameters {
-    /// The parameters of a view: a smooth surface looks the same at every zoom.
+    /// The parameters of a view: a smooth surface looks the same at every zoom, and a line is as wide in mm wherever that
+    /// is neither too few pixels to be seen nor more than are needed.
     pub fn new(settings: &Settings, camera: &Camera) -> Self {
         let slope = settings.silhouette_slope;
-        Self { per_slope: (1.0 / (8.0 * camera.pixel_spacing())) as f32, half: (slope * slope) as f32 }
+        let line_width = (LINE_WIDTH / camera.pixel_spacing()).clamp(NARROWEST_LINE, WIDEST_LINE);
+        Self {
+            per_slope: (1.0 / (8.0 * camera.pixel_spacing())) as f32,
+            half: (slope * slope) as f32,
+            line_width: line_width as f32,
+        }
     }
 }
 
@@ -50,11 +66,11 @@ pub fn silhouette(
     work.expect_whole(Image::Depth, depth);
     work.expect_whole(Image::Vessel, vessel);
     work.expect_whole(Image::Strength, strength);
-    let &SilhouetteParameters { per_slope, half } = parameters;
+    let &SilhouetteParameters { per_slope, half, .. } = parameters;
     let (chunk, width) = (work.tile_row(), work.size[0]);
     let mut raised = vec![0.0; depth.len()];
     raised.par_chunks_mut(chunk).enumerate().try_for_each(|(row, raised)| {
-        work.go_on()?;
+        work.begin(raised.len())?;
         dispatch(work.isa, SlopeRows { depth, vessel, width, first: row * ROWS, per_slope, raised });
         Ok(())
     })?;
@@ -63,27 +79,30 @@ pub fn silhouette(
     Ok(())
 }
 
-/// Writes the strength of the silhouette, 0 to 1, at each pixel: 1 beside every leap, smoothed.
+/// Writes the strength of the silhouette, 0 to 1, at each pixel: how much of it the lines of the leaps cover.
+/// `value` is the volume on the surface, NaN where it shows nothing: a line that would lie there lies on the other
+/// side of its leap, unless that is lumen. Without values every pixel counts as shown.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn silhouette_of_leaps(work: &Work, leap: &[u32], strength: &mut [f32]) -> Result<()> {
+pub fn silhouette_of_leaps(
+    work: &Work,
+    parameters: &SilhouetteParameters,
+    leap: &[u32],
+    value: &[f32],
+    strength: &mut [f32],
+) -> Result<()> {
     work.expect_whole(Image::Leap, leap);
+    if !value.is_empty() {
+        work.expect_whole(Image::Value, value);
+    }
     work.expect_whole(Image::Strength, strength);
-    let width = work.size[0];
-    let mut beside = vec![0.0; leap.len()];
-    beside.par_chunks_mut(width).enumerate().try_for_each(|(j, beside)| {
-        work.go_on()?;
-        let row = &leap[j * width..(j + 1) * width];
-        let above = &leap[j.saturating_sub(1) * width..];
-        for (i, beside) in beside.iter_mut().enumerate() {
-            let from_left = i > 0 && row[i - 1] & TO_THE_RIGHT != 0;
-            let from_above = j > 0 && above[i] & DOWNWARDS != 0;
-            *beside = f32::from(u8::from(row[i] != 0 || from_left || from_above));
-        }
+    let lines = LeapLines::new(leap, value, work.size[0], parameters.line_width);
+    strength.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, strength)| {
+        work.begin(strength.len())?;
+        lines.fill_row(row, strength);
         Ok(())
-    })?;
-    depth_filter(work, &DepthFilterParameters::new(), &beside, None, strength)
+    })
 }
 
 /// Maps slopes to strengths.

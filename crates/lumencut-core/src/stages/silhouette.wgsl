@@ -1,7 +1,8 @@
 // Silhouettes: lines where the cut surface leaps; or, as in the paper (section 3.3.5), where it is steep, strongest between
-// influence zones. The first in two passes: what lies beside a leap, and the depth filter over it. The second in three: the
-// raised slope, the depth filter over it, and its strength.
+// influence zones. The first in one pass, `lines`. The second in three: the raised slope, the depth filter over it, and its
+// strength.
 // import math/view
+// import math/lanes
 // import math/leaps
 
 // How much a leap between the influence zones of two vessels counts beside one within a zone.
@@ -14,10 +15,12 @@ struct SilhouetteParameters {
     per_slope: f32,
     // The square of the slope that has half the strength.
     half: f32,
+    // How wide the line of a leap is (pixels).
+    line_width: f32,
 }
 
 @group(0) @binding(1) var<uniform> parameters: SilhouetteParameters;
-// Raised slopes in the first pass, slopes that become strengths in the last.
+// Raised slopes in the first pass, slopes that become strengths in the last; of `lines` the strengths.
 @group(0) @binding(2) var<storage, read_write> slopes: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read> vessel: array<i32>;
@@ -64,19 +67,118 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
 }
 
 @group(0) @binding(1) var<storage, read> leap: array<u32>;
+@group(0) @binding(3) var<uniform> line_parameters: SilhouetteParameters;
+// HUGE where the surface shows nothing.
+@group(0) @binding(4) var<storage, read> value: array<f32>;
+
+// The bits of a pixel; none beyond the image.
+fn bits_at(pixel: vec2i) -> u32 {
+    let is_inside = all(pixel >= vec2i(0)) && all(pixel < vec2i(view.size));
+    return select(0u, leap[place_of(vec2u(select(vec2i(0), pixel, is_inside)))], is_inside);
+}
+
+// The border between a pixel and the neighbour a step to the right, to the left, down or up away.
+struct Border {
+    is_leap: bool,
+    // Whether the line of the leap lies in the pixel.
+    has_line: bool,
+}
+
+fn border(here: vec2i, step: vec2i) -> Border {
+    let is_owner = step.x + step.y > 0;
+    let bits = bits_at(select(here + step, here, is_owner));
+    let is_leap = (bits & select(DOWNWARDS, TO_THE_RIGHT, step.y == 0)) != 0u;
+    let is_here = (bits & select(LINE_DOWNWARDS, LINE_TO_THE_RIGHT, step.y == 0)) == 0u;
+    return Border(is_leap, is_leap && is_here == is_owner);
+}
+
+// Whether the line of a leap to another lumen lies in a pixel of a lumen.
+fn ends(here: vec2i, step: vec2i) -> bool {
+    return border(here, step).has_line && (bits_at(here) & bits_at(here + step) & LUMEN) != 0u;
+}
+
+// How much of a pixel a line covers whose leap has its middle this far from that of the pixel (pixels).
+fn cover_at(apart: vec2f) -> f32 {
+    let within = max(line_parameters.line_width, 1.0) + 0.5;
+    let distance = sqrt(apart.x * apart.x + apart.y * apart.y);
+    // A line narrower than a pixel is one of a pixel, only fainter.
+    return min(line_parameters.line_width, 1.0) * clamp(within - distance, 0.0, 1.0);
+}
+
+// How much of a pixel of a lumen the line of a leap in one direction covers: only straight across from a leap to another
+// lumen, at which the pixel's own lumen ends.
+fn cover_of_lumen(here: vec2i, step: vec2i) -> f32 {
+    if ends(here, step) {
+        return min(line_parameters.line_width, 1.0);
+    }
+    let goes_on = !border(here, step).is_leap;
+    return select(0.0, cover_at(vec2f(1.5, 0.0)), goes_on && ends(here + step, step));
+}
+
+// Whether a pixel of the image shows anything.
+fn is_shown(pixel: vec2i) -> bool {
+    return value[place_of(vec2u(pixel))] < HUGE;
+}
+
+// Whether the line of the leap to a neighbour is shown in a pixel: it lies there, or it would lie where nothing is shown and
+// there is no lumen here.
+fn shows_line(here: vec2i, step: vec2i) -> bool {
+    let may_lie_here = (bits_at(here) & LUMEN) == 0u && !is_shown(here + step);
+    return is_shown(here) && (border(here, step).has_line || may_lie_here);
+}
+
+// Whether the line of the leap from a pixel to the neighbour a step away is shown on one side of it, beyond it or not.
+fn shows_line_of(owner: vec2i, step: vec2i, beyond: bool) -> bool {
+    return shows_line(select(owner, owner + step, beyond), select(step, -step, beyond));
+}
+
+// Whether a pixel beside all lumens lies beside leaps, and none of their lines is shown in it.
+fn is_other_side(here: vec2i) -> bool {
+    var is_beside = false;
+    for (var n = 0; n < 4; n++) {
+        let step = select(vec2i(0, 1), vec2i(1, 0), n < 2) * select(1, -1, (n & 1) == 1);
+        if border(here, step).is_leap {
+            if shows_line(here, step) {
+                return false;
+            }
+            is_beside = true;
+        }
+    }
+    return is_beside;
+}
+
+// How much of a pixel beside all lumens the lines of the leaps of another pixel cover: by its distance to the nearest leap on
+// whose line's side it lies. It is seen from that other pixel.
+fn cover_beside_lumen(owner: vec2i, seen: vec2i) -> f32 {
+    let bits = bits_at(owner);
+    var cover = 0.0;
+    if (bits & TO_THE_RIGHT) != 0u && shows_line_of(owner, vec2i(1, 0), seen.x > 0) {
+        cover = cover_at(vec2f(seen) - vec2f(0.5, 0.0));
+    }
+    if (bits & DOWNWARDS) != 0u && shows_line_of(owner, vec2i(0, 1), seen.y > 0) {
+        cover = max(cover, cover_at(vec2f(seen) - vec2f(0.0, 0.5)));
+    }
+    return cover;
+}
 
 @compute @workgroup_size(16, 4)
-fn beside_leaps(@builtin(global_invocation_id) thread: vec3u) {
+fn lines(@builtin(global_invocation_id) thread: vec3u) {
     if !in_view(thread.xy) {
         return;
     }
-    let place = place_of(thread.xy);
-    var is_beside = leap[place] != 0u;
-    if thread.x > 0u {
-        is_beside |= (leap[place - 1u] & TO_THE_RIGHT) != 0u;
+    let here = vec2i(thread.xy);
+    var cover = 0.0;
+    if (bits_at(here) & LUMEN) != 0u {
+        cover = max(cover_of_lumen(here, vec2i(1, 0)), cover_of_lumen(here, vec2i(-1, 0)));
+        cover = max(cover, max(cover_of_lumen(here, vec2i(0, 1)), cover_of_lumen(here, vec2i(0, -1))));
+    } else if !is_other_side(here) {
+        let reach = i32(ceil(max(line_parameters.line_width, 1.0)));
+        for (var down = -reach; down <= reach; down++) {
+            for (var right = -reach; right <= reach; right++) {
+                let seen = vec2i(right, down);
+                cover = max(cover, cover_beside_lumen(here - seen, seen));
+            }
+        }
     }
-    if thread.y > 0u {
-        is_beside |= (leap[place - view.size.x] & DOWNWARDS) != 0u;
-    }
-    slopes[place] = select(0.0, 1.0, is_beside);
+    slopes[place_of(thread.xy)] = cover;
 }

@@ -159,7 +159,7 @@ impl RaySource for CurvedRays<'_> {
 /// Fills the values row by row.
 fn fill(work: &Work, places: &impl Places, value: &mut [f32]) -> Result<()> {
     value.par_chunks_mut(work.size[0]).enumerate().try_for_each(|(row, value)| {
-        work.go_on()?;
+        work.begin(value.len())?;
         dispatch(work.isa, SurfaceRow { places, row, value });
         Ok(())
     })

@@ -181,6 +181,20 @@ impl Stage {
         }
     }
 
+    /// How long it usually takes for a pixel beside the others: about milliseconds for 512 × 512 of them. Nothing but
+    /// the share that `progress` tells depends on it.
+    pub const fn cost(self) -> usize {
+        match self {
+            Self::Levels | Self::Projection | Self::Blocks => 0,
+            Self::Distance => 8,
+            Self::Depth => 12,
+            Self::Leap | Self::Surface => 4,
+            Self::DepthFilter | Self::Silhouette => 2,
+            Self::Context => 14,
+            Self::Composite => 10,
+        }
+    }
+
     /// The images that it reads, where they are there.
     pub const fn reads(self) -> &'static [Image] {
         match self {
@@ -189,7 +203,7 @@ impl Stage {
             Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
             Self::Surface => &[Image::Depth],
-            Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap],
+            Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
             Self::Context => &[Image::Depth, Image::Value],
             Self::Composite => &[Image::Value, Image::Strength, Image::Gathered],
         }

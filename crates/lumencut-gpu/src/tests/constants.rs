@@ -79,7 +79,8 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/blocks": blocks::SIDE_BITS, Range::ALL;
         "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::SETTLED, hierarchy::NO_SLOT,
             blocks::HUGE;
-        "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS;
+        "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS, leaps::LINE_TO_THE_RIGHT, leaps::LINE_DOWNWARDS,
+            leaps::LUMEN;
         "math/levels": settings::MAX_LEVELS;
         "math/light": light::AMBIENT, light::DIFFUSE, light::SPECULAR, light::STEEPEST, light::UNSHADED;
         "math/projection": projection::COLLINEAR_LENGTH, cut_surface::POINT_THREADS;
@@ -100,13 +101,13 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         ("AVERAGE", Gathering::Average),
     ];
     all.extend(
-        gatherings.map(|(code, gathering)| (name("math/accumulate", code), gathering.code().numbers())),
+        gatherings.map(|(code, gathering)| (name("stages/context", code), gathering.code().numbers())),
     );
     all
 }
 
 /// The constants that only shaders have, by room, and why.
-const ONLY_IN_SHADERS: [(&str, &str, &str); 10] = [
+const ONLY_IN_SHADERS: [(&str, &str, &str); 16] = [
     ("math/blocks", "FARTHEST", "rays of the CPU skip whole segments and count no samples"),
     ("math/projection", "SPAN_THREADS", "the threads of a group"),
     ("math/projection", "LEVEL_THREADS", "the threads of a group"),
@@ -116,7 +117,13 @@ const ONLY_IN_SHADERS: [(&str, &str, &str); 10] = [
     ("math/tile", "MAX_QUADS", "the size of an array of a thread"),
     ("math/trace", "RUN", "how often a thread looks at the blocks, which changes no picture"),
     ("math/window", "FAR_INTENSITY", "on the CPU a product may be infinite"),
-    ("stages/surface", "CHUNK", "the CPU adds up the samples of a slab one by one"),
+    ("math/cell_walk", "NO_MEETING", "no ray of a stretch meets a plane there; the CPU has the same in a private constant"),
+    ("math/cell_walk", "ALONG_PLANE", "the CPU narrows its constant for rays of the view"),
+    ("math/cubic", "TINY", "a private constant of a function on the CPU"),
+    ("math/reduce", "STRETCH", "how often a thread looks at the blocks, which changes no picture"),
+    ("math/reduce", "FEW", "the CPU adds up in float64"),
+    ("stages/context", "SHORTEST", "the CPU compares with 0 in float64"),
+    ("stages/surface", "STRETCH", "how many cells a thread follows in a row, which changes no picture"),
 ];
 
 /// The names of the constants that a room declares itself. They stand outside functions, where this test sees them.

@@ -144,7 +144,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("math/context_parameters", RiseParameters { color, opacity, start, per_intensity, padding }),
         host!("stages/composite", CompositeParameters { background, line, grey, opacity }),
         host!("stages/depth_filter", DepthFilterParameters { weights, leap, padding, more_padding }),
-        host!("stages/silhouette", SilhouetteParameters { per_slope, half }),
+        host!("stages/silhouette", SilhouetteParameters { per_slope, half, line_width }),
         host!("stages/surface", CurvedPlace { whole, part, per_mm }),
         host!("stages/surface", SurfaceParameters { half, mode, per_step, padding }),
     ]
@@ -203,18 +203,18 @@ fn every_structure_in_a_buffer_is_compared() {
 
 #[test]
 fn the_comparison_sees_every_difference() {
-    let (_, _, host) = host!("stages/silhouette", SilhouetteParameters { per_slope, half });
+    let (_, _, host) = host!("stages/silhouette", SilhouetteParameters { per_slope, half, line_width });
     let same = |fields: &str| {
         shader_layout(&format!("struct SilhouetteParameters {{ {fields} }}"), "SilhouetteParameters").as_ref()
             == Some(&host)
     };
-    assert!(same("per_slope: f32, half: f32"));
-    assert!(!same("steep: f32, half: f32"), "renamed");
-    assert!(!same("half: f32, per_slope: f32"), "swapped");
-    assert!(!same("per_slope: vec2f, half: f32"), "widened");
-    assert!(!same("per_slope: f32, half: vec2f"), "widened at the end");
-    assert!(!same("per_slope: f32, @align(16) half: f32"), "moved");
-    assert!(!same("per_slope: f32"), "missing");
-    assert!(!same("per_slope: f32, half: f32, more: u32"), "more");
+    assert!(same("per_slope: f32, half: f32, line_width: f32"));
+    assert!(!same("steep: f32, half: f32, line_width: f32"), "renamed");
+    assert!(!same("half: f32, per_slope: f32, line_width: f32"), "swapped");
+    assert!(!same("per_slope: vec2f, half: f32, line_width: f32"), "widened");
+    assert!(!same("per_slope: f32, half: f32, line_width: vec2f"), "widened at the end");
+    assert!(!same("per_slope: f32, half: f32, @align(16) line_width: f32"), "moved");
+    assert!(!same("per_slope: f32, half: f32"), "missing");
+    assert!(!same("per_slope: f32, half: f32, line_width: f32, more: u32"), "more");
     assert_eq!(shader_layout("struct Other { size: vec2u }", "SilhouetteParameters"), None);
 }

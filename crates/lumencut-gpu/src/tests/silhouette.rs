@@ -1,13 +1,17 @@
-//! Silhouettes against the CPU's: where the depth is smooth, where zones meet and at single leaps.
+//! Silhouettes against the CPU's: where the depth is smooth, where zones meet, at single leaps; and the lines of leaps.
 
+use lumencut_core::math::blocks::HUGE;
+use lumencut_core::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 use lumencut_core::settings::Settings;
-use lumencut_core::stages::silhouette::{SilhouetteParameters, silhouette};
+use lumencut_core::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::SILHOUETTE;
 use lumencut_scenes::views::{front, on_cpu};
 
 use super::{SIZES, device, finish, on_gpu};
 use crate::depth_filter::DepthFilter;
+use crate::device::Device;
+use crate::images::Images;
 use crate::recording::Recording;
 use crate::silhouette::{Silhouette, SilhouetteImages};
 
@@ -83,4 +87,55 @@ fn three_passes_are_one_stage() {
     let Some((found, _, names)) = both([8, 8], &[1.0; 64], &[0; 64], 24.0) else { return };
     assert!(found.iter().all(|s| *s == 0.0), "a plane has no silhouette");
     assert!(names.is_empty() || names == ["silhouette"], "{names:?}");
+}
+
+/// Leaps, lumens and values at random, and the strengths of their lines on both sides.
+fn lines(device: &Device, size: [usize; 2], spacing: f64) -> [Vec<f32>; 2] {
+    let (camera, settings, mut random) = (front(size, spacing), Settings::default(), Random::new(17));
+    let pixels = size[0] * size[1];
+    let leap: Vec<u32> = (0..pixels)
+        .map(|p| {
+            let [right, down, lumen] = [0.2, 0.2, 0.6].map(|share| random.between(0.0, 1.0) < share);
+            // Beyond the last column and the last row there is nothing to leap to.
+            let (right, down) = (right && (p + 1) % size[0] != 0, down && p + size[0] < pixels);
+            let [line_right, line_down] = [0; 2].map(|_| random.between(0.0, 1.0) < 0.5);
+            let bits = [
+                (TO_THE_RIGHT, right),
+                (DOWNWARDS, down),
+                (LINE_TO_THE_RIGHT, right && line_right),
+                (LINE_DOWNWARDS, down && line_down),
+                (LUMEN, lumen),
+            ];
+            bits.iter().map(|(bit, is_set)| bit * u32::from(*is_set)).sum()
+        })
+        .collect();
+    let value: Vec<f32> =
+        (0..pixels).map(|_| if random.between(0.0, 1.0) < 0.3 { f32::NAN } else { 7.0 }).collect();
+    let parameters = SilhouetteParameters::new(&settings, &camera);
+    let mut expected = vec![9.0; pixels];
+    silhouette_of_leaps(&on_cpu(&camera), &parameters, &leap, &value, &mut expected).unwrap();
+    let (stage, images) = (Silhouette::new(device), Images::new(device, size).unwrap());
+    let on_device: Vec<f32> = value.iter().map(|value| if value.is_nan() { HUGE } else { *value }).collect();
+    device.write(&images.leap, &leap);
+    device.write(&images.value, &on_device);
+    let mut recording = Recording::new(device);
+    stage.write(device, &settings, &camera);
+    stage.record_leaps(&mut recording, &on_gpu(device, &camera), &images);
+    recording.read(&images.strength, 4 * pixels as u64);
+    [finish(recording).numbers(0), expected]
+}
+
+#[test]
+fn lines_of_leaps_are_those_of_the_cpu() {
+    let Some(device) = device() else { return };
+    for (size, spacing) in
+        SIZES.into_iter().flat_map(|size| [0.2, 0.8, 1.0, 3.0].map(|spacing| (size, spacing)))
+    {
+        let [found, expected] = lines(device, size, spacing);
+        SILHOUETTE.assert_same(&found, &expected, &format!("{size:?}, {spacing} mm"));
+        if size[0] > 100 {
+            let drawn = expected.iter().filter(|s| **s > 0.0).count();
+            assert!(drawn > expected.len() / 10 && drawn < expected.len(), "{drawn} pixels with a line");
+        }
+    }
 }

@@ -4,9 +4,9 @@
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::geometry::{Curved, Geometry};
-use lumencut_core::math::blocks::HUGE;
+use lumencut_core::math::blocks::{Blocks, HUGE};
 use lumencut_core::settings::{Settings, Slab, SlabMode};
-use lumencut_core::stages::surface::{SurfaceParameters, surface};
+use lumencut_core::stages::surface::{SurfaceScene, surface};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::trefoil;
 use lumencut_scenes::brute_force::by_hierarchy;
@@ -78,8 +78,9 @@ fn compare(
     let mut most = 0.0f32;
     for (&slab, geometry) in slabs.iter().flat_map(|slab| geometries.iter().map(move |g| (slab, g))) {
         let mut expected = vec![0.0; depth.len()];
-        let parameters = SurfaceParameters::new(slab, volume).unwrap();
-        surface(&on_cpu(camera), geometry, volume, &parameters, &mut expected).unwrap();
+        let blocks = Blocks::new(volume, &|| false).unwrap();
+        let scene = SurfaceScene { geometry, volume, blocks: Some(&blocks), slab };
+        surface(&on_cpu(camera), &scene, &mut expected).unwrap();
         let found = on_gpu(&placed, slab, geometry);
         let mut elsewhere = 0;
         for (found, expected) in found.iter().zip(&expected) {

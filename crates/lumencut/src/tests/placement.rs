@@ -1,6 +1,7 @@
 use glam::DAffine3;
 
 use super::*;
+use crate::misplaced::{better_place, fits_nowhere};
 
 /// A volume of 100 mm along each axis, far enough from the origin that only one space fits it.
 fn volume() -> Extent {
@@ -23,8 +24,13 @@ fn points(space: Space, unit: Unit) -> Vec<DVec3> {
     (0..50).map(|n| DVec3::splat(30.0 + f64::from(n)) / scale).collect()
 }
 
+/// A volume whose values say nothing.
+fn silent(extent: Extent) -> Judge<'static> {
+    Judge { extent, lumen: &|_| LumenCount::default() }
+}
+
 fn decided(known: &Known, points: &[DVec3]) -> Placement {
-    placement(known, points, Some(&volume())).unwrap()
+    placement(known, points, Some(&silent(volume()))).unwrap()
 }
 
 #[test]
@@ -86,7 +92,7 @@ fn a_space_and_a_unit_can_both_be_unusual() {
 fn spaces_that_fit_alike_are_left_to_the_caller() {
     let around = Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(-50.0)));
     let points: Vec<DVec3> = (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect();
-    let error = placement(&nothing(), &points, Some(&around)).unwrap_err().in_file("lines.csv");
+    let error = placement(&nothing(), &points, Some(&silent(around))).unwrap_err().in_file("lines.csv");
     let found = "neither stated nor to be told by the volume what its coordinates are: lps in mm (20 of 20 points \
                  inside), ras in mm (20 of 20 points inside)";
     let mend = "give coordinates=\"lps\" or coordinates=\"ras\"";
@@ -96,7 +102,7 @@ fn spaces_that_fit_alike_are_left_to_the_caller() {
 #[test]
 fn centerlines_of_another_volume_are_refused() {
     let far: Vec<DVec3> = (0..50).map(|n| DVec3::new(7000.0, f64::from(n), 0.0)).collect();
-    let error = placement(&nothing(), &far, Some(&volume())).unwrap_err();
+    let error = placement(&nothing(), &far, Some(&silent(volume()))).unwrap_err();
     assert_eq!(error.found, "no point inside the volume, in lps or ras, in um, mm, cm, dm, m");
     // Where the file states the space there is nothing to ask for.
     let known = Known { stated_space: Some(Space::Ras), ..nothing() };
@@ -107,8 +113,8 @@ fn centerlines_of_another_volume_are_refused() {
 
 #[test]
 fn a_better_place_is_named_with_its_option() {
-    assert_eq!(better_place(&points(Space::Lps, Unit::Millimetre), &volume()), None);
-    let text = better_place(&points(Space::Ras, Unit::Centimetre), &volume()).unwrap();
+    assert_eq!(better_place(&points(Space::Lps, Unit::Millimetre), &silent(volume())), None);
+    let text = better_place(&points(Space::Ras, Unit::Centimetre), &silent(volume())).unwrap();
     let how = "with x and y negated (LPS and RAS mixed up?) and 10 times as large (another unit?)";
     let mend = "coordinates=\"ras\", or \"lps\" where they were read as RAS, and unit=\"cm\" where they were read in mm";
     let expected = format!(
@@ -122,13 +128,79 @@ fn a_few_points_more_are_no_better_place() {
     // Three of fifty fit only with x and y negated: under a tenth.
     let mut mixed = vec![DVec3::splat(7000.0); 47];
     mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[..3]);
-    assert_eq!(better_place(&mixed, &volume()), None);
+    assert_eq!(better_place(&mixed, &silent(volume())), None);
     mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[3..6]);
-    assert!(better_place(&mixed, &volume()).is_some());
+    assert!(better_place(&mixed, &silent(volume())).is_some());
 }
 
 #[test]
 fn what_misses_the_volume_everywhere_is_said_so() {
     assert!(!fits_nowhere(&points(Space::Ras, Unit::Metre), &volume()));
     assert!(fits_nowhere(&[DVec3::new(7000.0, 0.0, 0.0), DVec3::new(7000.0, 9.0, 0.0)], &volume()));
+}
+
+/// Twenty points that lie in the volume in both spaces.
+fn around_the_origin() -> (Extent, Vec<DVec3>) {
+    let around = Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(-50.0)));
+    (around, (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect())
+}
+
+/// Counts of points that look like lumen, of a hundred in LPS and in RAS.
+fn counts(lps: usize, ras: usize) -> impl Fn(Place) -> LumenCount {
+    move |place| LumenCount { like_lumen: if place.space == Space::Lps { lps } else { ras }, of: 100 }
+}
+
+#[test]
+fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
+    let (extent, points) = around_the_origin();
+    let found = |lps, ras, known: &Known| {
+        placement(known, &points, Some(&Judge { extent, lumen: &counts(lps, ras) }))
+    };
+    for (lps, ras, space) in [(90, 30, Space::Lps), (30, 90, Space::Ras), (50, 0, Space::Lps)] {
+        let found = found(lps, ras, &nothing()).unwrap();
+        assert_eq!(
+            (found.place, found.space_from),
+            (Place { space, unit: Unit::Millimetre }, Origin::Values)
+        );
+        assert_eq!((found.unit_from, found.is_unusual), (Origin::Volume, true));
+        let (best, other) = if space == Space::Lps { ("lps", "ras") } else { ("ras", "lps") };
+        let expected = format!(
+            "the file states no space and no unit; both {best} in mm (20 of 20 points inside) and {other} in mm (20) fit the \
+             volume; of 100 points looked at, {} look like lumen in {best} and {} in {other}: read in {best}; \
+             coordinates=\"{best}\" confirms it",
+            lps.max(ras),
+            lps.min(ras),
+        );
+        assert_eq!(found.decision, expected);
+    }
+    // Too alike, too few of all.
+    for (lps, ras) in [(90, 31), (31, 90), (49, 0), (0, 0), (70, 70)] {
+        let error = found(lps, ras, &nothing()).unwrap_err();
+        assert!(error.to_string().contains("coordinates=\"lps\" or coordinates=\"ras\""), "{error}");
+    }
+    // What is stated or asked is not asked of the values.
+    let stated = Known { stated_space: Some(Space::Lps), ..nothing() };
+    assert_eq!(found(0, 100, &stated).unwrap().place.space, Space::Lps);
+    let asked = Known { asked_space: Some(Space::Ras), ..nothing() };
+    assert_eq!(found(100, 0, &asked).unwrap().place.space, Space::Ras);
+}
+
+#[test]
+fn fewer_than_twenty_points_decide_nothing() {
+    let of = |like_lumen, of| LumenCount { like_lumen, of };
+    assert!(of(20, 20).is_evident_beside(of(6, 20)));
+    assert!(!of(19, 19).is_evident_beside(of(0, 19)));
+}
+
+#[test]
+fn values_that_speak_for_the_mirrored_lines_are_told() {
+    let (extent, points) = around_the_origin();
+    let told = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
+    let expected = "of 100 points looked at, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?); \
+                    read the centerlines with coordinates=\"ras\", or \"lps\" where they were read as RAS";
+    assert_eq!(told(20, 80).as_deref(), Some(expected));
+    assert_eq!((told(80, 20), told(30, 80), told(0, 49)), (None, None, None));
+    // Lines that leave the volume when they are mirrored lie where they are read.
+    let judge = Judge { extent: volume(), lumen: &counts(0, 100) };
+    assert_eq!(better_place(&self::points(Space::Lps, Unit::Millimetre), &judge), None);
 }

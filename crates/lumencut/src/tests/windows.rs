@@ -24,25 +24,81 @@ fn rod() -> Vec<f32> {
     grid([40, 40, 40], |[_, j, k]| if j.abs_diff(20) < 5 && k.abs_diff(20) < 5 { 400.0 } else { 100.0 })
 }
 
+/// Where a value lies in a window: 0 is black, 1 white.
+fn share(window: Window, value: f64) -> f64 {
+    (value - window.level) / window.width + 0.5
+}
+
 #[test]
-fn a_window_along_centerlines_is_three_times_as_wide_as_lumen_over_tissue() {
+fn a_window_along_centerlines_has_the_lumen_light_and_the_darkest_tissue_black() {
     let voxels = rod();
     for radius in [None, Some(4.0), Some(0.0)] {
         let found = along(&volume(&voxels, [40; 3]), &tree(radius)).unwrap();
-        assert_eq!(found, Window { level: 400.0, width: 900.0 });
+        assert!(share(found, 100.0).abs() < 1e-12);
+        // Nothing is brighter than the lumen.
+        assert!((share(found, 400.0) - LUMEN_AT[1]).abs() < 1e-12);
     }
 }
 
 #[test]
-fn a_noisy_lumen_widens_the_window() {
-    let voxels = grid([40; 3], |[i, ..]| if i < 20 { 0.0 } else { 10.0 });
-    let found = along(&volume(&voxels, [40; 3]), &tree(Some(1.0))).unwrap();
-    assert_eq!(found, Window { level: 5.0, width: 20.0 });
+fn a_dark_lumen_has_the_mirrored_window_of_a_bright_one() {
+    let [bright, dark] = [1.0, -1.0].map(|sign| {
+        let voxels: Vec<f32> = rod().iter().map(|value| sign * value).collect();
+        along(&volume(&voxels, [40; 3]), &tree(Some(4.0))).unwrap()
+    });
+    assert_eq!(dark, Window { level: -bright.level, width: bright.width });
+}
+
+#[test]
+fn white_is_the_brightest_there_is_and_black_the_darkest_within_what_the_lumen_needs() {
+    for (ends, expected) in [
+        // Black lies 1.5 times the difference below the lumen.
+        ([-1000.0, 600.0], [-50.0, 600.0]),
+        ([0.0, 600.0], [0.0, 600.0]),
+        ([-1000.0, 5000.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.52 - 1.0)]),
+        ([-1000.0, 330.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.65 - 1.0)]),
+        // Never above the tissue.
+        ([90.0, 330.0], [75.0, 325.0 + 250.0 * (1.0 / 0.65 - 1.0)]),
+    ] {
+        let found = around_lumen(325.0, 75.0, 0.0, ends);
+        let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-9);
+        assert!(close, "{found:?}, expected {expected:?}");
+    }
+}
+
+#[test]
+fn noise_widens_a_window_until_the_tissue_would_be_grey() {
+    let ends = [-1000.0, 5000.0];
+    let black = |spread| around_lumen(300.0, 200.0, spread, ends)[0];
+    for (spread, expected) in [(10.0, 150.0), (75.0, 150.0), (100.0, 100.0), (110.0, 80.0), (190.0, 80.0)] {
+        assert!((black(spread) - expected).abs() < 1e-9, "noise of {spread}: {}", black(spread));
+    }
+    // A lumen that cannot be told from its tissue has the window of its noise.
+    assert_eq!(black(210.0), -120.0);
+    for spread in [0.0, 60.0, 190.0] {
+        let [black, white] = around_lumen(300.0, 200.0, spread, ends);
+        assert!((200.0 - black) / (white - black) < 0.4);
+    }
+}
+
+#[test]
+fn vessels_without_tissue_have_their_edges_for_it() {
+    for nothing in [0.0, f32::NAN] {
+        let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
+            (0..2, 0..2) => 300.0,
+            (0..3, 0..3) => 180.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32,
+            _ => nothing,
+        });
+        let found = along(&volume(&voxels, [40; 3]), &tree(Some(2.0))).unwrap();
+        assert!((share(found, 300.0) - LUMEN_AT[1]).abs() < 1e-12, "{nothing}: {found:?}");
+        let black = found.level - found.width / 2.0;
+        assert!((100.0..200.0).contains(&black), "black at {black}");
+    }
 }
 
 #[test]
 fn beside_a_point_are_six_places_beyond_its_wall() {
-    let places = beside(&tree(Some(3.0)));
+    let places = beside(&tree(Some(3.0)), BESIDE);
     assert_eq!(places.len(), 12);
     assert!(places[..6].iter().all(|place| place.distance(DVec3::new(2.0, 20.0, 20.0)) == 13.0));
     assert_eq!(places[0], DVec3::new(15.0, 20.0, 20.0));
@@ -50,26 +106,28 @@ fn beside_a_point_are_six_places_beyond_its_wall() {
 }
 
 #[test]
-fn without_a_tree_percentiles_stand_for_air_lumen_and_tissue() {
-    // Half air, then tissue, and 2 % of lumen.
-    let voxels = grid([100, 1, 1], |[i, ..]| {
-        if i < 50 {
-            -1000.0
-        } else if i < 98 {
-            50.0
-        } else {
-            450.0
-        }
+fn windows_of_the_whole_leave_padding_out_and_the_full_one_nothing() {
+    // Half padding, then tissue, and 2 % of lumen; one voxel of each is far beyond.
+    let voxels = grid([100, 1, 1], |[i, ..]| match i {
+        0..50 => -1000.0,
+        50..98 => 50.0,
+        98 => 450.0,
+        _ => 5000.0,
     });
     let volume = volume(&voxels, [100, 1, 1]);
-    assert_eq!(of_volume(&volume).unwrap(), Window { level: 450.0, width: 1200.0 });
-    assert_eq!(whole(&volume).unwrap(), Window { level: -275.0, width: 1450.0 });
+    assert_eq!(full(&volume).unwrap(), Window { level: 2000.0, width: 6000.0 });
+    let [whole, mra] = [whole(&volume).unwrap(), mra(&volume).unwrap()];
+    assert_eq!(whole.level - whole.width / 2.0, -1000.0);
+    assert!((1.0..5000.0).contains(&(whole.level + whole.width / 2.0)) && mra.width > whole.width);
 }
 
 #[test]
 fn one_value_has_a_window_of_some_width() {
     let voxels = vec![2000.0; 8];
-    assert_eq!(of_volume(&volume(&voxels, [2; 3])).unwrap(), Window { level: 2000.0, width: 2.0 });
+    let constant = volume(&voxels, [2; 3]);
+    for found in [of_volume(&constant), whole(&constant), mra(&constant), full(&constant)] {
+        assert_eq!(found.unwrap(), Window { level: 2000.0, width: 2.0 });
+    }
     let voxels = vec![0.0; 8];
     assert_eq!(whole(&volume(&voxels, [2; 3])).unwrap(), Window { level: 0.0, width: 1e-6 });
 }
@@ -79,7 +137,8 @@ fn what_is_no_number_is_left_out() {
     let voxels = vec![f32::NAN, f32::INFINITY, 7.0, f32::NEG_INFINITY];
     assert_eq!(whole(&volume(&voxels, [4, 1, 1])).unwrap(), Window { level: 7.0, width: 7e-3 });
     let voxels = vec![f32::NAN; 4];
-    for found in [whole(&volume(&voxels, [4, 1, 1])), of_volume(&volume(&voxels, [4, 1, 1]))] {
+    let empty = volume(&voxels, [4, 1, 1]);
+    for found in [whole(&empty), of_volume(&empty), full(&empty), mra(&empty)] {
         assert_eq!(found.unwrap(), OF_NOTHING);
     }
     assert_eq!(along(&volume(&voxels, [4, 1, 1]), &tree(None)).unwrap(), OF_NOTHING);
@@ -90,11 +149,4 @@ fn values_beyond_all_windows_are_refused_with_what_was_found() {
     let voxels = vec![3e20; 8];
     let error = whole(&volume(&voxels, [2; 3])).unwrap_err();
     assert_eq!((error.kind, error.found.as_str()), (ErrorKind::Volume, "values from 3e+20 to 3e+20"));
-}
-
-#[test]
-fn of_many_voxels_every_nth_along_each_axis_is_looked_at() {
-    let voxels = grid([200; 3], |[i, j, k]| if i % 2 + j % 2 + k % 2 == 0 { 5.0 } else { 9.0 });
-    let values = spread_voxels(&volume(&voxels, [200; 3]));
-    assert_eq!((values.len(), values.iter().all(|value| *value == 5.0)), (1_000_000, true));
 }

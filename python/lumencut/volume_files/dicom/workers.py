@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FormatError
+from lumencut.threads import get_threads
 
 _PATIENCE = 60.0
 """Seconds after which a decoder is taken to hang; the slowest sound slice takes about one."""
@@ -97,7 +98,7 @@ class Workers:
     """Several workers that decode frames at once; results come in the order of the requests."""
 
     def __init__(self, requests: Iterator[Request], count: int) -> None:
-        self._requests, self._count = requests, max(1, min(count, os.cpu_count() or 1, _MOST))
+        self._requests, self._count = requests, max(1, min(count, get_threads(), _MOST))
         self._threads = ThreadPoolExecutor(self._count)
         self._idle: queue.SimpleQueue[Worker] = queue.SimpleQueue()
         self._started: list[Worker] = []

@@ -44,7 +44,7 @@ fn trace_tiles(
     let rows = pixels.par_chunks_mut(ROWS * width).zip(start.par_chunks(ROWS * width));
     rows.enumerate().try_for_each(|(row, (pixels, start))| {
         for column in (0..width).step_by(TILE[0]) {
-            work.go_on()?;
+            work.begin(ROWS * TILE[0])?;
             let place = [column, row * ROWS];
             let tile = Tile { plan, sampler, raster, place, start, pixels: &mut *pixels };
             dispatch(work.isa, tile);

@@ -73,7 +73,9 @@ impl BlendedSheets {
                 let [x, y, radius, gap] = &mut self.sheet[l];
                 *x += weight[l] * found.slope[0][l];
                 *y += weight[l] * found.slope[1][l];
-                *radius += weight[l] * found.radius[l];
+                // Lumen is what every level that is blended shows as lumen.
+                let (is_beside, part) = ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
+                *radius = if is_beside { -(radius.abs() + part) } else { *radius + part };
                 let (vessel, s) = self.finer[l];
                 if vessel >= 0 {
                     let same = vessel == found.vessel[l];

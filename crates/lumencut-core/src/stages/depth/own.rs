@@ -39,7 +39,7 @@ impl CutSurface<'_> {
         let mut sheet = [[0.0; 4]; PIXELS];
         if SHEET {
             for l in 0..PIXELS {
-                sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.radius[l], sum.gap(l)];
+                sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.sheet_radius(l), sum.gap(l)];
             }
         }
         TileSurface { depth: sum.depth, vessel: decision.vessel, sheet }

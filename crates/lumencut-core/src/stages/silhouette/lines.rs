@@ -1,0 +1,164 @@
+//! The lines of leaps: each lies on one side of its leap, and never in a lumen that goes on.
+
+use crate::math::lanes::FAN;
+use crate::math::leaps::{DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
+
+/// A pixel, or a step from one to another: to the right, downwards.
+type Place = [isize; 2];
+
+/// The steps to the four neighbours.
+const STEPS: [Place; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
+
+/// The leaps of a view and how wide their lines are.
+pub(super) struct LeapLines<'a> {
+    leap: &'a [u32],
+    /// The values on the surface, NaN where it shows nothing; none where all of it counts as shown.
+    value: &'a [f32],
+    size: Place,
+    /// How wide a line is (pixels), at least one.
+    line_width: f32,
+    /// The most of a pixel that a line covers.
+    most: f32,
+    /// How far from a pixel the leaps lie whose lines can cover it (pixels).
+    reach: isize,
+}
+
+/// The border between a pixel and a neighbour.
+struct Border {
+    is_leap: bool,
+    /// Whether the line of the leap lies in the pixel.
+    has_line: bool,
+}
+
+impl<'a> LeapLines<'a> {
+    pub fn new(leap: &'a [u32], value: &'a [f32], width: usize, line_width: f32) -> Self {
+        let size = [width as isize, (leap.len() / width) as isize];
+        let most = line_width.min(1.0);
+        // A line narrower than a pixel is one of a pixel, only fainter.
+        let line_width = line_width.max(1.0);
+        Self { leap, value, size, line_width, most, reach: line_width.ceil() as isize }
+    }
+
+    /// Writes how much of each pixel of a row the lines cover.
+    pub fn fill_row(&self, row: usize, strength: &mut [f32]) {
+        for (n, strength) in strength.chunks_mut(FAN).enumerate() {
+            let [i, j] = [(n * FAN) as isize, row as isize];
+            if !self.has_leaps_near(i, j) {
+                strength.fill(0.0);
+                continue;
+            }
+            for (l, strength) in (0..).zip(strength) {
+                let here = [i + l, j];
+                *strength = if self.is_lumen(here) {
+                    self.cover_of_lumen(here)
+                } else {
+                    self.cover_beside_lumen(here)
+                };
+            }
+        }
+    }
+
+    /// Whether the line of any leap can reach the sixteen pixels from column `i` of row `j` on.
+    fn has_leaps_near(&self, i: isize, j: isize) -> bool {
+        let [width, height] = self.size;
+        let columns = (i - self.reach).max(0)..(i + FAN as isize + self.reach).min(width);
+        let mut rows = (j - self.reach).max(0)..(j + self.reach + 1).min(height);
+        rows.any(|j| {
+            let row = &self.leap[(j * width + columns.start) as usize..(j * width + columns.end) as usize];
+            row.iter().fold(0, |all, bits| all | bits) & LEAPS != 0
+        })
+    }
+
+    /// How much of a pixel of a lumen the lines cover: only straight across from a leap to another lumen, at which the
+    /// pixel's own lumen ends.
+    fn cover_of_lumen(&self, here: Place) -> f32 {
+        let ends = |at: Place, step| {
+            let beyond = ahead(at, step);
+            self.border(at, step).has_line && self.is_lumen(at) && self.is_lumen(beyond)
+        };
+        let mut cover = 0f32;
+        for step in STEPS {
+            if ends(here, step) {
+                cover = self.most;
+            } else if !self.border(here, step).is_leap && ends(ahead(here, step), step) {
+                cover = cover.max(self.cover_at(1.5, 0.0));
+            }
+        }
+        cover
+    }
+
+    /// How much of a pixel beside all lumens the lines cover: by its distance to the nearest leap on whose line's side it
+    /// lies; nothing where the pixel itself is the other side of a leap.
+    fn cover_beside_lumen(&self, here: Place) -> f32 {
+        let mut leaps = STEPS.into_iter().filter(|step| self.border(here, *step).is_leap).peekable();
+        if leaps.peek().is_some() && !leaps.any(|step| self.shows_line(here, step)) {
+            return 0.0;
+        }
+        let mut cover = 0f32;
+        for down in -self.reach..=self.reach {
+            for right in -self.reach..=self.reach {
+                // The pixel as seen from the one whose leaps these are.
+                let owner = [here[0] - right, here[1] - down];
+                let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
+                if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {
+                    cover = cover.max(self.cover_at(x - 0.5, y));
+                }
+                if bits & DOWNWARDS != 0 && self.shows_line_of(owner, [0, 1], down > 0) {
+                    cover = cover.max(self.cover_at(x, y - 0.5));
+                }
+            }
+        }
+        cover
+    }
+
+    /// Whether the line of the leap from a pixel to the neighbour a step away is shown on one side of it, beyond it or not.
+    fn shows_line_of(&self, owner: Place, step: Place, beyond: bool) -> bool {
+        if beyond {
+            self.shows_line(ahead(owner, step), [-step[0], -step[1]])
+        } else {
+            self.shows_line(owner, step)
+        }
+    }
+
+    /// Whether the line of the leap to a neighbour is shown in a pixel: it lies there, or it would lie where nothing is shown
+    /// and there is no lumen here.
+    fn shows_line(&self, here: Place, step: Place) -> bool {
+        let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
+        self.is_shown(here) && (self.border(here, step).has_line || may_lie_here)
+    }
+
+    /// How much of a pixel a line covers whose leap has its middle this far from that of the pixel (pixels).
+    fn cover_at(&self, x: f32, y: f32) -> f32 {
+        self.most * (self.line_width + 0.5 - (x * x + y * y).sqrt()).clamp(0.0, 1.0)
+    }
+
+    /// The border between a pixel and the neighbour one of the [`STEPS`] away.
+    fn border(&self, here: Place, step: Place) -> Border {
+        let (bit, line) =
+            if step[1] == 0 { (TO_THE_RIGHT, LINE_TO_THE_RIGHT) } else { (DOWNWARDS, LINE_DOWNWARDS) };
+        let is_owner = step[0] + step[1] > 0;
+        let bits = self.bits(if is_owner { here } else { ahead(here, step) });
+        let is_leap = bits & bit != 0;
+        Border { is_leap, has_line: is_leap && (bits & line == 0) == is_owner }
+    }
+
+    fn is_lumen(&self, here: Place) -> bool {
+        self.bits(here) & LUMEN != 0
+    }
+
+    /// Whether a pixel of the image shows anything.
+    fn is_shown(&self, [i, j]: Place) -> bool {
+        self.value.is_empty() || !self.value[(j * self.size[0] + i) as usize].is_nan()
+    }
+
+    /// The bits of a pixel; none beyond the image.
+    fn bits(&self, [i, j]: Place) -> u32 {
+        let is_inside = (0..self.size[0]).contains(&i) && (0..self.size[1]).contains(&j);
+        if is_inside { self.leap[(j * self.size[0] + i) as usize] } else { 0 }
+    }
+}
+
+/// One step on.
+fn ahead([i, j]: Place, [right, down]: Place) -> Place {
+    [i + right, j + down]
+}

@@ -1,0 +1,54 @@
+//! Centerlines that were read in the wrong space or unit, as a volume tells.
+
+use glam::DVec3;
+use lumencut_io::{Space, Unit};
+
+use crate::extent::Extent;
+use crate::placement::Judge;
+use crate::places::{places, readings};
+
+/// Whether points in LPS and mm miss the volume, in whatever space and unit they might be meant.
+pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
+    readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(|reading| reading.inside == 0)
+}
+
+/// What is to be said of points in LPS and mm where another place brings twice as many of them into the volume, and a
+/// tenth of all more: as when RAS was read as LPS, or centimetres as millimetres. Or where both spaces fit the volume, and
+/// the points evidently look like lumen with x and y negated alone.
+pub fn better_place(points: &[DVec3], volume: &Judge) -> Option<String> {
+    better_by_extent(points, &volume.extent).or_else(|| mirrored_by_values(points, volume))
+}
+
+fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<String> {
+    let mut candidates = places(&Space::ALL, &Unit::ALL);
+    // The likeliest mistakes first: of places that fit alike the first one is named.
+    candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
+    let readings = readings(points, &candidates, volume);
+    let as_read = readings[0].inside;
+    let best = readings.iter().rev().max_by_key(|reading| reading.inside)?;
+    let better = best.inside;
+    if better < 2 * as_read || better < as_read + (points.len() / 10).max(1) {
+        return None;
+    }
+    let (how, mend) = best.place.mistaken();
+    let total = points.len();
+    Some(format!(
+        "{as_read} of {total} points lie inside the volume as read, but {better} {how}; read the centerlines with {mend}"
+    ))
+}
+
+fn mirrored_by_values(points: &[DVec3], volume: &Judge) -> Option<String> {
+    let found = readings(points, &places(&Space::ALL, &[Unit::Millimetre]), &volume.extent);
+    let [as_read, mirrored] = found[..] else { return None };
+    if mirrored.inside == 0 || !mirrored.is_as_good_as(as_read.inside) {
+        return None;
+    }
+    let (few, count) = ((volume.lumen)(as_read.place), (volume.lumen)(mirrored.place));
+    let (how, mend) = mirrored.place.mistaken();
+    count.is_evident_beside(few).then(|| {
+        format!(
+            "of {} points looked at, {} look like lumen as read, but {} {how}; read the centerlines with {mend}",
+            count.of, few.like_lumen, count.like_lumen,
+        )
+    })
+}

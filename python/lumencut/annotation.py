@@ -1,0 +1,91 @@
+"""Labels on a picture: the sides of the patient, the view, the window, a scale bar and the vessels' names."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.lettering import Sheet
+from lumencut.orientation import edges, view_name
+from lumencut.vessel_labels import write_vessel_names
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.frame_source import FrameSource
+    from lumencut.window import Window
+
+#: Pictures with a shorter side than this (pixels) have no room for labels.
+SMALLEST_SIDE = 200
+
+
+def annotated(
+    image: npt.NDArray[np.uint8], camera: Camera, source: FrameSource, *, vessel_names: bool
+) -> npt.NDArray[np.uint8]:
+    """Return a copy of an RGBA picture (H, W, 4) with labels, without any where it is too small for them."""
+    if min(camera.size) < SMALLEST_SIDE:
+        return image.copy()
+    sheet = Sheet(image)
+    if source.states_orientation:
+        _write_sides(sheet, edges(camera))
+    _write_words(sheet, camera, source)
+    _write_scale(sheet, camera, source)
+    if vessel_names:
+        write_vessel_names(sheet, camera, source.vessel_ends)
+    return sheet.pixels()
+
+
+def _write_sides(sheet: Sheet, letters: dict[str, str]) -> None:
+    """Write the sides of the patient in the middle of the edges that look to them."""
+    width, height, margin = *sheet.size, sheet.margin
+    places = {
+        "left": ((margin, height / 2), "lm"),
+        "right": ((width - margin, height / 2), "rm"),
+        "top": ((width / 2, margin), "mt"),
+        "bottom": ((width / 2, height - margin), "mb"),
+    }
+    for edge, (place, anchor) in places.items():
+        sheet.write(letters[edge], place, anchor, is_large=True)
+
+
+def _write_words(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
+    """Write the view and the window into the upper left corner."""
+    lines = [view_name(camera) if source.states_orientation else "orientation not stated"]
+    if source.window is not None:
+        lines.append(window_words(source.window))
+    pieces = [piece for line in lines for piece in sheet.wrapped(line)]
+    for number, piece in enumerate(pieces):
+        sheet.write(piece, (sheet.margin, sheet.margin + number * sheet.line_height), "la")
+
+
+def _write_scale(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
+    """Draw a bar with its length into the lower left corner."""
+    bottom: float = sheet.size[1] - sheet.margin
+    if not source.states_spacing:
+        for line in reversed(sheet.wrapped("spacing not stated")):
+            sheet.write(line, (sheet.margin, bottom), "ld")
+            bottom -= sheet.line_height
+        return
+    length = bar_length(camera)
+    sheet.bar(round(length / camera.pixel_spacing), bottom, f"{length:.10g} mm")
+
+
+def bar_length(camera: Camera) -> float:
+    """Return the longest of 1, 2 and 5 times a power of ten (mm) within a quarter of the picture's width."""
+    room = camera.size[0] / 4 * camera.pixel_spacing
+    exponent = math.floor(math.log10(room))
+    # Read as decimals: 2 times 0.1 to the third is not 0.002.
+    lengths = [float(f"{digit}e{exponent + more}") for more in (-1, 0, 1) for digit in (1, 2, 5)]
+    return max(length for length in lengths if length <= room)
+
+
+def window_words(window: Window) -> str:
+    """Return the width and the level of a window as viewers write them."""
+    return f"W {_short(window.width)} L {_short(window.level)}"
+
+
+def _short(value: float) -> str:
+    """A number in about four digits, without an exponent where it is an intensity of a usual scale."""
+    return f"{value:.0f}" if 100 <= abs(value) < 1e7 else f"{value:.3g}"

@@ -1,0 +1,66 @@
+"""Options for the labels on pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli.options import Command, added
+from lumencut.cli.report import warn
+
+if TYPE_CHECKING:
+    from lumencut.recipe import Recipe
+
+
+def label_options(command: Command) -> Command:
+    """Add the options that say which labels a picture has."""
+    parts = (
+        click.option(
+            "--annotate/--no-annotate",
+            default=None,
+            help="Letters at the edges for the sides of the patient (R, L, A, P, S, I), the view, the window "
+            "and a scale bar; default: on for a .png picture, off for other files and turntables. "
+            "Sides below 200 pixels get none.",
+        ),
+        click.option(
+            "--vessel-names/--no-vessel-names",
+            default=None,
+            help="Among the labels the names of the vessels, beside their ends, as far as there is room; "
+            "default: off.",
+        ),
+    )
+    return added(parts, command)
+
+
+def check_labels(chosen: dict[str, Any], outputs: Iterable[Path], size: tuple[int, int]) -> None:
+    """Refuse labels that no file could show, and warn where the picture is too small for them."""
+    from lumencut.annotation import SMALLEST_SIDE
+
+    asked = [name for name in ("annotate", "vessel_names") if chosen[name]]
+    if not asked:
+        return
+    option = f"--{asked[-1].replace('_', '-')}"
+    if chosen["annotate"] is False:
+        raise click.UsageError("--vessel-names does nothing with --no-annotate; leave one of them out")
+    if asked[-1] == "vessel_names" and not chosen["centerlines"]:
+        raise click.UsageError("--vessel-names does nothing without CENTERLINES; name them, or leave it out")
+    if all(path.suffix.lower() == ".npz" for path in outputs):
+        raise click.UsageError(f"{option} does nothing with .npz, which holds arrays; name a picture too")
+    if min(size) < SMALLEST_SIDE:
+        width, height = size
+        warn(f"no labels on {width} × {height} pixels: they need {SMALLEST_SIDE} on the shorter side")
+
+
+def labels_of(path: Path, chosen: dict[str, Any], recipe: Recipe | None) -> dict[str, bool]:
+    """Return which labels a file gets, as `Frame.save` takes them: with a recipe, those of its picture."""
+    names = chosen["vessel_names"]
+    annotate = chosen["annotate"]
+    if annotate is None:
+        usual = path.suffix.lower() == ".png" if recipe is None else recipe.annotate
+        annotate = usual or bool(names)
+    if names is None:
+        names = recipe is not None and recipe.vessel_names
+    return {"annotate": annotate, "vessel_names": annotate and names}

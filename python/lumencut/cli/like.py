@@ -1,0 +1,120 @@
+"""``--like``: a picture rendered as another one was, but for the options beside it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+from click.core import ParameterSource
+
+from lumencut._wording import counted
+from lumencut.cli import options
+from lumencut.cli.report import warn
+from lumencut.errors import CameraError
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.recipe import Recipe
+    from lumencut.renderer import Renderer
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+like_option = click.option(
+    "--like",
+    type=options.FILE,
+    metavar="PICTURE.png",
+    help="Render with the view, the settings and the labels of a .png that lumencut wrote. Options beside it "
+    "come on top: --view and --up turn it, --rotate, --tilt and --zoom go on from it, --size keeps what is "
+    "in view, --zoom-to fits it anew. The picture names no vessels: --vessel and --exclude are to be given "
+    "again.",
+)
+
+
+def recipe_from(path: Path | None) -> Recipe | None:
+    """Return how the picture of ``--like`` was rendered, None without one."""
+    if path is None:
+        return None
+    from lumencut.recipe import read_recipe
+
+    return read_recipe(path)
+
+
+def typed(chosen: dict[str, Any]) -> dict[str, Any]:
+    """Return the options that the user typed: no default may change the picture."""
+    context = click.get_current_context()
+    given = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
+    return {name: value for name, value in chosen.items() if context.get_parameter_source(name) in given}
+
+
+def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, Camera]]:
+    """Return each view that is asked for and its camera, whose place is open unless a recipe says it.
+
+    The one view of a recipe is None where no ``--view`` is beside it.
+    """
+    if recipe is None:
+        return [(view, options.view_from({**chosen, "view": view})) for view in chosen["view"]]
+    given = typed(chosen)
+    views = given.pop("view", (None,))
+    if len(views) > 1:
+        found = f"--view is given {len(views)} times beside --like, which renders the view of one picture"
+        raise click.UsageError(f"{found}; give it once or not at all, or leave --like out")
+    if views[0] is not None:
+        given["view"] = views[0]
+    return [(views[0], camera_like(recipe.camera, given))]
+
+
+def camera_of(
+    view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any], recipe: Recipe | None
+) -> Camera:
+    """Return the camera of a view: a recipe says its place too, unless it is to fit other vessels."""
+    return options.placed(view, scene, chosen) if recipe is None or chosen["zoom_to"] else view
+
+
+def warn_of_vessels(chosen: dict[str, Any], recipe: Recipe | None, renderer: Renderer) -> None:
+    """Say where a picture showed another number of vessels, whose choice it does not tell.
+
+    Whoever chooses vessels now knows.
+    """
+    if recipe is None or chosen["vessel"] or chosen["exclude"]:
+        return
+    count = 0 if renderer.tree is None else len(renderer.tree)
+    if recipe.vessels != count:
+        shown = f"{chosen['like']} shows {counted(recipe.vessels, 'vessel')}, the new picture {count}"
+        warn(f"{shown}; --vessel and --exclude choose vessels, beside --like too")
+
+
+def camera_like(camera: Camera, given: dict[str, Any]) -> Camera:
+    """Return the camera of a picture, changed by the options that the user typed."""
+    try:
+        camera = _turned(_resized(camera, given), given)
+        if not given.keys() & {"center", "pixel_spacing", "zoom"}:
+            return camera
+        return options.placed_like(camera, {"center": None, "pixel_spacing": None, "zoom": 1.0, **given})
+    except CameraError as error:
+        raise click.UsageError(str(error)) from error
+
+
+def _resized(camera: Camera, given: dict[str, Any]) -> Camera:
+    """With other pixels, all that was in view stays in view."""
+    if "size" not in given:
+        return camera
+    larger = min(new / old for new, old in zip(given["size"], camera.size, strict=True))
+    return replace(camera, size=given["size"], pixel_spacing=camera.pixel_spacing / larger)
+
+
+def _turned(camera: Camera, given: dict[str, Any]) -> Camera:
+    import numpy as np
+
+    from lumencut.camera import VIEWS, upright
+
+    if "view" in given or "up" in given:
+        view = given.get("view", camera.direction)
+        ahead, up = VIEWS[view] if isinstance(view, str) else (view, upright(view))
+        camera = replace(camera, direction=np.array(ahead), up=np.array(given.get("up", up)))
+    if "rotate" in given:
+        camera = camera.rotated(math.radians(given["rotate"]), "up")
+    # A right-handed turn about the right axis would lower the viewer.
+    return camera.rotated(-math.radians(given["tilt"]), "right") if "tilt" in given else camera

@@ -1,0 +1,68 @@
+"""Which pictures a run writes: every view into every output, under names that tell the views apart."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+from lumencut.cli.options import check_picture
+
+#: Stands for the name of the view in the name of an output.
+PLACE = "{view}"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One view, and the files that it is written to.
+
+    Attributes
+    ----------
+    view : str, tuple of 3 float or None
+        The name of the view, or its direction; None for that of another picture.
+    paths : tuple of Path
+        Its files.
+    """
+
+    view: Any
+    paths: tuple[Path, ...]
+
+
+def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
+    """Give the files of each view, and refuse those that cannot be written before any file is read.
+
+    The name of the view takes the place of ``{view}`` in an output. Of several views it comes before the
+    ending of an output without ``{view}``.
+    """
+    planned = [
+        Picture(view, tuple(_path(output, view, is_one=len(views) == 1) for output in outputs))
+        for view in views
+    ]
+    paths = [path for picture in planned for path in picture.paths]
+    for n, path in enumerate(paths):
+        if path.resolve() in {other.resolve() for other in paths[:n]}:
+            raise click.UsageError(
+                f"{path} would be written twice; give each view once, and each -o another name"
+            )
+        check_picture(path)
+    return planned
+
+
+def name_of(view: Any) -> str:
+    """How a view is called in the name of a file: a direction by its three numbers."""
+    return view if isinstance(view, str) else "_".join(f"{number:g}" for number in view)
+
+
+def _path(output: Path, view: Any, *, is_one: bool) -> Path:
+    if view is None:
+        if PLACE in output.name:
+            found = f"{PLACE} in {output} stands for the name of the view, and a picture tells none"
+            raise click.UsageError(f"{found}; give --view beside --like, or another name")
+        return output
+    name = name_of(view)
+    if PLACE in output.name:
+        return output.with_name(output.name.replace(PLACE, name))
+    return output if is_one else output.with_name(f"{output.stem}-{name}{output.suffix}")

@@ -1,0 +1,73 @@
+"""What a frame was made from, as far as its labels and the text in its files need it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+from lumencut.settings import Settings
+from lumencut.transfer import TransferFunction
+from lumencut.window import Window
+
+if TYPE_CHECKING:
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+#: The name of a vessel and the world point (mm, LPS) where it ends.
+VesselEnd = tuple[str, tuple[float, float, float]]
+
+
+@dataclass(frozen=True)
+class FrameSource:
+    """What a frame was made from.
+
+    Attributes
+    ----------
+    settings : Settings
+        The settings with the windows that were used, those from the data among them.
+    window : Window or None
+        The window of the picture: of the cut surface, or of the context alone; None where nothing has one.
+    states_spacing, states_orientation : bool
+        As for the volume.
+    vessels : int
+        How many vessels are shown.
+    vessel_ends : tuple of (str, (float, float, float))
+        Each named vessel and where its name belongs.
+    """
+
+    settings: Settings
+    window: Window | None
+    states_spacing: bool
+    states_orientation: bool
+    vessels: int
+    vessel_ends: tuple[VesselEnd, ...]
+
+
+def frame_source(
+    settings: Settings, volume: Volume, tree: VesselTree | None, ends: tuple[VesselEnd, ...]
+) -> FrameSource:
+    """Return the source of a frame with these settings, windows as numbers; `ends` are those of the tree."""
+    # The renderer has put a window in the place of each name.
+    window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
+    vessels = 0 if tree is None else len(tree)
+    return FrameSource(settings, window, volume.states_spacing, volume.states_orientation, vessels, ends)
+
+
+def _context_window(settings: Settings) -> Window | str | None:
+    """The window of the context, None where control points alone say what an intensity looks like."""
+    has_points = isinstance(settings.context_transfer, TransferFunction)
+    return None if has_points and settings.context in ("dvr", "mip") else settings.context_window
+
+
+def vessel_ends(tree: VesselTree) -> tuple[VesselEnd, ...]:
+    """Return the named vessels and their ends: the last point, or the first if only that one is free."""
+    ends = [tuple(vessel.points[place].tolist()) for vessel in tree for place in (0, -1)]
+    vessels_at = Counter(ends)
+    found = []
+    for number, vessel in enumerate(tree):
+        first, last = ends[2 * number : 2 * number + 2]
+        if vessel.name is not None:
+            is_free = vessels_at[last] == 1 or vessels_at[first] > 1
+            found.append((vessel.name, last if is_free else first))
+    return tuple(found)

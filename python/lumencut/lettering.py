@@ -1,0 +1,150 @@
+"""Writing and drawing on a picture so that it can be read on any ground: white with a dark outline."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.errors import MissingPackageError
+
+if TYPE_CHECKING:
+    from PIL.ImageFont import FreeTypeFont
+
+#: Left, top, right and bottom (pixels).
+Box: TypeAlias = tuple[float, float, float, float]
+
+_LIGHT, _DARK = (255, 255, 255, 255), (0, 0, 0, 255)
+
+#: Height of the letters (pixels): a fortieth of the shorter side, within these.
+_SMALLEST, _LARGEST, _PART = 12, 64, 40
+
+#: How much larger the letters of the sides are.
+_LARGER = 1.3
+
+#: Widest name (letters) that is written in full.
+_LONGEST_NAME = 32
+
+
+class Sheet:
+    """A copy of an RGBA picture (H, W, 4) to write on; it knows which boxes are taken."""
+
+    def __init__(self, image: npt.NDArray[np.uint8]) -> None:
+        from PIL import Image, ImageDraw
+
+        self._picture = Image.fromarray(image)
+        self._draw = ImageDraw.Draw(self._picture)
+        self.size: tuple[int, int] = self._picture.size
+        height = min(_LARGEST, max(_SMALLEST, round(min(self.size) / _PART)))
+        self._fonts = (_font(height), _font(round(height * _LARGER)))
+        self._outline = max(1, round(height / 10))
+        self.margin = max(4, round(height / 2))
+        self.line_height = round(height * 1.35)
+        self.taken: list[Box] = []
+
+    def pixels(self) -> npt.NDArray[np.uint8]:
+        """Return the picture with all that was drawn, uint8, shape (H, W, 4)."""
+        return np.array(self._picture)
+
+    def write(
+        self, text: str, place: tuple[float, float], anchor: str = "la", *, is_large: bool = False
+    ) -> None:
+        """Write one line; `anchor` says in Pillow's letters which point of it lies at `place`."""
+        self.taken.append(self.box(text, place, anchor, is_large=is_large))
+        self._draw.text(
+            _whole(place),
+            text,
+            fill=_LIGHT,
+            font=self._fonts[is_large],
+            anchor=anchor,
+            stroke_width=self._outline,
+            stroke_fill=_DARK,
+        )
+
+    def box(
+        self, text: str, place: tuple[float, float], anchor: str = "la", *, is_large: bool = False
+    ) -> Box:
+        """Return the pixels that a line would take, its outline too."""
+        return self._draw.textbbox(
+            _whole(place), text, font=self._fonts[is_large], anchor=anchor, stroke_width=self._outline
+        )
+
+    def wrapped(self, line: str) -> list[str]:
+        """Return a line in pieces that fit between the left edge and a letter in the middle."""
+        room = self.size[0] / 2 - 2 * self.margin - self._fonts[1].getlength("SAL") / 2
+        pieces: list[str] = []
+        # Words that begin with a letter: what a number belongs to stays before it.
+        for word in re.split(" (?=[a-zA-Z])", line):
+            longer = f"{pieces[-1]} {word}" if pieces else word
+            if pieces and self._fonts[0].getlength(longer) <= room:
+                pieces[-1] = longer
+            else:
+                pieces.append(word)
+        return pieces
+
+    def bar(self, length: int, bottom: float, words: str) -> None:
+        """Draw a bar of this length (pixels) at the left above `bottom`, with ticks, words above it."""
+        outline, thick = self._outline, max(2, self._outline)
+        left, base = self.margin + outline, round(bottom) - outline
+        right, tall = left + length - 1, 3 * thick
+        parts = [(left, base - thick + 1, right, base)]
+        parts += [(x, base - tall + 1, x + thick - 1, base) for x in (left, right - thick + 1)]
+        for x0, y0, x1, y1 in parts:
+            self._draw.rectangle((x0 - outline, y0 - outline, x1 + outline, y1 + outline), fill=_DARK)
+        for part in parts:
+            self._draw.rectangle(part, fill=_LIGHT)
+        self.taken.append((left - outline, base - tall - outline, right + outline, base + outline))
+        self.write(words, (left, base - tall - 2 * outline), "ld")
+
+    def dot(self, place: tuple[float, float]) -> None:
+        """Draw a dot about a point."""
+        self.taken.append(around(place, self.dot_radius))
+        for radius, fill in ((self.dot_radius, _DARK), (self.dot_radius - self._outline, _LIGHT)):
+            self._draw.ellipse(around(place, radius), fill=fill)
+
+    @property
+    def dot_radius(self) -> float:
+        """Radius of a dot with its outline (pixels)."""
+        return 3 * self._outline
+
+    def is_free(self, box: Box, others: Iterable[Box] = ()) -> bool:
+        """Tell whether a box lies within the picture, over none that is taken and none of the others."""
+        width, height = self.size
+        within = box[0] >= 0 and box[1] >= 0 and box[2] <= width and box[3] <= height
+        return within and not any(_overlap(box, other) for other in (*self.taken, *others))
+
+
+def around(place: tuple[float, float], radius: float) -> Box:
+    """Return the box about a point."""
+    x, y = place
+    return x - radius, y - radius, x + radius, y + radius
+
+
+def writable(name: str) -> str:
+    """Return a name in letters that the font has: without accents, with `?` for others, cut if long."""
+    bare = (letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
+    known = "".join(letter if letter.isascii() and letter.isprintable() else "?" for letter in bare).strip()
+    return known if len(known) <= _LONGEST_NAME else known[: _LONGEST_NAME - 1] + "…"
+
+
+def _overlap(one: Box, other: Box) -> bool:
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+
+
+def _whole(place: tuple[float, float]) -> tuple[int, int]:
+    """A place in whole pixels: letters between pixels are blurred."""
+    return round(place[0]), round(place[1])
+
+
+def _font(height: int) -> FreeTypeFont:
+    from PIL import ImageFont
+
+    font = ImageFont.load_default(height)
+    if not isinstance(font, ImageFont.FreeTypeFont):
+        mend = "install Pillow from its own wheel"
+        raise MissingPackageError("labels on the picture", "Pillow without FreeType", "FreeType", mend)
+    return font

@@ -1,0 +1,83 @@
+"""How a view lies to the patient: the sides that its edges look to, and its name."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+
+#: The sides of the patient at the low and the high end of each axis (LPS).
+_SIDES = (("R", "L"), ("A", "P"), ("I", "S"))
+
+#: A side is named where the vector lies at least this far towards it: the sine of 11.5 degrees.
+LEAST_PART = 0.2
+
+#: Angles (degrees) closer than this are the same in the name of a view.
+_SAME_ANGLE = 0.5
+
+
+def sides(vector: npt.NDArray[np.float64]) -> str:
+    """Return the letters of the sides of the patient that a vector (LPS) points to, the main one first.
+
+    R and L are right and left, A and P anterior and posterior, S and I superior and inferior. Parts of the
+    unit vector below 0.2 are not named.
+    """
+    parts: list[float] = (vector / np.linalg.norm(vector)).tolist()
+    # The order of the axes decides between equal parts; rounding must not.
+    order = sorted(range(3), key=lambda axis: (-round(abs(parts[axis]), 6), axis))
+    return "".join(_SIDES[axis][int(parts[axis] > 0)] for axis in order if abs(parts[axis]) >= LEAST_PART)
+
+
+def edges(camera: Camera) -> dict[str, str]:
+    """Return the sides of the patient that lie at the left, right, top and bottom edge of a view."""
+    right, up = camera.right_axis, camera.up
+    return {"left": sides(-right), "right": sides(right), "top": sides(up), "bottom": sides(-up)}
+
+
+def view_name(camera: Camera) -> str:
+    """Return what a view is called.
+
+    A view along an axis of the patient has its name, such as ``anterior``. All others have the angles at
+    which a C-arm sees the patient so: how far the viewer stands to the left (LAO) or right (RAO) of the
+    patient's front, and how far towards the head (CRA) or the feet (CAU). These are the positioner angles of
+    DICOM, in whole degrees; LAO and RAO go up to 180 degrees, at the patient's back. Where the head, or the
+    front in views along the body, is not on top, the view is turned in its plane, by so many degrees
+    counterclockwise.
+    """
+    from lumencut.camera import VIEWS
+
+    named = (name for name, (ahead, _) in VIEWS.items() if _angle(camera.direction, ahead) < _SAME_ANGLE)
+    name = next(named, None)
+    top = VIEWS["anterior" if name is None else name][1]
+    # Where the head lies in the picture, counterclockwise from its top.
+    turned = _whole_degrees(-np.dot(top, camera.right_axis), np.dot(top, camera.up))
+    return (name or _c_arm_angles(-camera.direction)) + (f" turned {turned}°" if turned else "")
+
+
+def _c_arm_angles(viewer: npt.NDArray[np.float64]) -> str:
+    """The angles of a viewer in this direction (LPS, a unit vector) from the patient."""
+    to_the_left = _whole_degrees(viewer[0], -viewer[1])
+    to_the_head = _whole_degrees(viewer[2], math.hypot(viewer[0], viewer[1]))
+    parts = ((to_the_left, "LAO", "RAO"), (to_the_head, "CRA", "CAU"))
+    words = [
+        f"{above if degrees > 0 else below} {abs(degrees)}°" for degrees, above, below in parts if degrees
+    ]
+    return " ".join(words) or "anterior"
+
+
+def _whole_degrees(opposite: float, adjacent: float) -> int:
+    """The angle from -179 to 180 degrees."""
+    degrees = round(math.degrees(math.atan2(opposite, adjacent)))
+    return 180 if degrees == -180 else degrees
+
+
+def _angle(first: npt.NDArray[np.float64], other: tuple[float, float, float]) -> float:
+    """The angle (degrees) between two vectors."""
+    second = np.array(other)
+    across, along = np.linalg.norm(np.cross(first, second)), np.dot(first, second)
+    return math.degrees(math.atan2(across, along))

@@ -1,0 +1,174 @@
+"""The text in a PNG that says how the picture was rendered, and the way back from it.
+
+It holds the camera, the settings with the windows that were used, what is labelled, the number of vessels,
+and the version. It names no file and no vessel, and takes over nothing that the files say of the patient or
+the scan.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from lumencut import _lumencut
+from lumencut._files import checked_path
+from lumencut.camera import Camera
+from lumencut.errors import CameraError, FileError, FormatError, SettingsError
+from lumencut.settings import Settings
+from lumencut.slab import Slab
+from lumencut.transfer import TransferFunction
+from lumencut.window import Opacity, Window
+
+#: The keyword of the text, and the version of what it holds.
+KEYWORD, _FORMAT = "Lumencut", 1
+
+_EXPECTED = "a PNG picture that Lumencut wrote"
+_LONGEST = 100_000
+_PLACE = ("center", "direction", "right_axis", "up", "pixel_spacing")
+_CLASSES: dict[str, Any] = {"window": Window, "opacity": Opacity, "slab": Slab}
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """All of a picture but its volume and its vessel tree, of which it has the number of vessels."""
+
+    camera: Camera
+    settings: Settings
+    annotate: bool
+    vessel_names: bool
+    vessels: int
+
+
+def png_options(recipe: Recipe, *, states_spacing: bool) -> dict[str, Any]:
+    """Return what Pillow takes to write the recipe, and the size of a pixel where the source states one."""
+    from PIL.PngImagePlugin import PngInfo
+
+    info = PngInfo()
+    info.add_text("Software", f"Lumencut {_lumencut.__version__}")
+    info.add_text(KEYWORD, json.dumps(_as_json(recipe), allow_nan=False))
+    per_metre = round(1000 / recipe.camera.pixel_spacing)
+    # PNG counts whole pixels in a metre: longer ones have their size in the recipe alone.
+    if not states_spacing or per_metre == 0:
+        return {"pnginfo": info}
+    return {"pnginfo": info, "dpi": (per_metre * 0.0254,) * 2}
+
+
+def _as_json(recipe: Recipe) -> dict[str, Any]:
+    camera, settings = recipe.camera, recipe.settings
+    place = {name: np.asarray(getattr(camera, name)).tolist() for name in _PLACE}
+    return {
+        "format": _FORMAT,
+        "version": _lumencut.__version__,
+        "camera": {"size": list(camera.size), **place},
+        "settings": {name: _plain(getattr(settings, name)) for name in _lumencut.SETTINGS},
+        "annotate": recipe.annotate,
+        "vessel_names": recipe.vessel_names,
+        "vessels": recipe.vessels,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """The value of a setting as JSON has it: windows, slabs and transfer functions by their fields."""
+    is_made = isinstance(value, (*_CLASSES.values(), TransferFunction))
+    return vars(value) if is_made else value
+
+
+def read_recipe(path: str | Path) -> Recipe:
+    """Return how a picture was rendered.
+
+    Raises
+    ------
+    FormatError
+        For a file that is no whole PNG, was not written by Lumencut, or says what cannot be rendered.
+    FileError
+        For a file that cannot be read.
+    """
+    place = checked_path(path, _EXPECTED)
+    text = _text(place)
+    try:
+        content = json.loads(text, parse_constant=_refuse_constant)
+        version = content["format"]
+        if version != _FORMAT or isinstance(version, bool):
+            found = "a text of another version of Lumencut"
+            raise FormatError(str(place), found, f"a text of format {_FORMAT}", "give the options themselves")
+        return _recipe(content)
+    except (CameraError, SettingsError) as error:
+        # What the text says is not repeated: anybody may have written it.
+        found = f"a text whose {error.subject.partition(' of ')[0]} cannot be used"
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
+        if isinstance(error, FormatError):
+            raise
+        found = "a text that does not say how to render it"
+    raise FormatError(str(place), found, _EXPECTED, "give the options themselves")
+
+
+def _text(path: Path) -> str:
+    """The text in a PNG. Its pixels are not decoded; a file without its end is refused."""
+    from PIL.PngImagePlugin import PngImageFile
+
+    try:
+        with path.open("rb") as file:
+            picture = PngImageFile(file)
+            text = picture.info.get(KEYWORD)
+            picture.verify()
+    except OSError as error:
+        if error.errno is not None:
+            raise FileError(str(path), error.strerror or str(error), _EXPECTED) from None
+        text = _unreadable(path)
+    except (SyntaxError, ValueError, EOFError, struct.error, IndexError, KeyError, TypeError):
+        text = _unreadable(path)
+    if not isinstance(text, str):
+        found = "a picture without the text that says how it was rendered"
+        raise FormatError(str(path), found, _EXPECTED, "programs that change a picture may drop its text")
+    if len(text) > _LONGEST:
+        raise FormatError(str(path), f"a text of {len(text)} letters", f"at most {_LONGEST}")
+    return text
+
+
+def _unreadable(path: Path) -> NoReturn:
+    raise FormatError(str(path), "no PNG, or a damaged one", _EXPECTED, "copy it again") from None
+
+
+def _refuse_constant(_: str) -> NoReturn:
+    raise ValueError("a number that is not finite")
+
+
+def _recipe(content: dict[str, Any]) -> Recipe:
+    flags = {name: content[name] for name in ("annotate", "vessel_names")}
+    if not all(isinstance(flag, bool) for flag in flags.values()):
+        raise TypeError("a flag that is neither true nor false")
+    vessels = content["vessels"]
+    if not isinstance(vessels, int) or isinstance(vessels, bool) or vessels < 0:
+        raise TypeError("a number of vessels that is none")
+    return Recipe(_camera(content["camera"]), _settings(content["settings"]), **flags, vessels=vessels)
+
+
+def _camera(content: dict[str, Any]) -> Camera:
+    """The camera to the last bit: its axes are unit vectors already, which making one anew would round."""
+    made = Camera(**{name: content[name] for name in ("center", "direction", "up", "size", "pixel_spacing")})
+    stated = {name: np.asarray(content[name], dtype=np.float64) for name in _PLACE[:-1]}
+    for name in ("direction", "right_axis", "up"):
+        if not np.allclose(stated[name], getattr(made, name), rtol=0, atol=1e-9):
+            raise CameraError(name, "another vector", "a unit vector that goes with the others")
+    return made._moved({**stated, "pixel_spacing": made.pixel_spacing})
+
+
+def _settings(content: dict[str, Any]) -> Settings:
+    if content.keys() != _lumencut.SETTINGS.keys():
+        raise KeyError("other settings than those of this version")
+    return Settings(**{name: _made(name, value) for name, value in content.items()})
+
+
+def _made(name: str, value: Any) -> Any:
+    """The value of a setting, made of its fields where it has some; `Settings` checks all others."""
+    kind = _lumencut.SETTINGS[name].kind
+    if not isinstance(value, dict):
+        return value
+    if kind == "transfer":
+        return TransferFunction(**value)
+    return _CLASSES[kind](**value)

@@ -1,0 +1,66 @@
+"""The windows of a scene: those that settings leave to the data, or name, as numbers."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+
+from lumencut.errors import VolumeError
+from lumencut.settings import Settings
+from lumencut.vessel_tree import VesselTree
+from lumencut.volume import Volume
+from lumencut.window import Window
+
+
+class SceneWindows:
+    """The windows of a volume, each taken from it once, when it is first needed.
+
+    Parameters
+    ----------
+    volume : Volume or None
+        What is shown; without it every window is a ``VolumeError``.
+    tree : VesselTree or None
+        The vessels along which the main window is taken. Renderers of other trees of the same volume share
+        it, so that the picture does not become lighter or darker with the tree.
+    """
+
+    def __init__(self, volume: Volume | None, tree: VesselTree | None) -> None:
+        self._volume, self._tree = volume, tree
+        self._named: dict[str, Window] = {}
+
+    @functools.cached_property
+    def main(self) -> Window:
+        """The window of cut surface and context where the settings name none."""
+        return Window.from_data(self._shown, self._tree)
+
+    @functools.cached_property
+    def whole(self) -> Window:
+        """The window of contexts of minimum and mean where the settings name none."""
+        return Window.whole(self._shown)
+
+    def used(self, settings: Settings, *, has_tree: bool) -> Settings:
+        """Return the settings with a window in the place of each that is left to the data or has a name."""
+        window, context_window = map(self._known, (settings.window, settings.context_window))
+        if window is None and has_tree:
+            window = self.main
+        if context_window is None and settings.context is not None:
+            # The smallest values and the means along rays lie far below those of the vessels.
+            low = settings.context in ("minip", "average")
+            context_window = self.whole if low else self.main
+        if (window, context_window) == (settings.window, settings.context_window):
+            return settings
+        return replace(settings, window=window, context_window=context_window)
+
+    def _known(self, window: Window | str | None) -> Window | None:
+        """A window that is no name any more; one that a name stands for is taken from all of the volume."""
+        if not isinstance(window, str):
+            return window
+        if window not in self._named:
+            self._named[window] = Window.named(window, self._shown)
+        return self._named[window]
+
+    @property
+    def _shown(self) -> Volume:
+        if self._volume is None:
+            raise VolumeError("volume of the renderer", "None", "a volume to take the window from")
+        return self._volume

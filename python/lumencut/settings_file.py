@@ -1,0 +1,194 @@
+"""Settings as a TOML file: a key for each setting, with a comment that says what it does."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import textwrap
+import tomllib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from lumencut import _lumencut
+from lumencut._files import WRITABLE, checked_path, replace_whole
+from lumencut._wording import listed
+from lumencut.errors import FileError, FormatError, SettingsError
+from lumencut.slab import Slab
+from lumencut.transfer import TransferFunction
+from lumencut.window import WINDOW_NAMES, Opacity, Window
+
+_Settings = TypeVar("_Settings")
+
+_HEAD = "# Settings of Lumencut. A setting that is left out has its default."
+_LARGEST = 1 << 20
+_WIDTH = 100
+#: Stands for None.
+_NONE = "none"
+_EXPECTED = "a settings file, such as lumencut settings writes"
+
+#: What is written as a table, and the names in it.
+_TABLES: dict[str, tuple[Callable[..., Any], tuple[str, ...]]] = {
+    "window": (Window, ("level", "width")),
+    "opacity": (Opacity, ("transparent", "opaque")),
+    "slab": (Slab, ("thickness", "mode")),
+}
+_POINT = ("intensity", "color", "opacity")
+
+#: How values are written that no file shows, because they are taken from the data.
+_EXAMPLES = {
+    "number": "0.5",
+    "window": "{ level = 300.0, width = 900.0 }",
+    "opacity": "{ transparent = 50.0, opaque = 150.0 }",
+    "slab": '{ thickness = 4.0, mode = "mean" }',
+    "transfer": '"angio"',
+}
+
+
+def settings_text(settings: Any) -> str:
+    """Return settings as the text of a file, in the order of the table, with comments."""
+    blocks = [_HEAD]
+    for name, setting in _lumencut.SETTINGS.items():
+        value = getattr(settings, name)
+        if value is None and setting.default is None:
+            line = f"# {name} = {_EXAMPLES[setting.kind]}"
+        else:
+            line = f"{name} = {_written(value)}"
+        blocks.append("\n".join([*_comment(setting), line]))
+    return "\n\n".join(blocks) + "\n"
+
+
+def write_settings(settings: Any, path: str | os.PathLike[str]) -> None:
+    """Write settings as a file, which appears only once it is whole."""
+    text = settings_text(settings)
+    replace_whole(checked_path(path, WRITABLE), lambda place: place.write_text(text, "utf-8"))
+
+
+def read_settings(path: str | os.PathLike[str], make: Callable[..., _Settings]) -> _Settings:
+    """Return what ``make``, the class of the settings, makes of a file; all errors name the file."""
+    place = checked_path(path, _EXPECTED)
+    found = _parsed(place)
+    for name in found:
+        if name not in _lumencut.SETTINGS:
+            raise _unknown(place, name)
+    try:
+        return make(**{name: _read(name, _lumencut.SETTINGS[name], value) for name, value in found.items()})
+    except SettingsError as error:
+        raise SettingsError(f"{error.subject} in {place}", error.found, error.expected, error.mend) from error
+
+
+def _comment(setting: _lumencut.Setting) -> list[str]:
+    """What the setting does, its default, and what else it can be."""
+    default = setting.open if setting.default is None else _written(setting.default)
+    others = ""
+    if setting.kind == "choice":
+        names = [*setting.choices, *([_NONE] if setting.optional else [])]
+        others = f"; one of {', '.join(map(_written, names))}"
+    elif setting.kind == "window":
+        others = f"; or one of {', '.join(map(_written, WINDOW_NAMES))}"
+    elif setting.range is not None:
+        others = f"; {setting.range[0]:g} to {setting.range[1]:g}"
+    texts = (setting.sentence.replace("`", ""), f"Default: {default}{others}.")
+    return [line for text in texts for line in textwrap.wrap(f"# {text}", _WIDTH, subsequent_indent="# ")]
+
+
+def _written(value: Any) -> str:
+    """A value as TOML."""
+    match value:
+        case None:
+            return f'"{_NONE}"'
+        case bool():
+            return "true" if value else "false"
+        case int() | float():
+            return repr(value)
+        case str():
+            return f'"{value}"'
+        case tuple():
+            return f'"#{bytes(value).hex()}"'
+        case TransferFunction():
+            points = (dict(zip(_POINT, point, strict=True)) for point in value.points)
+            return "[\n" + "".join(f"  {_table(point)},\n" for point in points) + "]"
+    return _table(vars(value))
+
+
+def _table(values: Mapping[str, Any]) -> str:
+    return "{ " + ", ".join(f"{name} = {_written(value)}" for name, value in values.items()) + " }"
+
+
+def _parsed(path: Path) -> dict[str, Any]:
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+    except OSError as error:
+        raise FileError(str(path), error.strerror or str(error), _EXPECTED) from error
+    if len(content) > _LARGEST:
+        raise FormatError(str(path), f"more than {_LARGEST} bytes", _EXPECTED)
+    try:
+        return tomllib.loads(content.decode("utf-8"))
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise FormatError(str(path), f"no TOML ({error})", _EXPECTED) from error
+    except RecursionError as error:
+        raise FormatError(str(path), "values nested too deeply", _EXPECTED) from error
+
+
+def _unknown(path: Path, name: str) -> SettingsError:
+    alike = difflib.get_close_matches(name.lower().replace("-", "_"), _lumencut.SETTINGS, 1)
+    mend = f"perhaps {alike[0]} is meant" if alike else "lumencut settings lists them all"
+    return SettingsError(str(path), f"the key {name[:80]!r}, which no setting has", "names of settings", mend)
+
+
+def _read(subject: str, setting: _lumencut.Setting, value: Any) -> Any:
+    """A value of TOML as what the setting takes."""
+    if value == _NONE and setting.optional:
+        return None
+    match setting.kind:
+        case "flag":
+            return _of_type(subject, value, bool, "true or false")
+        case "count":
+            return _of_type(subject, value, int, "a whole number")
+        case "number":
+            return _of_type(subject, value, (int, float), "a number")
+        case "choice":
+            return _of_type(subject, value, str, ", ".join(f'"{name}"' for name in setting.choices))
+        case "color":
+            return _color(subject, value, len(setting.default))
+        case "window" if isinstance(value, str):
+            return value
+        case "transfer" if isinstance(value, list):
+            return TransferFunction(tuple(_point(subject, point) for point in value))
+        case "transfer":
+            return _of_type(subject, value, str, "a name, or an array of control points")
+    make, names = _TABLES[setting.kind]
+    return make(**_fields(subject, value, names))
+
+
+def _of_type(subject: str, value: Any, kind: Any, expected: str) -> Any:
+    # True and False are whole numbers to Python, not to TOML.
+    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        raise SettingsError(subject, f"{value!r:.80}", expected)
+    return value
+
+
+def _color(subject: str, value: Any, channels: int) -> tuple[int, ...]:
+    digits = value.removeprefix("#") if isinstance(value, str) else ""
+    try:
+        color = tuple(bytes.fromhex(digits))
+    except ValueError:
+        color = ()
+    if len(digits) != 2 * len(color) or len(color) not in {3, channels}:
+        form = '"#rrggbb"' if channels == 3 else '"#rrggbb" or "#rrggbbaa"'
+        raise SettingsError(subject, f"{value!r:.80}", f"a colour of the form {form}")
+    return (*color, *[255] * (channels - len(color)))
+
+
+def _point(subject: str, value: Any) -> tuple[Any, Any, Any]:
+    fields = _fields(f"control point of {subject}", value, _POINT)
+    return fields["intensity"], _color(subject, fields["color"], 3), fields["opacity"]
+
+
+def _fields(subject: str, value: Any, names: tuple[str, ...]) -> dict[str, Any]:
+    """The values of a table that has just these names."""
+    if not isinstance(value, dict) or set(value) != set(names):
+        found = listed([repr(name) for name in value]) if isinstance(value, dict) and value else repr(value)
+        raise SettingsError(subject, f"{found:.80}", f"a table of {', '.join(names)}")
+    return value

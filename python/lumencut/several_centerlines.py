@@ -1,0 +1,87 @@
+"""Several centerline files as one tree: 3D Slicer, for one, writes a file for each curve."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from lumencut.centerline_file import CenterlineFile, CenterlineReport
+from lumencut.errors import FormatError
+from lumencut.placement import Coordinates, Unit
+from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.volume_files.memory import as_volume
+from lumencut.vtk_lines import is_poly_data
+
+_log = logging.getLogger("lumencut")
+
+
+class CenterlineFiles:
+    """Centerline files whose content is read and checked, and whose places are still to be decided.
+
+    Parameters
+    ----------
+    sources : list or tuple of paths or vtkPolyData
+        At least one, none of them twice.
+
+    Raises
+    ------
+    FileError, FormatError
+        As `CenterlineFile`, and for no file, or the same one twice.
+    """
+
+    def __init__(self, sources: Sequence[Any]) -> None:
+        if not sources:
+            raise FormatError("centerline files", "none", "at least one file")
+        self._files = [CenterlineFile(source) for source in sources]
+        self._named = [not is_poly_data(source) for source in sources]
+        paths = [file.path for file, named in zip(self._files, self._named, strict=True) if named]
+        twice = next((path for n, path in enumerate(paths) if path.resolve() in _resolved(paths[:n])), None)
+        if twice is not None:
+            raise FormatError(str(twice), "a file that is named twice", "each file once")
+
+    def tree(
+        self, coordinates: Coordinates | None = None, unit: Unit | None = None, volume: Any = None
+    ) -> VesselTree:
+        """Give the vessels of all files in world space, as `read_centerlines` does."""
+        volume = None if volume is None else as_volume(volume)
+        return self.joined([file.beside(volume, coordinates, unit) for file in self._files])
+
+    def __iter__(self) -> Iterator[CenterlineFile]:
+        return iter(self._files)
+
+    def joined(self, read: Sequence[tuple[VesselTree, CenterlineReport]]) -> VesselTree:
+        """Return one tree of what was read of each file."""
+        self._compare([report for _, report in read])
+        tree = VesselTree(
+            vessel
+            for file, named, (part, _) in zip(self._files, self._named, read, strict=True)
+            for vessel in (_called(part, file.path) if named else part)
+        )
+        tree._space_settled = all(part._space_settled for part, _ in read)
+        return tree
+
+    def _compare(self, reports: Sequence[CenterlineReport]) -> None:
+        """Say where a file was taken for LPS for want of anything better, beside files that are not LPS."""
+        pairs = list(zip(self._files, reports, strict=True))
+        assumed = [file for file, report in pairs if report.space_from == "assumed"]
+        for other, report in pairs:
+            if assumed and report.space != "lps":
+                mend = 'give a volume, or read them with coordinates="lps" or "ras"'
+                found = f"taken as lps for want of a statement, while {other.path.name} is in {report.space}"
+                _log.warning("%s: %s; %s", assumed[0].path, found, mend)
+                return
+
+
+def _called(part: VesselTree, path: Path) -> Iterable[Vessel]:
+    """The vessels of a file, of which a single one without a name is called as the file."""
+    if len(part) > 1 or part[0].name is not None:
+        return part
+    name = path.name.removesuffix(path.suffix)
+    name = name.removesuffix(".mrk") if path.suffix.lower() == ".json" else name
+    return [Vessel(part[0].points, part[0].radius, name)]
+
+
+def _resolved(paths: Iterable[Path]) -> set[Path]:
+    return {path.resolve() for path in paths}

@@ -1,0 +1,49 @@
+"""The names of vessels, written beside their ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lumencut.lettering import Sheet, around, writable
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.frame_source import VesselEnd
+
+_Place = tuple[float, float]
+
+
+def write_vessel_names(sheet: Sheet, camera: Camera, ends: tuple[VesselEnd, ...]) -> None:
+    """Write each name beside a dot where its vessel ends, in the order of the tree.
+
+    A name stands to the right of its dot, or else to the left, above or below: the first place where it lies
+    within the picture and over nothing that was written before, nor over the dot of another name. A name
+    without such a place is left out with its dot, as is one whose dot would lie beyond the picture or over
+    something that was written before.
+    """
+    if not ends:
+        return
+    seen = [(float(x), float(y)) for x, y, _ in camera.project(np.array([point for _, point in ends]))]
+    dots = [around(place, sheet.dot_radius) for place in seen]
+    for (name, _), place, dot in zip(ends, seen, dots, strict=True):
+        if not sheet.is_free(dot):
+            continue
+        others = [other for other in dots if other != dot]
+        for beside, anchor in _places(place, sheet.dot_radius):
+            if sheet.is_free(sheet.box(writable(name), beside, anchor), others):
+                sheet.dot(place)
+                sheet.write(writable(name), beside, anchor)
+                break
+
+
+def _places(dot: _Place, radius: float) -> Iterator[tuple[_Place, str]]:
+    """Where a name may stand beside a dot, the best place first, with Pillow's letters for its own point."""
+    x, y = dot
+    gap = 2 * radius
+    yield (x + gap, y), "lm"
+    yield (x - gap, y), "rm"
+    yield (x, y - gap), "md"
+    yield (x, y + gap), "ma"

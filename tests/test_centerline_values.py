@@ -1,0 +1,207 @@
+"""The space of centerlines where both fit the volume: told by the values along the lines, or asked for."""
+
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from conftest import needs_shared_data
+from lumencut import FormatError, Renderer, SpaceWarning, Vessel, VesselTree, Volume, phantom
+from lumencut.centerlines import inspect_centerlines, read_centerlines
+from lumencut.cli import main
+from lumencut.placement import check_space
+from lumencut.volume_files import read_volume
+
+FLIP = np.array([-1.0, -1.0, 1.0])
+
+
+def moved(volume: Volume, tree: VesselTree, by):
+    """The scene elsewhere in the world."""
+    affine = volume.world_from_index.copy()
+    affine[:3, 3] += by
+    vessels = [Vessel(vessel.points + by, vessel.radius, vessel.name) for vessel in tree]
+    return Volume(volume.array, world_from_index=affine), VesselTree(vessels)
+
+
+def silent(folder: Path, points, radius=None) -> Path:
+    """A file of one line that states no space."""
+    path = folder / "line.csv"
+    columns = points if radius is None else np.column_stack([points, radius])
+    np.savetxt(
+        path, columns, delimiter=",", header="x,y,z" + ("" if radius is None else ",radius"), comments=""
+    )
+    return path
+
+
+def tube(dtype=np.int16, lumen=350, tissue=40, both=False, noise=0):
+    """A volume around the origin with a vessel of 4 mm radius beside it, and points of the vessel."""
+    _, j, i = np.mgrid[:70, :61, :61]
+    x, y = i - 30.0, j - 30.0
+    inside = np.hypot(x - 14, y + 8) < 4
+    if both:
+        inside |= np.hypot(x + 14, y - 8) < 4
+    voxels = np.where(inside, lumen, tissue) + np.random.default_rng(5).normal(0, noise, inside.shape)
+    points = np.column_stack([np.full(100, 14.0), np.full(100, -8.0), np.linspace(-30, 30, 100)])
+    return Volume(voxels.astype(dtype), origin=(-30, -30, -35)), points
+
+
+VOLUMES = {
+    "CT": {"noise": 30},
+    "bytes": {"dtype": np.uint8, "lumen": 200, "tissue": 0},
+    "inverted": {"dtype": np.uint8, "lumen": 10, "tissue": 220, "noise": 8},
+    "floats": {"dtype": np.float32, "lumen": 1e-3, "tissue": 2e-4, "noise": 1e-4},
+}
+
+
+@pytest.mark.parametrize("with_radius", [True, False])
+@pytest.mark.parametrize("kind", VOLUMES)
+@pytest.mark.parametrize(("space", "signs"), [("lps", 1.0), ("ras", FLIP)])
+def test_values_along_the_lines_tell_the_space_with_a_warning(space, signs, kind, with_radius, tmp_path):
+    volume, points = tube(**VOLUMES[kind])
+    path = silent(tmp_path, points * signs, np.full(len(points), 4.0) if with_radius else None)
+    counts = (
+        rf"\d+ look like lumen in {space} and \d+ in \w+: read in {space}; coordinates=\"{space}\" confirms"
+    )
+    with pytest.warns(SpaceWarning, match=counts):
+        tree = read_centerlines(path, volume=volume)
+    np.testing.assert_allclose(tree[0].points, points, atol=1e-9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        report = inspect_centerlines(path, volume=volume)
+        read_centerlines(path, space, volume=volume)
+        # Whoever was warned once is not warned again.
+        Renderer(volume, tree)
+    assert (report.space, report.space_from, report.unit_from, report.is_unusual) == (
+        space,
+        "values",
+        "volume",
+        True,
+    )
+
+
+SILENT = {
+    "nothing": {"lumen": 7, "tissue": 7},
+    "noise": {"lumen": 100, "tissue": 100, "noise": 40},
+    "a symmetric tree": {"both": True},
+}
+
+
+@pytest.mark.parametrize("kind", SILENT)
+@pytest.mark.parametrize("signs", [1.0, FLIP])
+def test_values_that_tell_nothing_leave_the_question(kind, signs, tmp_path):
+    volume, points = tube(**SILENT[kind])
+    path = silent(tmp_path, points * signs, np.full(len(points), 4.0))
+    with pytest.raises(FormatError, match=r'give coordinates="lps" or coordinates="ras"'):
+        read_centerlines(path, volume=volume)
+
+
+def test_a_short_piece_of_vessel_decides_nothing(tmp_path):
+    volume, points = tube()
+    short = points[np.abs(points[:, 2]) < 15]
+    path = silent(tmp_path, short, np.full(len(short), 4.0))
+    with pytest.raises(FormatError, match=r'give coordinates="lps" or coordinates="ras"'):
+        read_centerlines(path, volume=volume)
+
+
+@pytest.mark.parametrize(("space", "signs"), [("lps", 1.0), ("ras", FLIP)])
+def test_a_stated_space_is_kept_and_warned_about_where_the_values_speak_against_it(space, signs, tmp_path):
+    volume, points = tube()
+    rows = "\n".join(" ".join(map(str, p)) for p in points * signs)
+    ids = " ".join(map(str, range(len(points))))
+    for stated in ("lps", "ras"):
+        path = tmp_path / f"{stated}.vtk"
+        head = (
+            f"# vtk DataFile Version 3.0\n3D Slicer output. SPACE={stated.upper()}\nASCII\nDATASET POLYDATA"
+        )
+        body = f"POINTS {len(points)} double\n{rows}\nLINES 1 {len(points) + 1}\n{len(points)} {ids}\n"
+        path.write_text(f"{head}\n{body}")
+        read = points * signs * (FLIP if stated == "ras" else 1.0)
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            tree = read_centerlines(path, volume=volume)
+        np.testing.assert_allclose(tree[0].points, read, atol=1e-9)
+        texts = [str(one.message) for one in told]
+        if stated == space:
+            assert texts == []
+        else:
+            (text,) = texts
+            assert re.search(r"\d+ look like lumen as read, but \d+ with x and y negated", text), text
+
+
+def test_a_tree_that_was_read_before_is_compared_by_values_too():
+    volume, points = tube()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_space(VesselTree([Vessel(points, 4.0)]), volume)
+    with pytest.warns(SpaceWarning, match="look like lumen as read, but"):
+        check_space(VesselTree([Vessel(points * FLIP, 4.0)]), volume)
+
+
+def test_info_tells_the_same_decision(tmp_path):
+    volume, points = tube(dtype=np.int16)
+    from SimpleITK import GetImageFromArray, WriteImage
+
+    image = GetImageFromArray(volume.array)
+    image.SetOrigin((-30.0, -30.0, -35.0))
+    WriteImage(image, str(tmp_path / "scan.nrrd"))
+    path = silent(tmp_path, points * FLIP, np.full(len(points), 4.0))
+    result = CliRunner().invoke(main, ["info", str(tmp_path / "scan.nrrd"), str(path)])
+    assert result.exit_code == 0, result.output
+    assert "ras (the values of the volume tell it)" in result.stdout
+    counts = re.search(
+        r"\d+ look like lumen in ras and \d+ in lps", inspect_centerlines(path, volume=volume).decision
+    )
+    assert counts[0] in " ".join(result.stdout.split())
+
+
+@pytest.mark.parametrize("name", ["crossing", "y_junction", "stenosis", "straight_tube", "helix", "trefoil"])
+def test_phantoms_are_never_read_mirrored(name, tmp_path):
+    made = getattr(phantom, name)()
+    volume, tree = made.volume, made.tree
+    for vessel in tree:
+        for signs, space in ((1.0, "lps"), (FLIP, "ras")):
+            path = silent(tmp_path, vessel.points * signs, vessel.radius)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                try:
+                    report = inspect_centerlines(path, volume=volume)
+                except FormatError:
+                    continue
+            assert report.space == space, (name, report.decision)
+
+
+REAL = [
+    ("stent-cta/stent_cta.nii.gz", "stent-cta/centerlines.vtp"),
+    ("dissection-cta/ct_cropped.nii.gz", "dissection-cta/true_lumen_centerline_LPS.vtp"),
+    ("dissection-cta/ct_cropped.nii.gz", "dissection-cta/aorta_arch_centerlines_LPS.vtp"),
+    ("aorta-mra/aorta.mha", "aorta-mra/aorta_full_centerlines_LPS.vtp"),
+]
+
+
+@needs_shared_data
+@pytest.mark.parametrize(("volume", "lines"), REAL)
+def test_real_lumens_are_told_or_asked_for_wherever_the_scanner_has_its_origin(
+    volume, lines, shared_data, tmp_path
+):
+    read = read_volume(shared_data / volume)
+    tree = read_centerlines(shared_data / lines, "lps", unit="mm")
+    middle = (read.world_from_index @ [*(np.asarray(read.size) - 1) / 2, 1.0])[:3] * [1, 1, 0]
+    by_values = 0
+    for aside in ((0, 0, 0), (10, -10, 0), (-10, 20, 0), (20, 10, 0)):
+        scan, moved_tree = moved(read, tree, np.array(aside) - middle)
+        points = np.concatenate([vessel.points for vessel in moved_tree])
+        radius = np.concatenate([vessel.radius for vessel in moved_tree])
+        for signs, space in ((1.0, "lps"), (FLIP, "ras")):
+            path = silent(tmp_path, points * signs, radius)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                try:
+                    report = inspect_centerlines(path, volume=scan)
+                except FormatError:
+                    continue
+            assert report.space == space, report.decision
+            by_values += report.space_from == "values"
+    assert by_values >= 2

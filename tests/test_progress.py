@@ -1,0 +1,99 @@
+"""How far a rendering is, and how many threads render it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import lumencut
+from lumencut import Camera, Renderer, Settings, SettingsError, phantom
+
+IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
+
+
+@pytest.fixture(scope="module")
+def made():
+    return phantom.helix()
+
+
+@pytest.fixture
+def any_threads():
+    yield
+    lumencut.set_threads(None)
+
+
+# What takes some tenths of a second, so that something is told on the way.
+LARGE = (1500, 1400)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [Settings(), Settings(context="mida", samples=2), Settings(context=None, level_choice="nearest")],
+    ids=["default", "samples", "surface"],
+)
+def test_progress_grows_to_its_total(made, settings):
+    told = []
+    renderer = Renderer(made.volume, made.tree, "cpu")
+    camera = Camera.anterior(made.tree, LARGE)
+    frame = renderer.render(camera, settings, progress=lambda *parts: told.append(parts))
+    done = [parts[0] for parts in told]
+    assert {parts[1] for parts in told} == {1000}
+    assert done == sorted(done)
+    assert done[-1] == 1000
+    assert any(0 < part < 1000 for part in done)
+    np.testing.assert_array_equal(frame.image, renderer.render(camera, settings).image)
+
+
+def test_the_function_tells_progress_too(made):
+    told = []
+    lumencut.render(
+        made.volume, made.tree, Camera.anterior(made.tree, (20, 20)), progress=lambda *p: told.append(p)
+    )
+    assert told[-1] == (1000, 1000)
+
+
+def test_what_the_callable_raises_ends_the_rendering(made):
+    def enough(done, _):
+        assert done < 1000
+        raise RuntimeError("enough")
+
+    renderer = Renderer(made.volume, made.tree, "cpu")
+    with pytest.raises(RuntimeError, match="enough"):
+        renderer.render(Camera.anterior(made.tree, LARGE), Settings(samples=4), progress=enough)
+    small = Camera.anterior(made.tree, (30, 20))
+    fresh = Renderer(made.volume, made.tree, "cpu")
+    np.testing.assert_array_equal(renderer.render(small).image, fresh.render(small).image)
+
+
+@pytest.mark.usefixtures("any_threads")
+def test_pictures_are_the_same_with_any_number_of_threads(made):
+    camera = Camera.anterior(made.tree, (157, 121)).rotated(0.4)
+    settings = Settings(centerline_smoothing=0.5, context_shading=True)
+    frames = []
+    for count in (1, 2, 3):
+        lumencut.set_threads(count)
+        assert lumencut.get_threads() == count
+        frames.append(Renderer(made.volume, made.tree, "cpu").render(camera, settings))
+    for frame in frames[1:]:
+        for name in IMAGES:
+            np.testing.assert_array_equal(getattr(frame, name), getattr(frames[0], name))
+
+
+@pytest.mark.usefixtures("any_threads")
+def test_a_renderer_goes_on_with_another_number_of_threads(made):
+    renderer = Renderer(made.volume, made.tree, "cpu")
+    camera = Camera.anterior(made.tree, (60, 50))
+    before = renderer.render(camera).image
+    lumencut.set_threads(1)
+    np.testing.assert_array_equal(renderer.render(camera).image, before)
+    assert lumencut.get_threads() == 1
+    lumencut.set_threads(None)
+    np.testing.assert_array_equal(renderer.render(camera).image, before)
+
+
+@pytest.mark.parametrize("count", [0, -1, 1.5, 1025, "2", True, [2], float("nan")])
+def test_other_numbers_of_threads_are_refused(count):
+    before = lumencut.get_threads()
+    with pytest.raises(SettingsError, match="threads"):
+        lumencut.set_threads(count)
+    assert lumencut.get_threads() == before

@@ -1,0 +1,246 @@
+"""Windows: those from the data on every kind of angiography, and those that have names."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from conftest import needs_shared_data
+from lumencut import (
+    Camera,
+    Renderer,
+    Settings,
+    SettingsError,
+    Vessel,
+    VesselTree,
+    Volume,
+    VolumeError,
+    Window,
+    phantom,
+    read_centerlines,
+    read_volume,
+    write_centerlines,
+)
+from lumencut.cli import main
+from lumencut.cli.parameters import WINDOW_NAMES as CLI_NAMES
+from lumencut.window import WINDOW_NAMES
+from window_measures import contrast, share, shares
+from window_scenes import KINDS, angiography, tree
+
+BRIGHT = [name for name, kind in KINDS.items() if not kind.is_dark]
+DARK = [name for name, kind in KINDS.items() if kind.is_dark]
+
+#: Real volumes and centerlines, below ../shared/data.
+REAL = {
+    "stent": ("stent-cta/stent_cta.nii.gz", "stent-cta/centerlines.vtp"),
+    "dissection": ("dissection-cta/ct_cropped.nii.gz", "dissection-cta/aorta_arch_centerlines_LPS.vtp"),
+    "contrast MRA": ("aorta-mra/aorta.mha", "aorta-mra/aorta_full_centerlines_LPS.vtp"),
+}
+
+
+def ends(window):
+    return window.level - window.width / 2, window.level + window.width / 2
+
+
+@pytest.mark.parametrize("name", BRIGHT)
+def test_along_centerlines_the_lumen_is_light_and_its_tissue_dark(name):
+    scene = angiography(name)
+    found = shares(scene, Window.from_data(scene.volume, scene.tree))
+    assert 0.50 <= found["centerline"] <= 0.85
+    # Not a number where only the vessels are numbers.
+    assert not found["tissue"] >= 0.40
+    assert name == "CTA, lumen in NaN" or found["tissue"] < 0.40
+
+
+@pytest.mark.parametrize("context", ["mip", "mida"])
+@pytest.mark.parametrize("name", BRIGHT)
+def test_of_a_volume_alone_the_lumen_stands_out(name, context):
+    lumen, beside = contrast(angiography(name), context)
+    assert lumen - beside >= 0.25
+
+
+@pytest.mark.parametrize("name", DARK)
+def test_a_dark_lumen_is_darker_than_its_tissue(name):
+    scene = angiography(name)
+    found = shares(scene, Window.from_data(scene.volume, scene.tree))
+    assert 0.15 <= found["centerline"] <= 0.50
+    assert found["tissue"] > 0.60
+    alone = Window.from_data(scene.volume)
+    assert Renderer(scene.volume).render(Camera.left(scene.volume, (20, 20))).image[..., :3].any()
+    assert alone.width > 0.05 * np.ptp(np.percentile(scene.array, [1, 99]))
+
+
+def beside(points, radius, distance):
+    """Six places so far beyond the wall of each point (mm)."""
+    sides = np.concatenate([np.eye(3), -np.eye(3)])
+    return (points[:, None] + (radius[:, None, None] + distance) * sides).reshape(-1, 3)
+
+
+def lumen_and_tissue(volume, vessels):
+    """The values along the centerlines, and of all that is 3 to 10 mm beyond the walls."""
+    points = np.concatenate([vessel.points for vessel in vessels])
+    radius = np.concatenate([vessel.radius for vessel in vessels])
+    around = np.concatenate([volume.sample(beside(points, radius, mm)) for mm in (3, 5, 7, 10)])
+    lumen = volume.sample(points)
+    return lumen[np.isfinite(lumen)], around[np.isfinite(around)]
+
+
+@pytest.mark.parametrize(
+    "name", ["straight_tube", "stenosis", "calcified_wall", "aorta", "runoff", "cervical"]
+)
+def test_phantoms_have_the_lumen_light_and_the_tissue_dark(name):
+    scaled = name in ("aorta", "runoff", "cervical")
+    made = getattr(phantom, name)(**({"scale": 0.3} if scaled else {}))
+    window = Window.from_data(made.volume, made.tree)
+    lumen, tissue = lumen_and_tissue(made.volume, made.tree)
+    assert 0.50 <= share(window, lumen) <= 0.85
+    assert share(window, tissue) < 0.40
+
+
+@needs_shared_data
+@pytest.mark.parametrize("name", REAL)
+def test_real_angiographies_have_the_lumen_light_and_the_tissue_dark(name, shared_data):
+    volume, vessels = (shared_data / path for path in REAL[name])
+    volume, vessels = read_volume(volume), read_centerlines(vessels)
+    window = Window.from_data(volume, vessels)
+    lumen, tissue = lumen_and_tissue(volume, vessels)
+    assert 0.50 <= share(window, lumen) <= 0.85
+    assert share(window, tissue) < 0.40
+
+
+def test_units_and_axes_do_not_change_what_a_window_shows():
+    scene = angiography("CTA, HU")
+    volume, expected = scene.volume, np.array(ends(Window.from_data(scene.volume)))
+    along = np.array(ends(Window.from_data(volume, tree())))
+    scaled = Volume(volume.array.astype(np.float32) * 0.25 + 4096)
+    np.testing.assert_allclose(ends(Window.from_data(scaled)), expected * 0.25 + 4096, atol=1e-3)
+    np.testing.assert_allclose(ends(Window.from_data(scaled, tree())), along * 0.25 + 4096, atol=1e-2)
+    assert Window.from_data(Volume(np.asfortranarray(volume.array))) == Window.from_data(volume)
+
+
+def test_fixed_windows_are_those_that_are_said():
+    assert Window.named("cta") == Window(level=300, width=900)
+    assert Window.named("bone") == Window(level=480, width=2500)
+    assert Window.named("lung") == Window(level=-600, width=1500)
+    settings = Settings(window="cta", context_window="bone")
+    assert settings == Settings(window=Window.named("cta"), context_window=Window.named("bone"))
+
+
+def test_windows_from_the_data_by_name():
+    scene = angiography("contrast MRA")
+    volume = scene.volume
+    assert ends(Window.named("full", volume)) == pytest.approx((volume.array.min(), volume.array.max()))
+    low, high = ends(Window.named("mra", volume))
+    assert low == pytest.approx(np.percentile(volume.array, 1), rel=1e-6)
+    assert high == pytest.approx(np.percentile(volume.array, 99.9), rel=1e-6)
+    assert Window.named("auto", volume) == Window.from_data(volume)
+    assert Window.named("auto", volume, scene.tree) == Window.from_data(volume, scene.tree)
+
+
+def test_the_names_of_settings_are_known_once_there_is_a_volume():
+    scene = angiography("contrast MRA")
+    full, mra = (Window.named(name, scene.volume) for name in ("full", "mra"))
+    renderer = Renderer(scene.volume, scene.tree)
+    given = Settings(window="full", context_window="mra")
+    assert renderer.windowed(given) == Settings(window=full, context_window=mra)
+    assert Settings(window="auto", context_window="auto") == Settings()
+    camera = Camera.anterior(scene.tree, (40, 30))
+    np.testing.assert_array_equal(
+        renderer.render(camera, given).image, renderer.render(camera, renderer.windowed(given)).image
+    )
+    # The surface alone needs no window.
+    assert np.isfinite(Renderer(None, scene.tree).cut_surface(camera, given).depth).any()
+
+
+def test_other_names_are_refused_with_those_that_are_known():
+    known = ".*".join(f"'{name}'" for name in WINDOW_NAMES)
+    for refused in (
+        lambda: Settings(window="abdomen"),
+        lambda: Settings(context_window="CTA"),
+        lambda: Window.named("abdomen"),
+    ):
+        with pytest.raises(SettingsError, match=rf"window: found '(abdomen|CTA)'; expected .*{known}"):
+            refused()
+    with pytest.raises(SettingsError, match=r"window: found \(300, 900\); expected a Window"):
+        Settings(window=(300, 900))
+    for name in ("mra", "full", "auto"):
+        with pytest.raises(VolumeError, match="NoneType"):
+            Window.named(name)
+
+
+@pytest.fixture
+def files(tmp_path):
+    """A volume and centerlines as files."""
+    import SimpleITK
+
+    scene = angiography("CTA, HU")
+    volume, lines = tmp_path / "ct.nii.gz", tmp_path / "lines.vtp"
+    SimpleITK.WriteImage(SimpleITK.GetImageFromArray(scene.volume.array), str(volume))
+    write_centerlines(scene.tree, lines)
+    return volume, lines
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+def test_the_command_line_takes_names_and_numbers(files, tmp_path):
+    volume, lines = files
+    picture = tmp_path / "picture.png"
+    common = ("render", volume, lines, "-o", picture, "--size", "40x40")
+    for option, said in (
+        ("cta", "window 900/300"),
+        ("600/200", "window 600/200"),
+        ("lung", "window 1500/-600"),
+    ):
+        result = run(*common, "--window", option)
+        assert result.exit_code == 0, result.output
+        assert said in result.output
+    array = angiography("CTA, HU").array.astype(float)
+    width, level = np.ptp(array), array.min() + np.ptp(array) / 2
+    result = run("render", volume, "-o", picture, "--size", "40x40", "--context-window", "full")
+    assert f"context window {width:.4g}/{level:.4g}" in result.output
+    result = run(*common, "--window", "abdomen")
+    assert result.exit_code == 2
+    assert "not of the form WIDTH/LEVEL, such as 900/300, nor one of" in " ".join(result.output.split())
+    turned = tmp_path / "turn.webp"
+    result = run(
+        "turntable", volume, lines, "-o", turned, "--frames", 2, "--size", "20x20", "--window", "mra"
+    )
+    assert result.exit_code == 0, result.output
+    worst = tmp_path / "worst"
+    options = ("--views", 1, "--size", "40x40", "--pictures", worst, "--window", "bone", "--methods", "csr")
+    result = run("evaluate", volume, lines, *options)
+    assert result.exit_code == 0, result.output
+
+
+def test_a_window_that_shows_one_grey_is_warned_of(files, tmp_path):
+    import SimpleITK
+
+    small = tmp_path / "small.nii.gz"
+    scene = angiography("mask, 0 and 1")
+    SimpleITK.WriteImage(SimpleITK.GetImageFromArray(scene.volume.array), str(small))
+    picture = tmp_path / "picture.png"
+    for volume, option, warned in (
+        (small, "lung", True),
+        (small, "cta", True),
+        (small, "full", False),
+        (files[0], "cta", False),
+        (files[0], "200/9000", True),
+    ):
+        result = run("render", volume, files[1], "-o", picture, "--size", "40x40", "--window", option)
+        assert result.exit_code == 0, result.output
+        assert ("in one grey: its values reach from" in result.output) == warned, option
+
+
+def test_the_names_on_the_command_line_are_those_of_the_package():
+    assert CLI_NAMES == WINDOW_NAMES
+
+
+def test_vessels_at_the_border_of_a_volume_have_a_window():
+    array = np.random.default_rng(1).normal(100, 5, (12, 12, 30))
+    array[5:7, 5:7] = 400
+    line = Vessel(np.array([[0.0, 5.5, 5.5], [29.0, 5.5, 5.5]]), 1.0)
+    window = Window.from_data(Volume(array), VesselTree([line]))
+    assert 0.5 <= share(window, [400.0]) <= 0.85
