@@ -129,9 +129,10 @@ def context_settings() -> Iterator[tuple[str, Values]]:
                 f"{mode}, context_transfer {name}",
                 {"context": mode, "context_transfer": transfer, **behind},
             )
-    for mode in MODES:
+    for mode in MODES[:2]:
         for step in (0.7, 2.7, 50):
             yield f"{mode}, context_step {step}", {"context": mode, "context_step": step, **behind}
+    for mode in MODES:
         yield f"{mode}, context_preview", {"context": mode, "context_preview": True, **behind}
     for mode in MODES[:2]:
         shaded = {"context": mode, "context_shading": True, **behind}

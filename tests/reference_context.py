@@ -1,7 +1,8 @@
 """The context once more: slow, in numpy with 64-bit floats, written from its description alone.
 
-Every ray is sampled from end to end: nothing is skipped, nothing ends early. Pixels are rows of arrays, the
-parts of their rays are columns; what a ray does not have is NaN.
+Where colours blend, every ray is sampled from end to end: nothing is skipped, nothing ends early. Pixels are
+rows of arrays, the parts of their rays are columns; what a ray does not have is NaN. The other modes take no
+samples: see `reference_along`.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import reference_along
 from reference import pixel_centers
 
 #: By how much of a step a chord may exceed whole steps without a part more, and how exactly that is known.
@@ -24,6 +26,12 @@ class Rays:
     length: np.ndarray  # of a part of each ray (mm), (P,)
     slope: np.ndarray  # cosine between gradient and view, NaN without; change over two voxels, (P, N, 2)
     unsure: np.ndarray  # whether rounding decides about the number of parts, (P,)
+
+    @property
+    def largest(self):
+        """The largest sample of each ray, (P,)."""
+        largest = np.where(np.isnan(self.value), -np.inf, self.value).max(axis=1)
+        return np.where(np.isfinite(largest), largest, np.nan)
 
 
 def index_from_view(volume, camera):
@@ -67,6 +75,31 @@ def chords(volume, camera, q, start):
         ends = np.sort(np.stack([low, high]) / toward[axis], axis=0)
         near, far = np.maximum(near, ends[0]), np.minimum(far, ends[1])
     return near, far
+
+
+def blends(mode, gamma=0.0):
+    """Whether a mode blends samples; the others take exact values along the rays, and no step."""
+    return mode == "dvr" or (mode == "mida" and gamma < 1)
+
+
+def follow(volume, camera, mode, *, gamma=0.0, step=None, **others):
+    """What a mode takes of the rays: samples, or exact values. `step` is for samples alone."""
+    if blends(mode, gamma):
+        rays = trace(volume, camera, step, **others)
+        assert not rays.unsure.any(), "choose another step: here rounding decides about the number of parts"
+        return rays
+    others.pop("shading", None)
+    return exact(volume, camera, **others)
+
+
+def exact(volume, camera, *, start=None, q=None):
+    """The exact extremes and means along the rays at view x and y `q` from depth `start` on."""
+    q = pixel_centers(camera) if q is None else q
+    start = np.full(len(q), -np.inf) if start is None else start
+    near, far = chords(volume, camera, q, start)
+    matrix, origin = index_from_view(volume, camera)
+    foot = origin + q @ matrix[:, :2].T
+    return reference_along.along(volume.array.astype(float), foot, matrix[:, 2], near, far)
 
 
 def trace(volume, camera, step=None, *, start=None, q=None, shading=False):
@@ -144,7 +177,7 @@ def blend(rays, points, window, gamma):
         out = np.where(there[:, None], keep[:, None] * out + share[:, None] * rgba, out)
         most = np.where(there, np.maximum(most, f), most)
     if gamma > 0:
-        out += gamma * (brightest(rays, points) - out)
+        out += gamma * (coloured(rays.largest, points) - out)
     return out
 
 
@@ -160,38 +193,30 @@ def plain_dvr(rays, points, window):
     return ((before * own)[..., None] * rgba).sum(axis=1)
 
 
-def opaque(rgb, rays):
-    """Opaque where a ray has a sample."""
-    there = ~np.isnan(rays.value).all(axis=1)
+def opaque(rgb, value):
+    """Opaque where a ray has a value."""
+    there = ~np.isnan(value)
     return np.where(there[:, None], np.column_stack([rgb, np.ones(len(rgb))]), 0)
 
 
-def brightest(rays, points):
-    """MIP: the colour of the largest sample."""
-    return opaque(colour(points, np.where(np.isnan(rays.value), -np.inf, rays.value).max(axis=1)), rays)
+def coloured(value, points):
+    """The colours of the values of rays."""
+    return opaque(colour(points, value), value)
 
 
-def darkest(rays, window):
-    """MinIP: the grey of the smallest sample."""
-    grey = normalised(window, np.where(np.isnan(rays.value), np.inf, rays.value).min(axis=1))
-    return opaque(np.column_stack([grey] * 3), rays)
-
-
-def average(rays, window):
-    """The grey of the mean of the samples."""
-    there = ~np.isnan(rays.value)
-    mean = np.where(there, rays.value, 0).sum(axis=1) / np.maximum(there.sum(axis=1), 1)
-    return opaque(np.column_stack([normalised(window, mean)] * 3), rays)
+def grey(value, window):
+    """The greys of the values of rays."""
+    return opaque(np.column_stack([normalised(window, value)] * 3), value)
 
 
 def gather(rays, mode, points, window, gamma=0.0):
     """What a mode makes of the rays: colours times opacity, and opacity, (P, 4), 0 to 1."""
     made = {
-        "mida": lambda: blend(rays, points, window, gamma),
+        "mida": lambda: blend(rays, points, window, gamma) if gamma < 1 else coloured(rays.largest, points),
         "dvr": lambda: plain_dvr(rays, points, window),
-        "mip": lambda: brightest(rays, points),
-        "minip": lambda: darkest(rays, window),
-        "average": lambda: average(rays, window),
+        "mip": lambda: coloured(rays.largest, points),
+        "minip": lambda: grey(rays.smallest, window),
+        "average": lambda: grey(rays.mean, window),
     }
     return made[mode]()
 
@@ -221,19 +246,15 @@ def picture(value, context, window, opacity, background):
 
 
 def slab(volume, camera, depth, thickness, kind):
-    """The values (H, W) of a thick cut surface at `depth` (H, W)."""
-    parts = int(np.ceil(thickness / volume.spacing.min()))
-    parts = max(parts + 1 - parts % 2, 1)
-    behind = ((np.arange(parts) + 0.5) / parts - 0.5) * thickness
+    """The values (H, W) of a thick cut surface at `depth` (H, W): none where the surface itself has none."""
     matrix, origin = index_from_view(volume, camera)
-    flat = origin + pixel_centers(camera) @ matrix[:, :2].T
-    index = flat[:, None] + (depth.reshape(-1, 1) + behind)[..., None] * matrix[:, 2]
+    q, depth, array = pixel_centers(camera), depth.ravel(), volume.array.astype(float)
+    foot = origin + q @ matrix[:, :2].T
+    index = foot + depth[:, None] * matrix[:, 2]
     outside = ((index < -0.5) | (index > np.array(volume.size) - 0.5)).any(axis=-1)
-    value = np.where(outside, np.nan, interpolate(volume.array.astype(float), index))
-    there = ~np.isnan(value)
-    joined = {
-        "max": np.where(there, value, -np.inf).max(axis=1),
-        "min": np.where(there, value, np.inf).min(axis=1),
-        "mean": np.where(there, value, 0).sum(axis=1) / np.maximum(there.sum(axis=1), 1),
-    }
-    return np.where(there[:, parts // 2], joined[kind], np.nan).reshape(depth.shape)
+    thin = np.where(outside, np.nan, interpolate(array, index))
+    near, far = chords(volume, camera, q, depth - thickness / 2)
+    found = reference_along.along(array, foot, matrix[:, 2], near, np.minimum(far, depth + thickness / 2))
+    thick = {"max": found.largest, "min": found.smallest, "mean": found.mean}[kind]
+    # A slab that meets nothing shows the surface alone.
+    return np.where(np.isnan(thin) | np.isnan(thick), thin, thick).reshape((camera.size[1], camera.size[0]))

@@ -61,14 +61,13 @@ def test_opacity_is_per_millimetre_also_where_voxels_are_not(opacity, step):
 
 
 @pytest.mark.parametrize("view", ALONG)
-@pytest.mark.parametrize("step", [1.0, 0.5, 0.25])
-def test_projections_of_a_ramp(view, step):
+def test_projections_of_a_ramp(view):
     profile = np.arange(20, 220, 10.0)
     volume, camera = along(profile, view)
     grey = lambda value: 255 * (value - WINDOW[0] + WINDOW[1] / 2) / WINDOW[1]  # noqa: E731
     for mode, value in (("minip", 20), ("average", 115), ("mip", 210)):
         points = [(10.0, (0, 0, 0), 0.0), (230.0, (255, 255, 255), 0.0)]
-        image = drawn(volume, camera, mode, points=points, step=step)
+        image = drawn(volume, camera, mode, points=points)
         assert (image[..., 3] == 255).all()
         assert np.abs(image[..., :3] - grey(value)).max() <= BYTE, mode
 
@@ -175,8 +174,7 @@ def test_a_single_bright_voxel_peaks_as_a_tent():
 
 @pytest.mark.parametrize("spacing", [0.7, 0.1, 1 / 3, 0.9765625, 1.5])
 @pytest.mark.parametrize("view", ALONG)
-def test_along_an_axis_the_default_step_meets_every_voxel_centre(view, spacing):
-    # A chord of n voxels has n parts, whatever rounding makes of n · side / side.
+def test_along_an_axis_the_largest_value_is_that_of_a_voxel(view, spacing):
     voxels = np.random.default_rng(1).integers(0, 256, (23, 31, 29)).astype(np.uint8)
     volume = Volume(voxels, spacing=(spacing,) * 3, origin=(17.3, -211.7, 1033.1))
     axis, _ = ALONG[view]
@@ -185,7 +183,7 @@ def test_along_an_axis_the_default_step_meets_every_voxel_centre(view, spacing):
     flat = voxels.max(axis=axis)
     camera = Camera(middle, direction, up, flat.shape[::-1], spacing)
     points = [(0.0, (0, 0, 0), 0.0), (255.0, (255, 255, 255), 1.0)]
-    found = drawn(volume, camera, "mip", points=points, step=None)[..., 0]
+    found = drawn(volume, camera, "mip", points=points)[..., 0]
     # Columns run along `right`, rows against `up`; the array's rows and columns along the world's axes.
     expected = flat[:: -int(camera.up.sum()), :: int(camera.right_axis.sum())]
     np.testing.assert_array_equal(found, expected)
@@ -196,8 +194,12 @@ def test_along_an_axis_the_default_step_meets_every_voxel_centre(view, spacing):
 def test_the_ends_of_gamma_are_dvr_and_mip_bit_for_bit(view, points):
     volume = placed(noise(2), GRIDS["sheared"])
     camera = viewed(volume, view)
-    rays = reference_context.trace(volume, camera, 0.437)
-    dvr, mip = reference_context.plain_dvr(rays, points, WINDOW), reference_context.brightest(rays, points)
+    dvr, mip = (
+        reference_context.gather(
+            reference_context.follow(volume, camera, mode, step=0.437), mode, points, WINDOW
+        )
+        for mode in ("dvr", "mip")
+    )
     for gamma, mode, plain in ((-1.0, "dvr", dvr), (1.0, "mip", mip)):
         both = [
             drawn(volume, camera, name, points=points, step=0.437, **changes)
@@ -211,14 +213,15 @@ def test_the_ends_of_gamma_are_dvr_and_mip_bit_for_bit(view, points):
 def test_gamma_moves_the_picture_without_leaps(gamma):
     volume = placed(noise(3), GRIDS["oblique"])
     camera = viewed(volume, "oblique", zoom=1.6)
-    near = drawn(volume, camera, "mida", gamma=round(gamma)).astype(float)
-    there = np.abs(drawn(volume, camera, "mida", gamma=gamma) - near)
+    # γ = 1 takes the exact maximum, to which that of dense samples is close.
+    near = drawn(volume, camera, "mida", gamma=round(gamma), step=0.002).astype(float)
+    there = np.abs(drawn(volume, camera, "mida", gamma=gamma, step=0.002) - near)
     opaque = near[..., 3] > 50
     assert opaque.sum() > 200
     assert there[opaque].max() <= 3
 
 
-@pytest.mark.parametrize("mode", ["dvr", "mida", "mip", "minip", "average"])
+@pytest.mark.parametrize("mode", ["dvr", "mida"])
 def test_halving_the_step_converges(mode):
     k, j, i = np.mgrid[:20, :24, :22]
     smooth = 125 + 100 * np.sin(i / 5) * np.cos(j / 4 + k / 6)

@@ -80,6 +80,7 @@ def test_options_become_settings(volume, tmp_path, asked, given, expected):
         ("--context-transfer 10:ff0000:2", "found 2; expected between 0 and 1 per mm"),
         ("--context-transfer 10:ff0000:1,5:ff0000:1", "found 5 after 10; expected rising intensities"),
         ("--context-step 0", "context_step: found 0; expected between"),
+        ("--context-step 0.5 --context mip", "found 0.5 mm with the context 'mip'; expected no step"),
         ("--slab thick", "'thick' is not of the form MM[:max|mean|min]"),
         ("--slab 4mm:sum", "'4mm:sum' is not of the form"),
         ("--slab nan", "'nan' is not of the form"),

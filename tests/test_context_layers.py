@@ -21,7 +21,7 @@ from context_scenes import (
     settings,
     viewed,
 )
-from lumencut import Opacity, Renderer, Settings, Slab, Vessel, VesselTree, Window
+from lumencut import Camera, Opacity, Renderer, Settings, Slab, Vessel, VesselTree, Volume, Window
 
 STEP = 0.437
 GREY = (100.0, 160.0)
@@ -47,7 +47,9 @@ def scene(seed=0, grid="sheared", view="oblique", size=(37, 23)):
 
 def layered(mode="mida", opacity=RAMP, background=(10, 60, 200, 255), **changes):
     own = {name: changes.pop(name) for name in ("slab", "depth_filter") if name in changes}
-    made = settings(mode, step=STEP, **changes) if mode else Settings(context=None)
+    if reference_context.blends(mode):
+        changes["step"] = STEP
+    made = settings(mode, **changes) if mode else Settings(context=None)
     ramp = None if opacity is None else Opacity(*opacity)
     return replace(made, window=Window(*GREY), opacity=ramp, background=background, silhouettes=False, **own)
 
@@ -55,8 +57,7 @@ def layered(mode="mida", opacity=RAMP, background=(10, 60, 200, 255), **changes)
 def context_behind(frame, volume, opacity=RAMP, behind=0.0, mode="mida"):
     """The reference's rays, started where the frame's own depth and value say."""
     start = reference_context.starts(frame.value.astype(float), frame.depth.astype(float), behind, opacity)
-    rays = reference_context.trace(volume, frame.camera, STEP, start=start)
-    assert not rays.unsure.any()
+    rays = reference_context.follow(volume, frame.camera, mode, step=STEP, start=start)
     return reference_context.gather(rays, mode, POINTS, WINDOW)
 
 
@@ -147,6 +148,18 @@ def test_slabs_are_measured_in_millimetres(grid, thickness, kind):
     np.testing.assert_allclose(frame.value, expected, rtol=0, atol=2e-3)
 
 
+def test_a_slab_may_hold_any_number_of_voxels():
+    voxels = noise(16, (3, 200_000, 3))
+    volume = Volume(voxels, spacing=(1.0, 0.005, 1.0))
+    tree = VesselTree([Vessel([[0.2, 500.0, 0.3], [1.7, 500.0, 1.6]], 0.5)])
+    camera = Camera((1.0, 500.0, 1.0), (0, 1, 0), (0, 0, 1), (5, 4), 0.3)
+    for kind in ("max", "mean", "min"):
+        frame = Renderer(volume, tree).render(camera, layered(None, slab=Slab(1000, kind)))
+        expected = reference_context.slab(volume, camera, frame.depth.astype(float), 1000, kind)
+        assert np.isfinite(expected).all()
+        np.testing.assert_allclose(frame.value, expected, rtol=0, atol=2e-3)
+
+
 def test_slabs_leave_out_what_is_nan_and_are_nan_where_the_cut_surface_is():
     volume, tree, camera = scene(6, "oblique")
     volume.array[np.random.default_rng(6).random(volume.array.shape) < 0.03] = np.nan
@@ -175,7 +188,8 @@ def test_a_preview_traces_the_middle_of_each_square_of_four_pixels(mode, size):
     x = (2 * np.arange((width + 1) // 2) + 1 - width / 2) * camera.pixel_spacing
     y = (height / 2 - 2 * np.arange((height + 1) // 2) - 1) * camera.pixel_spacing
     q = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    layer = reference_context.gather(reference_context.trace(volume, camera, STEP, q=q), mode, POINTS, WINDOW)
+    rays = reference_context.follow(volume, camera, mode, step=STEP, q=q)
+    layer = reference_context.gather(rays, mode, POINTS, WINDOW)
     squares = layer.reshape(len(y), len(x), 4).repeat(2, axis=0).repeat(2, axis=1)[:height, :width]
     assert_same(image, squares.reshape(-1, 4))
 

@@ -42,14 +42,14 @@ def test_what_settings_take_is_kept():
     settings = Settings(
         slab=Slab(np.float32(4), "min"),
         context="mida",
-        context_gamma=np.int8(1),
+        context_gamma=np.int8(-1),
         context_window=Window(1, 2),
         context_transfer=TransferFunction(POINTS),
         context_step=np.float64(0.5),
         context_shading=np.True_,
         context_preview=True,
     )
-    assert (settings.context_gamma, settings.context_step, settings.slab.thickness) == (1.0, 0.5, 4.0)
+    assert (settings.context_gamma, settings.context_step, settings.slab.thickness) == (-1.0, 0.5, 4.0)
     assert (settings.context_shading, type(settings.context_shading)) == (True, bool)
     again = pickle.loads(pickle.dumps(settings))
     assert again == settings
@@ -155,6 +155,13 @@ def test_slabs_of_an_unknown_mode(mode):
         ({"context_step": np.nan}, "context_step: found NaN; expected"),
         ({"context_step": np.inf, "context": None}, "context_step: found inf; expected"),
         ({"context_step": "1"}, "context_step: found '1'; expected"),
+        (
+            {"context_step": 0.5, "context": "mip"},
+            r"context_step: found 0\.5 mm with the context 'mip'; expected no step: the values along each",
+        ),
+        ({"context_step": 3, "context": "minip"}, "found 3 mm with the context 'minip'; expected no step"),
+        ({"context_step": 3, "context": "average"}, "found 3 mm with the context 'average'; expected no"),
+        ({"context_step": 3, "context_gamma": 1}, "found 3 mm with the context 'mida'; expected no step"),
         (
             {"context_transfer": "red"},
             "context_transfer: found 'red'; expected one of 'grey', 'angio', 'bone', 'soft",

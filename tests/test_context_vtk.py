@@ -4,8 +4,10 @@ What keeps the two apart, and how it is met:
 
 * VTK's rays stop at the outermost voxel centres, and it leaves out columns of pixels near them. So every
   volume gets a rim of its smallest value, which shows nothing.
-* Along a ray VTK's samples lie elsewhere. So both sample densely, 4 or 8 times a voxel; what is left is
+* Along a ray VTK's samples lie elsewhere. So both sample densely for DVR, 4 times a voxel; what is left is
   how much values change within a part of a ray, at edges of metal most.
+* A MIP of ours is the exact maximum along the ray, VTK's that of 8 samples a voxel: darker or the same. At edges of metal VTK is up to 4 grey values brighter all the same, in fewer than one of a hundred
+  pixels; there ours is within half a grey value of the maximum that 64-bit floats give.
 * VTK computes with 15 bits and rounds down: about a grey value in a hundred samples.
 """
 
@@ -23,10 +25,12 @@ from context_scenes import settings
 from lumencut import Camera, Renderer, Volume, phantom, read_volume
 from vtk_context import Drawing
 
-#: Parts of a ray for the smallest side of a voxel.
+#: Parts of a ray for the smallest side of a voxel; ours has parts for DVR alone.
 PARTS = {"dvr": 4, "mip": 8}
 #: Largest mean and 99 % quantile of the difference of a pixel, of 255: about half more than what was found.
-TOLERANCE = {"dvr": (2.0, 5.0), "mip": (2.0, 8.0)}
+TOLERANCE = {"dvr": (2.0, 5.0), "mip": (1.0, 5.0)}
+#: By how much VTK's maxima may exceed the exact ones in 99 of 100 pixels that show something, of 255.
+EXCESS = 1.5
 VIEWS = {"front": (0.0, 0.0), "oblique": (0.4, 0.3)}
 RIM = 5
 
@@ -65,11 +69,18 @@ def both(volume, view, mode, shift=0.0, thicker=1.0):
     around, over = VIEWS[view]
     camera = Camera.anterior(volume, (161, 121)).rotated(around).rotated(over, "right")
     points, step = points_for(volume.array, mode), volume.spacing.min() / PARTS[mode]
-    ours = Renderer(volume, None).render(camera, settings(mode, points, step=step)).context / 255.0
+    chosen = settings(mode, points, step=step) if mode == "dvr" else settings(mode, points)
+    ours = Renderer(volume, None).render(camera, chosen).context / 255.0
     ours[..., :3] *= ours[..., 3:]
     changed = [(at, rgb, 1 - (1 - opacity) ** thicker) for at, rgb, opacity in points]
     moved = camera.panned(shift * camera.pixel_spacing, 0)
     return 255 * ours, 255 * Drawing(volume, moved, mode, changed, step).image()
+
+
+def excess(ours, theirs):
+    """By how much theirs is brighter in 99 of 100 pixels that show something, at most."""
+    seen = ours[..., :3].max(axis=2) > 3
+    return np.quantile((theirs - ours)[..., :3].max(axis=2)[seen], 0.99)
 
 
 def gaps(ours, theirs):
@@ -80,10 +91,12 @@ def gaps(ours, theirs):
 
 def assert_alike(volume, mode):
     for view in VIEWS:
-        gap = gaps(*both(volume, view, mode))
+        pictures = both(volume, view, mode)
+        gap = gaps(*pictures)
         assert gap.size > 500
         found = gap.mean(), np.quantile(gap, 0.99)
         assert np.less_equal(found, TOLERANCE[mode]).all(), (view, *found)
+        assert mode != "mip" or excess(*pictures) <= EXCESS, view
 
 
 @pytest.mark.parametrize("mode", PARTS)

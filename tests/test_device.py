@@ -24,6 +24,7 @@ from lumencut import (
     Renderer,
     Settings,
     SettingsError,
+    TransferFunction,
     Volume,
     Window,
     devices,
@@ -194,7 +195,8 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
 
     thread = threading.Thread(target=interrupt_once_it_runs)
     # Seconds on a GPU of software; on others one of many frames is interrupted.
-    slow = Settings(context="average", context_window=Window(350, 900), context_step=0.1)
+    clear = TransferFunction([(0, (255, 255, 255), 1e-6)])
+    slow = Settings(context="dvr", context_window=Window(350, 900), context_transfer=clear, context_step=0.1)
     large = Camera.anterior(found.scene, (300, 300))
     thread.start()
     try:

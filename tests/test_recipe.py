@@ -33,7 +33,7 @@ CHOSEN = [
     Settings.paper(opacity=Opacity(-50, 150.25), slab=Slab(4.2, "mean"), background=(1, 2, 3, 4)),
     Settings(context=None, samples=3, silhouettes=False, cost_weight=np.pi),
     Settings(context="mida", context_transfer=RAMP, context_shading=True, context_gamma=-0.3),
-    Settings(context="mip", context_transfer="bone", context_step=0.7, context_preview=True),
+    Settings(context="dvr", context_transfer="bone", context_step=0.7, context_preview=True),
 ]
 
 

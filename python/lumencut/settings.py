@@ -97,8 +97,8 @@ class Settings(CheckedSettings):
         intensity (unit of the volume, HU for CT), colour and opacity of one mm (0 to 1). Where not given:
         grey for mip, else angio.
     context_step : float, 0.001 to 1000, optional
-        Longest distance between samples along a ray (mm). Where not given: the smallest side of a voxel,
-        half of it for mida and dvr unless a preview.
+        Longest distance between the samples of mida and dvr along a ray (mm). Where not given: half the
+        smallest side of a voxel, all of it in a preview.
     context_shading : bool, default False
         Shade mida and dvr by the gradient, with light from the viewer.
     context_preview : bool, default False
