@@ -6,8 +6,9 @@ What keeps the two apart, and how it is met:
   volume gets a rim of its smallest value, which shows nothing.
 * Along a ray VTK's samples lie elsewhere. So both sample densely for DVR, 4 times a voxel; what is left is
   how much values change within a part of a ray, at edges of metal most.
-* A MIP of ours is the exact maximum along the ray, VTK's that of 8 samples a voxel: darker or the same. At edges of metal VTK is up to 4 grey values brighter all the same, in fewer than one of a hundred
-  pixels; there ours is within half a grey value of the maximum that 64-bit floats give.
+* A MIP of ours is the exact maximum along the ray, VTK's that of 8 samples a voxel: darker or the same.
+  At edges of metal VTK is up to 4 grey values brighter all the same, in fewer than one of a hundred pixels;
+  there ours is within half a grey value of the maximum that 64-bit floats give.
 * VTK computes with 15 bits and rounds down: about a grey value in a hundred samples.
 """
 
