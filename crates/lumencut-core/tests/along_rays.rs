@@ -46,8 +46,10 @@ impl Exact {
 
     /// Smallest, largest and mean value between two depths of a ray; none where it misses the volume.
     fn along(&self, origin: DVec3, direction: DVec3, chord: [f64; 2]) -> Option<[f64; 3]> {
-        let (from, toward) =
-            (self.index_from_world.transform_point3(origin), self.index_from_world.transform_vector3(direction));
+        let (from, toward) = (
+            self.index_from_world.transform_point3(origin),
+            self.index_from_world.transform_vector3(direction),
+        );
         let [mut near, mut far] = chord;
         let mut depths = Vec::new();
         for a in 0..3 {
@@ -145,12 +147,17 @@ fn assert_exact(volume: &Volume, exact: &Exact, camera: &Camera, tolerance: f64)
             let (x, y) = (camera.view_x(p % width), camera.view_y(p / width));
             let origin = camera.world_from_view(DVec3::new(x, y, 0.0));
             let [near, far] = chord(p);
-            let expected = if near > far { None } else { exact.along(origin, camera.direction(), [near, far]) };
+            let expected =
+                if near > far { None } else { exact.along(origin, camera.direction(), [near, far]) };
             match expected {
                 Some(expected) => {
                     met += 1;
                     let difference = (f64::from(*found) - expected[n]).abs();
-                    assert!(difference <= tolerance, "{reduction:?} of pixel {p}: {found} for {}", expected[n]);
+                    assert!(
+                        difference <= tolerance,
+                        "{reduction:?} of pixel {p}: {found} for {}",
+                        expected[n]
+                    );
                 }
                 None => assert!(found.is_nan(), "{reduction:?} of pixel {p}: {found} for none"),
             }
@@ -194,7 +201,10 @@ fn flat_volumes_and_rays_along_faces_have_exact_values() {
                         continue;
                     };
                     let difference = (f64::from(*found) - expected[n]).abs();
-                    assert!(difference <= 0.02, "{size:?} {toward:?} {reduction:?} pixel {p}: {found}, {expected:?}");
+                    assert!(
+                        difference <= 0.02,
+                        "{size:?} {toward:?} {reduction:?} pixel {p}: {found}, {expected:?}"
+                    );
                 }
             }
         }

@@ -3,7 +3,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
-use lumencut_core::error::{ErrorKind, Result};
+use lumencut_core::error::Result;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::math::leaps::{LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 use lumencut_core::settings::{Opacity, Settings, Slab, SlabMode, Window};
@@ -13,7 +13,7 @@ use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use lumencut_core::stages::leap::{LeapParameters, leap};
 use lumencut_core::stages::levels::levels;
 use lumencut_core::stages::silhouette::{SilhouetteParameters, silhouette};
-use lumencut_core::stages::surface::{SurfaceParameters, surface};
+use lumencut_core::stages::surface::{SurfaceScene, surface};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_scenes::pictures::picture;
 use lumencut_scenes::random_tree::random_tree;
@@ -96,7 +96,8 @@ fn the_depth_filter_keeps_constants_to_the_border() {
 fn sampled(volume: &Volume, camera: &Camera, depth: Vec<f32>, slab: Option<Slab>) -> Result<Vec<f32>> {
     let mut value = vec![0.0; depth.len()];
     let geometry = Geometry::Orthographic { camera: *camera, depth };
-    surface(&on_cpu(camera), &geometry, volume, &SurfaceParameters::new(slab, volume)?, &mut value)?;
+    let scene = SurfaceScene { geometry: &geometry, volume, blocks: None, slab };
+    surface(&on_cpu(camera), &scene, &mut value)?;
     Ok(value)
 }
 
@@ -233,18 +234,24 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
 }
 
 #[test]
-fn a_slab_of_too_many_voxels_is_refused_and_one_beyond_the_volume_is_not() {
-    let voxels = [7i16; 8];
-    let camera = view([0.0, 1.0, 0.0], [3, 2], 1e-3);
-    let thick = |side: f64, thickness: f64| {
-        let affine = DAffine3::from_scale(DVec3::splat(side));
+fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
+    // Eight voxels, of a ten thousandth of a mm or of 1 mm, in a slab of 1 m.
+    for side in [1e-4, 1.0] {
+        let voxels = [1i16, 2, 3, 4, 5, 6, 7, 8];
+        let affine = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(side),
+            Default::default(),
+            DVec3::splat(-side / 2.0),
+        );
         let volume = Volume::new(Voxels::I16(&voxels), [2; 3], [1, 2, 4], affine).unwrap();
-        let slab = Some(Slab { thickness, mode: SlabMode::Mean });
-        sampled(&volume, &camera, vec![0.0; 6], slab)
-    };
-    let error = thick(1e-6, 1000.0).unwrap_err();
-    assert_eq!((error.kind, &*error.subject), (ErrorKind::Settings, "slab thickness"));
-    assert_eq!(thick(1.0, 1000.0).unwrap(), [7.0; 6]);
+        // The middle pixel looks along k through the middle of the volume: 2.5 first, 6.5 last.
+        let camera = view([0.0, 0.0, 1.0], [3, 3], side / 10.0);
+        for (mode, expected) in [(SlabMode::Min, 2.5), (SlabMode::Mean, 4.5), (SlabMode::Max, 6.5)] {
+            let slab = Some(Slab { thickness: 1000.0, mode });
+            let value = sampled(&volume, &camera, vec![0.0; 9], slab).unwrap();
+            assert!(VALUE.is_same(value[4], expected), "{mode:?} of {side} mm: {}", value[4]);
+        }
+    }
 }
 
 #[test]

@@ -97,7 +97,9 @@ impl Surface {
         let device = recording.device;
         let (sent, is_curved, voxel) = match images.geometry {
             Geometry::Curved(curved) => (Some(send(device, curved, volume)?), true, volume.smallest_side()),
-            Geometry::Orthographic { camera, .. } => (None, false, IndexFromView::new(volume, camera).voxel()),
+            Geometry::Orthographic { camera, .. } => {
+                (None, false, IndexFromView::new(volume, camera).voxel())
+            }
         };
         device.write(&self.parameters, &[SurfaceParameters::new(slab, voxel)]);
         let places = sent.as_ref().unwrap_or(&self.nowhere);

@@ -208,7 +208,8 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
     #[inline(always)]
     fn go_on<O: Offset>(&self, walkers: &mut Walkers, offset: &mut [O; FAN]) -> Passed {
         let stretch = self.stretch;
-        let meetings = [walkers.meeting(stretch, 0), walkers.meeting(stretch, 1), walkers.meeting(stretch, 2)];
+        let meetings =
+            [walkers.meeting(stretch, 0), walkers.meeting(stretch, 1), walkers.meeting(stretch, 2)];
         let mut passed = Passed { cell: [[0.0; FAN]; 3], enter: walkers.gone, leave: stretch.end };
         for meeting in &meetings {
             for l in 0..FAN {
@@ -270,12 +271,21 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
     /// The weights of the farther corners where the rays have gone a share of the stretch.
     #[inline(always)]
     fn weights(&self, cell: &[[f32; FAN]; 3], gone: &[f32; FAN]) -> Weights<T::Real, FAN> {
-        let mut weights = [[T::Real::from_f32(0.0); FAN]; 3];
-        for a in 0..3 {
-            for l in 0..FAN {
-                let place = self.stretch.start[a][l] + self.stretch.way[a][l] * gone[l] - cell[a][l];
-                weights[a][l] = T::Real::from_f32(smaller(larger(place, 0.0), 1.0));
-            }
+        // Axis by axis: in a loop over the axes the compiler would take those for its vectors.
+        [
+            self.weights_along(0, cell, gone),
+            self.weights_along(1, cell, gone),
+            self.weights_along(2, cell, gone),
+        ]
+    }
+
+    #[inline(always)]
+    fn weights_along(&self, a: usize, cell: &[[f32; FAN]; 3], gone: &[f32; FAN]) -> [T::Real; FAN] {
+        let (start, way, cell) = (&self.stretch.start[a], &self.stretch.way[a], &cell[a]);
+        let mut weights = [T::Real::from_f32(0.0); FAN];
+        for l in 0..FAN {
+            let place = start[l] + way[l] * gone[l] - cell[l];
+            weights[l] = T::Real::from_f32(smaller(larger(place, 0.0), 1.0));
         }
         weights
     }

@@ -16,14 +16,14 @@ pub const MOST_BLOCK_LEVELS: usize = 16;
 /// the borders of vessels and bones are far above.
 const HALF_SHADED: f64 = 0.1;
 
-/// What becomes of the samples of a ray: which accumulator gathers them.
+/// What becomes of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gathering {
     /// Colours and opacities: DVR, MIDA and what lies between them and MIP.
     Blend,
-    /// The largest sample: MIP.
+    /// The largest value: MIP.
     Brightest,
-    /// The smallest sample.
+    /// The smallest value.
     Darkest,
     /// The mean.
     Average,
@@ -33,7 +33,7 @@ impl Gathering {
     /// What a mode gathers; a blend that is all maximum is the maximum alone.
     pub fn of(mode: ContextMode) -> Self {
         match mode {
-            ContextMode::Blend { gamma } if gamma < 1.0 => Self::Blend,
+            mode if mode.is_sampled() => Self::Blend,
             ContextMode::Blend { .. } => Self::Brightest,
             ContextMode::Minimum => Self::Darkest,
             ContextMode::Average => Self::Average,

@@ -159,7 +159,8 @@ mod tests {
             let corners: [f64; 8] = std::array::from_fn(|_| number() * 1000.0);
             let mut place = || [0; 3].map(|_| 0.5 + 0.5 * number());
             let (enter, leave) = (place(), place());
-            let cubic = Cubic::<f64, 1>::between(&corners.map(|c| [c]), &enter.map(|w| [w]), &leave.map(|w| [w]));
+            let cubic =
+                Cubic::<f64, 1>::between(&corners.map(|c| [c]), &enter.map(|w| [w]), &leave.map(|w| [w]));
             let steps = 4000;
             let values: Vec<f64> = (0..=steps)
                 .map(|n| {

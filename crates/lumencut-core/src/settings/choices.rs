@@ -5,7 +5,6 @@ use super::named::Named;
 use super::table::{ContextChoices, Settings};
 use super::value::{Transfer, Value};
 use crate::error::{Error, ErrorKind, Result};
-use crate::math::context_parameters::Gathering;
 
 /// What a host chose; the rest has its default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -88,7 +87,7 @@ impl ContextChoices {
     /// Refuses a step for a context that takes no samples.
     fn check_step(&self) -> Result<()> {
         let (Some(step), Some(name)) = (self.context_step, self.context) else { return Ok(()) };
-        if Gathering::of(name.mode(self.context_gamma)) == Gathering::Blend {
+        if name.mode(self.context_gamma).is_sampled() {
             return Ok(());
         }
         let found = format!("{step} mm with the context '{}'", name.name());

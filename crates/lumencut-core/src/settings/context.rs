@@ -65,6 +65,13 @@ pub enum ContextMode {
     Average,
 }
 
+impl ContextMode {
+    /// Whether samples along rays are blended, at a step; the other modes have exact values and no step.
+    pub fn is_sampled(self) -> bool {
+        matches!(self, Self::Blend { gamma } if gamma < 1.0)
+    }
+}
+
 /// How the surroundings are rendered where the cut surface shows nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Context {

@@ -132,9 +132,9 @@ settings! {
         /// (unit of the volume, HU for CT), colour and opacity of one mm (0 to 1).
         context_transfer: Option<Transfer> = None, open("grey for mip, else angio");
 
-        /// Longest distance between samples along a ray (mm).
+        /// Longest distance between the samples of mida and dvr along a ray (mm).
         context_step: Option<f64> = None, range(1e-3, 1e3, "mm"),
-            open("the smallest side of a voxel, half of it for mida and dvr unless a preview");
+            open("half the smallest side of a voxel, all of it in a preview");
 
         /// Shade mida and dvr by the gradient, with light from the viewer.
         context_shading: bool = false;

@@ -109,7 +109,8 @@ fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: 
         SlabMode::Min => (Reduction::Smallest, -HUGE),
         SlabMode::Mean => (Reduction::Mean, HUGE),
     };
-    let along = |step: f64| AlongRays { size: work.size, volume, blocks: scene.blocks, reduction, limit, step };
+    let along =
+        |step: f64| AlongRays { size: work.size, volume, blocks: scene.blocks, reduction, limit, step };
     match scene.geometry {
         Geometry::Orthographic { camera, depth } => {
             let to = IndexFromView::new(volume, camera);

@@ -117,7 +117,11 @@ const ONLY_IN_SHADERS: [(&str, &str, &str); 16] = [
     ("math/tile", "MAX_QUADS", "the size of an array of a thread"),
     ("math/trace", "RUN", "how often a thread looks at the blocks, which changes no picture"),
     ("math/window", "FAR_INTENSITY", "on the CPU a product may be infinite"),
-    ("math/cell_walk", "NO_MEETING", "no ray of a stretch meets a plane there; the CPU has the same in a private constant"),
+    (
+        "math/cell_walk",
+        "NO_MEETING",
+        "no ray of a stretch meets a plane there; the CPU has the same in a private constant",
+    ),
     ("math/cell_walk", "ALONG_PLANE", "the CPU narrows its constant for rays of the view"),
     ("math/cubic", "TINY", "a private constant of a function on the CPU"),
     ("math/reduce", "STRETCH", "how often a thread looks at the blocks, which changes no picture"),

@@ -104,7 +104,7 @@ fn starts_and_context(
     let gathered = placed.device.image("gathered", pixels, 16);
     let blocks = placed.blocks();
     let chosen = settings.context.as_ref().unwrap();
-    stage.write(placed.device, settings, chosen, (placed.volume, &placed.camera), &blocks).unwrap();
+    stage.write(placed.device, settings, chosen, (placed.volume, placed.camera), &blocks).unwrap();
     let images = ContextImages {
         size: placed.camera.size(),
         has_surface: surface.is_some(),
