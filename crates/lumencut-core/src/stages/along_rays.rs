@@ -8,21 +8,11 @@ use crate::error::Result;
 use crate::math::blocks::{Blocks, HUGE, Range};
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, smaller, smallest};
 use crate::math::ray::{IndexFromView, Lines, NONE, PACKET, Packet, RayGrid, Segment};
+use crate::math::reduce::Reduction;
 use crate::math::sampler::{Sampler, TypedSampler};
 use crate::math::sampling::Grid;
 use crate::volume::Volume;
 use crate::with_voxels;
-
-/// What is kept of the values along a ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reduction {
-    /// The largest.
-    Largest,
-    /// The smallest.
-    Smallest,
-    /// The mean, each value weighted with the length that it takes of the ray.
-    Mean,
-}
 
 /// What is kept of the values along the rays of an image.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DAffine3;
 use rayon::prelude::*;
 
-use super::along_rays::{AlongRays, NO_CHORD, RaySource, Reduction, ViewRays, along_rays};
+use super::along_rays::{AlongRays, NO_CHORD, RaySource, ViewRays, along_rays};
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
@@ -12,6 +12,7 @@ use crate::geometry::{Curved, Geometry};
 use crate::math::blocks::{Blocks, HUGE};
 use crate::math::lanes::{FAN, Kernel, dispatch};
 use crate::math::ray::{IndexFromView, Lines, RayGrid};
+use crate::math::reduce::Reduction;
 use crate::math::sampling::Grid;
 use crate::settings::{Slab, SlabMode};
 use crate::volume::{Volume, Voxel};

@@ -9,11 +9,12 @@ use crate::math::blocks::HUGE;
 use crate::math::context_parameters::Gathering;
 use crate::math::lanes::FAN;
 use crate::math::ray::{IndexFromView, NONE, RayGrid};
+use crate::math::reduce::Reduction;
 use crate::math::transfer::Colors;
 use crate::math::window::Ramp;
 use crate::settings::Context;
 use crate::stages::Work;
-use crate::stages::along_rays::{AlongRays, Reduction, ViewRays, along_rays};
+use crate::stages::along_rays::{AlongRays, ViewRays, along_rays};
 
 /// Writes the colour of the largest, or the grey of the smallest or the mean value along the rays of a raster.
 pub(super) fn reduce_raster(
