@@ -1,14 +1,16 @@
 //! Rays through the volume cell by cell: from each plane of voxel centres that a ray crosses to the next one, the volume along
 //! it is a cubic. So the largest value and the mean are those of the ray itself, not of samples.
 
-use super::cubic::{Corners, Cubic, Weights, larger as larger_real};
+use super::cubic::{Corners, Cubic, Weights};
 use super::lanes::{FAN, Kernel, larger, smaller};
-use super::ray::{PARALLEL, Stretch};
+use super::ray::Stretch;
 use super::sampling::{Grid, Offset};
 use crate::volume::{Real, Voxel};
 
 /// Longer than every stretch, as a share of it.
-const NEVER: f32 = 1e9;
+pub const NO_MEETING: f32 = 1e9;
+/// A ray that moves less than this along an axis runs along its planes (voxels).
+pub const ALONG_PLANE: f32 = 1e-9;
 
 /// What becomes of the cubics along sixteen rays.
 pub trait Fold<R> {
@@ -147,7 +149,7 @@ impl Walkers {
                 let cell = (start + 1.0) as i32 - 1;
                 walkers.cell[a][l] = cell;
                 walkers.plane[a][l] = (cell + i32::from(way > 0.0)) as f32;
-                let is_parallel = way.abs() < PARALLEL as f32;
+                let is_parallel = way.abs() < ALONG_PLANE;
                 let per_voxel = 1.0 / if is_parallel { 1.0 } else { way };
                 walkers.per_voxel[a][l] = if is_parallel { 0.0 } else { per_voxel };
             }
@@ -158,17 +160,16 @@ impl Walkers {
     /// What share of the stretch each ray has gone where it meets its next plane along an axis.
     #[inline(always)]
     fn meeting(&self, stretch: &Stretch, a: usize) -> [f32; FAN] {
-        let mut meeting = [NEVER; FAN];
+        let mut meeting = [NO_MEETING; FAN];
         for l in 0..FAN {
             let share = (self.plane[a][l] - stretch.start[a][l]) * self.per_voxel[a][l];
-            meeting[l] = if self.per_voxel[a][l] == 0.0 { NEVER } else { share };
+            meeting[l] = if self.per_voxel[a][l] == 0.0 { NO_MEETING } else { share };
         }
         meeting
     }
 }
 
-/// The cells that sixteen rays pass next, one of each: all are found before the first voxel is read, so that the processor
-/// waits for memory once and not for every cell.
+/// So many cells of each ray are found before the voxels of the first are read.
 const AHEAD: usize = 2;
 
 /// A cell of each ray, counted from the base, and the shares of the stretch at which the ray enters it and leaves it.
@@ -254,7 +255,7 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
         let (mut largest, mut top) = (corners[0], [0.0; FAN]);
         for corner in &corners[1..] {
             for l in 0..FAN {
-                largest[l] = larger_real(largest[l], corner[l]);
+                largest[l] = larger(largest[l], corner[l]);
             }
         }
         for l in 0..FAN {

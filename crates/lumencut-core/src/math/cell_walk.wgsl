@@ -25,8 +25,8 @@ fn corners_at(voxel: vec3i, sign: f32) -> Corners {
     return Corners(corners.near * sign, corners.far * sign);
 }
 
-// Follows a ray from a place on, `way` voxels far. Values of `best` that are no larger than `found.best` change nothing; with
-// `wants_mean` everything is summed up.
+// Follows a ray from a place on, `way` voxels far. It finds what is larger than `so_far`, or with `wants_mean` sums everything
+// up.
 fn walk_cells(start: Place, way: vec3f, sign: f32, limit: f32, wants_mean: bool, so_far: f32) -> Found {
     let carry = floor(start.part);
     let first = start.whole + carry;

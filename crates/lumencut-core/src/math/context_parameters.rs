@@ -2,6 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use super::reduce::Reduction;
 use super::transfer::Colors;
 use super::window::Ramp;
 use crate::settings::{Context, ContextMode, MAX_POINTS, Settings};
@@ -37,6 +38,16 @@ impl Gathering {
             ContextMode::Blend { .. } => Self::Brightest,
             ContextMode::Minimum => Self::Darkest,
             ContextMode::Average => Self::Average,
+        }
+    }
+
+    /// What is kept of the values along a ray; none where samples are blended.
+    pub fn reduction(self) -> Option<Reduction> {
+        match self {
+            Self::Blend => None,
+            Self::Brightest => Some(Reduction::Largest),
+            Self::Darkest => Some(Reduction::Smallest),
+            Self::Average => Some(Reduction::Mean),
         }
     }
 

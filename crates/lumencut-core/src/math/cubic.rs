@@ -1,7 +1,11 @@
 //! The volume along a ray within one cell. Trilinear interpolation along a straight line is a cubic; here it has the form
 //! of Bernstein, whose four coefficients are averages of interpolated values.
 
+use super::lanes::larger;
 use crate::volume::Real;
+
+/// A number that is no divisor.
+pub const TINY: f32 = 1e-30;
 
 /// The values at the corners of the cells of N rays, i fastest, then j, then k.
 pub type Corners<R, const N: usize> = [[R; N]; 8];
@@ -71,16 +75,6 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         value
     }
 
-    /// The largest value.
-    #[inline(always)]
-    pub fn largest(&self) -> [R; N] {
-        let (mut largest, summit) = (self.largest_end(), self.at_summit());
-        for n in 0..N {
-            largest[n] = larger(largest[n], summit[n]);
-        }
-        largest
-    }
-
     /// The mean value, as Simpson's rule gives it: exact for a cubic.
     #[inline(always)]
     pub fn mean(&self) -> [R; N] {
@@ -95,7 +89,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
 /// Where a cubic in Bernstein's form has its local maximum, from 0 to 1; any place where it has none there.
 #[inline(always)]
 fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
-    let (zero, one, tiny) = (R::from_f32(0.0), R::from_f32(1.0), R::from_f32(1e-30));
+    let (zero, one, tiny) = (R::from_f32(0.0), R::from_f32(1.0), R::from_f32(TINY));
     // A third of the derivative is d0·(1 − u)² + 2·d1·u·(1 − u) + d2·u²; divided by the largest of the three, so that no
     // square overflows.
     let (d0, d1, d2) = (b1 - b0, b2 - b1, b3 - b2);
@@ -121,15 +115,14 @@ fn at<R: Real>([b0, b1, b2, b3]: [R; 4], u: R) -> R {
     mix(mix(c0, c1), mix(c1, c2))
 }
 
-/// The larger of two numbers; the second where the first is NaN.
-#[inline(always)]
-pub fn larger<R: Real>(a: R, b: R) -> R {
-    if a > b { a } else { b }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The largest value of one cubic.
+    fn largest_of<R: Real>(cubic: &Cubic<R, 1>) -> R {
+        larger(cubic.largest_end()[0], cubic.at_summit()[0])
+    }
 
     /// Numbers from −1 to 1 without order.
     fn numbers() -> impl FnMut() -> f64 {
@@ -169,7 +162,7 @@ mod tests {
                 })
                 .collect();
             let largest = values.iter().copied().fold(f64::MIN, f64::max);
-            let [found] = cubic.largest();
+            let found = largest_of(&cubic);
             assert!(found >= largest - 1e-9 && found <= largest + 1e-3, "{found} for {largest}");
             let [bound] = cubic.bound();
             assert!(found <= bound + 1e-9);
@@ -189,11 +182,11 @@ mod tests {
             let cubic = Cubic::<f32, 1>::between(&corners.map(|c| [c]), &[[0.0]; 3], &[[1.0]; 3]);
             // 3·u·(1 − u)² is largest at u = 1/3.
             let expected = size * 4.0 / 9.0;
-            let [found] = cubic.largest();
+            let found = largest_of(&cubic);
             assert!((found / expected - 1.0).abs() < 1e-6, "{found} for {expected}");
         }
         let flat = Cubic::<f32, 1>::between(&[[7.0]; 8], &[[0.1]; 3], &[[0.8]; 3]);
-        assert!((flat.largest()[0] - 7.0).abs() < 1e-5 && (flat.mean()[0] - 7.0).abs() < 1e-5);
+        assert!((largest_of(&flat) - 7.0).abs() < 1e-5 && (flat.mean()[0] - 7.0).abs() < 1e-5);
     }
 
     #[test]
@@ -202,7 +195,7 @@ mod tests {
             let mut corners = [1.0f32; 8];
             corners[n] = f32::NAN;
             let cubic = Cubic::<f32, 1>::between(&corners.map(|c| [c]), &[[0.0]; 3], &[[1.0]; 3]);
-            assert!(cubic.largest()[0].is_nan() && cubic.mean()[0].is_nan(), "corner {n}");
+            assert!(largest_of(&cubic).is_nan() && cubic.mean()[0].is_nan(), "corner {n}");
         }
     }
 }

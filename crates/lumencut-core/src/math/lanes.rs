@@ -28,9 +28,9 @@ pub const FAR: f32 = 1e9;
 /// A key that no piece beats: the pixel does not take part.
 pub const SETTLED: f32 = -1e30;
 
-/// The larger of two numbers that are not NaN: one instruction, where `f32::max` needs three.
+/// The larger of two numbers, the second where the first is NaN: one instruction, where `f32::max` needs three.
 #[inline(always)]
-pub fn larger(a: f32, b: f32) -> f32 {
+pub fn larger<R: PartialOrd>(a: R, b: R) -> R {
     if a > b { a } else { b }
 }
 

@@ -7,7 +7,7 @@ use crate::geometry::Geometry;
 use crate::math::context_parameters::StartParameters;
 use crate::math::ray::{NONE, WHOLE};
 use crate::scene::SharedVolume;
-use crate::settings::{Settings, SilhouetteRule};
+use crate::settings::{Settings, SilhouetteRule, SlabMode};
 use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
 use crate::stages::context::{Surroundings, context, starts};
 use crate::stages::depth::{CutSurface, DepthImages, depth};
@@ -118,7 +118,9 @@ impl LookPass<'_> {
 
     fn surface(&self, images: &mut Images) -> Result<()> {
         let (slab, volume) = (self.settings.slab, &self.volume.volume);
-        let blocks = slab.map(|_| self.volume.blocks(self.work.stop)).transpose()?;
+        // A mean looks at everything: it has no use for blocks.
+        let searches = slab.filter(|slab| slab.mode != SlabMode::Mean);
+        let blocks = searches.map(|_| self.volume.blocks(self.work.stop)).transpose()?;
         images.value = vec![0.0; self.work.pixels()];
         let scene = SurfaceScene { geometry: self.geometry, volume, blocks, slab };
         surface(&self.work, &scene, &mut images.value)

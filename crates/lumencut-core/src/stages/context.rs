@@ -53,11 +53,10 @@ pub fn context(
 ) -> Result<()> {
     work.expect_whole(Image::Start, start);
     work.expect_whole(Image::Gathered, pixels);
-    let gather = |rays: &RayGrid, start: &[f32], pixels: &mut [[f32; 4]]| match Gathering::of(context.mode) {
-        Gathering::Blend => {
-            trace_raster(work, &Plan::new(surroundings, settings, context)?, rays, start, pixels)
-        }
-        gathering => reduce_raster(work, surroundings, (context, gathering), rays, start, pixels),
+    let reduction = Gathering::of(context.mode).reduction();
+    let gather = |rays: &RayGrid, start: &[f32], pixels: &mut [[f32; 4]]| match reduction {
+        None => trace_raster(work, &Plan::new(surroundings, settings, context)?, rays, start, pixels),
+        Some(reduction) => reduce_raster(work, surroundings, (context, reduction), rays, start, pixels),
     };
     let camera = surroundings.camera;
     if !context.preview {

@@ -11,9 +11,6 @@ const AVERAGE = 3u;
 
 override MODE: u32 = 0u;
 
-// No mean is taken over a shorter share of a ray.
-const SHORTEST: f32 = 1e-30;
-
 // One ray for each square of four pixels.
 override PREVIEW: bool = false;
 
@@ -56,7 +53,7 @@ fn ray_from(n: vec2f, start: f32) -> vec4f {
         }
         case AVERAGE: {
             let sums = sums_along(ray);
-            return grey(ramp_at(parameters.window, sums.x / max(sums.y, SHORTEST)), sums.y > 0.0);
+            return grey(ramp_at(parameters.window, sums.x / max(sums.y, TINY)), sums.y > 0.0);
         }
         default: { return trace(ray); }
     }

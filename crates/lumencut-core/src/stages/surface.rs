@@ -9,21 +9,14 @@ use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::geometry::{Curved, Geometry};
-use crate::math::blocks::{Blocks, HUGE};
+use crate::math::blocks::Blocks;
 use crate::math::lanes::{FAN, Kernel, dispatch};
 use crate::math::ray::{IndexFromView, Lines, RayGrid};
 use crate::math::reduce::Reduction;
 use crate::math::sampling::Grid;
-use crate::settings::{Slab, SlabMode};
+use crate::settings::Slab;
 use crate::volume::{Volume, Voxel};
 use crate::with_voxels;
-
-/// What a slab shows, as a number that shaders know: the mean, the largest or the smallest of its samples.
-pub const MEAN: u32 = 0;
-#[allow(missing_docs)]
-pub const LARGEST: u32 = 1;
-#[allow(missing_docs)]
-pub const SMALLEST: u32 = 2;
 
 /// The parameters of the stage, as the shader reads them.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -31,7 +24,7 @@ pub const SMALLEST: u32 = 2;
 pub struct SurfaceParameters {
     /// How far a slab reaches before and behind the cut surface (mm); 0 without one.
     pub half: f32,
-    /// What is shown of it: [`MEAN`], [`LARGEST`] or [`SMALLEST`].
+    /// What is shown of it: the code of a [`Reduction`].
     pub mode: u32,
     /// Parts of a ray of the view per mm, at least: one for each voxel along the axis where it meets most of them.
     pub per_step: f32,
@@ -43,11 +36,7 @@ impl SurfaceParameters {
     /// The parameters for a slab, or for the cut surface alone, in a view whose rays go from a voxel to the next in
     /// `voxel` mm.
     pub fn new(slab: Option<Slab>, voxel: f64) -> Self {
-        let mode = match slab.map(|slab| slab.mode) {
-            Some(SlabMode::Max) => LARGEST,
-            Some(SlabMode::Min) => SMALLEST,
-            Some(SlabMode::Mean) | None => MEAN,
-        };
+        let mode = slab.map_or(Reduction::Mean, |slab| Reduction::of(slab.mode)).code();
         let half = slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
         Self { half, mode, per_step: (1.0 / voxel) as f32, padding: 0 }
     }
@@ -105,11 +94,8 @@ fn thin(work: &Work, &SurfaceScene { geometry, volume, .. }: &SurfaceScene, valu
 /// What the slab shows where the cut surface has a `value`.
 fn thicken(work: &Work, scene: &SurfaceScene, slab: Slab, value: &[f32], thick: &mut [f32]) -> Result<()> {
     let (half, volume) = (slab.thickness / 2.0, scene.volume);
-    let (reduction, limit) = match slab.mode {
-        SlabMode::Max => (Reduction::Largest, HUGE),
-        SlabMode::Min => (Reduction::Smallest, -HUGE),
-        SlabMode::Mean => (Reduction::Mean, HUGE),
-    };
+    let reduction = Reduction::of(slab.mode);
+    let limit = reduction.no_limit();
     let along =
         |step: f64| AlongRays { size: work.size, volume, blocks: scene.blocks, reduction, limit, step };
     match scene.geometry {

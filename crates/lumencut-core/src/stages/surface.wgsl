@@ -117,7 +117,7 @@ fn thick(seen: Target, center: f32) -> f32 {
         }
     }
     if parameters.mode == MEAN {
-        return select(center, shown.sum / max(shown.share, 1e-30), shown.share > 0.0);
+        return select(center, shown.sum / max(shown.share, TINY), shown.share > 0.0);
     }
     return select(center, select(shown.best, -shown.best, parameters.mode == SMALLEST), shown.best > -HUGE);
 }

@@ -6,12 +6,14 @@ use std::f32::consts;
 
 use lumencut_core::math::blocks::Range;
 use lumencut_core::math::context_parameters::Gathering;
+use lumencut_core::math::reduce::Reduction;
 use lumencut_core::math::{
-    accumulate, blocks, hierarchy, lanes, leaps, light, projection, ray, sampling, thickness, transfer,
+    accumulate, blocks, cell_walk, cubic, hierarchy, lanes, leaps, light, projection, ray, sampling,
+    thickness, transfer,
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
-use lumencut_core::stages::{context, leap, silhouette, surface};
+use lumencut_core::stages::{context, leap, silhouette};
 use naga::{Expression, Handle, Literal, Module};
 
 use crate::cut_surface;
@@ -92,7 +94,8 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "stages/context": context::IN_FRONT;
         "stages/leap": leap::SMALLEST_LEAP;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
-        "stages/surface": surface::MEAN, surface::LARGEST, surface::SMALLEST;
+        "math/cell_walk": cell_walk::NO_MEETING, cell_walk::ALONG_PLANE;
+        "math/cubic": cubic::TINY;
     };
     let gatherings = [
         ("BLEND", Gathering::Blend),
@@ -103,11 +106,16 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
     all.extend(
         gatherings.map(|(code, gathering)| (name("stages/context", code), gathering.code().numbers())),
     );
+    let reductions =
+        [("MEAN", Reduction::Mean), ("LARGEST", Reduction::Largest), ("SMALLEST", Reduction::Smallest)];
+    all.extend(
+        reductions.map(|(code, reduction)| (name("stages/surface", code), reduction.code().numbers())),
+    );
     all
 }
 
 /// The constants that only shaders have, by room, and why.
-const ONLY_IN_SHADERS: [(&str, &str, &str); 16] = [
+const ONLY_IN_SHADERS: [(&str, &str, &str); 12] = [
     ("math/blocks", "FARTHEST", "rays of the CPU skip whole segments and count no samples"),
     ("math/projection", "SPAN_THREADS", "the threads of a group"),
     ("math/projection", "LEVEL_THREADS", "the threads of a group"),
@@ -117,16 +125,8 @@ const ONLY_IN_SHADERS: [(&str, &str, &str); 16] = [
     ("math/tile", "MAX_QUADS", "the size of an array of a thread"),
     ("math/trace", "RUN", "how often a thread looks at the blocks, which changes no picture"),
     ("math/window", "FAR_INTENSITY", "on the CPU a product may be infinite"),
-    (
-        "math/cell_walk",
-        "NO_MEETING",
-        "no ray of a stretch meets a plane there; the CPU has the same in a private constant",
-    ),
-    ("math/cell_walk", "ALONG_PLANE", "the CPU narrows its constant for rays of the view"),
-    ("math/cubic", "TINY", "a private constant of a function on the CPU"),
     ("math/reduce", "STRETCH", "how often a thread looks at the blocks, which changes no picture"),
     ("math/reduce", "FEW", "the CPU adds up in float64"),
-    ("stages/context", "SHORTEST", "the CPU compares with 0 in float64"),
     ("stages/surface", "STRETCH", "how many cells a thread follows in a row, which changes no picture"),
 ];
 

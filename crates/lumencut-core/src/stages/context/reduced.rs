@@ -5,8 +5,6 @@ use rayon::prelude::*;
 use super::plan::Surroundings;
 use crate::error::Result;
 use crate::math::accumulate::opaque;
-use crate::math::blocks::HUGE;
-use crate::math::context_parameters::Gathering;
 use crate::math::lanes::FAN;
 use crate::math::ray::{IndexFromView, NONE, RayGrid};
 use crate::math::reduce::Reduction;
@@ -20,17 +18,17 @@ use crate::stages::along_rays::{AlongRays, ViewRays, along_rays};
 pub(super) fn reduce_raster(
     work: &Work,
     &Surroundings { camera, volume, blocks }: &Surroundings,
-    (context, gathering): (&Context, Gathering),
+    (context, reduction): (&Context, Reduction),
     rays: &RayGrid,
     start: &[f32],
     pixels: &mut [[f32; 4]],
 ) -> Result<()> {
     let (colors, window) = (Colors::new(&context.transfer), Ramp::grey(context.window));
     // Beyond the last control point the colour stays the same; below the black end of the window everything is black.
-    let (reduction, limit) = match gathering {
-        Gathering::Darkest => (Reduction::Smallest, window.zero()),
-        Gathering::Average => (Reduction::Mean, HUGE),
-        Gathering::Brightest | Gathering::Blend => (Reduction::Largest, colors.last()),
+    let limit = match reduction {
+        Reduction::Largest => colors.last(),
+        Reduction::Smallest => window.zero(),
+        Reduction::Mean => reduction.no_limit(),
     };
     let to = IndexFromView::new(volume, camera);
     let chord = |p: usize| [f64::from(start[p]), f64::from(NONE)];
