@@ -46,19 +46,23 @@ def ends(window: Window) -> str:
 def rows() -> list[str]:
     """A row for each kind of angiography: its tissues in the window, and how the lumen stands out."""
     found = [
-        "| angiography | with a tree | lumen | wall | tissue | bone | background | alone | MIP | MIDA |",
-        "|" + 10 * "---|",
+        "| angiography | with a tree | lumen | wall | tissue | bone | background "
+        "| alone | for a MIP | MIP | MIDA |",
+        "|" + 11 * "---|",
     ]
     for name in window_scenes.KINDS:
         scene = window_scenes.angiography(name)
         along, alone = Window.from_data(scene.volume, scene.tree), Window.from_data(scene.volume)
+        mip = Window.for_mip(scene.volume)
         parts = shares(scene, along)
         places = " | ".join("–" if np.isnan(parts[one]) else f"{100 * parts[one]:.0f}" for one in TISSUES)
         ahead = []
         for context in ("mip", "mida"):
             lumen, beside = contrast(scene, context)
             ahead.append(f"{100 * lumen:.0f} over {100 * beside:.0f}")
-        found.append(f"| {name} | {ends(along)} | {places} | {ends(alone)} | {' | '.join(ahead)} |")
+        found.append(
+            f"| {name} | {ends(along)} | {places} | {ends(alone)} | {ends(mip)} | {' | '.join(ahead)} |"
+        )
     return found
 
 

@@ -60,6 +60,26 @@ def test_of_a_volume_alone_the_lumen_stands_out(name, context):
     assert lumen - beside >= 0.25
 
 
+@pytest.mark.parametrize("name", KINDS)
+def test_the_window_of_a_mip_begins_with_the_other_one_and_is_at_most_wider(name):
+    volume = angiography(name).volume
+    blended, mip = ends(Window.from_data(volume)), ends(Window.for_mip(volume))
+    assert mip[0] == pytest.approx(blended[0])
+    assert 1 - 1e-9 <= (mip[1] - mip[0]) / (blended[1] - blended[0]) <= 1.4 + 1e-9
+    shown = Renderer(volume).windowed(Settings(context="mip")).context_window
+    assert shown == Window.for_mip(volume)
+
+
+@needs_shared_data
+def test_stents_bone_and_lumen_are_not_the_same_white_in_a_mip(shared_data):
+    volume = read_volume(shared_data / REAL["dissection"][0])
+    camera = Camera.anterior(volume, (120, 160))
+    picture = Renderer(volume).render(camera, Settings(context="mip")).image[..., 0]
+    assert np.mean(picture == 255) < 0.1
+    white = Settings(context="mip", context_window=Window.from_data(volume))
+    assert np.mean(Renderer(volume).render(camera, white).image[..., 0] == 255) > 0.15
+
+
 @pytest.mark.parametrize("name", DARK)
 def test_a_dark_lumen_is_darker_than_its_tissue(name):
     scene = angiography(name)

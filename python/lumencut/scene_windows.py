@@ -6,7 +6,7 @@ import functools
 from dataclasses import replace
 
 from lumencut.errors import VolumeError
-from lumencut.settings import Settings
+from lumencut.settings import ContextName, Settings
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.window import Window
@@ -38,18 +38,28 @@ class SceneWindows:
         """The window of contexts of minimum and mean where the settings name none."""
         return Window.whole(self._shown)
 
+    @functools.cached_property
+    def mip(self) -> Window:
+        """The window of a MIP where the settings name none."""
+        return self.main if self._tree is not None else Window.for_mip(self._shown)
+
     def used(self, settings: Settings, *, has_tree: bool) -> Settings:
         """Return the settings with a window in the place of each that is left to the data or has a name."""
         window, context_window = map(self._known, (settings.window, settings.context_window))
         if window is None and has_tree:
             window = self.main
         if context_window is None and settings.context is not None:
-            # The smallest values and the means along rays lie far below those of the vessels.
-            low = settings.context in ("minip", "average")
-            context_window = self.whole if low else self.main
+            context_window = self._of_context(settings.context)
         if (window, context_window) == (settings.window, settings.context_window):
             return settings
         return replace(settings, window=window, context_window=context_window)
+
+    def _of_context(self, context: ContextName) -> Window:
+        """The window of a context that the settings leave to the data."""
+        if context == "mip":
+            return self.mip
+        # The smallest values and the means along rays lie far below those of the vessels.
+        return self.whole if context in ("minip", "average") else self.main
 
     def _known(self, window: Window | str | None) -> Window | None:
         """A window that is no name any more; one that a name stands for is taken from all of the volume."""

@@ -90,8 +90,8 @@ class Settings(CheckedSettings):
         Intensities that the context takes as 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT). They
         are 0 to 1 for the differences of mida, and black to white for minip and average; the named transfer
         functions lie within them. From the data they are taken whatever ``window`` is: as ``Window.whole``
-        does for minip and average, as ``Window.from_data`` does for the others. Where not given: from the
-        data.
+        does for minip and average, as ``Window.for_mip`` does for mip where there are no centerlines, as
+        ``Window.from_data`` does for the others. Where not given: from the data.
     context_transfer : {"grey", "angio", "bone", "soft-tissue"} or TransferFunction, optional
         Colours and opacities of mida, dvr and mip: grey, angio, bone, soft-tissue, or control points of
         intensity (unit of the volume, HU for CT), colour and opacity of one mm (0 to 1). Where not given:

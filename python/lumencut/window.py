@@ -69,6 +69,28 @@ class Window:
         return cls(*_lumencut.window_from_data(as_volume(volume), vessels))
 
     @classmethod
+    def for_mip(cls, volume: Any) -> Window:
+        """Return the window of :meth:`from_data` without a tree, made wider for a MIP of the volume.
+
+        White lies at the 99.9th percentile of all that is no padding, as far as the window becomes at most
+        1.4 times as wide, so that stents, bone and lumen are not the same white. A MIP has range to spare for
+        it: it shows a lumen farther above its tissue than blended contexts do.
+
+        Parameters
+        ----------
+        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+            The angiography.
+
+        Raises
+        ------
+        VolumeError
+            For what is no volume, or values beyond all windows.
+        """
+        from lumencut.volume_files.memory import as_volume
+
+        return cls(*_lumencut.mip_window(as_volume(volume)))
+
+    @classmethod
     def whole(cls, volume: Any) -> Window:
         """Return a window that shows air to lumen.
 

@@ -45,6 +45,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(views::panned, module)?)?;
     module.add_function(wrap_pyfunction!(views::positions, module)?)?;
     module.add_function(wrap_pyfunction!(windows::window_from_data, module)?)?;
+    module.add_function(wrap_pyfunction!(windows::mip_window, module)?)?;
     module.add_function(wrap_pyfunction!(windows::whole_window, module)?)?;
     module.add_function(wrap_pyfunction!(windows::full_window, module)?)?;
     module.add_function(wrap_pyfunction!(windows::mra_window, module)?)?;

@@ -26,6 +26,13 @@ pub fn window_from_data(
     })
 }
 
+/// Level and width of a window for a MIP of the volume alone.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn mip_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64, f64)> {
+    found(py, &volume, windows::of_mip)
+}
+
 /// Level and width of a window that shows air to lumen.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]

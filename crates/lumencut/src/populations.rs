@@ -13,6 +13,9 @@ const MOST_CUBES: f64 = 32768.0;
 const PADDING: f64 = 0.05;
 const DARKEST: f64 = 0.01;
 
+/// Which part of the voxels is at most as bright as the peak.
+const PEAK: f64 = 0.999;
+
 /// Voxels brighter than air are farther from the darkest than this part of the way to the brightest.
 const AIR: f64 = 0.25;
 
@@ -131,6 +134,8 @@ pub struct Populations {
     pub lumen: f64,
     /// The brightest voxels (99th percentile of what is no padding).
     pub brightest: f64,
+    /// What is brighter than nearly all of them (99.9th percentile of the same).
+    pub peak: f64,
     /// Whether vessels alone are shown, and their edges are darker than their lumen.
     pub has_edges: bool,
 }
@@ -143,6 +148,7 @@ impl Populations {
         let shown = without_padding(&mut looked.voxels);
         let first = *shown.first()?;
         let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
+        let peak = quantile(shown, PEAK)?;
         // Padding that the other values follow without a gap is air that was cut off.
         let is_air = first - darkest < GAP * (ends[1] - darkest);
         let low = if is_air { darkest } else { ends[0] };
@@ -161,7 +167,7 @@ impl Populations {
             [tissue, tissue, bright]
         };
         let has_edges = !is_body && bright - edges > EDGE * (bright - darkest);
-        Some(Self { darkest, tissue, brightest_tissue, lumen, brightest: ends[1], has_edges })
+        Some(Self { darkest, tissue, brightest_tissue, lumen, brightest: ends[1], peak, has_edges })
     }
 }
 

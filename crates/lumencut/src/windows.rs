@@ -35,6 +35,9 @@ const ALONE_BELOW: [f64; 2] = [0.4, 0.56];
 /// The least width of such a window, as a part of the way from the darkest to the brightest voxels.
 const ALONE_NARROWEST: f64 = 0.1;
 
+/// How much wider the window of a MIP becomes at most, so that stents and bone are not the same white as the lumen.
+const MIP_WIDEST: f64 = 1.4;
+
 /// Which part of what is around vessels must be inside the volume, and no padding, to stand for the tissue.
 const SHOWN: f64 = 0.5;
 
@@ -137,6 +140,23 @@ fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
 pub fn of_volume(volume: &Volume) -> Result<Window> {
+    alone(volume, |_, _| 1.0)
+}
+
+/// The window of [`of_volume`] for a MIP: its white end lies where the brightest voxels are (99.9th percentile), where
+/// that makes it at most 1.4 times as wide.
+///
+/// A MIP shows a lumen farther above its tissue than blended contexts do, as noise makes the largest value along a ray
+/// larger; so it has range to spare for what is brighter than the lumen.
+///
+/// # Errors
+/// [`ErrorKind::Volume`] for values beyond all windows.
+pub fn of_mip(volume: &Volume) -> Result<Window> {
+    alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_WIDEST))
+}
+
+/// A window of a volume alone that `wider` makes so many times as wide, from its populations, black and width.
+fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Result<Window> {
     let Some(found) = Populations::of(&mut Looked::at(volume)) else {
         return Ok(OF_NOTHING);
     };
@@ -144,7 +164,9 @@ pub fn of_volume(volume: &Volume) -> Result<Window> {
         [found.brightest_tissue, found.tissue.min(found.brightest_tissue)].map(|tissue| found.lumen - tissue);
     let least = ALONE_NARROWEST * (found.brightest - found.darkest);
     let width = (above[0] / ALONE_BELOW[0]).max(above[1] / ALONE_BELOW[1]).max(least);
-    within(found.lumen + (0.5 - ALONE_LUMEN_AT) * width, width, || from_to(found.darkest, found.brightest))
+    let black = found.lumen - ALONE_LUMEN_AT * width;
+    let width = width * wider(&found, [black, width]);
+    within(black + width / 2.0, width, || from_to(found.darkest, found.brightest))
 }
 
 /// A window that shows air to lumen: from the 1st percentile of the volume to the 99th of all that is no padding.

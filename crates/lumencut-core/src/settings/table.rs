@@ -125,7 +125,8 @@ settings! {
         ///
         /// They are 0 to 1 for the differences of mida, and black to white for minip and average; the named transfer
         /// functions lie within them. From the data they are taken whatever `window` is: as `Window.whole` does for
-        /// minip and average, as `Window.from_data` does for the others.
+        /// minip and average, as `Window.for_mip` does for mip where there are no centerlines, as `Window.from_data` does for
+        /// the others.
         context_window: Window = Window::default(), open("from the data");
 
         /// Colours and opacities of mida, dvr and mip: grey, angio, bone, soft-tissue, or control points of intensity

@@ -150,3 +150,28 @@ fn values_beyond_all_windows_are_refused_with_what_was_found() {
     let error = whole(&volume(&voxels, [2; 3])).unwrap_err();
     assert_eq!((error.kind, error.found.as_str()), (ErrorKind::Volume, "values from 3e+20 to 3e+20"));
 }
+
+#[test]
+fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
+    let tissue = |i: usize, j: usize, k: usize| 40.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32;
+    for (brightest, wider) in [(300.0, 1.0), (3000.0, MIP_WIDEST)] {
+        let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
+            (0..2, 0..2) => brightest,
+            (0..5, 0..5) => 300.0,
+            _ => tissue(i, j, k),
+        });
+        let volume = volume(&voxels, [40; 3]);
+        let [blended, mip] = [of_volume(&volume).unwrap(), of_mip(&volume).unwrap()];
+        assert!((mip.width / blended.width - wider).abs() < 1e-9, "{brightest}: {mip:?} of {blended:?}");
+        let black = |window: Window| window.level - window.width / 2.0;
+        assert!((black(mip) - black(blended)).abs() < 1e-9);
+    }
+    // Between the two limits white is the brightest itself.
+    let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
+        (0..2, 0..2) => 390.0,
+        (0..5, 0..5) => 300.0,
+        _ => tissue(i, j, k),
+    });
+    let found = of_mip(&volume(&voxels, [40; 3])).unwrap();
+    assert!((found.level + found.width / 2.0 - 390.0).abs() < 1e-9, "{found:?}");
+}
