@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::math::blocks::{Blocks, HUGE};
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::math::ray::{IndexFromView, RayGrid};
+use lumencut_core::math::ray_lines::{IndexFromView, RayGrid};
 use lumencut_core::math::reduce::Reduction;
 use lumencut_core::stages::Work;
 use lumencut_core::stages::along_rays::{AlongRays, ViewRays, along_rays};

@@ -3,7 +3,8 @@
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::context_parameters::{ContextParameters, Gathering};
-use lumencut_core::math::ray::{IndexFromView, WHOLE};
+use lumencut_core::math::ray::WHOLE;
+use lumencut_core::math::ray_lines::IndexFromView;
 use lumencut_core::math::transfer::Colors;
 use lumencut_core::settings::{Context, Settings};
 use lumencut_core::stages::context::step;

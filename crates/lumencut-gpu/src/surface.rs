@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::geometry::{Curved, Geometry};
-use lumencut_core::math::ray::IndexFromView;
+use lumencut_core::math::ray_lines::IndexFromView;
 use lumencut_core::settings::Slab;
 use lumencut_core::stages::surface::SurfaceParameters;
 use lumencut_core::volume::Volume;

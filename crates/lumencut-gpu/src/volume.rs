@@ -7,7 +7,7 @@ use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::blocks::HUGE;
-use lumencut_core::math::ray::{IndexFromView, PARALLEL};
+use lumencut_core::math::ray_lines::{IndexFromView, PARALLEL};
 use lumencut_core::scene::SharedVolume;
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Real, Volume, Voxel, Voxels};

@@ -217,21 +217,35 @@ impl<T: Voxel, F: Fold<T::Real>> CellWalk<'_, T, F> {
                 passed.leave[l] = smaller(passed.leave[l], meeting[l]);
             }
         }
-        for a in 0..3 {
-            let (low, stride) = (self.grid.last_cell()[a] - self.base[a], O::stride(self.grid, a));
-            for l in 0..FAN {
-                let inside = walkers.cell[a][l].max(0).min(low);
-                passed.cell[a][l] = inside as f32;
-                offset[l] = offset[l].plus(inside, stride);
-                let step = if walkers.per_voxel[a][l] > 0.0 { 1 } else { -1 };
-                let is_crossed = (meetings[a][l] <= passed.leave[l]) & (passed.leave[l] < stretch.end[l]);
-                let step = if is_crossed { step } else { 0 };
-                walkers.cell[a][l] += step;
-                walkers.plane[a][l] += step as f32;
-            }
-        }
+        self.step(0, &meetings[0], walkers, &mut passed, offset);
+        self.step(1, &meetings[1], walkers, &mut passed, offset);
+        self.step(2, &meetings[2], walkers, &mut passed, offset);
         walkers.gone = passed.leave;
         passed
+    }
+
+    /// Moves the rays on along an axis where they leave their cell through its plane.
+    #[inline(always)]
+    fn step<O: Offset>(
+        &self,
+        a: usize,
+        meeting: &[f32; FAN],
+        walkers: &mut Walkers,
+        passed: &mut Passed,
+        offset: &mut [O; FAN],
+    ) {
+        let (low, stride) = (self.grid.last_cell()[a] - self.base[a], O::stride(self.grid, a));
+        let (cell, plane, per_voxel) = (&mut walkers.cell[a], &mut walkers.plane[a], &walkers.per_voxel[a]);
+        for l in 0..FAN {
+            let inside = cell[l].max(0).min(low);
+            passed.cell[a][l] = inside as f32;
+            offset[l] = offset[l].plus(inside, stride);
+            let step = if per_voxel[l] > 0.0 { 1 } else { -1 };
+            let is_crossed = (meeting[l] <= passed.leave[l]) & (passed.leave[l] < self.stretch.end[l]);
+            let step = if is_crossed { step } else { 0 };
+            cell[l] += step;
+            plane[l] += step as f32;
+        }
     }
 
     /// Takes the cubics of the rays through a cell each, whose rows of corners are given.

@@ -2,7 +2,7 @@
 
 use super::accumulate::Light;
 use super::lanes::FAN;
-use super::ray::IndexFromView;
+use super::ray_lines::IndexFromView;
 use super::sampler::Sampler;
 use super::sampling::{Around, Places};
 

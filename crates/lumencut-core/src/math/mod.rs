@@ -19,6 +19,7 @@ pub mod own_pieces;
 pub mod pieces;
 pub mod projection;
 pub mod ray;
+pub mod ray_lines;
 pub mod reduce;
 pub mod sampler;
 pub mod sampling;

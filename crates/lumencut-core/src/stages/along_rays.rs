@@ -7,7 +7,8 @@ use super::Work;
 use crate::error::Result;
 use crate::math::blocks::{Blocks, HUGE, Range};
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, smaller, smallest};
-use crate::math::ray::{IndexFromView, Lines, NONE, PACKET, Packet, RayGrid, Segment};
+use crate::math::ray::{PACKET, Packet, Segment};
+use crate::math::ray_lines::{IndexFromView, Lines, RayGrid};
 use crate::math::reduce::Reduction;
 use crate::math::sampler::{Sampler, TypedSampler};
 use crate::math::sampling::Grid;
@@ -31,9 +32,6 @@ pub struct AlongRays<'a> {
     pub step: f64,
 }
 
-/// The chord of a pixel without a ray.
-pub const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
-
 /// Gives the rays of the sixteen pixels of a square, by their columns and rows.
 pub trait RaySource: Sync {
     /// The rays; those of pixels beyond the image are not asked for.
@@ -52,16 +50,7 @@ pub struct ViewRays<F> {
 
 impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
     fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines {
-        let (mut place, [mut near, mut far]) = ([[0.0; FAN]; 2], NO_CHORD.map(|end| [end; FAN]));
-        for (l, pixel) in pixels.iter().enumerate() {
-            if let Some([i, j]) = *pixel {
-                let RayGrid { size, first, next } = self.rays;
-                place[0][l] = first[0] + i as f64 * next[0];
-                place[1][l] = first[1] + j as f64 * next[1];
-                [near[l], far[l]] = (self.chord)(j * size[0] + i);
-            }
-        }
-        Lines::of_view(&self.to, &place, [near, far])
+        Lines::of_pixels(&self.to, &self.rays, pixels, |[i, j]| (self.chord)(j * self.rays.size[0] + i))
     }
 }
 

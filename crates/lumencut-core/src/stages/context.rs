@@ -16,7 +16,8 @@ use self::tile::trace_raster;
 use super::{Image, Work};
 use crate::error::Result;
 use crate::math::context_parameters::{Gathering, StartParameters};
-use crate::math::ray::{NONE, RayGrid, WHOLE};
+use crate::math::ray::{NONE, WHOLE};
+use crate::math::ray_lines::RayGrid;
 use crate::settings::{Context, Settings};
 
 /// Writes where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front

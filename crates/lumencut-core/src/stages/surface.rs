@@ -4,14 +4,14 @@ use bytemuck::{Pod, Zeroable};
 use glam::DAffine3;
 use rayon::prelude::*;
 
-use super::along_rays::{AlongRays, NO_CHORD, RaySource, ViewRays, along_rays};
+use super::along_rays::{AlongRays, RaySource, ViewRays, along_rays};
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::geometry::{Curved, Geometry};
 use crate::math::blocks::Blocks;
 use crate::math::lanes::{FAN, Kernel, dispatch};
-use crate::math::ray::{IndexFromView, Lines, RayGrid};
+use crate::math::ray_lines::{IndexFromView, Lines, NO_CHORD, RayGrid};
 use crate::math::reduce::Reduction;
 use crate::math::sampling::Grid;
 use crate::settings::Slab;

@@ -6,7 +6,8 @@ use super::plan::Plan;
 use crate::error::Result;
 use crate::math::accumulate::Blend;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch};
-use crate::math::ray::{Lines, NONE, PACKET, Packet, RayGrid, Rays};
+use crate::math::ray::{NONE, PACKET, Packet, Rays};
+use crate::math::ray_lines::{Lines, RayGrid};
 use crate::math::sampler::{Sampler, TypedSampler};
 use crate::math::trace::{Passage, RayPacket, trace};
 use crate::stages::Work;
@@ -107,16 +108,13 @@ impl Tile<'_> {
     /// The rays of one packet; those beyond the image see nothing.
     #[inline(always)]
     fn packet(&self, n: usize) -> Packet {
-        let (mut place, mut start) = ([[0.0; FAN]; 2], [f64::from(NONE); FAN]);
-        for l in 0..FAN {
-            let [i, j] = self.ray(n, l);
-            place[0][l] = self.raster.first[0] + i as f64 * self.raster.next[0];
-            place[1][l] = self.raster.first[1] + (self.place[1] + j) as f64 * self.raster.next[1];
-            if let Some(pixel) = self.pixel(n, l) {
-                start[l] = f64::from(self.start[pixel]);
-            }
-        }
         let Rays { grid, index_from_view, step } = &self.plan.rays;
-        Packet::new(grid, Lines::of_view(index_from_view, &place, [start, [f64::from(NONE); FAN]]), *step)
+        let (first, width) = (self.place[1], self.raster.size[0]);
+        let mut pixels = [None; FAN];
+        for (l, pixel) in pixels.iter_mut().enumerate() {
+            *pixel = self.pixel(n, l).map(|pixel| [pixel % width, first + pixel / width]);
+        }
+        let chord = |[i, j]: [usize; 2]| [f64::from(self.start[(j - first) * width + i]), f64::from(NONE)];
+        Packet::new(grid, Lines::of_pixels(index_from_view, self.raster, &pixels, chord), *step)
     }
 }

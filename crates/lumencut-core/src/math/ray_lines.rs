@@ -1,0 +1,139 @@
+//! Where rays are: which a view has, where they lie in the volume, and which part of each is wanted.
+
+use glam::DVec3;
+
+use super::lanes::FAN;
+use super::ray::{NEVER, NONE};
+use super::sampling::Grid;
+use crate::camera::Camera;
+use crate::volume::Volume;
+
+/// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
+pub const PARALLEL: f64 = 1e-9;
+/// The chord of a pixel without a ray.
+pub const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
+
+/// Continuous index as an affine map of view coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct IndexFromView {
+    /// The index of the origin of view space.
+    pub origin: DVec3,
+    /// Index per mm to the right.
+    pub x: DVec3,
+    /// Index per mm upwards.
+    pub y: DVec3,
+    /// Index per mm away from the viewer.
+    pub z: DVec3,
+}
+
+impl IndexFromView {
+    /// The map of one view of `volume`.
+    pub fn new(volume: &Volume, camera: &Camera) -> Self {
+        let index_from_world = volume.index_from_world();
+        Self {
+            origin: index_from_world.transform_point3(camera.center()),
+            x: index_from_world.transform_vector3(camera.right()),
+            y: index_from_world.transform_vector3(camera.up()),
+            z: index_from_world.transform_vector3(camera.direction()),
+        }
+    }
+
+    /// How far a ray goes from a voxel to the next along the axis where it meets most of them (mm).
+    pub fn voxel(&self) -> f64 {
+        1.0 / self.z.abs().max_element()
+    }
+}
+
+/// The rays of a raster: one through each of its pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct RayGrid {
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// View x and y of the first ray (mm).
+    pub first: [f64; 2],
+    /// View x from a column to the next, and y from a row to the next (mm).
+    pub next: [f64; 2],
+}
+
+impl RayGrid {
+    /// A ray for every pixel.
+    pub fn fine(camera: &Camera) -> Self {
+        let s = camera.pixel_spacing();
+        Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
+    }
+
+    /// A ray for every square of four pixels.
+    pub fn coarse(camera: &Camera) -> Self {
+        let fine = Self::fine(camera);
+        let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);
+        Self { size: fine.size.map(|n| n.div_ceil(2)), first, next: fine.next.map(|s| 2.0 * s) }
+    }
+}
+
+/// Sixteen rays, each with where it is at depth 0, where it goes, and between which depths it is wanted.
+#[derive(Clone, Debug)]
+pub struct Lines {
+    /// Continuous index at depth 0.
+    pub foot: [[f64; FAN]; 3],
+    /// What 1 mm of depth adds to it.
+    pub toward: [[f64; FAN]; 3],
+    /// The first depth (mm), and the last; no ray where they are the wrong way round.
+    pub near: [f64; FAN],
+    /// The last depth (mm).
+    pub far: [f64; FAN],
+}
+
+impl Lines {
+    /// The rays of a raster through sixteen pixels, by their columns and rows, each between the two depths that `chord`
+    /// gives (mm). Those of pixels beyond the image see nothing.
+    #[inline(always)]
+    pub fn of_pixels(
+        to: &IndexFromView,
+        rays: &RayGrid,
+        pixels: &[Option<[usize; 2]>; FAN],
+        chord: impl Fn([usize; 2]) -> [f64; 2],
+    ) -> Self {
+        let (mut place, [mut near, mut far]) = ([[0.0; FAN]; 2], NO_CHORD.map(|end| [end; FAN]));
+        for (l, pixel) in pixels.iter().enumerate() {
+            if let Some([i, j]) = *pixel {
+                place[0][l] = rays.first[0] + i as f64 * rays.next[0];
+                place[1][l] = rays.first[1] + j as f64 * rays.next[1];
+                [near[l], far[l]] = chord([i, j]);
+            }
+        }
+        Self::of_view(to, &place, [near, far])
+    }
+
+    /// The rays of a view at view coordinates `x` and `y` (mm), from depth `near` to depth `far`.
+    #[inline(always)]
+    fn of_view(to: &IndexFromView, [x, y]: &[[f64; FAN]; 2], [near, far]: [[f64; FAN]; 2]) -> Self {
+        let mut lines = Self { foot: [[0.0; FAN]; 3], toward: [[0.0; FAN]; 3], near, far };
+        for a in 0..3 {
+            for l in 0..FAN {
+                lines.foot[a][l] = to.origin[a] + to.x[a] * x[l] + to.y[a] * y[l];
+                lines.toward[a][l] = to.z[a];
+            }
+        }
+        lines
+    }
+
+    /// Keeps of each ray what lies within the volume's box.
+    #[inline(always)]
+    pub fn clip(&mut self, grid: &Grid) {
+        let last = grid.last();
+        for a in 0..3 {
+            for l in 0..FAN {
+                let (o, toward) = (self.foot[a][l], self.toward[a][l]);
+                let parallel = toward.abs() < PARALLEL;
+                let per_voxel = 1.0 / if parallel { 1.0 } else { toward };
+                let (one, other) = ((-0.5 - o) * per_voxel, (last[a] + 0.5 - o) * per_voxel);
+                let (enter, leave) = if one < other { (one, other) } else { (other, one) };
+                let outside = (o < -0.5) | (o > last[a] + 0.5);
+                let enter = if parallel { if outside { NEVER } else { -NEVER } } else { enter };
+                let leave = if parallel { NEVER } else { leave };
+                self.near[l] = if enter > self.near[l] { enter } else { self.near[l] };
+                self.far[l] = if leave < self.far[l] { leave } else { self.far[l] };
+            }
+        }
+    }
+}
