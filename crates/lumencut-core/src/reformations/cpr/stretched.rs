@@ -1,0 +1,131 @@
+//! Stretched CPR: the surface of lines through the vessel that are parallel to one direction, unrolled. Seen along these
+//! lines the surface is a curve, the vessel's projection; a row's place is the length of that curve, and lengths on the
+//! surface are true in the image. A step ds of the vessel is √(ds² − (ds·l)²) high and ds·l wide.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::row::{Anchor, Row, Run};
+use super::{Axes, SAME_PLACE, Surface, one_row};
+use crate::error::Result;
+use crate::reformations::path::Path;
+
+/// A segment that is not parallel to the lines.
+#[derive(Clone, Copy, Debug)]
+struct Strip {
+    /// The segment of the path.
+    segment: usize,
+    /// Where it begins in the image, downwards (mm), and its height.
+    y: f64,
+    height: f64,
+    /// Its unit vector in the plane across the lines.
+    down: DVec3,
+}
+
+/// The surface of the mode.
+pub(super) struct Stretched {
+    path: Arc<Path>,
+    across: DVec3,
+    strips: Vec<Strip>,
+    reach: f64,
+    middle: f64,
+}
+
+impl Stretched {
+    /// # Errors
+    /// [`crate::error::ErrorKind::Camera`] for a vessel that is parallel to the lines.
+    pub fn new(path: Arc<Path>, axes: Axes) -> Result<Self> {
+        let points = path.points();
+        // The vessel runs downwards in the image. One that rises in space is seen from the same side, upside down.
+        let rises = (points[points.len() - 1] - points[0]).dot(axes.up) > 0.0;
+        let across = if rises { -axes.across } else { axes.across };
+        let (mut strips, mut y) = (Vec::new(), 0.0);
+        for (segment, ends) in points.windows(2).enumerate() {
+            let step = (ends[1] - ends[0]).reject_from_normalized(across);
+            let height = step.length();
+            if height > f64::EPSILON * ends[0].abs().max_element().max(1.0) {
+                strips.push(Strip { segment, y, height, down: step / height });
+                y += height;
+            }
+        }
+        if strips.is_empty() {
+            return Err(one_row("stretched", "choose another angle, or another mode"));
+        }
+        let places = points.iter().map(|point| point.dot(across));
+        let [left, right] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        let (reach, middle) = ((right - left) / 2.0, (left + right) / 2.0);
+        Ok(Self { path, across, strips, reach, middle })
+    }
+
+    fn strip(&self, y: f64) -> &Strip {
+        &self.strips[self.strips.partition_point(|strip| strip.y <= y).max(1) - 1]
+    }
+
+    /// The point of the vessel at `share` of a strip, which may lie beyond its ends.
+    fn anchor(&self, strip: &Strip, share: f64) -> Anchor {
+        let [from, to] = [strip.segment, strip.segment + 1];
+        let point = self.path.points()[from] + (self.path.points()[to] - self.path.points()[from]) * share;
+        let [start, end] = [from, to].map(|i| self.path.arc_length()[i]);
+        let arc_length = start + (end - start) * share;
+        Anchor { point, x: point.dot(self.across) - self.middle, arc_length }
+    }
+
+    /// The share of strip `n` that lies nearest to a point across the lines; the first and the last strip go on.
+    fn nearest(&self, n: usize, point: DVec3) -> f64 {
+        let strip = &self.strips[n];
+        let share = (point - self.path.points()[strip.segment]).dot(strip.down) / strip.height;
+        let low = if n == 0 { f64::NEG_INFINITY } else { 0.0 };
+        let high = if n + 1 == self.strips.len() { f64::INFINITY } else { 1.0 };
+        share.clamp(low, high)
+    }
+
+    /// The anchor on strip `n` nearest to a point across the lines, how far it is away there, and its place downwards.
+    fn candidate(&self, n: usize, point: DVec3) -> (Anchor, f64, f64) {
+        let (strip, share) = (&self.strips[n], self.nearest(n, point));
+        let anchor = self.anchor(strip, share);
+        let distance = (point - anchor.point).reject_from_normalized(self.across).length();
+        (anchor, distance, strip.y + strip.height * share)
+    }
+}
+
+impl Surface for Stretched {
+    fn height(&self) -> f64 {
+        self.strips.last().map_or(0.0, |last| last.y + last.height)
+    }
+
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn row(&self, y: f64) -> Row {
+        let strip = self.strip(y);
+        let anchor = self.anchor(strip, (y - strip.y) / strip.height);
+        Row { across: self.across, ahead: self.across.cross(strip.down), runs: vec![Run::at(anchor)] }
+    }
+
+    fn image_from_world(&self, point: DVec3) -> DVec2 {
+        let x = point.dot(self.across) - self.middle;
+        let (mut best_y, mut best_distance, mut best_aside) = (0.0, f64::INFINITY, f64::INFINITY);
+        for n in 0..self.strips.len() {
+            let (anchor, distance, y) = self.candidate(n, point);
+            let aside = (x - anchor.x).abs();
+            let is_same = (distance - best_distance).abs() <= SAME_PLACE;
+            if (is_same && aside < best_aside) || (!is_same && distance < best_distance) {
+                (best_y, best_distance, best_aside) = (y, distance, aside);
+            }
+        }
+        DVec2::new(x, best_y)
+    }
+
+    fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
+        let own = self.row(y).runs[0].from;
+        let others: Vec<_> = (0..self.strips.len())
+            .map(|n| self.candidate(n, own.point))
+            .filter(|(_, distance, other)| *distance <= SAME_PLACE && (other - y).abs() > SAME_PLACE)
+            .map(|(anchor, ..)| anchor.x)
+            .collect();
+        let is_nearer = |x: f64| others.iter().any(|other| (x - other).abs() < (x - own.x).abs());
+        x.iter().map(|x| is_nearer(*x)).collect()
+    }
+}
