@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lumencut.camera import VIEWS, Camera
     from lumencut.centerline_writers import write_centerlines
     from lumencut.centerlines import read_centerlines
+    from lumencut.cpr import cpr
     from lumencut.device import Device, devices
     from lumencut.errors import (
         CameraError,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     )
     from lumencut.evaluation import Evaluation, evaluate
     from lumencut.frame import Frame
+    from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
     from lumencut.settings import Settings
     from lumencut.slab import Slab
@@ -52,6 +54,7 @@ _HOME = {
     "camera": ("VIEWS", "Camera"),
     "centerline_writers": ("write_centerlines",),
     "centerlines": ("read_centerlines",),
+    "cpr": ("cpr",),
     "device": ("Device", "devices"),
     "errors": (
         "CameraError",
@@ -69,6 +72,7 @@ _HOME = {
     ),
     "evaluation": ("Evaluation", "evaluate"),
     "frame": ("Frame",),
+    "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
     "settings": ("Settings",),
     "slab": ("Slab",),
@@ -96,6 +100,7 @@ __all__ = [
     "LumencutError",
     "MissingPackageError",
     "Opacity",
+    "Reformation",
     "Renderer",
     "SeriesError",
     "SeriesReport",
@@ -111,6 +116,7 @@ __all__ = [
     "VolumeError",
     "Window",
     "__version__",
+    "cpr",
     "devices",
     "evaluate",
     "fitted_turn",

@@ -25,6 +25,7 @@ use crate::math::projection::{Level, ProjectedLevel, Radii};
 use crate::progress::Progress;
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::Settings;
+use crate::stages::composite::{CompositeParameters, Layers, composite};
 use crate::stages::depth::{CutSurface, Sheet};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
@@ -207,6 +208,19 @@ impl CpuRenderer {
             settings,
         }
     }
+}
+
+/// The picture of values (NaN where there is none) in the window and opacity of `settings`, over their background.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for a setting outside its range.
+pub fn picture(value: &[f32], size: [usize; 2], settings: &Settings) -> Result<Vec<[u8; 4]>> {
+    settings.check()?;
+    let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };
+    let mut image = vec![[0; 4]; value.len()];
+    let layers = Layers { value, strength: None, context: None };
+    composite(&work, &CompositeParameters::new(settings), &layers, &mut image)?;
+    Ok(image)
 }
 
 /// An error for a scene of nothing.
