@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from lumencut.camera import VIEWS, Camera
     from lumencut.centerline_writers import write_centerlines
     from lumencut.centerlines import read_centerlines
-    from lumencut.cpr import cpr
     from lumencut.device import Device, devices
     from lumencut.errors import (
         CameraError,
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
     )
     from lumencut.evaluation import Evaluation, evaluate
     from lumencut.frame import Frame
+    from lumencut.planar_reformation import cpr
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
     from lumencut.settings import Settings
@@ -54,7 +54,6 @@ _HOME = {
     "camera": ("VIEWS", "Camera"),
     "centerline_writers": ("write_centerlines",),
     "centerlines": ("read_centerlines",),
-    "cpr": ("cpr",),
     "device": ("Device", "devices"),
     "errors": (
         "CameraError",
@@ -72,6 +71,7 @@ _HOME = {
     ),
     "evaluation": ("Evaluation", "evaluate"),
     "frame": ("Frame",),
+    "planar_reformation": ("cpr",),
     "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
     "settings": ("Settings",),
