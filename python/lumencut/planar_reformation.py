@@ -97,7 +97,7 @@ def cpr(
     VolumeError
         For an image that is no volume.
     """
-    _check_vessel(vessel)
+    check_vessel(vessel)
     renderer = Renderer(volume, VesselTree([vessel]), device)
     return cpr_of(
         renderer,
@@ -129,7 +129,7 @@ def cpr_of(
     normal: npt.ArrayLike | None = None,
 ) -> Reformation:
     """Return the CPR of a vessel by a renderer, whose window it has; parameters are those of :func:`cpr`."""
-    _check_vessel(vessel)
+    check_vessel(vessel)
     if not isinstance(settings, (Settings, type(None))):
         raise SettingsError("settings", type(settings).__name__, "Settings or None")
     choice(SettingsError, "mode of the CPR", mode, MODES)
@@ -160,7 +160,8 @@ def one_angle(angle: float, degrees: float | None) -> float:
     return radians("angle of the CPR", angle, degrees)
 
 
-def _check_vessel(vessel: Any) -> None:
+def check_vessel(vessel: Any) -> None:
+    """Refuse what is no vessel."""
     if not isinstance(vessel, Vessel):
         mend = "take one of its vessels, or several as one by its path()" if isinstance(vessel, VesselTree) else ""
         raise VesselTreeError("vessel of the CPR", type(vessel).__name__, "a Vessel", mend)
