@@ -74,7 +74,12 @@ def _write_scale(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
 
 def bar_length(camera: Camera) -> float:
     """Return the longest of 1, 2 and 5 times a power of ten (mm) within a quarter of the picture's width."""
-    room = camera.size[0] / 4 * camera.pixel_spacing
+    return bar_length_for(camera.size[0] * camera.pixel_spacing)
+
+
+def bar_length_for(width: float) -> float:
+    """Return the length of the bar (mm) for a picture of this width (mm)."""
+    room = width / 4
     exponent = math.floor(math.log10(room))
     # Read as decimals: 2 times 0.1 to the third is not 0.002.
     lengths = [float(f"{digit}e{exponent + more}") for more in (-1, 0, 1) for digit in (1, 2, 5)]

@@ -73,6 +73,28 @@ class Reformation:
         """Whether distances along the vessel and across it are true in the image: not so where projected."""
         return self.mode != "projected"
 
+    @property
+    def states_spacing(self) -> bool:
+        """Whether the source of the volume states the distances between voxels."""
+        volume = self._renderer.volume
+        return volume is not None and volume.states_spacing
+
+    @property
+    def states_orientation(self) -> bool:
+        """Whether the source of the volume states where the patient's left, back and head are."""
+        volume = self._renderer.volume
+        return volume is not None and volume.states_orientation
+
+    @property
+    def edge_axes(self) -> npt.NDArray[np.float64]:
+        """Unit vectors (LPS) to the right and downwards above the image, shape (2, 3)."""
+        # There the image goes on straight, and no two points of the vessel share a row.
+        corner = np.array([0.0, -2.0])
+        origin, *ends = self.world_from_pixel(corner + [[0, 0], [1, 0], [0, 1]])
+        axes = np.array(ends) - origin
+        unit: npt.NDArray[np.float64] = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+        return unit
+
     @functools.cached_property
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4); what lies outside the volume is transparent."""
@@ -185,7 +207,17 @@ class Reformation:
         core = self._core.rotated(turned)
         return Reformation(self._renderer, core, self.settings, self.mode, turned, self.pixel_spacing)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def annotated(self) -> npt.NDArray[np.uint8]:
+        """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
+
+        The labels are the mode with the angle, the window, a scale bar where distances can be measured, and,
+        unless straightened, the sides of the patient.
+        """
+        from lumencut.contact_sheet import labelled
+
+        return labelled(self)
+
+    def save(self, path: str | os.PathLike[str], *, annotate: bool = False) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.
 
         Parameters
@@ -193,6 +225,8 @@ class Reformation:
         path : path-like
             The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …) or ``.npz``, which
             holds ``image``, ``value``, ``position``, ``arc_length`` and ``folded``.
+        annotate : bool, default False
+            Write the picture with labels, see :meth:`annotated`.
 
         Raises
         ------
@@ -205,7 +239,7 @@ class Reformation:
         if path.suffix.lower() == ".npz":
             replace_whole(path, self._write_arrays)
         else:
-            save_picture(self.image, path)
+            save_picture(self.annotated() if annotate else self.image, path)
 
     def _write_arrays(self, path: Path) -> None:
         arrays: dict[str, Any] = {name: getattr(self, name) for name in _ARRAYS}

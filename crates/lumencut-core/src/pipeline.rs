@@ -18,7 +18,7 @@ pub use self::images::Images;
 pub use self::pass::{CutSurfacePass, LookPass};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
-use crate::frame::Frame;
+use crate::frame::{Frame, clear_outside};
 use crate::geometry::Geometry;
 use crate::math::lanes::Isa;
 use crate::math::projection::{Level, ProjectedLevel, Radii};
@@ -210,7 +210,7 @@ impl CpuRenderer {
     }
 }
 
-/// The picture of values (NaN where there is none) in the window and opacity of `settings`, over their background.
+/// The picture of values in the window and opacity of `settings`, over their background; transparent where the value is NaN.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a setting outside its range.
@@ -220,6 +220,7 @@ pub fn picture(value: &[f32], size: [usize; 2], settings: &Settings) -> Result<V
     let mut image = vec![[0; 4]; value.len()];
     let layers = Layers { value, strength: None, context: None };
     composite(&work, &CompositeParameters::new(settings), &layers, &mut image)?;
+    clear_outside(&mut image, value);
     Ok(image)
 }
 

@@ -138,7 +138,8 @@ impl Renderer {
         buffers(py, frame)
     }
 
-    /// The images that are asked for, by name, of a volume where the pixels of a CPR look.
+    /// The images that are asked for, by name, of a volume where the pixels of a CPR look. The picture is transparent
+    /// outside the volume.
     #[allow(clippy::needless_pass_by_value)]
     fn look<'py>(
         &self,
@@ -162,7 +163,7 @@ impl Renderer {
             pool::install(look)?.map_err(to_python)
         })?;
         say_that_the_cpu_goes_on(py, given_up)?;
-        buffers(py, frame)
+        buffers(py, py.detach(|| frame.transparent_outside()))
     }
 }
 

@@ -1,0 +1,110 @@
+"""Labels on reformations of vessels, and several of them as one picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.annotation import SMALLEST_SIDE, bar_length_for, window_words
+from lumencut.lettering import Sheet, writable
+from lumencut.orientation import sides
+from lumencut.window import Window
+
+if TYPE_CHECKING:
+    from lumencut.reformation import Reformation
+
+Picture: TypeAlias = npt.NDArray[np.uint8]
+
+#: Between the pictures of a sheet, and around them (pixels).
+_GAP = 8
+
+#: Behind and between the pictures of a sheet.
+_GROUND = (48, 48, 48, 255)
+
+
+def labelled(reformation: Reformation) -> Picture:
+    """Return a copy of the picture with labels, without any where a side is below 200 pixels.
+
+    They are the mode with the angle, the window, a scale bar where lengths can be measured, and the sides of
+    the patient: at all edges where projected, at the left and the right one where stretched. The edges of a
+    straightened vessel look to other sides in each row.
+    """
+    if min(reformation.size) < SMALLEST_SIDE:
+        return reformation.image.copy()
+    sheet, window = Sheet(reformation.image), reformation.settings.window
+    degrees = round(math.degrees(reformation.angle)) % 360
+    lines = [f"{reformation.mode} {degrees}°"]
+    lines += [window_words(window)] if isinstance(window, Window) else []
+    for n, line in enumerate(piece for line in lines for piece in sheet.wrapped(line)):
+        sheet.write(line, (sheet.margin, sheet.margin + n * sheet.line_height))
+    if reformation.states_orientation:
+        _write_sides(sheet, reformation)
+    if reformation.measurable and reformation.states_spacing:
+        spacing = reformation.pixel_spacing
+        length = bar_length_for(sheet.size[0] * spacing)
+        sheet.bar(round(length / spacing), sheet.size[1] - sheet.margin, f"{length:.10g} mm")
+    return sheet.pixels()
+
+
+def _write_sides(sheet: Sheet, reformation: Reformation) -> None:
+    if reformation.mode == "straightened":
+        return
+    (width, height), margin = sheet.size, sheet.margin
+    right, down = reformation.edge_axes
+    sheet.write(sides(-right), (margin, height / 2), "lm", is_large=True)
+    sheet.write(sides(right), (width - margin, height / 2), "rm", is_large=True)
+    if reformation.mode == "projected":
+        sheet.write(sides(-down), (width / 2, margin), "mt", is_large=True)
+        sheet.write(sides(down), (width / 2, height - margin), "mb", is_large=True)
+
+
+def contact_sheet(pictures: Sequence[Picture], titles: Sequence[str]) -> Picture:
+    """Return pictures (H, W, 4) as one, each below its title, in lines from the upper left."""
+    panels = [_titled(picture, title) for picture, title in zip(pictures, titles, strict=True)]
+    lines = _lines(panels)
+    width = max(sum(panel.shape[1] + _GAP for panel in line) for line in lines) + _GAP
+    height = sum(max(panel.shape[0] for panel in line) + _GAP for line in lines) + _GAP
+    sheet = np.full((height, width, 4), _GROUND, np.uint8)
+    top = _GAP
+    for line in lines:
+        left = _GAP
+        for panel in line:
+            sheet[top : top + panel.shape[0], left : left + panel.shape[1]] = panel
+            left += panel.shape[1] + _GAP
+        top += max(panel.shape[0] for panel in line) + _GAP
+    return sheet
+
+
+def _titled(picture: Picture, title: str) -> Picture:
+    """A picture below its title, as wide as both need."""
+    probe = Sheet(np.zeros((SMALLEST_SIDE, SMALLEST_SIDE, 4), np.uint8))
+    words = writable(title)
+    width = max(picture.shape[1], math.ceil(probe.box(words, (0, 0))[2]) + 2)
+    strip = probe.line_height + 2
+    panel = np.full((strip + picture.shape[0], width, 4), _GROUND, np.uint8)
+    opacity = picture[..., 3:] / 255
+    blended = picture[..., :3] * opacity + np.array(_GROUND[:3]) * (1 - opacity)
+    panel[strip:, : picture.shape[1], :3] = blended.round()
+    head = Sheet(np.ascontiguousarray(panel[:strip]))
+    head.write(words, (1, 1))
+    panel[:strip] = head.pixels()
+    return panel
+
+
+def _lines(panels: Sequence[Picture]) -> list[list[Picture]]:
+    """The panels in lines no wider than makes the sheet about as wide as 1.5 times its height."""
+    area = sum((panel.shape[0] + _GAP) * (panel.shape[1] + _GAP) for panel in panels)
+    widest = max(math.sqrt(1.5 * area), max(panel.shape[1] for panel in panels) + 2 * _GAP)
+    lines: list[list[Picture]] = []
+    taken = math.inf
+    for panel in panels:
+        taken += panel.shape[1] + _GAP
+        if taken > widest:
+            lines.append([])
+            taken = panel.shape[1] + 2 * _GAP
+        lines[-1].append(panel)
+    return lines
