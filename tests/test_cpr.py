@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cpr_scenes import GRIDS, helix, index_volumes, noise, trilinear, vessel, wave
-from lumencut import Slab, Volume, cpr
+from lumencut import Settings, Slab, Volume, cpr, straightened_volume
 
 MODES = ("projected", "stretched", "straightened")
 
@@ -121,7 +121,8 @@ def test_points_off_the_image_lie_where_the_documentation_says():
 def test_rows_that_several_points_share_show_the_nearest_and_are_folded():
     # Down, and up again beside it and farther away; the lowest row has the one point where it turns.
     made = cpr(blank(), vessel([[-10, 0, 10], [-10, 0, -10], [10, 6, 10]]), width=40, pixel_spacing=1)
-    assert made.folded[:-1].all() and not made.folded[-1].any()
+    assert made.folded[:-1].all()
+    assert not made.folded[-1].any()
     row = 10  # height 0: the vessel is at x = -10, y = 0 and at x = 0, y = 3.
     x = np.arange(41.0) - 20
     np.testing.assert_allclose(made.position[row, :, 0], x, atol=1e-12)
@@ -140,7 +141,7 @@ def test_a_level_stretch_is_shown_in_its_row():
 
 
 def test_a_projected_vessel_is_not_measurable():
-    assert [cpr(blank(), wave(), mode).measurable for mode in MODES] == [False, True, True]
+    assert [cpr(blank(), wave(), mode, pixel_spacing=1).measurable for mode in MODES] == [False, True, True]
 
 
 # Stretched
@@ -153,7 +154,8 @@ def test_lengths_on_a_stretched_surface_are_true():
     diagonal = np.linalg.norm(made.position[1:, 1:] - made.position[:-1, :-1], axis=2)
     np.testing.assert_allclose(across, 0.5, atol=1e-9)
     # Chords of a curved surface are a little shorter than the way along it.
-    assert (down <= 0.5 + 1e-9).all() and down.min() > 0.5 * 0.999
+    assert (down <= 0.5 + 1e-9).all()
+    assert down.min() > 0.5 * 0.999
     assert np.abs(diagonal / np.sqrt(0.5) - 1).max() < 1e-3
 
 
@@ -178,14 +180,25 @@ def test_a_stretched_helix_has_its_closed_form():
 def test_a_planar_arc_is_stretched_to_its_length():
     # A half circle in the sagittal plane: seen from the front it has no width, and it is π R long.
     a = np.linspace(0, np.pi, 2000)
-    made = cpr(blank(), vessel(np.stack([0 * a, 15 * np.sin(a), 15 * np.cos(a)], axis=1)), "stretched", pixel_spacing=0.5)
+    made = cpr(
+        blank(),
+        vessel(np.stack([0 * a, 15 * np.sin(a), 15 * np.cos(a)], axis=1)),
+        "stretched",
+        pixel_spacing=0.5,
+    )
     assert made.size == (101, int(np.pi * 15 / 0.5) + 1)
     np.testing.assert_allclose(made.arc_length, 0.5 * np.arange(made.size[1]), atol=1e-4)
 
 
 def test_a_stretched_vessel_that_returns_is_folded_where_it_was_shown_before():
     # Down and up again within one coronal plane: every line of the second half is one of the first.
-    made = cpr(blank(), vessel([[-8, 0, 10], [-8, 0, -10], [8, 0, -10], [8, 0, 10]]), "stretched", width=32, pixel_spacing=1)
+    made = cpr(
+        blank(),
+        vessel([[-8, 0, 10], [-8, 0, -10], [8, 0, -10], [8, 0, 10]]),
+        "stretched",
+        width=32,
+        pixel_spacing=1,
+    )
     assert made.size[1] == 41
     x = np.arange(33) - 16
     for row in (3, 12, 17):
@@ -284,29 +297,35 @@ def test_right_angles_inflections_and_straight_runs():
 @each_mode
 @pytest.mark.parametrize("kept", ["max", "mean", "min"])
 def test_a_slab_is_that_of_many_samples(mode, kept):
-    smooth = noise("sheared")
-    made = cpr(smooth, wave(), mode, width=14, pixel_spacing=1, slab=(3.0, kept))
-    thin = cpr(smooth, wave(), mode, width=14, pixel_spacing=1)
-    if mode == "projected":
-        direction = np.broadcast_to([0.0, 1.0, 0.0], thin.position.shape)
-    else:
-        right = thin.position[:, 1:2] - thin.position[:, :1]
-        below = thin.world_from_pixel(np.stack([np.full(thin.size[1], 7.0), np.arange(thin.size[1]) + 1e-4], 1))
-        down = below - thin.position[:, 7]
-        ahead = np.cross(right[:, 0], down)
-        ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
-        direction = np.broadcast_to(ahead[:, None], thin.position.shape)
-    steps = np.linspace(-1.5, 1.5, 1201)
-    samples = np.stack([trilinear(smooth, thin.position + direction * s) for s in steps])
+    volume = noise("sheared")
+    made = cpr(volume, wave(), mode, width=14, pixel_spacing=1, slab=(3.0, kept))
+    thin = cpr(volume, wave(), mode, width=14, pixel_spacing=1)
+    direction = through_the_surface(volume, thin)[:, None]
+    samples = np.stack(
+        [trilinear(volume, thin.position + direction * s) for s in np.linspace(-1.5, 1.5, 1201)]
+    )
     reduced = {"max": samples.max(axis=0), "mean": samples.mean(axis=0), "min": samples.min(axis=0)}[kept]
-    sure = ~np.isnan(reduced) & ~np.isnan(made.value)
-    assert sure.mean() > 0.7
-    apart = np.abs(made.value - reduced)[sure]
-    # The samples of the reference are 2.5 µm apart; extremes lie between them.
-    assert np.quantile(apart, 0.99) < 8 and np.ptp(made.value[sure]) > 500
-    if kept != "mean":
-        sign = 1 if kept == "max" else -1
-        assert (sign * (made.value - reduced)[sure] > -1.0).mean() > 0.99
+    sure = ~np.isnan(reduced)
+    assert sure.mean() > 0.6
+    # Extremes lie between the samples, which are 2.5 µm apart; the steepest slope is some 2000 per mm.
+    assert np.abs(made.value - reduced)[sure].max() < 3
+    assert np.abs(thin.value - reduced)[sure].max() > 500
+
+
+def through_the_surface(volume, made):
+    """The unit vector along which the slab of each row is thick, found without asking the image, (H, 3)."""
+    count = made.size[1]
+    if made.mode == "projected":
+        return np.tile([0.0, 1.0, 0.0], (count, 1))
+    if made.mode == "straightened":
+        space = straightened_volume(volume, wave(), 14, 1)
+        k = np.arange(count)
+        one, other = (space.world_from_index(np.stack([0 * k, 0 * k + j, k], axis=1)) for j in (0, 1))
+        return other - one
+    rows = np.arange(count)
+    middle, below = (made.world_from_pixel(np.stack([0 * rows, rows + y], axis=1)) for y in (0, 1e-5))
+    ahead = np.cross(made.position[:, 1] - made.position[:, 0], below - middle)
+    return ahead / np.linalg.norm(ahead, axis=1, keepdims=True)
 
 
 def test_outside_the_volume_pixels_are_transparent():
@@ -319,10 +338,10 @@ def test_outside_the_volume_pixels_are_transparent():
 
 
 def test_a_slab_of_the_settings_counts_and_one_by_name_comes_before_it():
-    from lumencut import Settings
-
     volume, line = noise(), wave()
     named = cpr(volume, line, slab=Slab(4.0, "max"))
-    np.testing.assert_array_equal(named.value, cpr(volume, line, settings=Settings(slab=Slab(4.0, "max"))).value)
+    np.testing.assert_array_equal(
+        named.value, cpr(volume, line, settings=Settings(slab=Slab(4.0, "max"))).value
+    )
     other = cpr(volume, line, slab=4.0, settings=Settings(slab=Slab(2.0, "min")))
     np.testing.assert_array_equal(named.value, other.value)

@@ -39,8 +39,8 @@ def labelled(reformation: Reformation) -> Picture:
     degrees = round(math.degrees(reformation.angle)) % 360
     lines = [f"{reformation.mode} {degrees}°"]
     lines += [window_words(window)] if isinstance(window, Window) else []
-    for n, line in enumerate(piece for line in lines for piece in sheet.wrapped(line)):
-        sheet.write(line, (sheet.margin, sheet.margin + n * sheet.line_height))
+    for n, piece in enumerate(piece for line in lines for piece in sheet.wrapped(line)):
+        sheet.write(piece, (sheet.margin, sheet.margin + n * sheet.line_height))
     if reformation.states_orientation:
         _write_sides(sheet, reformation)
     if reformation.measurable and reformation.states_spacing:

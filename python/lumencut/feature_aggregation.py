@@ -32,8 +32,8 @@ class FeatureAggregation:
     Attributes
     ----------
     value : numpy.ndarray, float32, shape (H, W)
-        The aggregated values, NaN where the whole half circle lies outside the volume. The middle column is the
-        vessel itself.
+        The aggregated values, NaN where the whole half circle lies outside the volume. The middle column is
+        the vessel itself.
     image : numpy.ndarray, uint8, shape (H, W, 4)
         The RGBA picture.
     arc_length : numpy.ndarray, float64, shape (H,)
@@ -45,7 +45,11 @@ class FeatureAggregation:
     """
 
     def __init__(
-        self, surface: Reformation, value: npt.NDArray[np.float32], radius: npt.NDArray[np.float64], angles: int
+        self,
+        surface: Reformation,
+        value: npt.NDArray[np.float32],
+        radius: npt.NDArray[np.float64],
+        angles: int,
     ) -> None:
         self.value, self.radius, self.angles = value, radius, angles
         self.arc_length = surface.arc_length
@@ -87,9 +91,9 @@ def cfa(
 ) -> FeatureAggregation:
     """Return one straightened picture of all that surrounds a vessel.
 
-    This is our reading of curvicircular feature aggregation (Mistelbauer et al. 2013): a pixel r mm beside the
-    vessel shows the largest, mean or smallest value on the half circle of radius r on its side, in the section
-    of its row. So whatever lies around the vessel shows without turning it, on the side where it is.
+    This is our reading of curvicircular feature aggregation (Mistelbauer et al. 2013): a pixel r mm beside
+    the vessel shows the largest, mean or smallest value on the half circle of radius r on its side, in the
+    section of its row. So whatever lies around the vessel shows without turning it, on the side where it is.
 
     Parameters
     ----------
@@ -123,7 +127,7 @@ def cfa(
         settings=settings,
     )
     columns = surface.size[0]
-    beside = (np.arange(columns) - columns // 2) * surface.pixel_spacing
+    beside = np.arange(-(columns // 2), columns // 2 + 1, dtype=np.float64) * surface.pixel_spacing
     angles = max(1, math.ceil(math.pi * beside[-1] / surface.pixel_spacing))
     value = _aggregated(feature, _turned(surface, angles))
     return FeatureAggregation(surface, value, beside, angles)

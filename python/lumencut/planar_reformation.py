@@ -53,13 +53,13 @@ def cpr(
     vessel : Vessel
         The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
     mode : {"projected", "stretched", "straightened"}, default "projected"
-        ``"projected"`` shows the vessel as it is seen from the viewer, rows by height. ``"stretched"`` unrolls
-        the surface of the lines, so that distances on it are true. ``"straightened"`` has rows by arc length
-        and the vessel in the middle column; the lines are perpendicular to it and do not turn about it
+        ``"projected"`` shows the vessel as the viewer sees it, rows by height. ``"stretched"`` unrolls the
+        surface of the lines, so that distances on it are true. ``"straightened"`` has rows by arc length and
+        the vessel in the middle column; the lines are perpendicular to it and do not turn about it
         (rotation-minimising frame, Wang et al. 2008). Only the last two are measurable.
     width : float, optional
-        Distance of the outermost columns (mm), at most; an odd number of pixels is taken. Where not given, the
-        image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
+        Distance of the outermost columns (mm), at most; an odd number of pixels is taken. Where not given,
+        the image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
     pixel_spacing : float, optional
         Side of a pixel (mm); the smallest side of a voxel where not given.
     angle : float, default 0
@@ -81,9 +81,9 @@ def cpr(
     degrees : float, optional
         The angle in degrees, in the place of ``angle``.
     normal : array_like, shape (3,), optional
-        Towards the viewer at the vessel's first point, at angle 0, where it is straightened (LPS); any length.
-        Where not given it is the viewer's side as ``up`` says it. A vessel that begins along the view is seen
-        against ``up`` there.
+        Towards the viewer at the vessel's first point, at angle 0, where it is straightened (LPS); any
+        length. Where not given it is the viewer's side as ``up`` says it. A vessel that begins along the view
+        is seen against ``up`` there.
 
     Raises
     ------
@@ -136,7 +136,11 @@ def cpr_of(
     volume = renderer.volume
     if volume is None:
         raise VolumeError("volume of the CPR", "None", "a volume to show")
-    spacing = number(CameraError, "pixel_spacing of the CPR", volume.spacing.min() if pixel_spacing is None else pixel_spacing)
+    spacing = number(
+        CameraError,
+        "pixel_spacing of the CPR",
+        volume.spacing.min() if pixel_spacing is None else pixel_spacing,
+    )
     thick = _thick(settings or Settings(), slab)
     used = renderer.windowed(replace(thick, context=None, samples=1))
     core = _lumencut.Cpr(
@@ -163,7 +167,11 @@ def one_angle(angle: float, degrees: float | None) -> float:
 def check_vessel(vessel: Any) -> None:
     """Refuse what is no vessel."""
     if not isinstance(vessel, Vessel):
-        mend = "take one of its vessels, or several as one by its path()" if isinstance(vessel, VesselTree) else ""
+        mend = (
+            "take one of its vessels, or several as one by its path()"
+            if isinstance(vessel, VesselTree)
+            else ""
+        )
         raise VesselTreeError("vessel of the CPR", type(vessel).__name__, "a Vessel", mend)
 
 

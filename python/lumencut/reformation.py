@@ -47,7 +47,13 @@ class Reformation:
     """
 
     def __init__(
-        self, renderer: Renderer, core: _lumencut.Cpr, settings: Settings, mode: str, angle: float, spacing: float
+        self,
+        renderer: Renderer,
+        core: _lumencut.Cpr,
+        settings: Settings,
+        mode: str,
+        angle: float,
+        spacing: float,
     ) -> None:
         self._renderer, self._core = renderer, core
         self.settings, self.mode, self.angle, self.pixel_spacing = settings, mode, angle, spacing
@@ -89,8 +95,7 @@ class Reformation:
     def edge_axes(self) -> npt.NDArray[np.float64]:
         """Unit vectors (LPS) to the right and downwards above the image, shape (2, 3)."""
         # There the image goes on straight, and no two points of the vessel share a row.
-        corner = np.array([0.0, -2.0])
-        origin, *ends = self.world_from_pixel(corner + [[0, 0], [1, 0], [0, 1]])
+        origin, *ends = self.world_from_pixel([[0, -2], [1, -2], [0, -1]])
         axes = np.array(ends) - origin
         unit: npt.NDArray[np.float64] = axes / np.linalg.norm(axes, axis=1, keepdims=True)
         return unit
@@ -112,7 +117,9 @@ class Reformation:
 
     def _look(self, *images: str) -> dict[str, Any]:
         volume = self._renderer.volume
-        made: dict[str, Any] = self._renderer._core.look(volume, self._core, checked(self.settings), list(images))
+        made: dict[str, Any] = self._renderer._core.look(
+            volume, self._core, checked(self.settings), list(images)
+        )
         self.timings = made.pop("timings")
         return made
 

@@ -1,4 +1,4 @@
-"""The straightened volume: a stack of sections across a vessel, and the way between its voxels and the world."""
+"""The straightened volume: sections across a vessel, and the way between its voxels and the world."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class StraightenedVolume:
     Attributes
     ----------
     volume : Volume
-        float32 voxels [k, j, i], NaN outside the volume they come from. Slice k is the section across the vessel
-        at arc length k times the spacing. Its own coordinates (mm) are those of a patient whose vessel is straight
-        and runs downwards from the origin: i to the right in a straightened CPR from the same side, j away from
-        its viewer, k downwards.
+        float32 voxels [k, j, i], NaN outside the volume they come from. Slice k is the section across the
+        vessel at arc length k times the spacing. Its own coordinates (mm) are those of a patient whose vessel
+        is straight and runs downwards from the origin: i to the right in a straightened CPR from the same
+        side, j away from its viewer, k downwards.
     """
 
     def __init__(self, volume: Volume, surface: Reformation) -> None:
@@ -54,8 +54,8 @@ class StraightenedVolume:
     def index_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the voxels (n, 3), i, j and k with fractions, of world points (n, 3) (mm, LPS).
 
-        The inverse of :meth:`world_from_index` wherever sections do not meet. A point in several sections lies
-        in that whose centre is nearest.
+        The inverse of :meth:`world_from_index` wherever sections do not meet. A point in several sections
+        lies in that whose centre is nearest.
         """
         checked = numbers(CameraError, "points of the straightened volume", points, (-1, 3))
         scale, origin = self._grid
@@ -81,7 +81,7 @@ class StraightenedVolume:
     def _grid(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Across, ahead and along (mm) from i, j and k: scale and origin."""
         affine = self.volume.world_from_index
-        # Along the vessel is downwards.
+        # The vessel runs downwards.
         return np.abs(np.diag(affine)[:3]), affine[:3, 3] * (1, 1, -1)
 
 
@@ -114,7 +114,10 @@ def straightened_volume(
         As :func:`lumencut.cpr`, and a ``CameraError`` for more than 2^29 voxels.
     """
     check_vessel(vessel)
-    renderer = Renderer(volume, VesselTree([vessel]), "cpu")
+    from lumencut.volume_files.memory import as_volume
+
+    source = as_volume(volume)
+    renderer = Renderer(source, VesselTree([vessel]), "cpu")
     surface = cpr_of(
         renderer,
         vessel,
@@ -135,7 +138,6 @@ def straightened_volume(
     side = (np.arange(columns) - columns // 2) * step
     array = np.empty((sections, columns, columns), np.float32)
     made = StraightenedVolume(Volume(array, world_from_index=_affine(step, side[0])), surface)
-    source = renderer.volume
     together = max(1, _TOGETHER // columns**2)
     for first in range(0, sections, together):
         k = np.arange(first, min(first + together, sections))

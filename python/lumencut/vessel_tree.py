@@ -195,8 +195,8 @@ class VesselTree(Value):
         Parameters
         ----------
         ids : iterable of int or str
-            Ids and names in their order along the path. Each vessel begins where the one before ends, whatever
-            the order of its own points: ends no farther apart than 0.1 mm meet, and are one point of the path.
+            Ids and names in their order along the path. Each vessel begins where the one before ends,
+            whatever the order of its own points: ends no farther apart than 0.1 mm meet, and are one point.
 
         Returns
         -------
@@ -218,7 +218,9 @@ class VesselTree(Value):
         vessels = [self[one] if isinstance(one, str) else self._vessels[self.ids(one)[0]] for one in wanted]
         for n, vessel in enumerate(vessels):
             if any(vessel is other for other in vessels[:n]):
-                raise VesselTreeError("path through the tree", f"vessel {wanted[n]!r} twice", "each vessel once")
+                raise VesselTreeError(
+                    "path through the tree", f"vessel {wanted[n]!r} twice", "each vessel once"
+                )
         lines = [(vessel.points, vessel.radius) for vessel in vessels]
         points, radius = joined(lines, [f"vessel {one!r}" for one in wanted])
         names = [vessel.name for vessel in vessels if vessel.name is not None]

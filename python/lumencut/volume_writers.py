@@ -51,9 +51,11 @@ def _write_nrrd(volume: Volume, whole: Path) -> None:
 
 
 def _write_nifti(volume: Volume, whole: Path, *, is_packed: bool) -> None:
-    import nibabel
+    from nibabel import nifti1
 
-    image = nibabel.nifti1.Nifti1Image(volume.array.T, _RAS_FROM_LPS @ volume.world_from_index)
+    # Its functions state no types.
+    library: Any = nifti1
+    image = library.Nifti1Image(volume.array.T, _RAS_FROM_LPS @ volume.world_from_index)
     image.header.set_xyzt_units("mm")
     content = image.to_bytes()
     whole.write_bytes(gzip.compress(content) if is_packed else content)

@@ -101,8 +101,8 @@ _COARSEST = 0.25
 def cpr(output: Path, volume_out: Path | None, annotate: bool, **chosen: Any) -> None:
     """Lay out the vessels of CENTERLINES with what surrounds them in VOLUME: Curved Planar Reformation.
 
-    All vessels are shown side by side, each below its id and name, unless --vessel, --exclude or --path choose
-    among them.
+    All vessels are shown side by side, each below its id and name, unless --vessel, --exclude or --path
+    choose among them.
 
     \b
     lumencut cpr ct.nii.gz centerlines.vtp -o vessels.png
@@ -124,7 +124,9 @@ def cpr(output: Path, volume_out: Path | None, annotate: bool, **chosen: Any) ->
 
     renderer = Renderer(voxels, tree, files.device)
     warn_of_window(settings, renderer)
-    made = [_reformation(renderer, vessel, title, {**chosen, "settings": settings}) for title, vessel in vessels]
+    made = [
+        _reformation(renderer, vessel, title, {**chosen, "settings": settings}) for title, vessel in vessels
+    ]
     with busy(f"writing {output.name}"):
         _write(output, made, [title for title, _ in vessels], annotate=annotate)
     say(f"{output}: {_described(made)}")
@@ -211,9 +213,11 @@ def _write(output: Path, made: list[Reformation], titles: list[str], *, annotate
 
 def _described(made: list[Reformation]) -> str:
     """What was made, in words."""
+    from lumencut.window import Window
+
     first, window = made[0], made[0].settings.window
     count = "1 vessel" if len(made) == 1 else f"{len(made)} vessels"
-    shown = f", window {window.width:.4g}/{window.level:.4g}" if hasattr(window, "level") else ""
+    shown = f", window {window.width:.4g}/{window.level:.4g}" if isinstance(window, Window) else ""
     return f"{count} {first.mode}, pixels of {first.pixel_spacing:.4g} mm{shown}"
 
 
