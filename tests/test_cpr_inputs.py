@@ -186,7 +186,14 @@ def test_labels(volume):
     assert (labelled != fine.image).any()
     small = cpr(volume, STRAIGHT)
     np.testing.assert_array_equal(small.annotated(), small.image)
-    np.testing.assert_allclose(fine.edge_axes, [[1, 0, 0], [0, 0, -1]], atol=1e-6)
+    assert fine._edges() == {"left": "R", "right": "L"}
+    assert cpr(volume, STRAIGHT, degrees=90)._edges() == {
+        "left": "A",
+        "right": "P",
+        "top": "S",
+        "bottom": "I",
+    }
+    assert cpr(volume, STRAIGHT, "straightened")._edges() == {}
 
 
 def test_contact_sheets():

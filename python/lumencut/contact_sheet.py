@@ -1,21 +1,16 @@
-"""Labels on reformations of vessels, and several of them as one picture."""
+"""Several pictures as one, each below its title."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.annotation import SMALLEST_SIDE, bar_length_for, window_words
+from lumencut.annotation import SMALLEST_SIDE
 from lumencut.lettering import Sheet, writable
-from lumencut.orientation import sides
-from lumencut.window import Window
-
-if TYPE_CHECKING:
-    from lumencut.reformation import Reformation
 
 Picture: TypeAlias = npt.NDArray[np.uint8]
 
@@ -24,42 +19,6 @@ _GAP = 8
 
 #: Behind and between the pictures of a sheet.
 _GROUND = (48, 48, 48, 255)
-
-
-def labelled(reformation: Reformation) -> Picture:
-    """Return a copy of the picture with labels, without any where a side is below 200 pixels.
-
-    They are the mode with the angle, the window, a scale bar where lengths can be measured, and the sides of
-    the patient: at all edges where projected, at the left and the right one where stretched. The edges of a
-    straightened vessel look to other sides in each row.
-    """
-    if min(reformation.size) < SMALLEST_SIDE:
-        return reformation.image.copy()
-    sheet, window = Sheet(reformation.image), reformation.settings.window
-    degrees = round(math.degrees(reformation.angle)) % 360
-    lines = [f"{reformation.mode} {degrees}°"]
-    lines += [window_words(window)] if isinstance(window, Window) else []
-    for n, piece in enumerate(piece for line in lines for piece in sheet.wrapped(line)):
-        sheet.write(piece, (sheet.margin, sheet.margin + n * sheet.line_height))
-    if reformation.states_orientation:
-        _write_sides(sheet, reformation)
-    if reformation.measurable and reformation.states_spacing:
-        spacing = reformation.pixel_spacing
-        length = bar_length_for(sheet.size[0] * spacing)
-        sheet.bar(round(length / spacing), sheet.size[1] - sheet.margin, f"{length:.10g} mm")
-    return sheet.pixels()
-
-
-def _write_sides(sheet: Sheet, reformation: Reformation) -> None:
-    if reformation.mode == "straightened":
-        return
-    (width, height), margin = sheet.size, sheet.margin
-    right, down = reformation.edge_axes
-    sheet.write(sides(-right), (margin, height / 2), "lm", is_large=True)
-    sheet.write(sides(right), (width - margin, height / 2), "rm", is_large=True)
-    if reformation.mode == "projected":
-        sheet.write(sides(-down), (width / 2, margin), "mt", is_large=True)
-        sheet.write(sides(down), (width / 2, height - margin), "mb", is_large=True)
 
 
 def contact_sheet(pictures: Sequence[Picture], titles: Sequence[str]) -> Picture:

@@ -19,6 +19,7 @@ from lumencut.errors import CameraError
 from lumencut.frame import picture_as_png, save_picture
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
+from lumencut.window import Window
 
 #: What a file of arrays holds.
 _ARRAYS = ("image", "value", "position", "arc_length", "folded")
@@ -78,27 +79,6 @@ class Reformation:
     def measurable(self) -> bool:
         """Whether distances along the vessel and across it are true in the image: not so where projected."""
         return self.mode != "projected"
-
-    @property
-    def states_spacing(self) -> bool:
-        """Whether the source of the volume states the distances between voxels."""
-        volume = self._renderer.volume
-        return volume is not None and volume.states_spacing
-
-    @property
-    def states_orientation(self) -> bool:
-        """Whether the source of the volume states where the patient's left, back and head are."""
-        volume = self._renderer.volume
-        return volume is not None and volume.states_orientation
-
-    @property
-    def edge_axes(self) -> npt.NDArray[np.float64]:
-        """Unit vectors (LPS) to the right and downwards above the image, shape (2, 3)."""
-        # There the image goes on straight, and no two points of the vessel share a row.
-        origin, *ends = self.world_from_pixel([[0, -2], [1, -2], [0, -1]])
-        axes = np.array(ends) - origin
-        unit: npt.NDArray[np.float64] = axes / np.linalg.norm(axes, axis=1, keepdims=True)
-        return unit
 
     @functools.cached_property
     def image(self) -> npt.NDArray[np.uint8]:
@@ -170,9 +150,9 @@ class Reformation:
     def pixel_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return where the image shows world points: the inverse of :meth:`world_from_pixel` off the folds.
 
-        A point that the image shows several times lies where it is nearest to the vessel. One that it does not
-        show lies, projected, where the viewer sees it; stretched, where the surface of the image is nearest;
-        straightened, in that of the sections through the point whose centre is nearest.
+        A point that the image shows several times lies where it is nearest to the vessel. One that it does
+        not show lies, projected, where the viewer sees it; stretched, where the surface of the image is
+        nearest; straightened, in that of the sections through the point whose centre is nearest.
 
         Parameters
         ----------
@@ -220,9 +200,26 @@ class Reformation:
         The labels are the mode with the angle, the window, a scale bar where distances can be measured, and,
         unless straightened, the sides of the patient.
         """
-        from lumencut.contact_sheet import labelled
+        from lumencut.annotation import window_words, with_labels
 
-        return labelled(self)
+        volume, window = self._renderer.volume, self.settings.window
+        words = [f"{self.mode} {round(math.degrees(self.angle)) % 360}°"]
+        words += [window_words(window)] if isinstance(window, Window) else []
+        letters = self._edges() if volume is not None and volume.states_orientation else {}
+        has_scale = self.measurable and volume is not None and volume.states_spacing
+        return with_labels(self.image, words, letters, self.pixel_spacing if has_scale else None)
+
+    def _edges(self) -> dict[str, str]:
+        """The sides of the patient that edges look to, as far as they do so in all rows."""
+        from lumencut.orientation import sides
+
+        if self.mode == "straightened":
+            return {}
+        # Above the image it goes on straight, and no two points of the vessel share a row.
+        origin, *ends = self.world_from_pixel([[0, -2], [1, -2], [0, -1]])
+        right, down = np.array(ends) - origin
+        letters = {"left": sides(-right), "right": sides(right)}
+        return letters | ({"top": sides(-down), "bottom": sides(down)} if self.mode == "projected" else {})
 
     def save(self, path: str | os.PathLike[str], *, annotate: bool = False) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.

@@ -9,6 +9,8 @@ mod projected;
 mod row;
 mod straightened;
 mod stretched;
+mod surface;
+mod view;
 
 use std::sync::Arc;
 
@@ -19,6 +21,8 @@ use self::projected::Projected;
 use self::row::Row;
 pub use self::straightened::Straightened;
 use self::stretched::Stretched;
+use self::surface::Surface;
+pub use self::view::View;
 use super::path::Path;
 use crate::camera::{MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
 use crate::error::{Error, ErrorKind, Result};
@@ -30,9 +34,6 @@ const MARGIN: f64 = 25.0;
 
 /// A length that is a whole number of pixels but for rounding is that many.
 const WHOLE: f64 = 1e-9;
-
-/// Two places nearer than this are one (mm).
-pub(crate) const SAME_PLACE: f64 = 1e-6;
 
 /// How the lines across a vessel are laid out as an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,79 +52,6 @@ impl Named for CprMode {
         ("stretched", Self::Stretched),
         ("straightened", Self::Straightened),
     ];
-}
-
-/// From where a vessel is looked at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
-    /// Upwards in space; any length.
-    pub up: DVec3,
-    /// By how much the viewer moves to the right (radians): around `up`, or around the vessel where it is straightened.
-    pub angle: f64,
-    /// Towards the viewer at the vessel's first point where it is straightened; any length. `None` is the front.
-    pub normal: Option<DVec3>,
-}
-
-/// Unit vectors of a view, perpendicular to each other.
-#[derive(Clone, Copy, Debug)]
-struct Axes {
-    /// To the right in the image.
-    across: DVec3,
-    /// Upwards.
-    up: DVec3,
-    /// From the viewer into the scene.
-    ahead: DVec3,
-}
-
-/// The tangent of the smallest angle between two vectors that are not taken to be parallel.
-const PARALLEL: f64 = 0.05;
-
-impl View {
-    /// The view at angle 0: along the patient's +y axis, from the front, as far as that is perpendicular to up; from below
-    /// where up runs along that axis, as axial slices are shown.
-    fn unturned(&self) -> Result<Axes> {
-        let up = unit("up of the CPR", self.up)?;
-        let along = up.y.abs() * PARALLEL > up.x.hypot(up.z);
-        let ahead = if along { DVec3::Z } else { DVec3::Y }.reject_from_normalized(up).normalize();
-        Ok(Axes { across: ahead.cross(up), up, ahead })
-    }
-
-    /// The view turned by its angle around up.
-    fn turned(&self) -> Result<Axes> {
-        let Axes { across, up, ahead } = self.unturned()?;
-        let (sine, cosine) = self.checked_angle()?.sin_cos();
-        Ok(Axes { across: across * cosine + ahead * sine, up, ahead: ahead * cosine - across * sine })
-    }
-
-    fn checked_angle(&self) -> Result<f64> {
-        if self.angle.is_finite() {
-            return Ok(self.angle);
-        }
-        Err(Error::new(ErrorKind::Camera, "angle of the CPR", format!("{}", self.angle), "a finite angle"))
-    }
-}
-
-/// A vector as one of length 1.
-fn unit(subject: &str, vector: DVec3) -> Result<DVec3> {
-    let largest = vector.abs().max_element();
-    let unit = if largest.is_finite() && largest > 0.0 { (vector / largest).try_normalize() } else { None };
-    unit.ok_or_else(|| {
-        Error::new(ErrorKind::Camera, subject, format!("{vector}"), "a finite vector that is not zero")
-    })
-}
-
-/// The surface of a mode, as an image without pixels.
-trait Surface: Send + Sync {
-    /// The height of the image (mm).
-    fn height(&self) -> f64;
-    /// How far the vessel reaches to each side of the middle (mm).
-    fn reach(&self) -> f64;
-    /// What lies at `y`, also above and below the image.
-    fn row(&self, y: f64) -> Row;
-    /// Where a world point lies in the image.
-    fn image_from_world(&self, point: DVec3) -> DVec2;
-    /// Whether each of the pixels at `y` and at these places is folded.
-    fn folded(&self, y: f64, x: &[f64]) -> Vec<bool>;
 }
 
 /// One vessel laid out as an image. Clones and turned ones share what was found of the vessel.
@@ -285,12 +213,6 @@ fn checked_size(size: [f64; 2]) -> Result<[usize; 2]> {
     }
     // Whole numbers within the limits.
     Ok(size.map(|side| side as usize))
-}
-
-/// The error for a vessel that is no more than one row high.
-fn one_row(mode: &str, mend: &str) -> Error {
-    let found = format!("a vessel that lies in one row of the {mode} CPR");
-    Error::new(ErrorKind::Camera, "up of the CPR", found, "a vessel of several rows").mend(mend)
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::row::{Anchor, Row, Run};
-use super::{PARALLEL, SAME_PLACE, Surface, View, unit};
+use super::surface::{SAME_PLACE, Surface};
+use super::view::{PARALLEL, View, unit};
 use crate::error::{Error, ErrorKind, Result};
 use crate::reformations::frames::{Frames, MovingFrame};
 use crate::reformations::path::Path;

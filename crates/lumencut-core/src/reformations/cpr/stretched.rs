@@ -7,7 +7,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::row::{Anchor, Row, Run};
-use super::{Axes, SAME_PLACE, Surface, one_row};
+use super::surface::{SAME_PLACE, Surface, one_row};
+use super::view::Axes;
 use crate::error::Result;
 use crate::reformations::path::Path;
 
