@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -10,6 +12,7 @@ from PIL import Image
 import lumencut
 from lumencut import cpr, read_centerlines, read_volume
 from lumencut.cli import main
+from lumencut.planar_reformation import MODES
 from scene_files import bent_line, write_lines, write_volume
 
 
@@ -32,6 +35,10 @@ def files(tmp_path_factory):
 
 def picture(path):
     return np.asarray(Image.open(path))
+
+
+def test_the_modes_are_those_of_the_library():
+    assert importlib.import_module("lumencut.cli.cpr").MODES == MODES
 
 
 def test_one_vessel(files, tmp_path):

@@ -22,7 +22,10 @@ _GROUND = (48, 48, 48, 255)
 
 
 def contact_sheet(pictures: Sequence[Picture], titles: Sequence[str]) -> Picture:
-    """Return pictures (H, W, 4) as one, each below its title, in lines from the upper left."""
+    """Return pictures (H, W, 4) as one, each below its title, in lines from the upper left.
+
+    Of a long title the part before the last comma is cut.
+    """
     panels = [_titled(picture, title) for picture, title in zip(pictures, titles, strict=True)]
     lines = _lines(panels)
     width = max(sum(panel.shape[1] + _GAP for panel in line) for line in lines) + _GAP
@@ -41,7 +44,8 @@ def contact_sheet(pictures: Sequence[Picture], titles: Sequence[str]) -> Picture
 def _titled(picture: Picture, title: str) -> Picture:
     """A picture below its title, as wide as both need."""
     probe = Sheet(np.zeros((SMALLEST_SIDE, SMALLEST_SIDE, 4), np.uint8))
-    words = writable(title)
+    name, comma, rest = title.rpartition(", ")
+    words = f"{writable(name)}{comma}{writable(rest)}"
     width = max(picture.shape[1], math.ceil(probe.box(words, (0, 0))[2]) + 2)
     strip = probe.line_height + 2
     panel = np.full((strip + picture.shape[0], width, 4), _GROUND, np.uint8)
