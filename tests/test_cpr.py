@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from cpr_scenes import GRIDS, helix, index_volumes, noise, trilinear, vessel, wave
-from lumencut import Settings, Slab, Volume, cpr, straightened_volume
+from lumencut import CameraError, Settings, Slab, Volume, cpr, straightened_volume
+from scenes import lattice, nearly_along_y, of_few_points
 
 MODES = ("projected", "stretched", "straightened")
 
@@ -289,6 +290,37 @@ def test_right_angles_inflections_and_straight_runs():
         assert abs(across[int(at / 0.25)] @ direction) < 1e-9
     assert np.linalg.norm(np.diff(across, axis=0), axis=1).max() < 0.6
     assert not made.folded[:, made.size[0] // 2].any()
+
+
+# Odd vessels
+
+
+@each_mode
+@pytest.mark.parametrize("make", [lattice, nearly_along_y, of_few_points])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_any_vessel_has_a_layout_or_lies_in_one_row(mode, make, seed):
+    """Vessels that turn straight back, repeat points, run along the view or have two points."""
+    shown = 0
+    for line in make(seed):
+        if line.length == 0:
+            continue
+        try:
+            made = cpr(blank(), line, mode, width=12, pixel_spacing=0.7)
+        except CameraError as error:
+            assert mode != "straightened"
+            assert "lies in one row" in str(error)
+            continue
+        assert np.isfinite(made.position).all()
+        assert made.arc_length.min() >= 0
+        assert made.arc_length.max() <= line.length + 1e-6
+        j, i = np.nonzero(~made.folded)
+        pixels = np.stack([i, j], axis=1).astype(float)
+        back = made.pixel_from_world(made.position[j, i])
+        # A line on the border of a fold belongs to both of its rows.
+        off = np.abs(back - pixels).max(axis=1, initial=0) > 1e-5
+        assert off.mean() < 0.02 if len(off) else True
+        shown += 1
+    assert shown > 3
 
 
 # Slabs

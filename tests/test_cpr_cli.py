@@ -72,7 +72,8 @@ def test_arrays_and_the_straightened_volume(files, tmp_path):
     )
     result = invoke(volume, line, "-o", tmp_path / "one.npz", "--volume-out", tmp_path / "one.nrrd", *words)
     assert (result.exit_code, result.stderr) == (0, "")
-    arrays = np.load(tmp_path / "one.npz")
+    with np.load(tmp_path / "one.npz") as file:
+        arrays = dict(file)
     vessel = read_centerlines(line, "lps")[0]
     made = cpr(read_volume(volume), vessel, "stretched", 12, 0.5, slab=(2, "mean"), smoothing=1)
     np.testing.assert_array_equal(arrays["value"], made.value)

@@ -61,6 +61,7 @@ def volume():
         ),
         ({"mode": "straightened", "normal": (0, 0, 1)}, CameraError, "normal of the CPR.*across the vessel"),
         ({"mode": "straightened", "normal": (0, 0, 0)}, CameraError, "normal of the CPR"),
+        ({"normal": (0, -1, 0)}, CameraError, "normal of the CPR: found a normal with the mode 'projected'"),
         ({"slab": 0}, SettingsError, "slab thickness: found 0 mm; expected a thickness above 0 mm"),
         ({"slab": -1}, SettingsError, "slab thickness"),
         ({"slab": (3, "median")}, SettingsError, "slab mode"),
@@ -169,7 +170,8 @@ def test_files(volume, tmp_path):
     made = cpr(volume, STRAIGHT)
     made.save(tmp_path / "one.png")
     made.save(tmp_path / "one.npz")
-    arrays = np.load(tmp_path / "one.npz")
+    with np.load(tmp_path / "one.npz") as file:
+        arrays = dict(file)
     assert sorted(arrays) == ["arc_length", "folded", "image", "position", "value"]
     np.testing.assert_array_equal(arrays["position"], made.position)
     with pytest.raises(FormatError, match="ending"):
@@ -376,5 +378,6 @@ def test_files_of_features(volume, tmp_path):
     made = cfa(volume, STRAIGHT, 5, pixel_spacing=1)
     for name in ("one.png", "one.npz"):
         made.save(tmp_path / name)
-    assert sorted(np.load(tmp_path / "one.npz")) == ["arc_length", "image", "radius", "value"]
+    with np.load(tmp_path / "one.npz") as arrays:
+        assert sorted(arrays) == ["arc_length", "image", "radius", "value"]
     assert (made.image[np.isnan(made.value)] == 0).all()

@@ -120,13 +120,10 @@ class Cpr:
     def __new__(
         cls,
         points: npt.NDArray[np.float64],
-        mode: str,
-        up: npt.NDArray[np.float64],
-        angle: float,
-        normal: npt.NDArray[np.float64] | None,
-        width: float | None,
-        pixel_spacing: float,
         smoothing: float,
+        mode: str,
+        view: tuple[npt.NDArray[np.float64], float, npt.NDArray[np.float64] | None],
+        pixels: tuple[float | None, float],
     ) -> Cpr: ...
     @property
     def size(self) -> list[int]: ...

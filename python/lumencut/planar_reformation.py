@@ -141,18 +141,18 @@ def cpr_of(
         "pixel_spacing of the CPR",
         volume.spacing.min() if pixel_spacing is None else pixel_spacing,
     )
+    if normal is not None and mode != "straightened":
+        raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
     thick = _thick(settings or Settings(), slab)
     used = renderer.windowed(replace(thick, context=None, samples=1))
-    core = _lumencut.Cpr(
-        vessel.points,
-        mode,
+    towards = None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,))
+    upwards, turned = (
         numbers(CameraError, "up of the CPR", up, (3,)),
         number(CameraError, "angle of the CPR", angle),
-        None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,)),
-        _width(width, volume),
-        spacing,
-        number(SettingsError, "smoothing of the centerline", smoothing),
     )
+    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
+    view, pixels = (upwards, turned, towards), (_width(width, volume), spacing)
+    core = _lumencut.Cpr(vessel.points, smooth, mode, view, pixels)
     return Reformation(renderer, core, used, mode, float(angle), spacing)
 
 

@@ -174,6 +174,8 @@ class Reformation:
     def rotated(self, angle: float | None = None, *, degrees: float | None = None) -> Reformation:
         """Return the same vessel seen from another side; renderer, volume and frames are used again.
 
+        Without a width of its own a projected or stretched image is as wide as the vessel from that side.
+
         Parameters
         ----------
         angle : float

@@ -16,25 +16,29 @@ use crate::pool;
 use crate::settings::Checked;
 use crate::tree::points_of;
 
+/// Upwards, an angle, and towards the viewer.
+type ViewArgument = ([f64; 3], f64, Option<[f64; 3]>);
+
 /// Where the pixels of a CPR of one vessel look.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Cpr(pub cpr::Cpr);
 
 #[pymethods]
 impl Cpr {
+    /// The layout of the points (n, 3) of a vessel. A view is upwards, an angle (radians) and towards the viewer; pixels are
+    /// the width of the image and the side of each (mm).
     #[new]
-    #[pyo3(signature = (points, mode, up, angle, normal, width, pixel_spacing, smoothing))]
-    #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+    #[pyo3(signature = (points, smoothing, mode, view, pixels))]
+    #[allow(clippy::needless_pass_by_value)]
     fn new(
         points: PyReadonlyArray2<'_, f64>,
-        mode: &str,
-        up: [f64; 3],
-        angle: f64,
-        normal: Option<[f64; 3]>,
-        width: Option<f64>,
-        pixel_spacing: f64,
         smoothing: f64,
+        mode: &str,
+        view: ViewArgument,
+        pixels: (Option<f64>, f64),
     ) -> PyResult<Self> {
+        let (up, angle, normal) = view;
+        let (width, pixel_spacing) = pixels;
         let view = View { up: DVec3::from_array(up), angle, normal: normal.map(DVec3::from_array) };
         let points = points_of(&points)?;
         let made = CprMode::named("mode of the CPR", mode).and_then(|mode| {
