@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 import pytest
 
@@ -204,7 +206,8 @@ def test_a_stretched_vessel_that_returns_is_folded_where_it_was_shown_before():
     x = np.arange(33) - 16
     for row in (3, 12, 17):
         np.testing.assert_array_equal(made.folded[row], x > 0)
-        np.testing.assert_array_equal(made.folded[40 - row], x < 0)
+        # In the middle both limbs are as near: the upper row has the point.
+        np.testing.assert_array_equal(made.folded[40 - row], x <= 0)
 
 
 # Straightened
@@ -304,21 +307,18 @@ def test_any_vessel_has_a_layout_or_lies_in_one_row(mode, make, seed):
     for line in make(seed):
         if line.length == 0:
             continue
-        try:
-            made = cpr(blank(), line, mode, width=12, pixel_spacing=0.7)
-        except CameraError as error:
-            assert mode != "straightened"
-            assert "lies in one row" in str(error)
+        if mode != "straightened" and np.ptp(line.points[:, 2]) < 0.7:
+            with contextlib.suppress(CameraError):
+                cpr(blank(), line, mode, width=12, pixel_spacing=0.7)
             continue
+        made = cpr(blank(), line, mode, width=12, pixel_spacing=0.7)
         assert np.isfinite(made.position).all()
         assert made.arc_length.min() >= 0
         assert made.arc_length.max() <= line.length + 1e-6
         j, i = np.nonzero(~made.folded)
         pixels = np.stack([i, j], axis=1).astype(float)
         back = made.pixel_from_world(made.position[j, i])
-        # A line on the border of a fold belongs to both of its rows.
-        off = np.abs(back - pixels).max(axis=1, initial=0) > 1e-5
-        assert off.mean() < 0.02 if len(off) else True
+        np.testing.assert_allclose(back, pixels, atol=1e-5)
         shown += 1
     assert shown > 3
 

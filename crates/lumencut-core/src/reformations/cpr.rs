@@ -7,6 +7,7 @@
 
 mod projected;
 mod row;
+mod sections;
 mod straightened;
 mod stretched;
 mod surface;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::row::{Anchor, Row, Run};
-use super::surface::{SAME_PLACE, Surface, one_row};
+use super::surface::{SAME_PLACE, Surface, comes_first, one_row};
 use super::view::Axes;
 use crate::error::Result;
 use crate::reformations::path::Path;
@@ -72,21 +72,38 @@ impl Stretched {
         Anchor { point, x: point.dot(self.across) - self.middle, arc_length }
     }
 
-    /// The share of strip `n` that lies nearest to a point across the lines; the first and the last strip go on.
-    fn nearest(&self, n: usize, point: DVec3) -> f64 {
-        let strip = &self.strips[n];
+    /// The point of a strip nearest to a point across the lines. The strip may go on beyond its ends.
+    fn nearest(&self, strip: &Strip, point: DVec3, goes_on: bool) -> Candidate {
         let share = (point - self.path.points()[strip.segment]).dot(strip.down) / strip.height;
-        let low = if n == 0 { f64::NEG_INFINITY } else { 0.0 };
-        let high = if n + 1 == self.strips.len() { f64::INFINITY } else { 1.0 };
-        share.clamp(low, high)
-    }
-
-    /// The anchor on strip `n` nearest to a point across the lines, how far it is away there, and its place downwards.
-    fn candidate(&self, n: usize, point: DVec3) -> (Anchor, f64, f64) {
-        let (strip, share) = (&self.strips[n], self.nearest(n, point));
+        let share = if goes_on { share } else { share.clamp(0.0, 1.0) };
         let anchor = self.anchor(strip, share);
-        let distance = (point - anchor.point).reject_from_normalized(self.across).length();
-        (anchor, distance, strip.y + strip.height * share)
+        let offset = point - anchor.point;
+        Candidate {
+            distance: offset.reject_from_normalized(self.across).length(),
+            aside: offset.dot(self.across).abs(),
+            y: strip.y + strip.height * share,
+        }
+    }
+}
+
+/// A place in the image where a point may lie.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    /// From the point to the surface there (mm).
+    distance: f64,
+    /// How far the point is beside the vessel (mm).
+    aside: f64,
+    /// Downwards in the image (mm).
+    y: f64,
+}
+
+impl Candidate {
+    /// Whether a point belongs here and not there.
+    fn is_better(&self, other: &Self) -> bool {
+        if (self.distance - other.distance).abs() > SAME_PLACE {
+            return self.distance < other.distance;
+        }
+        comes_first([self.aside, self.y], [other.aside, other.y])
     }
 }
 
@@ -107,26 +124,34 @@ impl Surface for Stretched {
 
     fn image_from_world(&self, point: DVec3) -> DVec2 {
         let x = point.dot(self.across) - self.middle;
-        let (mut best_y, mut best_distance, mut best_aside) = (0.0, f64::INFINITY, f64::INFINITY);
-        for n in 0..self.strips.len() {
-            let (anchor, distance, y) = self.candidate(n, point);
-            let aside = (x - anchor.x).abs();
-            let is_same = (distance - best_distance).abs() <= SAME_PLACE;
-            if (is_same && aside < best_aside) || (!is_same && distance < best_distance) {
-                (best_y, best_distance, best_aside) = (y, distance, aside);
-            }
-        }
-        DVec2::new(x, best_y)
+        let within = self.strips.iter().map(|strip| self.nearest(strip, point, false));
+        let ends =
+            [&self.strips[0], &self.strips[self.strips.len() - 1]].map(|end| self.nearest(end, point, true));
+        let beyond = ends.into_iter().filter(|end| end.y < 0.0 || end.y > self.height());
+        let better = |best: Candidate, other: Candidate| if other.is_better(&best) { other } else { best };
+        // Beyond the vessel lies only what is not within it.
+        let best = within
+            .reduce(better)
+            .into_iter()
+            .chain(beyond)
+            .reduce(|best, end| if end.distance + SAME_PLACE < best.distance { end } else { best });
+        DVec2::new(x, best.map_or(0.0, |best| best.y))
     }
 
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
         let own = self.row(y).runs[0].from;
-        let others: Vec<_> = (0..self.strips.len())
-            .map(|n| self.candidate(n, own.point))
-            .filter(|(_, distance, other)| *distance <= SAME_PLACE && (other - y).abs() > SAME_PLACE)
-            .map(|(anchor, ..)| anchor.x)
+        let others: Vec<_> = self
+            .strips
+            .iter()
+            .map(|strip| (self.nearest(strip, own.point, false), strip))
+            .filter(|(other, _)| other.distance <= SAME_PLACE && (other.y - y).abs() > SAME_PLACE)
+            .map(|(other, strip)| [self.anchor(strip, (other.y - strip.y) / strip.height).x, other.y])
             .collect();
-        let is_nearer = |x: f64| others.iter().any(|other| (x - other).abs() < (x - own.x).abs());
-        x.iter().map(|x| is_nearer(*x)).collect()
+        let belongs_there = |x: f64| {
+            let elsewhere =
+                |&[beside, down]: &[f64; 2]| comes_first([(x - beside).abs(), down], [(x - own.x).abs(), y]);
+            others.iter().any(elsewhere)
+        };
+        x.iter().map(|x| belongs_there(*x)).collect()
     }
 }

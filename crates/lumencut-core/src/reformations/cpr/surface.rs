@@ -22,6 +22,13 @@ pub(super) trait Surface: Send + Sync {
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool>;
 }
 
+/// Whether a point belongs to the first of two places that show it, each so far beside the vessel and so far down (mm): to the
+/// one nearer to the vessel, and of equally near ones to the upper one.
+pub(super) fn comes_first([aside, y]: [f64; 2], [other_aside, other_y]: [f64; 2]) -> bool {
+    let nearer = other_aside - aside;
+    if nearer.abs() > SAME_PLACE { nearer > 0.0 } else { y + SAME_PLACE < other_y }
+}
+
 /// The error for a vessel that is no more than one row high.
 pub(super) fn one_row(mode: &str, mend: &str) -> Error {
     let found = format!("a vessel that lies in one row of the {mode} CPR");
