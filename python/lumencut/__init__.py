@@ -34,10 +34,14 @@ if TYPE_CHECKING:
         VolumeError,
     )
     from lumencut.evaluation import Evaluation, evaluate
+    from lumencut.feature_aggregation import FeatureAggregation, cfa
     from lumencut.frame import Frame
+    from lumencut.planar_reformation import cpr
+    from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
     from lumencut.settings import Settings
     from lumencut.slab import Slab
+    from lumencut.straightening import StraightenedVolume, straightened_volume
     from lumencut.threads import get_threads, set_threads
     from lumencut.transfer import TransferFunction
     from lumencut.turntables import fitted_turn, save_animation, turntable
@@ -68,10 +72,14 @@ _HOME = {
         "VolumeError",
     ),
     "evaluation": ("Evaluation", "evaluate"),
+    "feature_aggregation": ("FeatureAggregation", "cfa"),
     "frame": ("Frame",),
+    "planar_reformation": ("cpr",),
+    "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
     "settings": ("Settings",),
     "slab": ("Slab",),
+    "straightening": ("StraightenedVolume", "straightened_volume"),
     "threads": ("get_threads", "set_threads"),
     "transfer": ("TransferFunction",),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
@@ -90,12 +98,14 @@ __all__ = [
     "DeviceError",
     "DeviceWarning",
     "Evaluation",
+    "FeatureAggregation",
     "FileError",
     "FormatError",
     "Frame",
     "LumencutError",
     "MissingPackageError",
     "Opacity",
+    "Reformation",
     "Renderer",
     "SeriesError",
     "SeriesReport",
@@ -103,6 +113,7 @@ __all__ = [
     "SettingsError",
     "Slab",
     "SpaceWarning",
+    "StraightenedVolume",
     "TransferFunction",
     "Vessel",
     "VesselTree",
@@ -111,6 +122,8 @@ __all__ = [
     "VolumeError",
     "Window",
     "__version__",
+    "cfa",
+    "cpr",
     "devices",
     "evaluate",
     "fitted_turn",
@@ -121,6 +134,7 @@ __all__ = [
     "render",
     "save_animation",
     "set_threads",
+    "straightened_volume",
     "turntable",
     "write_centerlines",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,6 +38,25 @@ def annotated(
     return sheet.pixels()
 
 
+def with_labels(
+    image: npt.NDArray[np.uint8], words: Iterable[str], letters: dict[str, str], spacing: float | None
+) -> npt.NDArray[np.uint8]:
+    """Return a copy of an RGBA picture (H, W, 4) with labels, without any where it is too small for them.
+
+    Words stand in the upper left corner, letters at the edges that they name. With the side of a pixel (mm)
+    a scale bar stands in the lower left corner.
+    """
+    if min(image.shape[:2]) < SMALLEST_SIDE:
+        return image.copy()
+    sheet = Sheet(image)
+    _write_sides(sheet, letters)
+    _write_lines(sheet, words)
+    if spacing is not None:
+        length = bar_length_for(sheet.size[0] * spacing)
+        sheet.bar(round(length / spacing), sheet.size[1] - sheet.margin, f"{length:.10g} mm")
+    return sheet.pixels()
+
+
 def _write_sides(sheet: Sheet, letters: dict[str, str]) -> None:
     """Write the sides of the patient in the middle of the edges that look to them."""
     width, height, margin = *sheet.size, sheet.margin
@@ -46,8 +66,9 @@ def _write_sides(sheet: Sheet, letters: dict[str, str]) -> None:
         "top": ((width / 2, margin), "mt"),
         "bottom": ((width / 2, height - margin), "mb"),
     }
-    for edge, (place, anchor) in places.items():
-        sheet.write(letters[edge], place, anchor, is_large=True)
+    for edge, word in letters.items():
+        place, anchor = places[edge]
+        sheet.write(word, place, anchor, is_large=True)
 
 
 def _write_words(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
@@ -55,6 +76,11 @@ def _write_words(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
     lines = [view_name(camera) if source.states_orientation else "orientation not stated"]
     if source.window is not None:
         lines.append(window_words(source.window))
+    _write_lines(sheet, lines)
+
+
+def _write_lines(sheet: Sheet, lines: Iterable[str]) -> None:
+    """Write lines into the upper left corner."""
     pieces = [piece for line in lines for piece in sheet.wrapped(line)]
     for number, piece in enumerate(pieces):
         sheet.write(piece, (sheet.margin, sheet.margin + number * sheet.line_height), "la")
@@ -74,7 +100,12 @@ def _write_scale(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
 
 def bar_length(camera: Camera) -> float:
     """Return the longest of 1, 2 and 5 times a power of ten (mm) within a quarter of the picture's width."""
-    room = camera.size[0] / 4 * camera.pixel_spacing
+    return bar_length_for(camera.size[0] * camera.pixel_spacing)
+
+
+def bar_length_for(width: float) -> float:
+    """Return the length of the bar (mm) for a picture of this width (mm)."""
+    room = width / 4
     exponent = math.floor(math.log10(room))
     # Read as decimals: 2 times 0.1 to the third is not 0.002.
     lengths = [float(f"{digit}e{exponent + more}") for more in (-1, 0, 1) for digit in (1, 2, 5)]

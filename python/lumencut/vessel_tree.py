@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
+from lumencut._joined import joined
 from lumencut._values import Value, content_of
 from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
@@ -187,6 +188,43 @@ class VesselTree(Value):
         """Return the tree without these vessels; parameters and errors are those of :meth:`select`."""
         unwanted = self._ids(vessels)
         return self._part(index for index in range(len(self)) if index not in unwanted)
+
+    def path(self, ids: Iterable[SupportsIndex | str]) -> Vessel:
+        """Return several vessels that meet as one, such as those from the root to an end.
+
+        Parameters
+        ----------
+        ids : iterable of int or str
+            Ids and names in their order along the path. Each vessel begins where the one before ends,
+            whatever the order of its own points: ends no farther apart than 0.1 mm meet, and are one point.
+
+        Returns
+        -------
+        Vessel
+            It has radii where all of the vessels have, and their names with ``" + "`` between them where all
+            have one.
+
+        Raises
+        ------
+        VesselTreeError
+            For no ids, an id or a name that not exactly one vessel has, a vessel that comes twice, or
+            neighbours that do not meet.
+        """
+        if isinstance(ids, str) or not isinstance(ids, Iterable):
+            raise VesselTreeError("path through the tree", repr(ids), "several ids or names")
+        wanted = list(ids)
+        if not wanted:
+            raise VesselTreeError("path through the tree", "no vessels", "at least one id or name")
+        vessels = [self[one] if isinstance(one, str) else self._vessels[self.ids(one)[0]] for one in wanted]
+        for n, vessel in enumerate(vessels):
+            if any(vessel is other for other in vessels[:n]):
+                raise VesselTreeError(
+                    "path through the tree", f"vessel {wanted[n]!r} twice", "each vessel once"
+                )
+        lines = [(vessel.points, vessel.radius) for vessel in vessels]
+        points, radius = joined(lines, [f"vessel {one!r}" for one in wanted])
+        names = [vessel.name for vessel in vessels if vessel.name is not None]
+        return Vessel(points, radius, " + ".join(names) if len(names) == len(vessels) else None)
 
     def _part(self, ids: Iterable[int]) -> VesselTree:
         part = VesselTree(self._vessels[index] for index in ids)

@@ -84,6 +84,13 @@ impl Frame {
         there.fold(ImageSet::of(&[]), |images, (image, _)| images.and(ImageSet::of(&[image])))
     }
 
+    /// The same frame whose picture is transparent where it has no value, whatever the background.
+    #[must_use]
+    pub fn transparent_outside(mut self) -> Self {
+        clear_outside(&mut self.image, &self.value);
+        self
+    }
+
     /// The same frame with those of its images that are among `wanted`.
     #[must_use]
     pub fn keeping(mut self, wanted: ImageSet) -> Self {
@@ -103,4 +110,10 @@ impl Frame {
         }
         self
     }
+}
+
+/// Makes the pixels of a picture transparent where there is no value.
+pub fn clear_outside(image: &mut [[u8; 4]], value: &[f32]) {
+    let outside = image.iter_mut().zip(value).filter(|(_, value)| value.is_nan());
+    outside.for_each(|(pixel, _)| *pixel = [0; 4]);
 }

@@ -18,13 +18,14 @@ pub use self::images::Images;
 pub use self::pass::{CutSurfacePass, LookPass};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
-use crate::frame::Frame;
+use crate::frame::{Frame, clear_outside};
 use crate::geometry::Geometry;
 use crate::math::lanes::Isa;
 use crate::math::projection::{Level, ProjectedLevel, Radii};
 use crate::progress::Progress;
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::Settings;
+use crate::stages::composite::{CompositeParameters, Layers, composite};
 use crate::stages::depth::{CutSurface, Sheet};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
@@ -207,6 +208,20 @@ impl CpuRenderer {
             settings,
         }
     }
+}
+
+/// The picture of values in the window and opacity of `settings`, over their background; transparent where the value is NaN.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for a setting outside its range.
+pub fn picture(value: &[f32], size: [usize; 2], settings: &Settings) -> Result<Vec<[u8; 4]>> {
+    settings.check()?;
+    let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };
+    let mut image = vec![[0; 4]; value.len()];
+    let layers = Layers { value, strength: None, context: None };
+    composite(&work, &CompositeParameters::new(settings), &layers, &mut image)?;
+    clear_outside(&mut image, value);
+    Ok(image)
 }
 
 /// An error for a scene of nothing.

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod camera;
 mod centerlines;
+mod cpr;
 mod device;
 mod errors;
 mod phantom;
@@ -26,8 +27,10 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     placement::add_names(module)?;
     views::add_names(module)?;
     module.add_class::<centerlines::CenterlineFile>()?;
+    module.add_class::<cpr::Cpr>()?;
     module.add_class::<renderer::Renderer>()?;
     module.add_class::<settings::Checked>()?;
+    module.add_function(wrap_pyfunction!(cpr::picture, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;

@@ -2,12 +2,14 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use glam::DVec3;
 use lumencut::backend::Backend;
+use lumencut::camera::Camera;
 use lumencut::devices::Wanted;
 use lumencut::error::Error;
-use lumencut::frame::Frame;
+use lumencut::frame::{Frame, Timing};
 use lumencut::geometry::Geometry;
 use lumencut::math::lanes::FAR;
 use lumencut::pipeline::{CpuRenderer, Request};
@@ -20,6 +22,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::camera::CameraArgument;
+use crate::cpr::Cpr;
 use crate::errors::{to_python, warn};
 use crate::pool;
 use crate::settings::Checked;
@@ -134,6 +137,43 @@ impl Renderer {
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)
     }
+
+    /// The images that are asked for, by name, of a volume where the pixels of a CPR look. The picture is transparent
+    /// outside the volume.
+    #[allow(clippy::needless_pass_by_value)]
+    fn look<'py>(
+        &self,
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+        cpr: &Bound<'py, Cpr>,
+        settings: &Bound<'py, Checked>,
+        images: Vec<String>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (Cpr(cpr), Checked(settings)) = (cpr.get(), settings.get());
+        let images = image_set(&images)?;
+        let borrowed = volume.borrow()?;
+        let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());
+        // What is shown does not ask for a camera.
+        let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0).map_err(to_python)?;
+        let (frame, given_up) = interruptible(py, None, |stop| {
+            let request = Request { images, stop, ..Request::new(&camera, settings) };
+            let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
+            let backend = &mut *locked;
+            let look = || pollster::block_on(backend.look(&volume, || places(cpr), &request));
+            pool::install(look)?.map_err(to_python)
+        })?;
+        say_that_the_cpu_goes_on(py, given_up)?;
+        buffers(py, py.detach(|| frame.transparent_outside()))
+    }
+}
+
+/// A frame that knows where the pixels of a CPR look, and how long it took to find out.
+fn places(cpr: &lumencut::reformations::cpr::Cpr) -> lumencut::error::Result<Frame> {
+    let start = Instant::now();
+    let mut frame = Frame::of(Geometry::Curved(cpr.curved()?));
+    let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+    frame.timings.push(Timing { stage: "places", milliseconds });
+    Ok(frame)
 }
 
 /// A tree for renderers.

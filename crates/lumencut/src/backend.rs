@@ -3,7 +3,7 @@
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
 use lumencut_core::pipeline::{CpuRenderer, Request};
-use lumencut_core::scene::Scene;
+use lumencut_core::scene::{Scene, SharedVolume};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_gpu::renderer::GpuRenderer;
 
@@ -81,6 +81,35 @@ impl Backend {
             frame.image = mean.pixels();
         }
         Ok((frame, self.untold.take()))
+    }
+
+    /// Shows a volume where another method than the cut surface looks: in the places of the frame that `places` makes, once
+    /// more where the CPU takes over. One sample per pixel.
+    ///
+    /// # Errors
+    /// Those of `places`, and as [`Backend::render`].
+    pub async fn look(
+        &mut self,
+        volume: &SharedVolume<'_>,
+        places: impl Fn() -> Result<Frame>,
+        request: &Request<'_>,
+    ) -> Result<Rendered> {
+        let gpu = match &mut self.computer {
+            Computer::Cpu(cpu) => return Ok((cpu.look(volume, places()?, request)?, self.untold.take())),
+            Computer::Gpu(gpu) => gpu,
+        };
+        let error = match gpu.look(volume, places()?, request).await {
+            Err(error) if error.kind == ErrorKind::Device => error,
+            other => return Ok((other?, None)),
+        };
+        gpu.let_go();
+        if !gpu.is_optional {
+            return Err(error);
+        }
+        let cpu = CpuRenderer::default();
+        let frame = cpu.look(volume, places()?, request)?;
+        self.computer = Computer::Cpu(cpu);
+        Ok((frame, Some(error)))
     }
 
     /// One picture with one sample per pixel.
@@ -171,6 +200,15 @@ impl Gpu {
 
     async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         self.open().await?.render(scene, request).await
+    }
+
+    async fn look(
+        &mut self,
+        volume: &SharedVolume<'_>,
+        frame: Frame,
+        request: &Request<'_>,
+    ) -> Result<Frame> {
+        self.open().await?.look(volume, frame, request).await
     }
 
     /// Keeps nothing on a GPU that failed.

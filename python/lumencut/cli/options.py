@@ -134,17 +134,23 @@ def reading_options(command: Command) -> Command:
     return added(parts, command)
 
 
+#: How vessels are named.
+_NAMED: dict[str, Any] = {"metavar": "NAME|ID", "multiple": True}
+
+
 def vessel_options(command: Command) -> Command:
     """Add the options that choose among the vessels."""
-    named: dict[str, Any] = {"metavar": "NAME|ID", "multiple": True}
+    zoom = click.option(
+        "--zoom-to", help="Fit the view to this vessel, whatever else is shown; may be repeated.", **_NAMED
+    )
+    return added((shown_vessel_options, zoom), command)
+
+
+def shown_vessel_options(command: Command) -> Command:
+    """Add the options that say which vessels are shown."""
     parts = (
-        click.option("--vessel", help="Show this vessel and no other; may be repeated.", **named),
-        click.option("--exclude", help="Leave this vessel out; may be repeated.", **named),
-        click.option(
-            "--zoom-to",
-            help="Fit the view to this vessel, whatever else is shown; may be repeated.",
-            **named,
-        ),
+        click.option("--vessel", help="Show this vessel and no other; may be repeated.", **_NAMED),
+        click.option("--exclude", help="Leave this vessel out; may be repeated.", **_NAMED),
     )
     return added(parts, command)
 

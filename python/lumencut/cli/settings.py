@@ -65,6 +65,12 @@ def setting_options(command: Command) -> Command:
     return added((settings_option, *(_option(name, SETTINGS[name]) for name in names)), command)
 
 
+def look_options(command: Command) -> Command:
+    """Add the options of what a surface is shown with, whatever method found it."""
+    names = (*_FIRST, "slab")
+    return added((settings_option, *(_option(name, SETTINGS[name]) for name in names)), command)
+
+
 def _option(name: str, setting: Setting) -> Any:
     """The option of a setting. Its default is the setting's own: an option that is not given is None."""
     words = f"--{name.replace('_', '-')}"

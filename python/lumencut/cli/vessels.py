@@ -12,17 +12,23 @@ if TYPE_CHECKING:
 
 def chosen_of(tree: VesselTree, chosen: dict[str, Any]) -> tuple[VesselTree, VesselTree]:
     """Return the vessels that are shown, and those that the view is fitted to."""
-    shown, left_out, fitted = (_ids(tree, chosen[name]) for name in ("vessel", "exclude", "zoom_to"))
-    wanted = set(shown or range(len(tree))) - set(left_out)
-    if not wanted:
-        found = "all vessels left out" if not shown else "all vessels of --vessel left out by --exclude"
-        raise VesselTreeError("vessels", found, "at least one to show")
+    wanted, fitted = shown_ids(tree, chosen), ids_of(tree, chosen["zoom_to"])
     kept = tree if len(wanted) == len(tree) else tree.select(*wanted)
     return kept, tree.select(*fitted) if fitted else kept
 
 
-def _ids(tree: VesselTree, words: tuple[str, ...]) -> list[int]:
-    """The ids that words stand for; a word that is a name is no id."""
+def shown_ids(tree: VesselTree, chosen: dict[str, Any]) -> list[int]:
+    """Return the ids of the vessels that are shown, rising."""
+    shown, left_out = (ids_of(tree, chosen[name]) for name in ("vessel", "exclude"))
+    wanted = set(shown or range(len(tree))) - set(left_out)
+    if not wanted:
+        found = "all vessels left out" if not shown else "all vessels of --vessel left out by --exclude"
+        raise VesselTreeError("vessels", found, "at least one to show")
+    return sorted(wanted)
+
+
+def ids_of(tree: VesselTree, words: tuple[str, ...]) -> list[int]:
+    """Return the ids that words stand for; a word that is a name is no id."""
     return [
         index
         for word in words

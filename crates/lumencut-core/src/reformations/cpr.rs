@@ -1,0 +1,221 @@
+//! Curved Planar Reformation (CPR) of one vessel: projected, stretched and straightened (Kanitsar et al.: CPR - Curved
+//! Planar Reformation, IEEE Visualization 2002, doi:10.1109/VISUAL.2002.1183754).
+//!
+//! Each mode is a surface of straight lines across the vessel, laid out as an image: x to the right and y downwards in mm,
+//! 0 in the middle column and in the first row. A mode says which line a row shows, and where a world point lies in the
+//! image. No picture is ever mirrored: to the right × downwards = into the scene.
+
+mod projected;
+mod row;
+mod sections;
+mod straightened;
+mod stretched;
+mod surface;
+mod view;
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
+
+use self::projected::Projected;
+use self::row::Row;
+pub use self::straightened::Straightened;
+use self::stretched::Stretched;
+use self::surface::Surface;
+pub use self::view::View;
+use super::path::Path;
+use crate::camera::{MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
+use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::Curved;
+use crate::settings::Named;
+
+/// What a default width leaves free on each side of the vessel (mm).
+const MARGIN: f64 = 25.0;
+
+/// A length that is a whole number of pixels but for rounding is that many.
+const WHOLE: f64 = 1e-9;
+
+/// How the lines across a vessel are laid out as an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CprMode {
+    /// As they are seen: rows by height, the line through each point of the vessel at that height.
+    Projected,
+    /// The surface of parallel lines unrolled, so that lengths on it are true.
+    Stretched,
+    /// Rows by arc length, the vessel straight in the middle, lines across it in the rotation-minimising frame.
+    Straightened,
+}
+
+impl Named for CprMode {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("projected", Self::Projected),
+        ("stretched", Self::Stretched),
+        ("straightened", Self::Straightened),
+    ];
+}
+
+/// One vessel laid out as an image. Clones and turned ones share what was found of the vessel.
+#[derive(Clone)]
+pub struct Cpr {
+    mode: CprMode,
+    view: View,
+    path: Arc<Path>,
+    surface: Arc<dyn Surface>,
+    straightened: Option<Straightened>,
+    width: Option<f64>,
+    pixel_spacing: f64,
+    size: [usize; 2],
+}
+
+impl Cpr {
+    /// The layout of a vessel in pixels with a side of `pixel_spacing` mm, an odd number of columns of them. The outermost
+    /// columns lie no farther apart than `width` mm; by default the image shows the vessel and 25 mm on each side of it.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Camera`] for a view, a width or a spacing that is none, for too many pixels, and where the whole vessel
+    /// lies in one row.
+    pub fn new(
+        path: Path,
+        mode: CprMode,
+        view: View,
+        width: Option<f64>,
+        pixel_spacing: f64,
+    ) -> Result<Self> {
+        check_lengths(width, pixel_spacing)?;
+        let path = Arc::new(path);
+        let straightened = match mode {
+            CprMode::Straightened => Some(Straightened::new(Arc::clone(&path), &view)?),
+            CprMode::Projected | CprMode::Stretched => None,
+        };
+        Self::laid_out(mode, view, path, straightened, width, pixel_spacing)
+    }
+
+    fn laid_out(
+        mode: CprMode,
+        view: View,
+        path: Arc<Path>,
+        straightened: Option<Straightened>,
+        width: Option<f64>,
+        pixel_spacing: f64,
+    ) -> Result<Self> {
+        let surface: Arc<dyn Surface> = match (&straightened, mode) {
+            (Some(straightened), _) => Arc::new(straightened.clone()),
+            (None, CprMode::Stretched) => Arc::new(Stretched::new(Arc::clone(&path), view.turned()?)?),
+            (None, _) => Arc::new(Projected::new(Arc::clone(&path), view.turned()?, pixel_spacing)?),
+        };
+        let half = width.map_or(surface.reach() + MARGIN, |width| width / 2.0);
+        let pixels = |length: f64| (length / pixel_spacing + WHOLE).floor();
+        let size = checked_size([2.0 * pixels(half) + 1.0, pixels(surface.height()) + 1.0])?;
+        Ok(Self { mode, view, path, surface, straightened, width, pixel_spacing, size })
+    }
+
+    /// The same vessel seen from another angle (radians). The frames of a straightened vessel are used again.
+    ///
+    /// # Errors
+    /// As [`Cpr::new`].
+    pub fn rotated(&self, angle: f64) -> Result<Self> {
+        let view = View { angle, ..self.view };
+        view.checked_angle()?;
+        let straightened = self.straightened.as_ref().map(|known| known.rotated(angle));
+        Self::laid_out(self.mode, view, Arc::clone(&self.path), straightened, self.width, self.pixel_spacing)
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// The space around the straightened vessel, where it is straightened.
+    pub fn straightened(&self) -> Option<&Straightened> {
+        self.straightened.as_ref()
+    }
+
+    fn x(&self, column: f64) -> f64 {
+        (column - (self.size[0] - 1) as f64 / 2.0) * self.pixel_spacing
+    }
+
+    /// The places of the columns (mm).
+    fn columns(&self) -> Vec<f64> {
+        (0..self.size[0]).map(|i| self.x(i as f64)).collect()
+    }
+
+    fn rows(&self) -> impl IndexedParallelIterator<Item = Row> {
+        (0..self.size[1]).into_par_iter().map(|j| self.surface.row(j as f64 * self.pixel_spacing))
+    }
+
+    /// Where each pixel looks, and the direction in which a slab is thick there.
+    ///
+    /// # Errors
+    /// None for a layout that could be made.
+    pub fn curved(&self) -> Result<Curved> {
+        let (width, x) = (self.size[0], self.columns());
+        let mut direction = vec![Vec3::ZERO; width * self.size[1]];
+        let mut position = vec![DVec3::ZERO; width * self.size[1]];
+        self.rows().zip(position.par_chunks_mut(width)).zip(direction.par_chunks_mut(width)).for_each(
+            |((row, position), direction)| {
+                row.place_all(&x, position);
+                direction.fill(row.ahead.as_vec3());
+            },
+        );
+        Curved::new(self.size, position, direction)
+    }
+
+    /// The arc length of the vessel in each row (mm); that of the first of its points where several share the row.
+    pub fn arc_length(&self) -> Vec<f64> {
+        self.rows().map(|row| row.arc_length()).collect()
+    }
+
+    /// Whether each pixel is folded, row by row: whether lines across the vessel meet before they reach it, or several of the
+    /// vessel's points share its row.
+    pub fn folded(&self) -> Vec<bool> {
+        let (x, spacing) = (self.columns(), self.pixel_spacing);
+        let rows = (0..self.size[1]).into_par_iter();
+        rows.flat_map(|j| self.surface.folded(j as f64 * spacing, &x)).collect()
+    }
+
+    /// The world point (mm, LPS) at a place in the image, column and row, which may lie between pixels and beyond the image.
+    pub fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
+        self.surface.row(pixel.y * self.pixel_spacing).place(self.x(pixel.x))
+    }
+
+    /// Where a world point lies in the image, column and row: where the image shows the point. One that it does not show lies
+    /// where the surface is nearest (projected: where the viewer sees it; straightened: in the section through the point
+    /// whose centre is nearest).
+    pub fn pixel_from_world(&self, point: DVec3) -> DVec2 {
+        let place = self.surface.image_from_world(point) / self.pixel_spacing;
+        DVec2::new(place.x + (self.size[0] - 1) as f64 / 2.0, place.y)
+    }
+}
+
+fn check_lengths(width: Option<f64>, pixel_spacing: f64) -> Result<()> {
+    let wrong = |subject: &str, found: f64, expected: &str| {
+        Err(Error::new(ErrorKind::Camera, subject, format!("{found} mm"), expected))
+    };
+    if !(1e-6..=MAX_PIXEL_SPACING).contains(&pixel_spacing) {
+        return wrong("pixel_spacing of the CPR", pixel_spacing, "between 1e-6 and 1e4 mm");
+    }
+    match width {
+        Some(width) if !(width > 0.0 && width.is_finite()) => {
+            wrong("width of the CPR", width, "a width above 0 mm")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The size of an image that has these numbers of columns and rows.
+fn checked_size(size: [f64; 2]) -> Result<[usize; 2]> {
+    let [width, height] = size;
+    if width.max(height) > MAX_SIZE as f64 || width * height > MAX_PIXELS as f64 {
+        let found = format!("{width} × {height} pixels");
+        let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
+        let error = Error::new(ErrorKind::Camera, "size of the CPR", found, expected);
+        return Err(error.mend("a larger pixel_spacing or a smaller width makes fewer"));
+    }
+    // Whole numbers within the limits.
+    Ok(size.map(|side| side as usize))
+}
+
+#[cfg(test)]
+#[path = "tests/cpr.rs"]
+mod tests;

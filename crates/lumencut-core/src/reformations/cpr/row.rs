@@ -1,0 +1,92 @@
+//! What one row of a CPR shows: a line across the vessel, or several where the row meets it several times.
+
+use glam::DVec3;
+
+/// A point of the vessel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Anchor {
+    /// The point (mm, LPS).
+    pub point: DVec3,
+    /// Its place in the image, to the right of the middle (mm).
+    pub x: f64,
+    /// Arc length (mm).
+    pub arc_length: f64,
+}
+
+/// A straight part of the vessel that lies in the row, mostly one point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub from: Anchor,
+    pub to: Anchor,
+}
+
+impl Run {
+    pub fn at(anchor: Anchor) -> Self {
+        Self { from: anchor, to: anchor }
+    }
+
+    /// The point of the run that lies nearest to `x`.
+    fn nearest(&self, x: f64) -> Anchor {
+        let along = self.to.x - self.from.x;
+        let share = if along == 0.0 { 0.0 } else { ((x - self.from.x) / along).clamp(0.0, 1.0) };
+        Anchor {
+            point: self.from.point.lerp(self.to.point, share),
+            x: self.from.x + along * share,
+            arc_length: self.from.arc_length + (self.to.arc_length - self.from.arc_length) * share,
+        }
+    }
+}
+
+/// A row.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    /// Unit vector to the right.
+    pub across: DVec3,
+    /// Unit vector into the scene, along which a slab is thick.
+    pub ahead: DVec3,
+    /// Where it meets the vessel, at least once, by rising arc length.
+    pub runs: Vec<Run>,
+}
+
+impl Row {
+    /// The world point at `x`: on the line through the vessel's point that is nearest along the row, of several the one
+    /// nearest to the viewer.
+    pub fn place(&self, x: f64) -> DVec3 {
+        let mut best = self.runs[0].nearest(x);
+        for run in &self.runs[1..] {
+            let other = run.nearest(x);
+            let [far, best_far] = [&other, &best].map(|anchor| (x - anchor.x).abs());
+            let is_before = || (other.point - best.point).dot(self.ahead) < 0.0;
+            if far < best_far || (far == best_far && is_before()) {
+                best = other;
+            }
+        }
+        best.point + self.across * (x - best.x)
+    }
+
+    /// The world points at all of `x`.
+    pub fn place_all(&self, x: &[f64], places: &mut [DVec3]) {
+        if let [Run { from, to }] = self.runs[..]
+            && from.x == to.x
+        {
+            // The usual case, without a search in each pixel.
+            for (place, x) in places.iter_mut().zip(x) {
+                *place = from.point + self.across * (x - from.x);
+            }
+            return;
+        }
+        for (place, x) in places.iter_mut().zip(x) {
+            *place = self.place(*x);
+        }
+    }
+
+    /// The arc length of the first point (mm).
+    pub fn arc_length(&self) -> f64 {
+        self.runs[0].from.arc_length
+    }
+
+    /// Whether several points of the vessel share the row.
+    pub fn is_shared(&self) -> bool {
+        self.runs.len() > 1 || self.runs[0].from.arc_length < self.runs[0].to.arc_length
+    }
+}

@@ -1,0 +1,173 @@
+//! The sections across a straightened vessel, and those that a world point lies in.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::surface::SAME_PLACE;
+use crate::reformations::frames::{Frames, MovingFrame, Station};
+use crate::reformations::path::Path;
+
+/// How often an interval is halved at most to find a section: below what a number can tell.
+const HALVINGS: usize = 60;
+
+/// Within an interval that turns by more than this (radians) a line can meet sections though it meets none at its ends.
+const STRONG_TURN: f64 = 0.1;
+
+/// The sections of a vessel, whatever the angle from which it is seen.
+pub(super) struct Sections {
+    pub path: Arc<Path>,
+    pub frames: Frames,
+    /// Places between which path and frame are smooth, by rising arc length.
+    marks: Vec<Mark>,
+}
+
+/// A place along the vessel.
+#[derive(Clone, Copy)]
+struct Mark {
+    at: f64,
+    point: DVec3,
+    frame: MovingFrame,
+}
+
+/// A section through a point: where along the vessel it is, and what the point is off its centre.
+#[derive(Clone, Copy)]
+pub(super) struct Section {
+    pub at: f64,
+    pub frame: MovingFrame,
+    pub offset: DVec3,
+}
+
+impl Section {
+    /// How far the point lies beyond the section, along the vessel (mm).
+    fn ahead(&self) -> f64 {
+        self.offset.dot(self.frame.tangent)
+    }
+}
+
+impl Sections {
+    pub fn new(path: Arc<Path>, frames: Frames) -> Self {
+        let stations = frames.stations().iter().map(|station| station.at);
+        let mut at: Vec<_> = path.arc_length().iter().copied().chain(stations).collect();
+        at.sort_by(f64::total_cmp);
+        at.dedup();
+        let mark = |at| Mark { at, point: path.at(at), frame: frames.at(at) };
+        Self { marks: at.into_iter().map(mark).collect(), path, frames }
+    }
+
+    /// How many intervals there are between marks.
+    pub fn intervals(&self) -> usize {
+        self.marks.len() - 1
+    }
+
+    /// The sections that a point lies in, at least one: before and after the vessel the sections go on straight.
+    pub fn through(&self, point: DVec3) -> Vec<Section> {
+        let mut found = Vec::new();
+        let [first, last] = [self.marks[0], self.marks[self.intervals()]];
+        if first.section(point).ahead() < 0.0 {
+            found.push(first.beyond(point));
+        }
+        for n in 0..self.intervals() {
+            self.within(n, point, &mut found);
+        }
+        if last.section(point).ahead() >= 0.0 {
+            found.push(last.beyond(point));
+        }
+        found
+    }
+
+    /// Adds the sections of one interval that a point lies in.
+    pub fn within(&self, n: usize, point: DVec3, found: &mut Vec<Section>) {
+        let ends = [self.marks[n], self.marks[n + 1]];
+        let [low, high] = ends.map(|mark| mark.section(point).ahead());
+        let [from, to] = ends.map(|mark| mark.at);
+        if (low >= 0.0) != (high >= 0.0) {
+            found.push(self.crossing(from, to, point));
+            return;
+        }
+        let station = self.frames.station(from);
+        if station.turn == DVec3::ZERO {
+            return;
+        }
+        // The sections turn: the point may come nearer to them than at both ends, and pass through two of them.
+        let direction = self.path.direction()[self.path.segment(from)];
+        let [start, end] = ends.map(|mark| mark.section(point).change(station, direction));
+        let approaches = if low >= 0.0 { start < 0.0 && end > 0.0 } else { start > 0.0 && end < 0.0 };
+        if !approaches {
+            return;
+        }
+        let turning =
+            |at: f64| (self.section(station, at, point).change(station, direction) > 0.0) == (start > 0.0);
+        let middle = halved(from, to, turning);
+        if (self.section(station, middle, point).ahead() >= 0.0) != (low >= 0.0) {
+            found.push(self.crossing(from, middle, point));
+            found.push(self.crossing(middle, to, point));
+        }
+    }
+
+    fn section(&self, station: &Station, at: f64, point: DVec3) -> Section {
+        Section { at, frame: station.frame_at(at), offset: point - self.path.at(at) }
+    }
+
+    /// The section between two arc lengths of one interval, at which a point lies on different sides.
+    fn crossing(&self, from: f64, to: f64, point: DVec3) -> Section {
+        let station = self.frames.station(from);
+        let is_after = |at: f64| self.section(station, at, point).ahead() >= 0.0;
+        let first = is_after(from);
+        let at = halved(from, to, |at| is_after(at) == first);
+        self.section(station, at, point)
+    }
+
+    /// Whether a line surely meets no section of an interval where the picture from an angle is.
+    pub fn is_apart(&self, n: usize, line: [DVec3; 2], angle: [f64; 2]) -> bool {
+        let ends = [self.marks[n], self.marks[n + 1]];
+        let turn = self.frames.station(ends[0].at).turn.length() * (ends[1].at - ends[0].at);
+        let frames = ends.map(|mark| mark.frame.turned(angle));
+        let same = |normals: [DVec3; 2]| {
+            let sides = [0, 1].map(|n| ends[n].sides(line, normals[n]));
+            sides[0] != 0 && sides[0] == sides[1]
+        };
+        turn <= STRONG_TURN
+            && (same(frames.map(|frame| frame.tangent)) || same(frames.map(|frame| frame.ahead)))
+    }
+}
+
+impl Section {
+    /// How much farther the point lies beyond the section for each mm that the section moves along the vessel.
+    fn change(&self, station: &Station, direction: DVec3) -> f64 {
+        self.offset.dot(station.turn.cross(self.frame.tangent)) - direction.dot(self.frame.tangent)
+    }
+}
+
+/// Where something that holds at `from` and not at `to` ends to hold.
+fn halved(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = from + (to - from) / 2.0;
+        if holds(middle) {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    from + (to - from) / 2.0
+}
+
+impl Mark {
+    /// The section here, with what a point is off its centre, whether it lies in it or not.
+    fn section(&self, point: DVec3) -> Section {
+        Section { at: self.at, frame: self.frame, offset: point - self.point }
+    }
+
+    /// The section through a point where the vessel goes on straight from here.
+    fn beyond(&self, point: DVec3) -> Section {
+        let here = self.section(point);
+        let along = here.ahead();
+        Section { at: self.at + along, offset: here.offset - self.frame.tangent * along, ..here }
+    }
+
+    /// Whether all points of a line lie on one side of a plane through the centre here: 1 or -1, or else 0.
+    fn sides(&self, line: [DVec3; 2], normal: DVec3) -> i8 {
+        let [one, other] = line.map(|end| (end - self.point).dot(normal));
+        if one.min(other) > SAME_PLACE { 1 } else { -i8::from(one.max(other) < -SAME_PLACE) }
+    }
+}

@@ -1,0 +1,140 @@
+//! Straightened CPR: rows by arc length, the vessel straight in the middle, lines across it in the rotation-minimising
+//! frame.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::row::{Anchor, Row, Run};
+use super::sections::{Section, Sections};
+use super::surface::{SAME_PLACE, Surface, comes_first};
+use super::view::{PARALLEL, View, unit};
+use crate::error::{Error, ErrorKind, Result};
+use crate::reformations::frames::{Frames, MovingFrame};
+use crate::reformations::path::Path;
+
+/// The space around a straightened vessel: x across the picture to the right, y into it, z along the vessel, all in mm.
+/// Before and after the vessel it goes on straight.
+#[derive(Clone)]
+pub struct Straightened {
+    sections: Arc<Sections>,
+    /// Sine and cosine of the angle about the vessel.
+    angle: [f64; 2],
+}
+
+impl Straightened {
+    /// # Errors
+    /// [`crate::error::ErrorKind::Camera`] for vectors that are none.
+    pub fn new(path: Arc<Path>, view: &View) -> Result<Self> {
+        let axes = view.unturned()?;
+        let tangent = path.direction()[0];
+        let is_along = |v: DVec3| v.cross(tangent).length() <= PARALLEL * v.dot(tangent).abs();
+        let ahead = match view.normal {
+            Some(normal) => -unit("normal of the CPR", normal)?,
+            // A vessel that begins along the direction of view is seen from below there.
+            None if is_along(axes.ahead) => axes.up,
+            None => axes.ahead,
+        };
+        if is_along(ahead) {
+            let found = format!("{}, along the vessel's first segment {tangent}", -ahead);
+            let expected = "a normal across the vessel at its first point";
+            return Err(Error::new(ErrorKind::Camera, "normal of the CPR", found, expected));
+        }
+        let frames = Frames::new(&path, MovingFrame::looking(tangent, ahead));
+        let sections = Arc::new(Sections::new(path, frames));
+        Ok(Self { sections, angle: view.checked_angle()?.sin_cos().into() })
+    }
+
+    /// The same vessel turned by another finite angle (radians).
+    #[must_use]
+    pub fn rotated(&self, angle: f64) -> Self {
+        Self { sections: Arc::clone(&self.sections), angle: angle.sin_cos().into() }
+    }
+
+    /// The length of the vessel (mm).
+    pub fn length(&self) -> f64 {
+        self.sections.path.length()
+    }
+
+    /// The world point (mm, LPS) at a place in the straightened space.
+    pub fn world_from_straightened(&self, place: DVec3) -> DVec3 {
+        let frame = self.sections.frames.at(place.z).turned(self.angle);
+        self.sections.path.at(place.z) + frame.across * place.x + frame.ahead * place.y
+    }
+
+    /// Where a world point lies in the straightened space: in the section through it whose centre is nearest.
+    pub fn straightened_from_world(&self, point: DVec3) -> DVec3 {
+        let sections = self.sections.through(point);
+        let nearest = sections.iter().min_by(|a, b| a.offset.length().total_cmp(&b.offset.length()));
+        nearest.map_or(DVec3::ZERO, |section| self.place(section))
+    }
+
+    fn place(&self, section: &Section) -> DVec3 {
+        let frame = section.frame.turned(self.angle);
+        DVec3::new(section.offset.dot(frame.across), section.offset.dot(frame.ahead), section.at)
+    }
+}
+
+impl Surface for Straightened {
+    fn height(&self) -> f64 {
+        self.length()
+    }
+
+    fn reach(&self) -> f64 {
+        0.0
+    }
+
+    fn row(&self, y: f64) -> Row {
+        let frame = self.sections.frames.at(y).turned(self.angle);
+        let anchor = Anchor { point: self.sections.path.at(y), x: 0.0, arc_length: y };
+        Row { across: frame.across, ahead: frame.ahead, runs: vec![Run::at(anchor)] }
+    }
+
+    fn image_from_world(&self, point: DVec3) -> DVec2 {
+        let places: Vec<_> = self.sections.through(point).iter().map(|section| self.place(section)).collect();
+        let within = -SAME_PLACE..=self.length() + SAME_PLACE;
+        // A point of the picture lies where the picture shows it, however near another part of the vessel is.
+        let shown = places.iter().filter(|place| place.y.abs() <= SAME_PLACE && within.contains(&place.z));
+        let first = shown.reduce(|best, place| {
+            let [one, other] = [place, best].map(|place| [place.x.abs(), place.z]);
+            if comes_first(one, other) { place } else { best }
+        });
+        let centre = |place: &&DVec3| place.truncate().length();
+        let nearest = || places.iter().min_by(|a, b| centre(a).total_cmp(&centre(b)));
+        first.or_else(nearest).map_or(DVec2::ZERO, |place| DVec2::new(place.x, place.z))
+    }
+
+    fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
+        let Sections { path, frames, .. } = &*self.sections;
+        let station = frames.station(y);
+        let frame = station.frame_at(y).turned(self.angle);
+        // How the image moves along the vessel's tangent from row to row, in the middle and per mm beside it.
+        let middle = path.direction()[path.segment(y)].dot(frame.tangent);
+        let aside = station.turn.cross(frame.across).dot(frame.tangent);
+        let mut folded: Vec<_> = x.iter().map(|x| middle + aside * x <= 0.0).collect();
+        self.mark_shown_elsewhere(y, x, &mut folded);
+        folded
+    }
+}
+
+impl Straightened {
+    /// Marks the pixels of a row whose points the picture shows in another row, where they belong rather.
+    fn mark_shown_elsewhere(&self, y: f64, x: &[f64], folded: &mut [bool]) {
+        let row = self.row(y);
+        let line = [x[0], x[x.len() - 1]].map(|x| row.place(x));
+        let mut found = Vec::new();
+        for n in 0..self.sections.intervals() {
+            if self.sections.is_apart(n, line, self.angle) {
+                continue;
+            }
+            for (x, folded) in x.iter().zip(&mut *folded) {
+                found.clear();
+                self.sections.within(n, row.place(*x), &mut found);
+                for place in found.iter().map(|section| self.place(section)) {
+                    let belongs_there = comes_first([place.x.abs(), place.z], [x.abs(), y]);
+                    *folded |= place.y.abs() <= SAME_PLACE && belongs_there;
+                }
+            }
+        }
+    }
+}

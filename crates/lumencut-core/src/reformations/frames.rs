@@ -1,0 +1,145 @@
+//! A frame that moves along a path without turning about it: rotation-minimising, by double reflection (Wang, Jüttler,
+//! Zheng, Liu: Computation of Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008,
+//! doi:10.1145/1330511.1330513).
+//!
+//! A segment has its own direction in its middle. About each inner point of the path the direction turns from that of one
+//! segment to that of the next, along a great circle and at an even rate, from half of the shorter segment before the point
+//! to as much after it, and no farther than [`CORNER`]. So the tangent never jumps, and straight runs are crossed at right
+//! angles.
+
+use glam::{DQuat, DVec3};
+
+use super::path::Path;
+
+/// How far before and after a point of the path its corner is rounded (mm), at most.
+pub const CORNER: f64 = 5.0;
+
+/// Two directions that differ by less than this sine are one.
+const SAME_DIRECTION: f64 = 1e-12;
+
+/// A right-handed set of unit vectors: `across` × `tangent` = `ahead`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovingFrame {
+    /// Along the path; downwards in a picture.
+    pub tangent: DVec3,
+    /// To the right in a picture.
+    pub across: DVec3,
+    /// From the viewer of a picture into the scene.
+    pub ahead: DVec3,
+}
+
+impl MovingFrame {
+    /// The frame with this tangent (a unit vector) that looks along `ahead` as far as that is perpendicular to it, and in any
+    /// direction where it is parallel.
+    pub fn looking(tangent: DVec3, ahead: DVec3) -> Self {
+        let perpendicular = ahead.reject_from_normalized(tangent).try_normalize();
+        let ahead = perpendicular.unwrap_or_else(|| tangent.any_orthonormal_vector());
+        Self { tangent, across: tangent.cross(ahead), ahead }
+    }
+
+    /// The frame turned about its tangent: the viewer moves to the right, as with cameras, by an angle whose sine and cosine
+    /// are given.
+    #[must_use]
+    pub fn turned(self, [sine, cosine]: [f64; 2]) -> Self {
+        let Self { tangent, across, ahead } = self;
+        Self { tangent, across: across * cosine + ahead * sine, ahead: ahead * cosine - across * sine }
+    }
+
+    fn rotated(self, by: DQuat) -> Self {
+        Self { tangent: by * self.tangent, across: by * self.across, ahead: by * self.ahead }
+    }
+}
+
+/// A place on the path from which on the frame turns at an even rate.
+#[derive(Clone, Copy, Debug)]
+pub struct Station {
+    /// Arc length (mm).
+    pub at: f64,
+    /// The frame here.
+    pub frame: MovingFrame,
+    /// The axis about which the frame turns from here to the next station, as long as it turns radians per mm.
+    pub turn: DVec3,
+}
+
+impl Station {
+    /// The frame at arc length `t`, between here and the next station.
+    pub fn frame_at(&self, t: f64) -> MovingFrame {
+        if self.turn == DVec3::ZERO {
+            return self.frame;
+        }
+        self.frame.rotated(DQuat::from_scaled_axis(self.turn * (t - self.at)))
+    }
+}
+
+/// The moving frame along a path.
+#[derive(Clone, Debug)]
+pub struct Frames {
+    stations: Vec<Station>,
+}
+
+impl Frames {
+    /// The frame that begins as `first`, whose tangent is that of the first segment.
+    pub fn new(path: &Path, first: MovingFrame) -> Self {
+        let mut stations = vec![Station { at: 0.0, frame: first, turn: DVec3::ZERO }];
+        for i in 1..path.direction().len() {
+            let [from, to] = [path.direction()[i - 1], path.direction()[i]];
+            if from.dot(to) > 0.0 && from.cross(to).length() < SAME_DIRECTION {
+                continue;
+            }
+            let [before, at, after] = [-1, 0, 1].map(|n| path.arc_length()[i.wrapping_add_signed(n)]);
+            let reach = CORNER.min((at - before).min(after - at) / 2.0);
+            let frame = stations[stations.len() - 1].frame;
+            let [start, end] = [at - reach, at + reach];
+            stations.push(Station { at: start, frame, turn: turn(frame, to) / (end - start) });
+            let next = double_reflection(frame, path.at(end) - path.at(start), to);
+            stations.push(Station { at: end, frame: next, turn: DVec3::ZERO });
+        }
+        Self { stations }
+    }
+
+    /// The places between which the frame turns at an even rate, by rising arc length. It stays as it is before the first and
+    /// after the last.
+    pub fn stations(&self) -> &[Station] {
+        &self.stations
+    }
+
+    /// The last station at or before arc length `t`, or else the first.
+    pub fn station(&self, t: f64) -> &Station {
+        &self.stations[self.stations.partition_point(|station| station.at <= t).max(1) - 1]
+    }
+
+    /// The frame at arc length `t` (mm).
+    pub fn at(&self, t: f64) -> MovingFrame {
+        self.station(t).frame_at(t)
+    }
+}
+
+/// The smallest turn of a frame that brings its tangent to `to`: its axis, as long as its angle (radians). A path that goes
+/// straight back turns about the direction of view.
+fn turn(frame: MovingFrame, to: DVec3) -> DVec3 {
+    let axis = frame.tangent.cross(to);
+    let angle = axis.length().atan2(frame.tangent.dot(to));
+    axis.try_normalize().filter(|_| axis.length() >= SAME_DIRECTION).unwrap_or(frame.ahead) * angle
+}
+
+/// The frame with the tangent `to` after a step along `chord`: both are reflected in the plane across the chord, then in the
+/// plane that brings the reflected tangent to the new one.
+pub fn double_reflection(frame: MovingFrame, chord: DVec3, to: DVec3) -> MovingFrame {
+    let [tangent, ahead] = [frame.tangent, frame.ahead].map(|vector| reflected(vector, chord));
+    let ahead = reflected(ahead, to - tangent);
+    MovingFrame::looking(to, ahead)
+}
+
+/// A vector reflected in the plane across `normal`, of any length; itself where that is none.
+fn reflected(vector: DVec3, normal: DVec3) -> DVec3 {
+    let square = normal.length_squared();
+    if square < SAME_DIRECTION * SAME_DIRECTION {
+        vector
+    } else {
+        vector - normal * (2.0 * normal.dot(vector) / square)
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/frames.rs"]
+mod tests;

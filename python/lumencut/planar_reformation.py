@@ -1,0 +1,199 @@
+"""Curved Planar Reformation (CPR): one vessel laid out as an image of its surroundings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import choice, number, numbers
+from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut.reformation import Reformation, radians
+from lumencut.renderer import Renderer
+from lumencut.settings import Settings
+from lumencut.slab import Slab
+from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.volume import Volume
+
+Mode: TypeAlias = Literal["projected", "stretched", "straightened"]
+
+MODES = ("projected", "stretched", "straightened")
+
+#: The patient's head.
+_HEAD = (0.0, 0.0, 1.0)
+
+
+def cpr(
+    volume: Any,
+    vessel: Vessel,
+    mode: Mode = "projected",
+    width: float | None = None,
+    pixel_spacing: float | None = None,
+    angle: float = 0.0,
+    up: npt.ArrayLike = _HEAD,
+    slab: Slab | tuple[float, str] | float | None = None,
+    smoothing: float = 0.0,
+    settings: Settings | None = None,
+    device: Literal["auto", "cpu", "gpu"] = "auto",
+    *,
+    degrees: float | None = None,
+    normal: npt.ArrayLike | None = None,
+) -> Reformation:
+    """Return one vessel laid out as an image: Curved Planar Reformation (Kanitsar et al. 2002).
+
+    A line is laid through each point of the vessel, and the lines become the rows of the image.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as a volume
+        The angiography.
+    vessel : Vessel
+        The centerline; :meth:`VesselTree.path` makes one of several vessels that meet.
+    mode : {"projected", "stretched", "straightened"}, default "projected"
+        ``"projected"`` shows the vessel as the viewer sees it, rows by height. ``"stretched"`` unrolls the
+        surface of the lines, so that distances on it are true. ``"straightened"`` has rows by arc length and
+        the vessel in the middle column; the lines are perpendicular to it and do not turn about it
+        (rotation-minimising frame, Wang et al. 2008). Only the last two are measurable.
+    width : float, optional
+        Distance of the outermost columns (mm), at most; an odd number of pixels is taken. Where not given,
+        the image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
+    pixel_spacing : float, optional
+        Side of a pixel (mm); the smallest side of a voxel where not given.
+    angle : float, default 0
+        By how much the viewer moves to the right (radians), from the front of the patient where ``up`` is the
+        head: around ``up``, or around the vessel where it is straightened.
+    up : array_like, shape (3,), default (0, 0, 1)
+        Upwards in space (LPS); any length. At angle 0 the view runs to the patient's back as far as that is
+        perpendicular to up; where up is the patient's front or back, to the head.
+    slab : Slab, (mm, mode) or mm, optional
+        How thick the surface is, and what is shown of its thickness; that of the settings where not given. It
+        is thick along the view where projected, else perpendicular to the surface.
+    smoothing : float, default 0
+        Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000); its
+        ends stay.
+    settings : Settings, optional
+        Window, opacity, background and slab count; silhouettes, context and samples do nothing here.
+    device : {"auto", "cpu", "gpu"}, default "auto"
+        What computes, as for :class:`lumencut.Renderer`.
+    degrees : float, optional
+        The angle in degrees, in the place of ``angle``.
+    normal : array_like, shape (3,), optional
+        Towards the viewer at the vessel's first point, at angle 0, where it is straightened (LPS); any
+        length. Where not given it is the viewer's side as ``up`` says it. A vessel that begins along the view
+        is seen against ``up`` there.
+
+    Raises
+    ------
+    VesselTreeError
+        For a vessel of another kind, without length, or wholly outside the volume.
+    CameraError
+        For vectors, an angle, a width or a pixel spacing that are none, a width beyond the diagonal of the
+        volume, an image of too many pixels, or a vessel that lies in one row of it.
+    SettingsError
+        For another mode or device, a smoothing out of range, or a slab that is none or not thicker than 0.
+    VolumeError
+        For an image that is no volume.
+    """
+    check_vessel(vessel)
+    renderer = Renderer(volume, VesselTree([vessel]), device)
+    return cpr_of(
+        renderer,
+        vessel,
+        mode,
+        width=width,
+        pixel_spacing=pixel_spacing,
+        angle=one_angle(angle, degrees),
+        up=up,
+        slab=slab,
+        smoothing=smoothing,
+        settings=settings,
+        normal=normal,
+    )
+
+
+def cpr_of(
+    renderer: Renderer,
+    vessel: Vessel,
+    mode: Mode = "projected",
+    *,
+    width: float | None = None,
+    pixel_spacing: float | None = None,
+    angle: float = 0.0,
+    up: npt.ArrayLike = _HEAD,
+    slab: Slab | tuple[float, str] | float | None = None,
+    smoothing: float = 0.0,
+    settings: Settings | None = None,
+    normal: npt.ArrayLike | None = None,
+) -> Reformation:
+    """Return the CPR of a vessel by a renderer, whose window it has; parameters are those of :func:`cpr`."""
+    check_vessel(vessel)
+    if not isinstance(settings, (Settings, type(None))):
+        raise SettingsError("settings", type(settings).__name__, "Settings or None")
+    choice(SettingsError, "mode of the CPR", mode, MODES)
+    volume = renderer.volume
+    if volume is None:
+        raise VolumeError("volume of the CPR", "None", "a volume to show")
+    spacing = number(
+        CameraError,
+        "pixel_spacing of the CPR",
+        volume.spacing.min() if pixel_spacing is None else pixel_spacing,
+    )
+    if normal is not None and mode != "straightened":
+        raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
+    thick = _thick(settings or Settings(), slab)
+    used = renderer.windowed(replace(thick, context=None, samples=1))
+    towards = None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,))
+    upwards, turned = (
+        numbers(CameraError, "up of the CPR", up, (3,)),
+        number(CameraError, "angle of the CPR", angle),
+    )
+    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
+    view, pixels = (upwards, turned, towards), (_width(width, volume), spacing)
+    core = _lumencut.Cpr(vessel.points, smooth, mode, view, pixels)
+    return Reformation(renderer, core, used, mode, float(angle), spacing)
+
+
+def one_angle(angle: float, degrees: float | None) -> float:
+    """Return the angle in radians; one in degrees takes the place of an angle of 0 and of no other."""
+    if degrees is not None and angle != 0:
+        found = "an angle in radians and one in degrees"
+        raise CameraError("angle of the CPR", found, "one of angle= (radians) and degrees=")
+    return radians("angle of the CPR", angle, degrees)
+
+
+def check_vessel(vessel: Any) -> None:
+    """Refuse what is no vessel."""
+    if not isinstance(vessel, Vessel):
+        mend = (
+            "take one of its vessels, or several as one by its path()"
+            if isinstance(vessel, VesselTree)
+            else ""
+        )
+        raise VesselTreeError("vessel of the CPR", type(vessel).__name__, "a Vessel", mend)
+
+
+def _width(width: float | None, volume: Volume) -> float | None:
+    """The width, which no volume can fill beyond its diagonal."""
+    if width is None:
+        return None
+    checked = number(CameraError, "width of the CPR", width)
+    corners = volume.corners
+    diagonal = float(np.linalg.norm(corners[:, None] - corners, axis=2).max())
+    if checked > diagonal:
+        expected = f"at most {diagonal:.4g} mm, the diagonal of the volume"
+        raise CameraError("width of the CPR", f"{checked:g} mm", expected)
+    return checked
+
+
+def _thick(settings: Settings, slab: Slab | tuple[float, str] | float | None) -> Settings:
+    """The settings with the slab that the caller names."""
+    if slab is None:
+        return settings
+    if not isinstance(slab, Slab):
+        slab = Slab(*slab) if isinstance(slab, tuple) and len(slab) == 2 else Slab(slab)  # type: ignore[arg-type]
+    if not slab.thickness > 0:
+        raise SettingsError("slab thickness", f"{slab.thickness:g} mm", "a thickness above 0 mm, or no slab")
+    return replace(settings, slab=slab)

@@ -1,0 +1,154 @@
+"""The straightened volume: sections across a vessel, and the way between its voxels and the world."""
+
+from __future__ import annotations
+
+import functools
+import os
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut._checks import number, numbers
+from lumencut.errors import CameraError
+from lumencut.planar_reformation import check_vessel, cpr_of, one_angle
+from lumencut.reformation import Reformation
+from lumencut.renderer import Renderer
+from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.volume import Volume
+from lumencut.volume_writers import write_volume
+
+#: The most voxels of a straightened volume: two gigabytes of floats.
+_MOST_VOXELS = 1 << 29
+
+#: Voxels that are sampled together.
+_TOGETHER = 1 << 20
+
+
+class StraightenedVolume:
+    """A vessel and its surroundings, straightened; made by :func:`lumencut.straightened_volume`.
+
+    Attributes
+    ----------
+    volume : Volume
+        float32 voxels [k, j, i], NaN outside the volume they come from. Slice k is the section across the
+        vessel at arc length k times the spacing. Its own coordinates (mm) are those of a patient whose vessel
+        is straight and runs downwards from the origin: i to the right in a straightened CPR from the same
+        side, j away from its viewer, k downwards.
+    """
+
+    def __init__(self, volume: Volume, surface: Reformation) -> None:
+        self.volume, self._core = volume, surface._core
+
+    @property
+    def arc_length(self) -> npt.NDArray[np.float64]:
+        """Length of the vessel from its first point to each section (mm), shape (n,)."""
+        return self._core.arc_length()
+
+    def world_from_index(self, indices: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the world points (n, 3) (mm, LPS) of voxels (n, 3): i, j and k, with fractions."""
+        places = numbers(CameraError, "indices of the straightened volume", indices, (-1, 3))
+        scale, origin = self._grid
+        return self._core.world_from_straightened(places * scale + origin)
+
+    def index_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the voxels (n, 3), i, j and k with fractions, of world points (n, 3) (mm, LPS).
+
+        The inverse of :meth:`world_from_index` wherever sections do not meet. A point in several sections
+        lies in that whose centre is nearest.
+        """
+        checked = numbers(CameraError, "points of the straightened volume", points, (-1, 3))
+        scale, origin = self._grid
+        return (self._core.straightened_from_world(checked) - origin) / scale
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only once it is whole.
+
+        Raises
+        ------
+        FormatError
+            For another ending.
+        FileError
+            Where the file cannot be written.
+        """
+        write_volume(self.volume, path)
+
+    def __repr__(self) -> str:
+        """Return the size."""
+        return f"StraightenedVolume({self.volume!r})"
+
+    @functools.cached_property
+    def _grid(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Across, ahead and along (mm) from i, j and k: scale and origin."""
+        affine = self.volume.world_from_index
+        # The vessel runs downwards.
+        return np.abs(np.diag(affine)[:3]), affine[:3, 3] * (1, 1, -1)
+
+
+def straightened_volume(
+    volume: Any,
+    vessel: Vessel,
+    width: float = 50.0,
+    pixel_spacing: float | None = None,
+    angle: float = 0.0,
+    up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    smoothing: float = 0.0,
+    *,
+    degrees: float | None = None,
+    normal: npt.ArrayLike | None = None,
+) -> StraightenedVolume:
+    """Return the sections across a vessel as a volume.
+
+    The slices j in its middle are the straightened CPR of the same parameters.
+
+    Parameters
+    ----------
+    volume, vessel, pixel_spacing, angle, up, smoothing, degrees, normal
+        As for :func:`lumencut.cpr`; ``pixel_spacing`` is that along all axes.
+    width : float, default 50
+        Distance of the outermost voxels of a section (mm), at most, along both of its axes.
+
+    Raises
+    ------
+    LumencutError
+        As :func:`lumencut.cpr`, and a ``CameraError`` for more than 2^29 voxels.
+    """
+    check_vessel(vessel)
+    from lumencut.volume_files.memory import as_volume
+
+    source = as_volume(volume)
+    renderer = Renderer(source, VesselTree([vessel]), "cpu")
+    surface = cpr_of(
+        renderer,
+        vessel,
+        "straightened",
+        width=number(CameraError, "width of the CPR", width),
+        pixel_spacing=pixel_spacing,
+        angle=one_angle(angle, degrees),
+        up=up,
+        smoothing=smoothing,
+        normal=normal,
+    )
+    columns, sections = surface.size
+    if columns * columns * sections > _MOST_VOXELS:
+        found = f"{columns} × {columns} × {sections} voxels"
+        mend = "a larger pixel_spacing or a smaller width makes fewer"
+        raise CameraError("size of the straightened volume", found, f"at most {_MOST_VOXELS}", mend)
+    step = surface.pixel_spacing
+    side = (np.arange(columns) - columns // 2) * step
+    array = np.empty((sections, columns, columns), np.float32)
+    made = StraightenedVolume(Volume(array, world_from_index=_affine(step, side[0])), surface)
+    together = max(1, _TOGETHER // columns**2)
+    for first in range(0, sections, together):
+        k = np.arange(first, min(first + together, sections))
+        along, ahead, across = np.meshgrid(k * step, side, side, indexing="ij")
+        places = np.stack([across, ahead, along], axis=-1).reshape(-1, 3)
+        array[k] = source.sample(surface._core.world_from_straightened(places)).reshape(-1, columns, columns)
+    return made
+
+
+def _affine(step: float, first: float) -> npt.NDArray[np.float64]:
+    """World from index of a straightened volume: the vessel runs downwards from the origin."""
+    affine = np.diag([step, step, -step, 1.0])
+    affine[:2, 3] = first
+    return affine

@@ -1,0 +1,61 @@
+"""Volumes as NRRD and NIfTI files."""
+
+from __future__ import annotations
+
+import gzip
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lumencut._files import WRITABLE, checked_path, replace_whole
+from lumencut.errors import FormatError
+from lumencut.volume import Volume
+
+#: NIfTI counts to the right and to the front, volumes to the left and to the back.
+_RAS_FROM_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
+
+
+def write_volume(volume: Volume, path: str | os.PathLike[str]) -> None:
+    """Write a volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only once it is whole.
+
+    Raises
+    ------
+    FormatError
+        For another ending.
+    FileError
+        Where the file cannot be written.
+    """
+    path = checked_path(path, WRITABLE)
+    name = path.name.lower()
+    if name.endswith(".nrrd"):
+        replace_whole(path, lambda whole: _write_nrrd(volume, whole))
+    elif name.endswith((".nii", ".nii.gz")):
+        replace_whole(path, lambda whole: _write_nifti(volume, whole, is_packed=name.endswith(".gz")))
+    else:
+        raise FormatError(str(path), f"the ending {path.suffix!r}", ".nrrd, .nii or .nii.gz")
+
+
+def _write_nrrd(volume: Volume, whole: Path) -> None:
+    import nrrd
+
+    header: dict[str, Any] = {
+        "space": "left-posterior-superior",
+        "space directions": volume.world_from_index[:3, :3].T,
+        "space origin": volume.world_from_index[:3, 3],
+        "kinds": ["domain"] * 3,
+    }
+    with whole.open("wb") as file:
+        nrrd.write(file, volume.array.T, header, index_order="F")
+
+
+def _write_nifti(volume: Volume, whole: Path, *, is_packed: bool) -> None:
+    from nibabel import nifti1
+
+    # Its functions state no types.
+    library: Any = nifti1
+    image = library.Nifti1Image(volume.array.T, _RAS_FROM_LPS @ volume.world_from_index)
+    image.header.set_xyzt_units("mm")
+    content = image.to_bytes()
+    whole.write_bytes(gzip.compress(content) if is_packed else content)
