@@ -11,6 +11,7 @@ pub mod geometry;
 pub mod math;
 pub mod pipeline;
 pub mod progress;
+pub mod reformations;
 pub mod scene;
 pub mod settings;
 pub mod shaders;
