@@ -76,6 +76,21 @@ impl Connections {
         })
     }
 
+    /// All that may lie within the threshold of a part of a vessel between two arc lengths (mm): vessels, and from and to
+    /// which arc length.
+    pub fn stretches(&self, vessel: u32, [low, high]: [f64; 2]) -> Vec<(u32, [f64; 2])> {
+        let mut stretches = vec![(vessel, [low - self.threshold, high + self.threshold])];
+        for meeting in self.meetings_of(vessel) {
+            let left = self.threshold - (low - meeting.arc_length).max(meeting.arc_length - high).max(0.0);
+            let reached = if left < 0.0 { &[][..] } else { self.reached(meeting.junction) };
+            for at in reached.iter().filter(|at| at.distance <= left) {
+                let further = left - at.distance;
+                stretches.push((at.vessel, [at.arc_length - further, at.arc_length + further]));
+            }
+        }
+        stretches
+    }
+
     fn meetings_of(&self, vessel: u32) -> &[Meeting] {
         let [first, end] = [vessel, vessel + 1].map(|id| self.first_of_vessel[id as usize] as usize);
         &self.meetings[first..end]

@@ -5,6 +5,7 @@
 //! Reformations of Complex Vascular Structures", IEEE Pacific Visualization Symposium 2012. METHOD.md states what is taken
 //! from there and what had to be decided.
 
+mod chains;
 mod parameters;
 mod row;
 mod stretch;

@@ -22,9 +22,8 @@ const BLOCK: usize = 64;
 /// The steepest slope that is told (mm per mm): where a vessel runs nearly along a row, it grows beyond all numbers.
 const STEEPEST: f64 = 1e9;
 
-/// Where the pixels of a view look by mpCPR. Of the settings `centerline_smoothing` counts, and where silhouettes ask for
-/// lumen `unknown_radius`;
-/// there are neither levels of detail nor a depth filter.
+/// Where the pixels of a view look by mpCPR. Of the settings `centerline_smoothing` counts, and `unknown_radius` where silhouettes ask
+/// for lumen; there are neither levels of detail nor a depth filter.
 ///
 /// Rows that no vessel crosses look beyond every volume ([`crate::math::lanes::FAR`]) and have the vessel
 /// [`super::NO_VESSEL`].

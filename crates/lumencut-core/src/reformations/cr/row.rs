@@ -22,14 +22,15 @@ impl Kernel for CrRow<'_> {
     #[inline(always)]
     fn run(self) {
         let (view, width) = (self.view, self.view.camera.size()[0]);
-        let mut seeds = [Seeds::default(); 2];
+        let (mut seeds, mut search) = ([Seeds::default(); 2], StretchSearch::new(view));
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(view.camera, column, self.row * ROWS);
+            search.begin_tile();
             let nearest = view.nearest(&tile, &mut seeds[0]);
             let foremost = view.foremost(&tile, &mut seeds[1]);
             let (mut depth, mut vessel, mut sheet) = ([0.0; PIXELS], [0; PIXELS], [[0.0; 4]; PIXELS]);
             for l in 0..PIXELS {
-                let seen = shown(view, nearest[l], foremost[l], [tile.x[l], tile.y[l]]);
+                let seen = shown(view, &mut search, &tile, [nearest[l], foremost[l]], l);
                 (depth[l], vessel[l], sheet[l]) = (seen.z, seen.vessel, seen.sheet());
             }
             scatter(&depth, self.depth, width, column);
@@ -39,9 +40,10 @@ impl Kernel for CrRow<'_> {
     }
 }
 
-/// What the pixel at (x, y) shows: what is nearest in the image, unless something of another stretch lies before it.
+/// What pixel `l` of a tile shows: what is nearest in the image, unless something of another stretch lies before it.
 #[inline(always)]
-fn shown(view: &CrView, nearest: u32, foremost: u32, [x, y]: [f32; 2]) -> Seen {
+fn shown(view: &CrView, search: &mut StretchSearch, tile: &Tile, pieces: [u32; 2], l: usize) -> Seen {
+    let ([nearest, foremost], [x, y]) = (pieces, [tile.x[l], tile.y[l]]);
     let near = view.seen(nearest, x, y);
     if foremost == NO_PIECE || foremost == nearest {
         return near;
@@ -50,5 +52,5 @@ fn shown(view: &CrView, nearest: u32, foremost: u32, [x, y]: [f32; 2]) -> Seen {
     if view.connections.are_near(front.place(), near.place()) {
         return near;
     }
-    StretchSearch::new(view, front, [x, y]).nearest()
+    search.nearest(tile, front, [x, y])
 }

@@ -1,92 +1,111 @@
-//! The search for the nearest piece of one stretch of the tree, for one pixel.
+//! The search for the nearest piece of one stretch of the tree, for the pixels of a tile.
+
+use std::collections::HashMap;
 
 use super::view::{CrView, Seen};
 use crate::math::lanes::FAN;
 use crate::math::nearest::squared_distances_to_segments;
-use crate::math::tile::Area;
+use crate::math::tile::{Area, Tile};
 
-/// Nodes that can wait: fifteen brothers on each of eight heights, and one more.
-const STACK: usize = 8 * FAN;
+/// For how many chains a search keeps what lies around them.
+const MOST_KEPT: usize = 256;
 
-/// The search for the piece nearest to a pixel in the image among those within the threshold of a place along the tree: the
-/// nodes of the hierarchy from the nearest one on, as far as they are nearer than the best piece so far.
+/// The search for the piece nearest to a pixel in the image among those within the threshold of a place along the tree.
+/// Places on one chain have much the same pieces around them, and so do the pixels of a tile.
 pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
-    pixel: [f32; 2],
-    /// The place: a vessel and an arc length (mm).
-    middle: (i32, f32),
-    best: Seen,
-    /// The squared distance (mm²) beyond which nothing is nearer than the best one.
-    limit: f32,
-    waiting: [(f32, u32, u32); STACK],
-    count: usize,
+    /// For a chain, which chains may lie within the threshold of a place on it, from and to.
+    around: HashMap<u32, Vec<[u32; 2]>>,
+    /// For a chain, the chains around it with their squared distance (mm²) from this tile, the nearest first.
+    in_tile: Vec<(u32, Vec<(f32, u32)>)>,
 }
 
 impl<'a> StretchSearch<'a> {
-    /// The search around `front`, as the pixel at (x, y) sees it: the best piece so far.
-    pub fn new(view: &'a CrView<'a>, front: Seen, pixel: [f32; 2]) -> Self {
-        let mut search = Self {
-            view,
-            pixel,
-            middle: front.place(),
-            best: front,
-            limit: 0.0,
-            waiting: [(0.0, 0, 0); STACK],
-            count: 1,
-        };
-        search.waiting[0] = (0.0, view.plane.heights.len() as u32, 0);
-        search.take(front);
-        search
+    pub fn new(view: &'a CrView<'a>) -> Self {
+        Self { view, around: HashMap::new(), in_tile: Vec::new() }
     }
 
-    /// The nearest piece; of those equally near the first one.
+    /// Goes on to another tile.
+    pub fn begin_tile(&mut self) {
+        self.in_tile.clear();
+    }
+
+    /// The piece nearest to the pixel at (x, y) among those of the stretch around `front`, which is one of them; of those
+    /// equally near the first one.
     #[inline(never)]
-    pub fn nearest(mut self) -> Seen {
-        while self.count > 0 {
-            self.count -= 1;
-            let (squared, height, node) = self.waiting[self.count];
-            if squared > self.limit {
-                continue;
+    pub fn nearest(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
+        let view = self.view;
+        let chain = view.chains.chain_of(view.level, front.vessel, front.piece / 2);
+        let known = self.in_tile.iter().position(|(known, _)| *known == chain);
+        let n = known.unwrap_or_else(|| {
+            let near = self.seen_from(tile, chain);
+            self.in_tile.push((chain, near));
+            self.in_tile.len() - 1
+        });
+        let mut best = Best::new(view, front);
+        let pixel = Area { center: [x, y], half: [0.0; 2] };
+        for &(squared, chain) in &self.in_tile[n].1 {
+            if squared > best.limit {
+                break;
             }
-            if height > 0 { self.open(height - 1, node) } else { self.meet(node) }
+            if view.chains.squared_distance(chain, &pixel) <= best.limit {
+                best.meet(chain, [x, y]);
+            }
         }
-        self.best
+        best.seen
     }
 
+    /// The chains around a chain with their squared distances from a tile, the nearest first.
+    fn seen_from(&mut self, tile: &Tile, chain: u32) -> Vec<(f32, u32)> {
+        let view = self.view;
+        if self.around.len() > MOST_KEPT {
+            self.around.clear();
+        }
+        let around = self.around.entry(chain).or_insert_with(|| view.around(chain));
+        let distance = |chain| (view.chains.squared_distance(chain, &tile.area), chain);
+        let mut seen: Vec<_> = around.iter().flat_map(|[from, to]| *from..*to).map(distance).collect();
+        seen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        seen
+    }
+}
+
+/// The best piece so far.
+struct Best<'a> {
+    view: &'a CrView<'a>,
+    /// The place in the middle of the stretch: a vessel and an arc length (mm).
+    middle: (i32, f32),
+    seen: Seen,
+    /// The squared distance (mm²) beyond which nothing is nearer.
+    limit: f32,
+}
+
+impl<'a> Best<'a> {
+    fn new(view: &'a CrView<'a>, front: Seen) -> Self {
+        let mut best = Self { view, middle: front.place(), seen: front, limit: 0.0 };
+        best.take(front);
+        best
+    }
+
+    #[inline(always)]
     fn take(&mut self, seen: Seen) {
         let reach = seen.distance + self.view.plane_rule.distance_slack;
-        (self.best, self.limit) = (seen, reach * reach);
+        (self.seen, self.limit) = (seen, reach * reach);
     }
 
-    /// Lets the nodes of a set of boxes wait, the nearest on top.
-    fn open(&mut self, height: u32, node: u32) {
-        let area = Area { center: self.pixel, half: [0.0; 2] };
-        let bounds = self.view.plane.heights[height as usize][node as usize].squared_distances(&area);
-        let base = self.count;
-        for n in (0..FAN).filter(|n| bounds[*n] <= self.limit) {
-            let mut at = self.count;
-            while at > base && self.waiting[at - 1].0 < bounds[n] {
-                self.waiting[at] = self.waiting[at - 1];
-                at -= 1;
-            }
-            self.waiting[at] = (bounds[n], height, node * FAN as u32 + n as u32);
-            self.count += 1;
-        }
-    }
-
-    /// Meets the pieces of a bundle.
-    fn meet(&mut self, bundle: u32) {
-        let (view, [x, y]) = (self.view, self.pixel);
-        let bundle = &view.plane.bundles[bundle as usize];
-        let squared = squared_distances_to_segments(bundle, x, y);
+    /// Meets the pieces of a chain.
+    #[inline(always)]
+    fn meet(&mut self, chain: u32, [x, y]: [f32; 2]) {
+        let chain = &self.view.chains.bundles[chain as usize];
+        let squared = squared_distances_to_segments(chain, x, y);
         for s in 0..FAN {
             if squared[s] > self.limit {
                 continue;
             }
-            for piece in [2 * bundle.slot[s], 2 * bundle.slot[s] + 1] {
-                let seen = view.seen(piece, x, y);
-                let is_nearer = (seen.distance, seen.piece) < (self.best.distance, self.best.piece);
-                if seen.is_covered && is_nearer && view.connections.are_near(self.middle, seen.place()) {
+            for piece in [2 * chain.slot[s], 2 * chain.slot[s] + 1] {
+                let seen = self.view.seen(piece, x, y);
+                let is_nearer = (seen.distance, seen.piece) < (self.seen.distance, self.seen.piece);
+                let near = |seen: &Seen| self.view.connections.are_near(self.middle, seen.place());
+                if seen.is_covered && is_nearer && near(&seen) {
                     self.take(seen);
                 }
             }

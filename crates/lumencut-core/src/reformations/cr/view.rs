@@ -1,5 +1,6 @@
 //! The pieces of a tree in one view, as CR asks for them: the nearest in the image, and the foremost whose disc holds a pixel.
 
+use super::chains::Chains;
 use super::parameters::CrParameters;
 use crate::camera::Camera;
 use crate::math::cost::Rule;
@@ -15,16 +16,18 @@ use crate::stages::depth::Sheet;
 
 /// A tree in one view.
 pub(super) struct CrView<'a> {
-    level: &'a Level,
+    pub level: &'a Level,
     pub camera: &'a Camera,
     /// The slots in their order.
     projected: Vec<Projected>,
     /// Their pieces without depth and radius: the smallest key is the smallest distance.
-    pub plane: Hierarchy,
+    plane: Hierarchy,
     pub plane_rule: Rule,
     /// Their pieces with the radii of the discs: the smallest key is the foremost one whose disc holds the pixel.
     discs: Hierarchy,
     disc_rule: Rule,
+    /// Their segments in the order of their vessels.
+    pub chains: Chains,
     pub connections: Connections,
 }
 
@@ -34,7 +37,7 @@ impl<'a> CrView<'a> {
         let side = camera.pixel_spacing();
         let mut view = ProjectedLevel::new(level);
         view.project(level, camera, Radii { scale: 1.0, unknown: settings.unknown_radius as f32 });
-        let tree_reach = view.reach();
+        let (tree_reach, chains) = (view.reach(), Chains::new(level, &view));
         let ProjectedLevel { projected, hierarchy } = view;
         let (mut plane, mut discs) = (hierarchy.clone(), hierarchy);
         plane.flatten();
@@ -43,7 +46,7 @@ impl<'a> CrView<'a> {
         let disc_rule = Rule { margin: 0.0, ..Rule::new(settings, tree_reach, view_reach) };
         let connections = Connections::new(level, parameters.arc_threshold * side);
         let plane_rule = Rule { weight: 1.0, ..disc_rule };
-        Self { level, camera, projected, plane, plane_rule, discs, disc_rule, connections }
+        Self { level, camera, projected, plane, plane_rule, discs, disc_rule, chains, connections }
     }
 
     /// The piece of each pixel that is nearest in the image; of those equally near the first one.
@@ -64,6 +67,24 @@ impl<'a> CrView<'a> {
         lowest_keys::<true>(&self.discs, tile, &self.disc_rule, seeds, &mut foremost);
         *seeds = Seeds::collect(&foremost, &self.level.bundle_of_slot);
         foremost.piece
+    }
+
+    /// The chains that may lie within the threshold of a place on one of them, from and to.
+    pub fn around(&self, chain: u32) -> Vec<[u32; 2]> {
+        let slot = self.chains.bundles[chain as usize].slot[0];
+        let vessel = self.level.vessel_of_slot[slot as usize];
+        let span = self.chains.span(self.level, vessel, chain);
+        let stretches = self.connections.stretches(vessel as u32, span);
+        let chains =
+            stretches.into_iter().map(|(vessel, span)| self.chains.between(self.level, vessel, span));
+        let mut chains: Vec<_> = chains.collect();
+        chains.sort_unstable();
+        chains.dedup_by(|next, last| {
+            let meets = next[0] <= last[1];
+            last[1] = if meets { last[1].max(next[1]) } else { last[1] };
+            meets
+        });
+        chains
     }
 
     /// How the pixel at (x, y) lies to a piece.
