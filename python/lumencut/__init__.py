@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from lumencut.slab import Slab
     from lumencut.threads import get_threads, set_threads
     from lumencut.transfer import TransferFunction
+    from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
@@ -74,6 +75,7 @@ _HOME = {
     "slab": ("Slab",),
     "threads": ("get_threads", "set_threads"),
     "transfer": ("TransferFunction",),
+    "tree_reformations": ("cr", "mpcpr"),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),
@@ -111,11 +113,13 @@ __all__ = [
     "VolumeError",
     "Window",
     "__version__",
+    "cr",
     "devices",
     "evaluate",
     "fitted_turn",
     "get_threads",
     "list_series",
+    "mpcpr",
     "read_centerlines",
     "read_volume",
     "render",

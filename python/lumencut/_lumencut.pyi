@@ -127,7 +127,11 @@ class Renderer:
         settings: Settings,
         images: list[str] | None = None,
         told: Callable[[int, int], object] | None = None,
+        method: tuple[Any, ...] | None = None,
     ) -> dict[str, Any]: ...
+    def strength(
+        self, camera: Any, settings: Settings, method: tuple[Any, ...]
+    ) -> npt.NDArray[np.float32]: ...
 
 def better_place(
     points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64], volume: Any

@@ -193,6 +193,31 @@ class Renderer:
         buffers = self._core.render(None, camera, checked(settings), self._at_once(settings))
         return self._frame(camera, settings, buffers, None)
 
+    def _by(
+        self,
+        method: tuple[Any, ...],
+        camera: Camera | None,
+        settings: Settings | None,
+        images: Iterable[str] | None = None,
+    ) -> Frame:
+        """Return one view by a reformation, named with its numbers as the extension module takes them."""
+        if self._tree is None:
+            raise VesselTreeError("tree of the renderer", "None", "a tree to lay the image through")
+        camera, settings = self._view(camera, settings)
+        asked = None if images is None else _names(images)
+        source = None
+        if self._volume is not None:
+            settings = self.windowed(settings)
+            source = frame_source(settings, self._volume, self._tree, self._vessel_ends, method[0])
+        names = [name for name in IMAGES if name != "distance"] if asked is None else asked
+        core, used = self._core, checked(settings)
+        buffers = core.render(self._volume, camera, used, names, None, method)
+        arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
+        if asked is None:
+            arrays["_distance"] = lambda: core.render(None, camera, used, ["distance"])["distance"]
+        told = None if asked is None else tuple(asked)
+        return Frame(camera, buffers["timings"], **arrays, _asked=told, _source=source)
+
     def _at_once(self, settings: Settings) -> list[str] | None:
         """The images that are made where none are named; None stands for all."""
         if self._tree is None or settings.level_choice != "own":

@@ -10,6 +10,7 @@ pub mod devices;
 pub mod extent;
 mod fused;
 pub mod lumen_points;
+pub mod method;
 pub mod misplaced;
 pub mod placement;
 pub mod places;
@@ -23,7 +24,7 @@ pub mod views;
 pub mod windows;
 
 pub use lumencut_core::{
-    camera, error, frame, geometry, math, pipeline, progress, scene, settings, stages, stop, vessel_tree,
-    volume, with_voxels,
+    camera, error, frame, geometry, math, pipeline, progress, reformations, scene, settings, stages, stop,
+    vessel_tree, volume, with_voxels,
 };
 pub use lumencut_io as centerlines;
