@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from lumencut import _lumencut
 from lumencut._checks import number
 from lumencut.camera import Camera
 from lumencut.errors import SettingsError, VesselTreeError
@@ -22,9 +23,11 @@ MPCPR = ("mpcpr",)
 def cr_method(
     radius_offset: float = RADIUS_OFFSET, arc_threshold: float = ARC_THRESHOLD
 ) -> tuple[str, float, float]:
-    """Return CR with its thresholds (pixels) as the renderer takes it."""
+    """Return CR with its thresholds (pixels) as the renderer takes it, or refuse them."""
     offset = number(SettingsError, "radius_offset", radius_offset)
-    return ("cr", offset, number(SettingsError, "arc_threshold", arc_threshold))
+    threshold = number(SettingsError, "arc_threshold", arc_threshold)
+    _lumencut.check_cr(offset, threshold)
+    return ("cr", offset, threshold)
 
 
 def mpcpr(

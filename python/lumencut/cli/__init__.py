@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.demo import demo
 from lumencut.cli.evaluate import evaluate
 from lumencut.cli.info import info
@@ -50,5 +51,5 @@ def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
 
 
-for _command in (render, turntable, evaluate, info, settings, demo):
+for _command in (render, turntable, compare_methods, evaluate, info, settings, demo):
     main.add_command(_command)
