@@ -16,7 +16,7 @@ from lumencut.frame import IMAGES, Frame
 from lumencut.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
 from lumencut.scene_windows import SceneWindows
 from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
+from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
 from lumencut.window import Window
 
@@ -95,7 +95,18 @@ class Renderer:
         _check_kind(tree)
         other = object.__new__(Renderer)
         other._set_scene(self._volume, tree)
-        other._core = self._core.with_tree(None if tree is None else tree._arrays())
+        return self._sharing(other)
+
+    def _with_part(self, vessels: Iterable[Vessel]) -> Renderer:
+        """A renderer of some vessels of the tree, which need not be compared with the volume again."""
+        tree = VesselTree(vessels)
+        other = object.__new__(Renderer)
+        other._volume, other._tree, other._scene = self._volume, tree, tree
+        return self._sharing(other)
+
+    def _sharing(self, other: Renderer) -> Renderer:
+        """Give another renderer of the same volume what computes, and the windows."""
+        other._core = self._core.with_tree(None if other._tree is None else other._tree._arrays())
         other._windows = self._windows
         return other
 
