@@ -63,7 +63,7 @@ fn main() -> Result<()> {
         &["workload", "method", "where the pixels look", "the whole picture"],
     );
     for (name, make) in WORKLOADS {
-        compare(name, &make(0, 0.5)?)?;
+        compare(name, &make(0, 1.0)?)?;
     }
     Ok(())
 }

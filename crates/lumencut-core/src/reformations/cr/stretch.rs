@@ -1,6 +1,7 @@
 //! The search for the nearest piece of one stretch of the tree, for the pixels of a tile.
 
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
 
 use super::view::{CrView, Seen};
 use crate::math::lanes::FAN;
@@ -16,8 +17,8 @@ pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
     /// For a chain, which chains may lie within the threshold of a place on it, from and to.
     around: HashMap<u32, Vec<[u32; 2]>>,
-    /// For a chain, the chains around it with their squared distance (mm²) from this tile, the nearest first.
-    in_tile: Vec<(u32, Vec<(f32, u32)>)>,
+    /// For a chain, the chains around it as seen from this tile.
+    in_tile: Vec<(u32, NearFirst)>,
 }
 
 impl<'a> StretchSearch<'a> {
@@ -44,10 +45,9 @@ impl<'a> StretchSearch<'a> {
         });
         let mut best = Best::new(view, front);
         let pixel = Area { center: [x, y], half: [0.0; 2] };
-        for &(squared, chain) in &self.in_tile[n].1 {
-            if squared > best.limit {
-                break;
-            }
+        let mut place = 0;
+        while let Some(chain) = self.in_tile[n].1.within(place, best.limit) {
+            place += 1;
             if view.chains.squared_distance(chain, &pixel) <= best.limit {
                 best.meet(chain, [x, y]);
             }
@@ -55,17 +55,36 @@ impl<'a> StretchSearch<'a> {
         best.seen
     }
 
-    /// The chains around a chain with their squared distances from a tile, the nearest first.
-    fn seen_from(&mut self, tile: &Tile, chain: u32) -> Vec<(f32, u32)> {
+    /// The chains around a chain as seen from a tile.
+    fn seen_from(&mut self, tile: &Tile, chain: u32) -> NearFirst {
         let view = self.view;
         if self.around.len() > MOST_KEPT {
             self.around.clear();
         }
         let around = self.around.entry(chain).or_insert_with(|| view.around(chain));
-        let distance = |chain| (view.chains.squared_distance(chain, &tile.area), chain);
-        let mut seen: Vec<_> = around.iter().flat_map(|[from, to]| *from..*to).map(distance).collect();
-        seen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        seen
+        // Squares are not negative, so their bits have their order.
+        let entry = |chain| Reverse((view.chains.squared_distance(chain, &tile.area).to_bits(), chain));
+        let rest: Vec<_> = around.iter().flat_map(|[from, to]| *from..*to).map(entry).collect();
+        NearFirst { ordered: Vec::new(), rest: rest.into() }
+    }
+}
+
+/// Chains in the order of their squared distance (mm²) from a tile, as far as anybody has asked for them.
+struct NearFirst {
+    ordered: Vec<(f32, u32)>,
+    rest: BinaryHeap<Reverse<(u32, u32)>>,
+}
+
+impl NearFirst {
+    /// The chain in a place of the order, unless it lies beyond `limit` (mm²); places are asked for one after the other.
+    #[inline(always)]
+    fn within(&mut self, place: usize, limit: f32) -> Option<u32> {
+        if place == self.ordered.len() {
+            let Reverse((bits, chain)) = self.rest.pop()?;
+            self.ordered.push((f32::from_bits(bits), chain));
+        }
+        let (squared, chain) = self.ordered[place];
+        (squared <= limit).then_some(chain)
     }
 }
 

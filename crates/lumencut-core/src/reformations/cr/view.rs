@@ -102,7 +102,7 @@ impl<'a> CrView<'a> {
             arc_length,
             slope: [0.0; 2],
         };
-        if piece % 2 == 0 {
+        if piece.is_multiple_of(2) {
             let (covered, distance) = here.wedge().cover(x, y);
             return Seen { is_covered: covered & here.stands, distance, ..at_start };
         }
