@@ -1,7 +1,9 @@
 //! Where vessels meet, and how far two places of a tree lie apart along it.
 
+use std::borrow::Cow;
 use std::collections::{BinaryHeap, HashMap};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 
@@ -19,13 +21,15 @@ struct Meeting {
     junction: u32,
 }
 
-/// A vessel that can be reached from a junction, where it is entered, and how far that is (mm).
+/// A place that can be reached from a junction, and how far that is (mm).
 #[derive(Clone, Copy, Debug)]
 struct Reached {
-    vessel: u32,
-    arc_length: f64,
-    distance: f64,
+    meeting: u32,
+    distance: f32,
 }
+
+/// How many places that can be reached are kept, of all junctions together: more are found anew at each need.
+const MOST_KEPT: usize = 1 << 24;
 
 /// Where the vessels of a tree meet: wherever one of them ends at a point of another.
 #[derive(Debug)]
@@ -36,8 +40,9 @@ pub struct Connections {
     first_of_vessel: Vec<u32>,
     /// The places of each junction.
     of_junction: Vec<Vec<u32>>,
-    /// What can be reached from each junction, found when it is first needed.
+    /// What can be reached from each junction, found when it is first needed, and how many places that is so far.
     reached: Vec<OnceLock<Vec<Reached>>>,
+    kept: AtomicUsize,
     /// How far apart places still belong together (mm).
     threshold: f64,
 }
@@ -58,7 +63,7 @@ impl Connections {
             first_of_vessel.push(meetings.len() as u32);
         }
         let reached = of_junction.iter().map(|_| OnceLock::new()).collect();
-        Self { meetings, first_of_vessel, of_junction, reached, threshold }
+        Self { meetings, first_of_vessel, of_junction, reached, kept: AtomicUsize::new(0), threshold }
     }
 
     /// Whether two places, each a vessel and an arc length (mm), lie within the threshold of each other along the tree.
@@ -67,12 +72,19 @@ impl Connections {
         if vessel == other && (from - to).abs() <= self.threshold {
             return true;
         }
+        let [first, end] = [other, other + 1].map(|id| self.first_of_vessel[id as usize]);
         self.meetings_of(vessel as u32).iter().any(|meeting| {
             let left = self.threshold - (meeting.arc_length - from).abs();
-            let reached = if left < 0.0 { &[][..] } else { self.reached(meeting.junction) };
-            let first = reached.partition_point(|at| at.vessel < other as u32);
-            let there = reached[first..].iter().take_while(|at| at.vessel == other as u32);
-            there.into_iter().any(|at| at.distance + (at.arc_length - to).abs() <= left)
+            if left < 0.0 {
+                return false;
+            }
+            let reached = self.reached(meeting.junction);
+            let start = reached.partition_point(|at| at.meeting < first);
+            let there = reached[start..].iter().take_while(|at| at.meeting < end);
+            there.into_iter().any(|at| {
+                let arc_length = self.meetings[at.meeting as usize].arc_length;
+                f64::from(at.distance) + (arc_length - to).abs() <= left
+            })
         })
     }
 
@@ -82,10 +94,15 @@ impl Connections {
         let mut stretches = vec![(vessel, [low - self.threshold, high + self.threshold])];
         for meeting in self.meetings_of(vessel) {
             let left = self.threshold - (low - meeting.arc_length).max(meeting.arc_length - high).max(0.0);
-            let reached = if left < 0.0 { &[][..] } else { self.reached(meeting.junction) };
-            for at in reached.iter().filter(|at| at.distance <= left) {
-                let further = left - at.distance;
-                stretches.push((at.vessel, [at.arc_length - further, at.arc_length + further]));
+            if left < 0.0 {
+                continue;
+            }
+            for at in self.reached(meeting.junction).iter() {
+                let Meeting { vessel, arc_length, .. } = self.meetings[at.meeting as usize];
+                let further = left - f64::from(at.distance);
+                if further >= 0.0 {
+                    stretches.push((vessel, [arc_length - further, arc_length + further]));
+                }
             }
         }
         stretches
@@ -96,19 +113,22 @@ impl Connections {
         &self.meetings[first..end]
     }
 
-    /// The vessels that can be reached from a junction within the threshold, in their order.
-    fn reached(&self, junction: u32) -> &[Reached] {
-        self.reached[junction as usize].get_or_init(|| {
-            let mut reached = Vec::new();
-            for (junction, distance) in self.shortest_ways(junction) {
-                reached.extend(self.of_junction[junction as usize].iter().map(|n| {
-                    let Meeting { vessel, arc_length, .. } = self.meetings[*n as usize];
-                    Reached { vessel, arc_length, distance }
-                }));
-            }
-            reached.sort_by_key(|at| at.vessel);
-            reached
-        })
+    /// The places that can be reached from a junction within the threshold, in the order of vessels and along them.
+    fn reached(&self, junction: u32) -> Cow<'_, [Reached]> {
+        let known = &self.reached[junction as usize];
+        if let Some(reached) = known.get() {
+            return Cow::Borrowed(reached);
+        }
+        let mut reached = Vec::new();
+        for (junction, distance) in self.shortest_ways(junction) {
+            let there = self.of_junction[junction as usize].iter();
+            reached.extend(there.map(|meeting| Reached { meeting: *meeting, distance: distance as f32 }));
+        }
+        reached.sort_unstable_by_key(|at| at.meeting);
+        if self.kept.fetch_add(reached.len(), Ordering::Relaxed) + reached.len() > MOST_KEPT {
+            return Cow::Owned(reached);
+        }
+        Cow::Borrowed(known.get_or_init(|| reached))
     }
 
     /// The junctions within the threshold of one of them, and how far they are along the tree (mm): Dijkstra's algorithm.
@@ -133,9 +153,7 @@ impl Connections {
                 }
             }
         }
-        let mut ways: Vec<_> = known.into_iter().collect();
-        ways.sort_by_key(|(junction, _)| *junction);
-        ways
+        known.into_iter().collect()
     }
 }
 
