@@ -123,12 +123,61 @@ def test_images_that_a_method_gives_become_numbers(monkeypatch):
 
 
 def test_lines_of_the_rule_leap_are_at_leaps_and_nowhere_else():
-    row, paper = evaluate(None, crossing_tubes(), **SMALL).table
+    row, paper = evaluate(None, crossing_tubes(), ("csr", "csr-paper"), **SMALL).table
     assert row["leaps"] > 50
     assert row["leaps_with_line_percent"] > 95
     assert paper["leaps"] > 50
     assert row["leaps_with_line_percent"] >= paper["leaps_with_line_percent"]
     assert row["lines_elsewhere_mm_per_mm2"] < 0.001
+
+
+# Methods
+
+
+def test_a_straight_upright_vessel_is_the_same_by_all_methods():
+    """All of them cut it along the plane that it lies in, wherever rows cross it."""
+    tree = VesselTree([tube(4.875, axis=2)])
+    found = evaluate(None, tree, views=1, size=(200, 110), pixel_spacing=0.5, settings=EXACT)
+    for row in found.table:
+        for name in ("lumen_within_0.05_mm", "lumen_shown", "visible_centerline"):
+            assert row[f"{name}_percent"] == 100, (row["method"], name)
+        assert row["unbroken_surroundings_percent"] == 100
+        assert row["width_error_mean_mm"] == found.table[0]["width_error_mean_mm"]
+        assert row["leaps"] == 0
+
+
+def test_a_vessel_along_the_rows_is_too_thin_by_mpcpr_and_as_wide_as_it_is_by_the_others():
+    """Out of the plane by 45 degrees and 20 to the rows: 8 mm appear as 8·sin 20° / √(1 − dx²)."""
+    phi, theta = np.radians([20, 45])
+    along = np.array([np.cos(phi) * np.cos(theta), np.sin(theta), np.sin(phi) * np.cos(theta)])
+    tree = VesselTree([Vessel(along * np.linspace(-50, 50, 101)[:, None], 4.0)])
+    found = evaluate(None, tree, views=1, size=(600, 300), pixel_spacing=0.2, settings=EXACT)
+    bias = {row["method"]: row["width_bias_mm"] for row in found.table}
+    expected = 8 * np.sin(phi) / np.sqrt(1 - along[0] ** 2) - 8
+    assert expected < -4
+    assert bias["mpcpr"] == bias["cpr"] == pytest.approx(expected, abs=0.25)
+    for name in ("csr", "csr-paper", "cr"):
+        assert bias[name] == pytest.approx(0, abs=0.2), name
+
+
+def test_of_two_crossing_tubes_each_method_shows_what_it_can():
+    """The upright tube lies 20 mm behind the one across: mpCPR knows no front."""
+    front = {"views": 1, "size": (161, 161), "pixel_spacing": 0.5}
+    rows = {row["method"]: row for row in evaluate(None, crossing_tubes(), settings=EXACT, **front).table}
+    assert rows["csr"]["lumen_shown_percent"] == rows["cpr"]["visible_centerline_percent"] == 100
+    assert rows["csr"]["crossings_in_order_percent"] == rows["cr"]["crossings_in_order_percent"] == 100
+    # A disc of 50 pixels of 0.5 mm around the front tube leaves 30 − 4 − 25 mm at both ends of the other.
+    assert rows["cr"]["lumen_shown_percent"] < 75 < rows["csr-paper"]["lumen_shown_percent"]
+    # Each tube by itself: all of it is seen, and none crosses another.
+    assert rows["cpr"]["hidden_centerline_points"] == 0
+    assert (rows["cpr"]["crossings"], rows["csr"]["crossings"]) == (0, 1)
+    assert rows["cpr"]["centerline_points"] == 122
+
+
+def test_vessels_beside_the_volume_have_an_image_too(block):
+    tree = VesselTree([*crossing_tubes(), Vessel([(500, 0, 0), (500, 0, 20)], 2.0)])
+    (row,) = evaluate(block, tree, ("cpr",), **SMALL).table
+    assert row["tissue_percent"] > 0
 
 
 # Arguments
@@ -141,13 +190,15 @@ def test_methods_differ_in_their_settings_alone():
     assert found.settings["csr-paper"] == Settings.paper(cost_weight=20, levels=2)
     assert _lumencut.PAPER.items() <= vars(found.settings["csr-paper"]).items()
     only = evaluate(None, crossing_tubes(), methods="csr-paper", settings=chosen, **SMALL)
-    assert only.table == found.table[1:]
+    assert only.table == found.table[1:2]
+    assert all(found.settings[name] == chosen for name in ("cpr", "mpcpr", "cr"))
 
 
 def test_there_is_a_row_for_each_method_and_for_each_view():
     found = evaluate(None, crossing_tubes(), **SMALL)
     assert [row["method"] for row in found.table] == list(METHODS)
-    assert [row["views"] for row in found.table] == [4, 4]
+    assert list(METHODS) == ["csr", "csr-paper", "cpr", "mpcpr", "cr"]
+    assert [row["views"] for row in found.table] == [4] * 5
     assert [(row["method"], row["view"]) for row in found.views] == [
         (m, v) for m in METHODS for v in range(4)
     ]
@@ -156,7 +207,7 @@ def test_there_is_a_row_for_each_method_and_for_each_view():
     assert pixels == found.table[0]["lumen_pixels"]
     worst = [row["lumen_within_0.05_mm_percent"] for row in found.views[:4]]
     assert found.worst_view("csr") == worst.index(min(worst))
-    assert repr(found) == "Evaluation(csr, csr-paper: 4 views)"
+    assert repr(found) == "Evaluation(csr, csr-paper, cpr, mpcpr, cr: 4 views)"
     again = evaluate(None, crossing_tubes(), **SMALL)
     assert (again.table, again.views) == (found.table, found.views)
 
@@ -169,7 +220,11 @@ def test_pixels_have_the_given_spacing():
 @pytest.mark.parametrize(
     ("arguments", "error", "words"),
     [
-        ({"methods": ("csr", "cpr")}, SettingsError, "found 'cpr'; expected one of 'csr', 'csr-paper'"),
+        (
+            {"methods": ("csr", "mip")},
+            SettingsError,
+            "found 'mip'; expected one of 'csr', 'csr-paper', 'cpr'",
+        ),
         ({"methods": ()}, SettingsError, "no method"),
         ({"methods": ("csr", "csr")}, SettingsError, "csr, csr"),
         ({"methods": 3}, SettingsError, "methods: found 3"),
@@ -198,7 +253,7 @@ def test_progress_and_cancelling():
 
     with pytest.raises(KeyboardInterrupt):
         evaluate(None, crossing_tubes(), progress=stop, **SMALL)
-    assert told == [(1, 8), (2, 8), (3, 8)]
+    assert told == [(1, 20), (2, 20), (3, 20)]
 
 
 # Files
@@ -213,7 +268,7 @@ def test_the_table_as_csv(found, tmp_path):
     found.to_csv(tmp_path / "table.csv")
     with (tmp_path / "table.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [row["method"] for row in rows] == ["csr", "csr-paper"]
+    assert [row["method"] for row in rows] == list(METHODS)
     assert float(rows[0]["tissue_percent"]) == found.table[0]["tissue_percent"]
     assert int(rows[0]["leaps"]) == found.table[0]["leaps"]
     with pytest.raises(lumencut.FileError, match="nowhere"):
@@ -223,17 +278,22 @@ def test_the_table_as_csv(found, tmp_path):
 
 def test_the_table_as_markdown(found):
     lines = found.to_markdown().splitlines()
-    assert re.fullmatch(r"\| method +\| +csr \| csr-paper \|", lines[0])
-    assert re.fullmatch(r"\| -+ \| -+: \| -+: \|", lines[1])
+    assert re.fullmatch(r"\| method +\| +csr \| csr-paper \| +cpr \| +mpcpr \| +cr \|", lines[0])
+    assert re.fullmatch(r"\| -+ (\| -+: ){5}\|", lines[1])
     assert len({len(line) for line in lines}) == 1
-    assert len(lines) == 1 + len(found.table[0])
-    assert [line.split("|")[1].strip() for line in lines[2:]] == list(found.table[0])[1:]
-    assert re.search(r"\| leaps +\| +\d+ \| +\d+ \|", lines[-4])
+    names = [line.split("|")[1].strip() for line in lines[2:]]
+    groups = ["lumen", "surroundings", "visibility", "depth", "silhouettes"]
+    assert [name for name in names if "*" in name] == [f"**{group}**" for group in groups]
+    assert [name for name in names if "*" not in name] == list(found.table[0])[1:]
+    firsts = [names[names.index(f"**{group}**") + 1] for group in groups]
+    expected = ["lumen_within_0.05_mm", "tissue", "lumen_shown", "crossings_in_order", "leaps_with_line"]
+    assert firsts == [f"{name}_percent" for name in expected]
+    assert re.search(r"\| leaps +(\| +\d+ ){5}\|", lines[-1])
 
 
 def test_pictures_of_the_worst_views(found, block, tmp_path):
     paths = found.save_pictures(tmp_path / "worst")
-    assert [path.name for path in paths] == ["csr.png", "csr-paper.png"]
+    assert [path.name for path in paths] == [f"{name}.png" for name in METHODS]
     expected = Renderer(block, crossing_tubes()).render(found.cameras[found.worst_view("csr")], Settings())
     assert np.array_equal(np.asarray(Image.open(paths[0])), expected.image)
     (tmp_path / "file").write_text("")
@@ -278,9 +338,9 @@ def test_the_command_writes_files(scene, tmp_path):
         "--lumen-first",
     )
     assert result.exit_code == 0, result.output
-    assert names[0].read_text().startswith("method,views,visible_centerline_percent,")
+    assert names[0].read_text().startswith("method,views,lumen_within_0.05_mm_percent,")
     assert names[1].read_text().startswith("| method ")
-    assert sorted(path.name for path in names[2].iterdir()) == ["csr-paper.png", "csr.png"]
+    assert sorted(path.name for path in names[2].iterdir()) == sorted(f"{name}.png" for name in METHODS)
     assert [line.partition(":")[0] for line in result.stdout.splitlines()[:2]] == list(map(str, names[:2]))
     assert "| method" not in result.stdout
 
@@ -288,7 +348,7 @@ def test_the_command_writes_files(scene, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["a", "--methods", "csr,cpr"], "found 'cpr'"),
+        (["a", "--methods", "csr,mip"], "found 'mip'"),
         (["a", "--methods", ","], "no method"),
         (["a", "--pictures", "x"], "--pictures without VOLUME"),
         (["a", "--fill-gaps"], "--fill-gaps does nothing without VOLUME"),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from evaluation_scenes import crossing_tubes, front, perfect, truth_in, tube, with_depth
-from lumencut import VesselTree
+from lumencut import Vessel, VesselTree
 from lumencut.evaluation.amounts import percent, pooled
 from lumencut.evaluation.measures import MEASURES, columns_of
 from lumencut.evaluation.silhouettes import leaps
@@ -131,6 +131,87 @@ def test_surroundings_and_blends(tubes, camera):
     found = numbers(tubes, replace(shown, value=value, sheet_gap=gap))
     assert found["tissue_percent"] == pytest.approx(100 * 121 / 161)
     assert found["blended_sheets_percent"] == pytest.approx(100 * 23 / 161)
+
+
+def test_surroundings_end_at_leaps(lone, camera):
+    """Of 20 mm beside a tube on either side: a leap 12 mm above its wall, nothing shown 5 mm below it."""
+    shown = perfect(lone, camera)
+    assert numbers(lone, shown)["unbroken_surroundings_percent"] == 100
+    middle = np.flatnonzero(np.isfinite(lone.nearest.depth[:, 80]))
+    depth = shown.depth.copy()
+    depth[: middle[0] - 24] = 30.0
+    found = numbers(lone, with_depth(shown, lone, depth))
+    assert found["unbroken_surroundings_percent"] == pytest.approx(100 * 32 / 40, abs=1.5)
+    depth[middle[-1] + 1 + 10 :] = np.nan
+    found = numbers(lone, with_depth(shown, lone, depth))
+    assert found["unbroken_surroundings_percent"] == pytest.approx(100 * 17 / 40, abs=1.5)
+    # A slope is no leap; what begins elsewhere shows no surroundings of this vessel.
+    slope = shown.depth + 3.0 * (np.arange(161)[:, None] - 80.0)
+    assert numbers(lone, with_depth(shown, lone, slope))["unbroken_surroundings_percent"] == 100
+    away = numbers(lone, with_depth(shown, lone, shown.depth + 40.0))
+    assert away["unbroken_surroundings_percent"] == 0
+
+
+def test_surroundings_reach_to_the_next_lumen_and_to_the_border():
+    """A second tube begins 10 mm above the wall; 8 mm below the other wall the picture ends."""
+    above = tube(4.0)
+    above = Vessel(above.points + np.array([0, 0, 18.0]), 4.0)
+    tree, camera = VesselTree([tube(4.0), above]), front((161, 48))
+    truth = truth_in(tree, camera)
+    shown = perfect(truth, camera)
+    assert numbers(truth, shown)["unbroken_surroundings_percent"] == 100
+    # Nothing upwards from the lower tube, beside which 10 mm are tissue up to the next lumen.
+    depth = shown.depth.copy()
+    depth[np.isnan(truth.nearest.arc) & (np.arange(48)[:, None] < 24)] = np.nan
+    found = numbers(truth, with_depth(shown, truth, depth))
+    assert found["unbroken_surroundings_percent"] == pytest.approx(50, abs=3)
+
+
+def test_lumen_that_is_shown_anywhere_in_it(lone, camera):
+    """Other depths of the same lumen count; those beyond its wall do not."""
+    shown = perfect(lone, camera)
+    assert numbers(lone, shown)["lumen_shown_percent"] == 100
+    deeper = numbers(lone, with_depth(shown, lone, shown.depth + 1.9))
+    # Within 4 mm of the axis in space: of the pixels within 4 mm, those within √(4² − 1.9²) of it.
+    x, z = np.meshgrid(lone.seen.grid.x(np.arange(161)) + 0.013, lone.seen.grid.y(np.arange(161)) + 0.017)
+    away = np.hypot(np.maximum(np.abs(x) - 30, 0), z)
+    expected = 100 * (away <= np.sqrt(16 - 1.9**2)).sum() / (away <= 4).sum()
+    assert deeper["lumen_shown_percent"] == pytest.approx(expected, abs=0.1)
+    assert deeper["lumen_within_0.5_mm_percent"] == 0
+    gone = np.where(np.arange(161) < 80, np.nan, shown.depth)
+    assert numbers(lone, with_depth(shown, lone, gone))["lumen_shown_percent"] == pytest.approx(50, abs=1)
+
+
+def test_what_shows_nothing_is_neither_near_nor_in_order(tubes, camera):
+    shown = perfect(tubes, camera)
+    nothing = np.full_like(shown.depth, np.nan)
+    none = np.full_like(shown.vessel, -1)
+    strength = np.zeros(shown.depth.shape)
+    found = numbers(
+        tubes,
+        replace(
+            with_depth(shown, tubes, nothing),
+            vessel=none,
+            turned_depth=shown.depth,
+            turned_vessel=none,
+            plain_depth=nothing,
+            strength=strength,
+        ),
+    )
+    for name in ("lumen_within_2_mm", "lumen_shown", "visible_centerline", "crossings_in_order"):
+        assert found[f"{name}_percent"] == 0
+    assert found["unbroken_surroundings_percent"] == 0
+    assert found["depth_change_per_degree_mm"] is found["jumps_per_degree_percent"] is None
+    assert found["leaps"] == 0
+
+
+def test_depths_are_compared_where_there_are_two(tubes, camera):
+    shown = perfect(tubes, camera)
+    turned = shown.depth + 6.0
+    turned[:40] = np.nan
+    found = numbers(tubes, replace(shown, turned_depth=turned))
+    assert found["depth_change_per_degree_mm"] == pytest.approx(6)
+    assert found["jumps_per_degree_percent"] == 100
 
 
 def test_leaps_are_steps_and_no_slopes():

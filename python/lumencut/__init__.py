@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from lumencut.straightening import StraightenedVolume, straightened_volume
     from lumencut.threads import get_threads, set_threads
     from lumencut.transfer import TransferFunction
+    from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
@@ -82,6 +83,7 @@ _HOME = {
     "straightening": ("StraightenedVolume", "straightened_volume"),
     "threads": ("get_threads", "set_threads"),
     "transfer": ("TransferFunction",),
+    "tree_reformations": ("cr", "mpcpr"),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),
@@ -124,11 +126,13 @@ __all__ = [
     "__version__",
     "cfa",
     "cpr",
+    "cr",
     "devices",
     "evaluate",
     "fitted_turn",
     "get_threads",
     "list_series",
+    "mpcpr",
     "read_centerlines",
     "read_volume",
     "render",

@@ -26,7 +26,7 @@ _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
 
 #: What a view can have: the position follows from the depth.
-_IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context")
+_IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context", "folded")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -53,6 +53,7 @@ class Frame(KeepsReadOnly):
     _distance: npt.NDArray[np.float32] | Callable[[], npt.NDArray[np.float32]] | None = None
     _value: npt.NDArray[np.float32] | None = None
     _context: npt.NDArray[np.uint8] | None = None
+    _folded: npt.NDArray[np.bool_] | None = None
     _asked: tuple[str, ...] | None = None
     _source: FrameSource | None = None
 
@@ -66,14 +67,17 @@ class Frame(KeepsReadOnly):
     def depth(self) -> npt.NDArray[np.float32]:
         """Depth of the cut surface (mm), growing away from the viewer, 0 at the camera's center.
 
-        float32, shape (H, W).
+        float32, shape (H, W); NaN where mpCPR shows nothing.
         """
         depth: npt.NDArray[np.float32] = self._present("depth", self._depth)
         return depth
 
     @property
     def vessel(self) -> npt.NDArray[np.int32]:
-        """Id of the vessel whose influence zone the pixel is in, int32, shape (H, W)."""
+        """Id of the vessel whose influence zone the pixel is in, int32, shape (H, W).
+
+        It is -1 where mpCPR shows nothing.
+        """
         vessel: npt.NDArray[np.int32] = self._present("vessel", self._vessel)
         return vessel
 
@@ -105,6 +109,15 @@ class Frame(KeepsReadOnly):
         return context
 
     @property
+    def folded(self) -> npt.NDArray[np.bool_]:
+        """Where several points of one vessel share the row, of which the nearest is shown; bool, (H, W).
+
+        Frames of :func:`lumencut.mpcpr` alone have it.
+        """
+        folded: npt.NDArray[np.bool_] = self._present("folded", self._folded)
+        return folded
+
+    @property
     def position(self) -> npt.NDArray[np.float64]:
         """World point (mm, LPS) of the cut surface in each pixel, float64, shape (H, W, 3)."""
         depth = np.ascontiguousarray(self._present("position", self._depth), np.float32)
@@ -134,6 +147,9 @@ class Frame(KeepsReadOnly):
         if array is not None:
             return array
         stored = "depth" if name == "position" else name
+        if name == "folded":
+            found, mend = "a frame of another method", "use mpcpr"
+            raise VolumeError("folded of the frame", found, "a frame of mpCPR", mend)
         if self._asked is not None and stored not in self._asked:
             found = f"a frame that was asked for {', '.join(self._asked) or 'no image'} alone"
             raise VolumeError(f"{name} of the frame", found, f"a frame with {stored}", "name it in images=")
@@ -180,7 +196,8 @@ class Frame(KeepsReadOnly):
 
         A ``.png`` says how large its pixels are, where the source of the volume states a spacing, and how it
         was rendered, for ``lumencut render --like``: with which view, settings and version. It names no file
-        and nothing that the files say of the patient or the scan.
+        and nothing that the files say of the patient or the scan. Pictures of mpCPR and CR, which that
+        command does not make, say nothing but the size of their pixels.
 
         Parameters
         ----------
@@ -211,12 +228,15 @@ class Frame(KeepsReadOnly):
 
     def _png_options(self, *, annotate: bool, vessel_names: bool) -> dict[str, Any]:
         """What Pillow writes into a PNG beside the picture."""
-        from lumencut.recipe import Recipe, png_options
+        from lumencut.recipe import Recipe, pixel_size, png_options
 
         if self._source is None:
             return {}
         source = self._source
         labels = {"annotate": annotate, "vessel_names": vessel_names}
+        if source.method != "csr":
+            # A picture made like this one would be made by another method.
+            return pixel_size(self.camera) if source.states_spacing else {}
         recipe = Recipe(self.camera, source.settings, **labels, vessels=source.vessels)
         return png_options(recipe, states_spacing=source.states_spacing)
 

@@ -34,6 +34,8 @@ class FrameSource:
         How many vessels are shown.
     vessel_ends : tuple of (str, (float, float, float))
         Each named vessel and where its name belongs.
+    method : str, default "csr"
+        The method: ``"csr"``, ``"mpcpr"`` or ``"cr"``.
     """
 
     settings: Settings
@@ -42,16 +44,23 @@ class FrameSource:
     states_orientation: bool
     vessels: int
     vessel_ends: tuple[VesselEnd, ...]
+    method: str = "csr"
 
 
 def frame_source(
-    settings: Settings, volume: Volume, tree: VesselTree | None, ends: tuple[VesselEnd, ...]
+    settings: Settings,
+    volume: Volume,
+    tree: VesselTree | None,
+    ends: tuple[VesselEnd, ...],
+    method: str = "csr",
 ) -> FrameSource:
     """Return the source of a frame with these settings, windows as numbers; `ends` are those of the tree."""
     # The renderer has put a window in the place of each name.
     window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
     vessels = 0 if tree is None else len(tree)
-    return FrameSource(settings, window, volume.states_spacing, volume.states_orientation, vessels, ends)
+    return FrameSource(
+        settings, window, volume.states_spacing, volume.states_orientation, vessels, ends, method
+    )
 
 
 def _context_window(settings: Settings) -> Window | str | None:

@@ -100,6 +100,11 @@ class Sheet:
         self.taken.append((left - outline, base - tall - outline, right + outline, base + outline))
         self.write(words, (left, base - tall - 2 * outline), "ld")
 
+    def patch(self, box: Box, color: tuple[int, int, int]) -> None:
+        """Fill a box with a colour, such as one that a legend explains."""
+        self.taken.append(box)
+        self._draw.rectangle(box, fill=(*color, 255), outline=_LIGHT)
+
     def dot(self, place: tuple[float, float]) -> None:
         """Draw a dot about a point."""
         self.taken.append(around(place, self.dot_radius))

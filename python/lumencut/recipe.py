@@ -51,11 +51,14 @@ def png_options(recipe: Recipe, *, states_spacing: bool) -> dict[str, Any]:
     info = PngInfo()
     info.add_text("Software", f"Lumencut {_lumencut.__version__}")
     info.add_text(KEYWORD, json.dumps(_as_json(recipe), allow_nan=False))
-    per_metre = round(1000 / recipe.camera.pixel_spacing)
+    return {"pnginfo": info, **(pixel_size(recipe.camera) if states_spacing else {})}
+
+
+def pixel_size(camera: Camera) -> dict[str, Any]:
+    """Return what Pillow takes to write the size of a pixel into a PNG, nothing where it has no room."""
+    per_metre = round(1000 / camera.pixel_spacing)
     # PNG counts whole pixels in a metre: longer ones have their size in the recipe alone.
-    if not states_spacing or per_metre == 0:
-        return {"pnginfo": info}
-    return {"pnginfo": info, "dpi": (per_metre * 0.0254,) * 2}
+    return {"dpi": (per_metre * 0.0254,) * 2} if per_metre else {}
 
 
 def _as_json(recipe: Recipe) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from lumencut.frame import IMAGES, Frame
 from lumencut.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
 from lumencut.scene_windows import SceneWindows
 from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
+from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
 from lumencut.window import Window
 
@@ -95,7 +95,18 @@ class Renderer:
         _check_kind(tree)
         other = object.__new__(Renderer)
         other._set_scene(self._volume, tree)
-        other._core = self._core.with_tree(None if tree is None else tree._arrays())
+        return self._sharing(other)
+
+    def _with_part(self, vessels: Iterable[Vessel]) -> Renderer:
+        """A renderer of some vessels of the tree, which need not be compared with the volume again."""
+        tree = VesselTree(vessels)
+        other = object.__new__(Renderer)
+        other._volume, other._tree, other._scene = self._volume, tree, tree
+        return self._sharing(other)
+
+    def _sharing(self, other: Renderer) -> Renderer:
+        """Give another renderer of the same volume what computes, and the windows."""
+        other._core = self._core.with_tree(None if other._tree is None else other._tree._arrays())
         other._windows = self._windows
         return other
 
@@ -192,6 +203,31 @@ class Renderer:
         camera, settings = self._view(camera, settings)
         buffers = self._core.render(None, camera, checked(settings), self._at_once(settings))
         return self._frame(camera, settings, buffers, None)
+
+    def _by(
+        self,
+        method: tuple[Any, ...],
+        camera: Camera | None,
+        settings: Settings | None,
+        images: Iterable[str] | None = None,
+    ) -> Frame:
+        """Return one view by a reformation, named with its numbers as the extension module takes them."""
+        if self._tree is None:
+            raise VesselTreeError("tree of the renderer", "None", "a tree to lay the image through")
+        camera, settings = self._view(camera, settings)
+        asked = None if images is None else _names(images)
+        source = None
+        if self._volume is not None:
+            settings = self.windowed(settings)
+            source = frame_source(settings, self._volume, self._tree, self._vessel_ends, method[0])
+        names = [name for name in IMAGES if name != "distance"] if asked is None else asked
+        core, used = self._core, checked(settings)
+        buffers = core.render(self._volume, camera, used, names, None, method)
+        arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
+        if asked is None:
+            arrays["_distance"] = lambda: core.render(None, camera, used, ["distance"])["distance"]
+        told = None if asked is None else tuple(asked)
+        return Frame(camera, buffers["timings"], **arrays, _asked=told, _source=source)
 
     def _at_once(self, settings: Settings) -> list[str] | None:
         """The images that are made where none are named; None stands for all."""

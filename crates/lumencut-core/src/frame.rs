@@ -30,6 +30,8 @@ pub struct Frame {
     pub value: Vec<f32>,
     /// The context alone, RGBA with straight alpha; transparent where none was needed, empty without a context.
     pub context: Vec<[u8; 4]>,
+    /// Whether other points of the vessel share the pixel's place, by a reformation; empty by others.
+    pub folded: Vec<bool>,
     /// How long each stage took, in the order they ran.
     pub timings: Vec<Timing>,
 }
@@ -45,6 +47,7 @@ impl Frame {
             distance: Vec::new(),
             value: Vec::new(),
             context: Vec::new(),
+            folded: Vec::new(),
             timings: Vec::new(),
         }
     }

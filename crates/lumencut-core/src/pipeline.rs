@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use self::clock::Clock;
 pub use self::details::SurfaceDetails;
 pub use self::images::Images;
+use self::pass::Lines;
 pub use self::pass::{CutSurfacePass, LookPass};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
@@ -134,6 +135,17 @@ impl CpuRenderer {
         self.prepare(tree, request.settings);
         self.project(request.camera, request.settings);
         SurfaceDetails::of(&self.pass(&Request { images: SurfaceDetails::WANTED, ..*request }))
+    }
+
+    /// The strength of the silhouettes of a frame that a reformation made, 0 to 1, as if all of it showed something. Its request
+    /// asked for [`crate::stages::Image::Leap`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::Interrupted`] once the caller asks to stop.
+    pub fn strength(&self, frame: &Frame, request: &Request) -> Result<Vec<f32>> {
+        let &Request { camera, settings, stop, .. } = request;
+        let work = Work { size: frame.size(), isa: self.isa, stop, progress: None };
+        Lines::of(frame).strength(&work, settings, camera)
     }
 
     /// Where the pixels of a view look: depth, vessel and distance of the cut surface.

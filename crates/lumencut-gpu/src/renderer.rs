@@ -116,13 +116,13 @@ impl GpuRenderer {
     ) -> Result<Frame> {
         request.settings.check()?;
         let scene = Scene { volume: Some(volume.clone()), tree: None };
-        let Frame { geometry, vessel, leap, distance, timings, .. } = frame;
+        let Frame { geometry, vessel, leap, distance, folded, timings, .. } = frame;
         let mut pass = self.pass(&scene, geometry, request)?;
         pass.send_surface(&vessel, &leap);
         pass.look().await?;
         let mut shown = pass.frame().await?;
         shown.timings.splice(..0, timings);
-        Ok(Frame { vessel, distance, ..shown }.keeping(request.images))
+        Ok(Frame { vessel, distance, folded, ..shown }.keeping(request.images))
     }
 
     /// The start of a view: what it reads is on the GPU.

@@ -33,6 +33,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(cpr::picture, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
+    module.add_function(wrap_pyfunction!(ranges::check_cr, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_opacity, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_slab, module)?)?;

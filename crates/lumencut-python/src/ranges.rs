@@ -1,6 +1,7 @@
 //! Checks of single parts of the settings. The Python class of a part calls its check when it is made, so that it need
 //! not know `lumencut.Settings`, which holds the parts.
 
+use lumencut::reformations::cr::CrParameters;
 use lumencut::settings::{ControlPoint, Named, Opacity, Slab, SlabMode, TransferFunction, Window};
 use pyo3::prelude::*;
 
@@ -29,4 +30,10 @@ pub fn check_slab(thickness: f64, mode: &str) -> PyResult<()> {
 pub fn check_transfer_function(points: Vec<(f64, [u8; 3], f64)>) -> PyResult<()> {
     let point = |(intensity, color, opacity)| ControlPoint { intensity, color, opacity };
     TransferFunction { points: points.into_iter().map(point).collect() }.check().map_err(to_python)
+}
+
+/// Checks the thresholds of CR (pixels).
+#[pyfunction]
+pub fn check_cr(radius_offset: f64, arc_threshold: f64) -> PyResult<()> {
+    CrParameters { radius_offset, arc_threshold }.check().map_err(to_python)
 }

@@ -12,18 +12,20 @@ use lumencut::error::Error;
 use lumencut::frame::{Frame, Timing};
 use lumencut::geometry::Geometry;
 use lumencut::math::lanes::FAR;
+use lumencut::method::Method;
 use lumencut::pipeline::{CpuRenderer, Request};
 use lumencut::progress::Progress;
+use lumencut::reformations::cr::CrParameters;
 use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
 use lumencut::stages::{Image, ImageSet};
 use lumencut::stop::Stop;
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::camera::CameraArgument;
 use crate::cpr::Cpr;
-use crate::errors::{to_python, warn};
+use crate::errors::{exception, to_python, warn};
 use crate::pool;
 use crate::settings::Checked;
 use crate::tree::{VesselArrays, tree};
@@ -95,11 +97,36 @@ impl Renderer {
         Ok(all)
     }
 
-    /// The buffers of one view by name, those that are asked for: those of the cut surface where there are vessels, those
-    /// of the picture where there is a volume.
-    /// While it renders, `told` is called now and then with how much is done, in `SHARES` parts of the whole.
-    #[pyo3(signature = (volume, camera, settings, images=None, told=None))]
+    /// The strength of the silhouettes of a view by a reformation, which the CPU computes.
     #[allow(clippy::needless_pass_by_value)]
+    fn strength<'py>(
+        &self,
+        py: Python<'py>,
+        camera: CameraArgument,
+        settings: &Bound<'py, Checked>,
+        method: MethodArgument,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let (camera, Checked(settings), method) = (camera.camera()?, settings.get(), method.method()?);
+        let scene = Scene { volume: None, tree: self.tree.clone() };
+        let strength = interruptible(py, None, |stop| {
+            let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap]));
+            let request = Request { images, stop, ..Request::new(&camera, settings) };
+            let mut cpu = CpuRenderer::default();
+            let found = || {
+                let frame = method.on_cpu(&mut cpu, &scene, &request)?;
+                cpu.strength(&frame, &request)
+            };
+            pool::install(found)?.map_err(to_python)
+        })?;
+        let [width, height] = camera.size();
+        PyArray1::from_vec(py, strength).reshape([height, width])
+    }
+
+    /// The buffers of one view by name, those that are asked for: those of the cut surface where there are vessels, those
+    /// of the picture where there is a volume. Without a `method` it is the cut surface's.
+    /// While it renders, `told` is called now and then with how much is done, in `SHARES` parts of the whole.
+    #[pyo3(signature = (volume, camera, settings, images=None, told=None, method=None))]
+    #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn render<'py>(
         &self,
         py: Python<'py>,
@@ -108,9 +135,11 @@ impl Renderer {
         settings: &Bound<'py, Checked>,
         images: Option<Vec<String>>,
         told: Option<Py<PyAny>>,
+        method: Option<MethodArgument>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
         let images = images.map_or(Ok(ImageSet::ALL), |names| image_set(&names))?;
+        let method = method.map_or(Ok(Method::CutSurface), |method| method.method())?;
         let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
         let volume = match (&volume, &borrowed) {
             (Some(volume), Some(borrowed)) => {
@@ -129,7 +158,8 @@ impl Renderer {
             // A rendering that stopped early leaves nothing behind that the next one does not write anew.
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
-            pool::install(|| pollster::block_on(backend.render(&scene, &request)))?.map_err(to_python)
+            pool::install(|| pollster::block_on(backend.render_by(method, &scene, &request)))?
+                .map_err(to_python)
         })?;
         if let Some(watched) = watched {
             watched.tell(py, SHARES)?;
@@ -174,6 +204,30 @@ fn places(cpr: &lumencut::reformations::cpr::Cpr) -> lumencut::error::Result<Fra
     let milliseconds = start.elapsed().as_secs_f64() * 1e3;
     frame.timings.push(Timing { stage: "places", milliseconds });
     Ok(frame)
+}
+
+/// A method by its name and its numbers: ("mpcpr",), or ("cr", radius offset, arc-length threshold) in pixels.
+#[derive(FromPyObject)]
+pub enum MethodArgument {
+    Cr(String, f64, f64),
+    Plain((String,)),
+}
+
+impl MethodArgument {
+    fn method(self) -> PyResult<Method> {
+        match self {
+            Self::Cr(name, radius_offset, arc_threshold) if name == "cr" => {
+                let parameters = CrParameters { radius_offset, arc_threshold };
+                parameters.check().map_err(to_python)?;
+                Ok(Method::Cr(parameters))
+            }
+            Self::Plain((name,)) if name == "mpcpr" => Ok(Method::MpCpr),
+            Self::Cr(name, ..) | Self::Plain((name,)) => {
+                let expected = "('mpcpr',) or ('cr', radius offset, arc-length threshold)";
+                Err(exception("SettingsError", "method", &name, expected, ""))
+            }
+        }
+    }
 }
 
 /// A tree for renderers.
@@ -261,6 +315,9 @@ fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
         Geometry::Orthographic { depth, .. } => depth,
         Geometry::Curved(_) => Vec::new(),
     };
+    // What a reformation shows nothing of lies beyond every scene.
+    let shown = |depth: f32| if depth < FAR { depth } else { f32::NAN };
+    let depth = if frame.folded.is_empty() { depth } else { depth.into_iter().map(shown).collect() };
     for (name, numbers) in [("depth", depth), ("distance", frame.distance), ("value", frame.value)] {
         if !numbers.is_empty() {
             all.set_item(name, PyArray1::from_vec(py, numbers).reshape(shape)?)?;
@@ -268,6 +325,9 @@ fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
     }
     if !frame.vessel.is_empty() {
         all.set_item("vessel", PyArray1::from_vec(py, frame.vessel).reshape(shape)?)?;
+    }
+    if !frame.folded.is_empty() {
+        all.set_item("folded", PyArray1::from_vec(py, frame.folded).reshape(shape)?)?;
     }
     for (name, colors) in [("image", frame.image), ("context", frame.context)] {
         if !colors.is_empty() {

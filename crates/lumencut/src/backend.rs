@@ -8,6 +8,7 @@ use lumencut_core::stages::{Image, ImageSet};
 use lumencut_gpu::renderer::GpuRenderer;
 
 use crate::devices::{self, Choice, Wanted};
+use crate::method::Method;
 use crate::samples::{Mean, sub_views};
 
 /// The environment variable that names the stages that the CPU does in place of the GPU, with commas between: to find
@@ -58,6 +59,20 @@ impl Backend {
     /// Those of the scene and the settings, [`ErrorKind::Interrupted`] once `request.stop` says so, and
     /// [`ErrorKind::Device`] where the GPU fails and the CPU may not stand in for it.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
+        self.render_by(Method::CutSurface, scene, request).await
+    }
+
+    /// The same by any method. Where the pixels look by mpCPR and CR the CPU finds; what is shown there the GPU, where it
+    /// computes. How far they are is told at their end alone.
+    ///
+    /// # Errors
+    /// As [`Backend::render`], and those of the method.
+    pub async fn render_by(
+        &mut self,
+        method: Method,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+    ) -> Result<Rendered> {
         let views = sub_views(request.camera, request.settings.samples)?;
         let has_samples = views.len() > 1 && scene.volume.is_some() && request.images.has(Image::Picture);
         if let Some(progress) = request.progress {
@@ -65,7 +80,7 @@ impl Backend {
             let samples = views.iter().filter(|camera| *camera != request.camera).count();
             progress.expect_views(if has_samples { 1 + samples } else { 1 });
         }
-        let mut frame = self.render_once(scene, request).await?;
+        let mut frame = self.render_once(method, scene, request).await?;
         if has_samples {
             let mut mean = Mean::of(frame.image.len());
             for camera in &views {
@@ -73,8 +88,8 @@ impl Backend {
                     mean.add(&frame.image);
                     continue;
                 }
-                let sample =
-                    self.render_once(scene, &Request { camera, images: PICTURE, ..*request }).await?;
+                let asked = Request { camera, images: PICTURE, ..*request };
+                let sample = self.render_once(method, scene, &asked).await?;
                 mean.add(&sample.image);
                 frame.count(&sample.timings);
             }
@@ -113,8 +128,13 @@ impl Backend {
     }
 
     /// One picture with one sample per pixel.
-    async fn render_once(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
-        let frame = self.computed(scene, request).await?;
+    async fn render_once(
+        &mut self,
+        method: Method,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+    ) -> Result<Frame> {
+        let frame = self.computed(method, scene, request).await?;
         if let Some(progress) = request.progress {
             progress.end_view();
         }
@@ -122,12 +142,12 @@ impl Backend {
     }
 
     /// The same from the GPU, or from the CPU.
-    async fn computed(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
+    async fn computed(&mut self, method: Method, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         let gpu = match &mut self.computer {
-            Computer::Cpu(cpu) => return cpu.render(scene, request),
+            Computer::Cpu(cpu) => return method.on_cpu(cpu, scene, request),
             Computer::Gpu(gpu) => gpu,
         };
-        let error = match gpu.render(scene, request).await {
+        let error = match gpu.render(method, scene, request).await {
             Err(error) if error.kind == ErrorKind::Device => error,
             other => return other,
         };
@@ -137,7 +157,7 @@ impl Backend {
         }
         let mut cpu = CpuRenderer::default();
         // Whoever interrupts this picture has not heard of the failure yet: the GPU is then tried again.
-        let frame = cpu.render(scene, request)?;
+        let frame = method.on_cpu(&mut cpu, scene, request)?;
         self.computer = Computer::Cpu(cpu);
         self.untold = Some(error);
         Ok(frame)
@@ -198,8 +218,8 @@ impl Gpu {
         Ok(self.renderer.insert(renderer))
     }
 
-    async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
-        self.open().await?.render(scene, request).await
+    async fn render(&mut self, method: Method, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
+        method.on_gpu(self.open().await?, scene, request).await
     }
 
     async fn look(

@@ -10,6 +10,7 @@ pub mod devices;
 pub mod extent;
 mod fused;
 pub mod lumen_points;
+pub mod method;
 pub mod misplaced;
 pub mod placement;
 pub mod places;

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
 from lumencut.cli.evaluate import evaluate
@@ -51,5 +52,5 @@ def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
 
 
-for _command in (render, turntable, cpr, evaluate, info, settings, demo):
+for _command in (render, turntable, compare_methods, cpr, evaluate, info, settings, demo):
     main.add_command(_command)

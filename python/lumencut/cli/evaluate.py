@@ -25,10 +25,11 @@ if TYPE_CHECKING:
 @options.reading_options
 @click.option(
     "--methods",
-    default="csr,csr-paper",
+    default="csr,csr-paper,cpr,mpcpr,cr",
     show_default=True,
     metavar="NAME,...",
-    help="csr: with the settings given; csr-paper: with the paper's rules in their place.",
+    help="csr: with the settings given; csr-paper: with the paper's rules in their place; cpr: the projected "
+    "CPR of each vessel by itself; mpcpr: multipath CPR; cr: Centerline Reformation.",
 )
 @click.option(
     "--views",

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from lumencut._checks import integers, number
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
 from lumencut.evaluation.amounts import Amounts, pooled
-from lumencut.evaluation.centerline import centerline_of, width_stations
+from lumencut.evaluation.centerline import Centerline, Stations, centerline_of, width_stations
 from lumencut.evaluation.engine import shown_by
-from lumencut.evaluation.measures import MEASURES, columns_of
-from lumencut.evaluation.methods import METHODS, checked_methods
+from lumencut.evaluation.measures import MEASURES, columns_of, criteria_of
+from lumencut.evaluation.methods import METHODS, Method, checked_methods
 from lumencut.evaluation.result import Evaluation, Row
-from lumencut.evaluation.truth import truth_of
+from lumencut.evaluation.truth import Truth, truth_of
 from lumencut.evaluation.views import cameras
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
@@ -31,7 +32,7 @@ _Counts = dict[str, Amounts]
 def evaluate(
     volume: Any,
     tree: VesselTree,
-    methods: Iterable[str] = ("csr", "csr-paper"),
+    methods: Iterable[str] = ("csr", "csr-paper", "cpr", "mpcpr", "cr"),
     views: int = 12,
     settings: Settings | None = None,
     size: tuple[int, int] = (512, 512),
@@ -52,9 +53,13 @@ def evaluate(
         The angiography; without it there are neither surroundings nor pictures.
     tree : VesselTree
         Its centerlines.
-    methods : iterable of str, default ("csr", "csr-paper")
+    methods : iterable of str, default all
         ``"csr"``: Curved Surface Reformation with the settings; ``"csr-paper"``: with the paper's rules,
-        see :meth:`Settings.paper`, and the settings for all others.
+        see :meth:`Settings.paper`, and the settings for all others; ``"mpcpr"`` and ``"cr"``: those of
+        :func:`lumencut.mpcpr` and of :func:`lumencut.cr` with its usual thresholds; ``"cpr"``: the projected
+        CPR of each vessel by itself, an image for each vessel, of which each is compared with the truth about
+        that vessel alone. Its numbers are those of all these images together: a crossing is one of a vessel
+        with itself, and nothing is hidden by another vessel.
     views : int, default 12
         How many views, spread evenly over the sphere; the same number gives the same views.
     settings : Settings, optional
@@ -71,34 +76,43 @@ def evaluate(
     Returns
     -------
     Evaluation
-        Its ``table`` has a row for each method with these numbers; METHOD.md, `evaluate`, defines each. A
-        number is None where there is nothing that it could be of.
+        Its ``table`` has a row for each method with these numbers, in the order of the five criteria of the
+        questionnaire in section 5 of the paper; METHOD.md, `evaluate`, defines each. A number is None where
+        there is nothing that it could be of.
 
-        visible_centerline_percent
+        Lumen: lumen_within_0.05_mm_percent, lumen_within_0.5_mm_percent, lumen_within_2_mm_percent
+            Pixels within a lumen whose depth is that of the nearest one within 0.05, 0.5 and 2 mm, of
+            lumen_pixels. The depth of a lumen is that of its centerline at the nearest place in the image, as
+            CSR shows it; CPR and mpCPR cut through a lumen at other depths.
+        Lumen: width_error_mean_mm, width_error_95_percent_mm, width_error_max_mm, width_bias_mm
+            Mean, 95th percentile and maximum of the absolute error of the width of vessels (mm), and the mean
+            of the signed one, at width_stations stations; width_stations_left_out could not be judged.
+        Surroundings: tissue_percent
+            Pixels that show a value of the volume where they look; None without a volume.
+        Surroundings: unbroken_surroundings_percent
+            Pixels straight beside vessels, up to 20 mm from the wall and up to the next lumen, that the cut
+            reaches from the vessel without a leap.
+        Surroundings: blended_sheets_percent
+            Pixels that blend sheets of different vessels, or of one vessel more than 20 mm of arc length
+            apart.
+        Visibility: lumen_shown_percent
+            Pixels within a lumen, of lumen_pixels, that show a point within the lumen of the nearest vessel
+            there, wherever in it.
+        Visibility: visible_centerline_percent
             Points of the centerline without a nearer lumen before them that are shown within 0.05 mm;
             centerline_points of them were judged. hidden_centerline_points are behind a nearer lumen,
             centerline_points_off_lumen have a pixel whose centre lies in no lumen, and
             centerline_points_outside are beside the picture.
-        lumen_within_0.05_mm_percent, lumen_within_0.5_mm_percent, lumen_within_2_mm_percent
-            Pixels within a lumen whose depth is that of the nearest one within 0.05, 0.5 and 2 mm, of
-            lumen_pixels.
-        width_error_mean_mm, width_error_95_percent_mm, width_error_max_mm, width_bias_mm
-            Mean, 95th percentile and maximum of the absolute error of the width of vessels (mm), and the mean
-            of the signed one, at width_stations stations; width_stations_left_out could not be judged.
-        blended_sheets_percent
-            Pixels that blend sheets of different vessels, or of one vessel more than 20 mm of arc length
-            apart.
-        tissue_percent
-            Pixels that show a value of the volume on the cut surface; None without a volume.
-        depth_change_per_degree_mm, jumps_per_degree_percent, zone_changes_per_degree_percent
-            When the camera turns by one degree: mean change of the depth (mm), pixels whose depth changes by
-            more than 5 mm, and pixels that come into the zone of another vessel.
-        leaps_with_line_percent, lines_elsewhere_mm_per_mm2, leaps
-            Leaps of the depth with a silhouette, the length of silhouettes elsewhere (mm per mm²), and how
-            many leaps there are; None for methods without silhouettes.
-        crossings_in_order_percent, crossings, crossings_left_out
+        Depth: crossings_in_order_percent, crossings, crossings_left_out
             Crossings in projection at which the nearer vessel is shown, how many there are, and how many
             could not be judged.
+        Depth: depth_change_per_degree_mm, jumps_per_degree_percent, zone_changes_per_degree_percent
+            When the camera turns by one degree: mean change of the depth (mm) and pixels whose depth changes
+            by more than 5 mm, both where there is a depth before and after, and pixels that come into the
+            zone of another vessel.
+        Silhouettes: leaps_with_line_percent, lines_elsewhere_mm_per_mm2, leaps
+            Leaps of the depth with a silhouette, the length of silhouettes elsewhere (mm per mm²), and how
+            many leaps there are; None for methods without silhouettes.
 
     Raises
     ------
@@ -126,7 +140,9 @@ def evaluate(
         for name in names
         for view, found in enumerate(counts[name])
     ]
-    return Evaluation(table, rows, looks, chosen, renderer)
+    criteria = criteria_of(_pooled(counts[names[0]]))
+    first = {next(iter(columns)): criterion for criterion, columns in criteria.items()}
+    return Evaluation(table, rows, looks, chosen, renderer, first)
 
 
 def _renderer(volume: Any, tree: Any, device: Literal["auto", "cpu", "gpu"]) -> Renderer:
@@ -141,6 +157,24 @@ def _cameras(tree: VesselTree, views: Any, size: Any, pixel_spacing: Any) -> tup
     return cameras(tree, count, size, spacing)
 
 
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Vessels of which a method makes an image: all of the tree, or a single one."""
+
+    renderer: Renderer
+    line: Centerline
+    stations: tuple[Stations, int]
+
+    def truth(self, camera: Camera) -> Truth:
+        """What is true of them in a view."""
+        return truth_of(self.line, camera, self.stations)
+
+
+def _part(renderer: Renderer, tree: VesselTree, unknown_radius: float) -> _Part:
+    line = centerline_of(tree, unknown_radius)
+    return _Part(renderer, line, width_stations(line))
+
+
 def _counts(
     renderer: Renderer,
     tree: VesselTree,
@@ -150,17 +184,33 @@ def _counts(
 ) -> dict[str, list[_Counts]]:
     """Count everything in each view, for all methods by the same truth."""
     # No method changes the unknown radius.
-    line = centerline_of(tree, next(iter(chosen.values())).unknown_radius)
-    stations = width_stations(line)
+    unknown = next(iter(chosen.values())).unknown_radius
+    whole = _part(renderer, tree, unknown)
+    single = []
+    if any(METHODS[name].has_image_per_vessel for name in chosen):
+        parts = (VesselTree([vessel]) for vessel in tree)
+        single = [_part(renderer._with_part(part), part, unknown) for part in parts]
     counts: dict[str, list[_Counts]] = {name: [] for name in chosen}
     total = len(looks) * len(chosen)
     for done, camera in enumerate(looks):
-        truth = truth_of(line, camera, stations)
+        truth = whole.truth(camera)
         for further, (name, settings) in enumerate(chosen.items(), 1):
-            shown = shown_by(METHODS[name], renderer, camera, settings)
-            counts[name].append({key: measure.amounts(truth, shown) for key, measure in MEASURES.items()})
+            method = METHODS[name]
+            if method.has_image_per_vessel:
+                images = (
+                    _counted(method, part.renderer, camera, part.truth(camera), settings) for part in single
+                )
+                counts[name].append(_pooled(list(images)))
+            else:
+                counts[name].append(_counted(method, renderer, camera, truth, settings))
             progress(done * len(chosen) + further, total)
     return counts
+
+
+def _counted(method: Method, renderer: Renderer, camera: Camera, truth: Truth, settings: Settings) -> _Counts:
+    """Count everything in one image."""
+    shown = shown_by(method, renderer, camera, settings)
+    return {key: measure.amounts(truth, shown) for key, measure in MEASURES.items()}
 
 
 def _pooled(views: list[_Counts]) -> _Counts:

@@ -16,7 +16,8 @@ def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Setti
     """Render all images of a view that the measures read."""
     frame = method.surface(renderer, camera, settings)
     turned = method.surface(renderer, camera.rotated(math.radians(1.0), "up"), settings)
-    plain = method.surface(renderer, camera, replace(settings, depth_filter=False))
+    unfiltered = replace(settings, depth_filter=False)
+    plain = method.surface(renderer, camera, unfiltered) if method.is_filtered else frame
     details = method.details(renderer, camera, settings)
     return Shown(
         depth=frame.depth,

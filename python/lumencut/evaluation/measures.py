@@ -5,35 +5,46 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from lumencut.evaluation import picture, silhouettes, visibility, width
+from lumencut.evaluation import beside, picture, silhouettes, visibility, width
 from lumencut.evaluation.amounts import Amounts, Columns
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import Truth
 
 
 class Measure(NamedTuple):
-    """How something is counted in one view, and the numbers that the counts of views become."""
+    """How something is counted in one view, and the numbers that the counts of views become.
 
+    ``criterion`` is that of the questionnaire in section 5 of the paper that the numbers speak of.
+    """
+
+    criterion: str
     amounts: Callable[[Truth, Shown], Amounts]
     columns: Callable[[Amounts], Columns]
 
 
-#: The measures by their names.
+#: The measures by their names, criterion by criterion.
 MEASURES = {
-    "centerline": Measure(visibility.centerline_amounts, visibility.centerline_columns),
-    "lumen": Measure(visibility.lumen_amounts, visibility.lumen_columns),
-    "width": Measure(width.width_amounts, width.width_columns),
-    "blends": Measure(picture.blend_amounts, picture.blend_columns),
-    "surroundings": Measure(picture.surroundings_amounts, picture.surroundings_columns),
-    "steadiness": Measure(picture.steadiness_amounts, picture.steadiness_columns),
-    "silhouettes": Measure(silhouettes.silhouette_amounts, silhouettes.silhouette_columns),
-    "crossings": Measure(visibility.crossing_amounts, visibility.crossing_columns),
+    "lumen": Measure("lumen", visibility.lumen_amounts, visibility.lumen_columns),
+    "width": Measure("lumen", width.width_amounts, width.width_columns),
+    "tissue": Measure("surroundings", picture.surroundings_amounts, picture.surroundings_columns),
+    "beside": Measure("surroundings", beside.beside_amounts, beside.beside_columns),
+    "blends": Measure("surroundings", picture.blend_amounts, picture.blend_columns),
+    "shown": Measure("visibility", visibility.shown_lumen_amounts, visibility.shown_lumen_columns),
+    "centerline": Measure("visibility", visibility.centerline_amounts, visibility.centerline_columns),
+    "crossings": Measure("depth", visibility.crossing_amounts, visibility.crossing_columns),
+    "steadiness": Measure("depth", picture.steadiness_amounts, picture.steadiness_columns),
+    "silhouettes": Measure("silhouettes", silhouettes.silhouette_amounts, silhouettes.silhouette_columns),
 }
 
 
 def columns_of(amounts: dict[str, Amounts]) -> Columns:
     """Return the numbers that the amounts of all measures become."""
-    columns: Columns = {}
+    return {name: value for columns in criteria_of(amounts).values() for name, value in columns.items()}
+
+
+def criteria_of(amounts: dict[str, Amounts]) -> dict[str, Columns]:
+    """Return the same numbers by the criterion that they speak of."""
+    criteria: dict[str, Columns] = {}
     for name, measure in MEASURES.items():
-        columns.update(measure.columns(amounts[name]))
-    return columns
+        criteria.setdefault(measure.criterion, {}).update(measure.columns(amounts[name]))
+    return criteria

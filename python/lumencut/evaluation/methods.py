@@ -17,6 +17,7 @@ from lumencut.errors import SettingsError
 from lumencut.frame import Frame
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
+from lumencut.tree_reformations import MPCPR, cr_method
 
 
 @dataclass(frozen=True)
@@ -34,12 +35,18 @@ class Method:
     details : function of Renderer, Camera and Settings
         Of ``"sheet_gap"``, the arc length between the places that a pixel blends (mm), and ``"strength"``,
         that of the silhouettes (0 to 1), those that the method has.
+    is_filtered : bool, default True
+        Whether the depth filter of the settings changes the frame.
+    has_image_per_vessel : bool, default False
+        Whether it makes a frame of its own for each vessel, as if there were no other.
     """
 
     settings: Callable[[Settings], Settings]
     surface: Callable[[Renderer, Camera, Settings], Frame]
     picture: Callable[[Renderer, Camera, Settings], Frame]
     details: Callable[[Renderer, Camera, Settings], dict[str, npt.NDArray[np.float32]]]
+    is_filtered: bool = True
+    has_image_per_vessel: bool = False
 
 
 def _own(settings: Settings) -> Settings:
@@ -67,10 +74,43 @@ def _details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str
     return renderer._core.details(camera, checked(settings))
 
 
+def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
+    """A method that is no cut surface: as the renderer takes it."""
+
+    def surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
+        if renderer.volume is None:
+            return renderer._by(method, camera, settings)
+        bare = replace(settings, context=None, silhouettes=False, samples=1)
+        return renderer._by(method, camera, bare, ("depth", "vessel", "value"))
+
+    def picture(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
+        return renderer._by(method, camera, settings)
+
+    def details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str, npt.NDArray[np.float32]]:
+        # Every pixel shows one place: nothing is blended.
+        width, height = camera.size
+        found = {"sheet_gap": np.zeros((height, width), np.float32)}
+        if settings.silhouettes:
+            found["strength"] = renderer._core.strength(camera, checked(settings), method)
+        return found
+
+    return Method(_own, surface, more.pop("picture", picture), details, is_filtered=False, **more)
+
+
+def _picture_of_the_longest(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
+    """The projected CPR of one vessel: a file holds one picture."""
+    longest = max(renderer.tree or (), key=lambda vessel: vessel.length)
+    return renderer._with_part([longest])._by(MPCPR, camera, settings)
+
+
 #: The methods by their names.
 METHODS = {
     "csr": Method(_own, _surface, _picture, _details),
     "csr-paper": Method(_paper, _surface, _picture, _details),
+    # The mpCPR of a single vessel is its projected CPR.
+    "cpr": _reformation(MPCPR, picture=_picture_of_the_longest, has_image_per_vessel=True),
+    "mpcpr": _reformation(MPCPR),
+    "cr": _reformation(cr_method()),
 }
 
 

@@ -28,7 +28,7 @@ def blend_columns(amounts: Amounts) -> Columns:
 
 
 def surroundings_amounts(_: Truth, shown: Shown) -> Amounts:
-    """Count the pixels that show tissue: a value of the volume on the cut surface."""
+    """Count the pixels that show tissue: a value of the volume where the pixel looks."""
     value = shown.value
     return {"pixels": shown.depth.size, "tissue": None if value is None else counted(~np.isnan(value))}
 
@@ -39,11 +39,12 @@ def surroundings_columns(amounts: Amounts) -> Columns:
 
 
 def steadiness_amounts(_: Truth, shown: Shown) -> Amounts:
-    """Add up what changes when the camera turns by one degree."""
+    """Add up what changes when the camera turns by one degree; of depths, where there are two to compare."""
     change = np.abs(shown.turned_depth.astype(float) - shown.depth)
     return {
         "pixels": change.size,
-        "change": float(change.sum()),
+        "with depth": counted(~np.isnan(change)),
+        "change": float(np.nansum(change)),
         "jumps": counted(change > _JUMP),
         "zones": counted(shown.turned_vessel != shown.vessel),
     }
@@ -52,7 +53,7 @@ def steadiness_amounts(_: Truth, shown: Shown) -> Amounts:
 def steadiness_columns(amounts: Amounts) -> Columns:
     """Return the numbers of the table."""
     return {
-        "depth_change_per_degree_mm": ratio(amounts["change"], amounts["pixels"]),
-        "jumps_per_degree_percent": percent(amounts["jumps"], amounts["pixels"]),
+        "depth_change_per_degree_mm": ratio(amounts["change"], amounts["with depth"]),
+        "jumps_per_degree_percent": percent(amounts["jumps"], amounts["with depth"]),
         "zone_changes_per_degree_percent": percent(amounts["zones"], amounts["pixels"]),
     }

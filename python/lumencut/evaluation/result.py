@@ -43,6 +43,8 @@ class Evaluation:
     cameras: tuple[Camera, ...]
     settings: dict[str, Settings]
     _renderer: Renderer = field(repr=False)
+    # The first number of each criterion.
+    _first: dict[str, str] = field(repr=False)
 
     def __repr__(self) -> str:
         """Return the names of the methods and the number of views."""
@@ -74,8 +76,16 @@ class Evaluation:
         write_text(path, text.getvalue())
 
     def to_markdown(self) -> str:
-        """Return the table as Markdown: a line for each number, a column for each method."""
-        rows = [[name, *(_told(row[name]) for row in self.table)] for name in self.table[0]]
+        """Return the table as Markdown: a line for each number, a column for each method.
+
+        The numbers stand below the criterion that they speak of: lumen, surroundings, visibility, depth and
+        silhouettes, those of the questionnaire in section 5 of the paper.
+        """
+        rows = []
+        for name in self.table[0]:
+            if name in self._first:
+                rows.append([f"**{self._first[name]}**", *("" for _ in self.table)])
+            rows.append([name, *(_told(row[name]) for row in self.table)])
         return _markdown(rows)
 
     def save_pictures(self, folder: str | os.PathLike[str]) -> list[Path]:

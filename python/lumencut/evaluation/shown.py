@@ -15,9 +15,9 @@ class Shown:
     Parameters
     ----------
     depth : numpy.ndarray
-        Depth of what is shown (mm).
+        Depth of what is shown (mm), NaN where nothing is.
     vessel : numpy.ndarray
-        Id of the vessel whose zone the pixel is in.
+        Id of the vessel whose zone the pixel is in, -1 where nothing is shown.
     position : numpy.ndarray, shape (H, W, 3)
         World point of what is shown (mm, LPS).
     value : numpy.ndarray or None

@@ -56,7 +56,9 @@ def leap_bounds(truth: Truth, shown: Shown) -> npt.NDArray[np.float64]:
     line = truth.seen.centerline
     starts = np.flatnonzero(np.diff(line.vessel)) + 1
     usual = np.array([np.median(radii) for radii in np.split(line.radius, starts)])
-    radius = np.where(np.isnan(truth.nearest.radius), usual[shown.vessel], truth.nearest.radius)
+    # Where a method shows nothing there is nothing to leap to.
+    of_zone = np.where(shown.vessel >= 0, usual[shown.vessel], np.inf)
+    radius = np.where(np.isnan(truth.nearest.radius), of_zone, truth.nearest.radius)
     bounds: npt.NDArray[np.float64] = np.maximum(2 * radius, _SMALLEST_LEAP)
     return bounds
 
@@ -74,10 +76,11 @@ def leaps(
     across, down : numpy.ndarray, shapes (H, W - 1) and (H - 1, W)
         For each pixel and its neighbour to the right, and for each and the one below.
     """
-    return _leaps_along(depth, bound), _leaps_along(depth.T, bound.T).T
+    return leaps_along(depth, bound), leaps_along(depth.T, bound.T).T
 
 
-def _leaps_along(depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+def leaps_along(depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    """Tell between which neighbours of each row the depth leaps, (H, W - 1); see :func:`leaps`."""
     height, width = depth.shape
     leap = np.zeros((height, max(width - 1, 0)), bool)
     if width >= 4:

@@ -7,6 +7,7 @@ import numpy as np
 from lumencut.evaluation.amounts import Amounts, Columns, counted, percent
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import EXACT, Truth
+from lumencut.evaluation.width import inside_vessel
 
 #: The bounds (mm) within which the depth of a lumen pixel counts as right.
 BOUNDS = (0.05, 0.5, 2.0)
@@ -56,6 +57,19 @@ def lumen_columns(amounts: Amounts) -> Columns:
         for bound in BOUNDS
     }
     return {**shares, "lumen_pixels": amounts["pixels"]}
+
+
+def shown_lumen_amounts(truth: Truth, shown: Shown) -> Amounts:
+    """Count the pixels whose centre lies in a lumen, and those that show some point of that lumen."""
+    lumen = np.isfinite(truth.nearest.depth)
+    stations = truth.seen.centerline.at(truth.nearest.vessel[lumen], truth.nearest.arc[lumen])
+    within = inside_vessel(truth, stations, shown.position[lumen][:, None])
+    return {"pixels": len(stations), "within": counted(within)}
+
+
+def shown_lumen_columns(amounts: Amounts) -> Columns:
+    """Return the numbers of the table."""
+    return {"lumen_shown_percent": percent(amounts["within"], amounts["pixels"])}
 
 
 def crossing_amounts(truth: Truth, shown: Shown) -> Amounts:

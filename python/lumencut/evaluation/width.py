@@ -23,14 +23,15 @@ _BEND = 1.5
 
 def width_amounts(truth: Truth, shown: Shown) -> Amounts:
     """Return the errors of the widths (mm) at all stations that can be judged in this view."""
-    stations, place, across = _lying(truth)
+    stations, place, across = lying(truth)
     side = truth.seen.grid.side
     steps = _steps(stations, side)
     pixel, within = truth.seen.grid.pixels(place[:, None] + (steps * side)[:, None] * across[:, None])
-    clear = _clear(truth, stations, np.abs(steps) * side, pixel, within)
+    clear = clear_stations(truth, stations, np.abs(steps) * side, pixel, within)
     stations, pixel, within = stations.chosen(clear), pixel[clear], within[clear]
     true, found = (
-        _run(within & _inside(truth, stations, position.reshape(-1, 3)[pixel])) * side - 2 * stations.radius
+        _run(within & inside_vessel(truth, stations, position.reshape(-1, 3)[pixel])) * side
+        - 2 * stations.radius
         for position in (truth.seen.world(truth.nearest.depth), shown.position)
     )
     # In a sharp bend even the truth is not as wide as the vessel.
@@ -53,7 +54,7 @@ def width_columns(amounts: Amounts) -> Columns:
     }
 
 
-def _lying(truth: Truth) -> tuple[Stations, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+def lying(truth: Truth) -> tuple[Stations, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
     """The stations at which the vessel does not run along the view, their places, and across the vessel."""
     tangent = (truth.stations.tangent @ truth.seen.axes)[:, :2]
     length = np.linalg.norm(tangent, axis=1)
@@ -71,7 +72,7 @@ def _steps(stations: Stations, side: float) -> npt.NDArray[np.float64]:
     return np.arange(-most, most + 1).astype(float)
 
 
-def _clear(
+def clear_stations(
     truth: Truth,
     stations: Stations,
     distance: npt.NDArray[np.float64],
@@ -93,8 +94,10 @@ def _clear(
     return np.asarray(~(needed & (~within | (before & foreign))).any(axis=1))
 
 
-def _inside(truth: Truth, stations: Stations, position: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    """Tell which positions (n, walk, 3) lie within the radius of the vessel's centerline near the station."""
+def inside_vessel(
+    truth: Truth, stations: Stations, position: npt.NDArray[np.float64]
+) -> npt.NDArray[np.bool_]:
+    """Tell which positions (n, walk, 3) lie in the lumen of each station's vessel, near the station."""
     line, reach = truth.seen.centerline, 3 * stations.radius + _REACH
     first = line.indices(stations.vessel, stations.arc - reach)
     last = np.maximum(line.indices(stations.vessel, stations.arc + reach), first + 1)

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::cost::Rule;
 use super::lanes::{ABSENT, FAN, FAR, gap};
 use super::pieces::Bundle;
-use super::tile::Tile;
+use super::tile::{Area, Tile};
 
 /// An entry of the order that holds no slot.
 pub const NO_SLOT: u32 = u32::MAX;
@@ -73,11 +73,11 @@ impl Boxes {
         (self.z[n], self.radius[n]) = (node.z, node.radius);
     }
 
-    /// The squared distance (mm²) between the tile and each node's box.
+    /// The squared distance (mm²) between the area and each node's box.
     #[inline(always)]
-    pub fn squared_distances(&self, tile: &Tile) -> [f32; FAN] {
+    pub fn squared_distances(&self, area: &Area) -> [f32; FAN] {
         let mut squared = [0.0; FAN];
-        let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
+        let ([cx, cy], [hx, hy]) = (area.center, area.half);
         for n in 0..FAN {
             let gx = gap(self.low_x[n], self.high_x[n], cx, hx);
             let gy = gap(self.low_y[n], self.high_y[n], cy, hy);
@@ -89,7 +89,7 @@ impl Boxes {
     /// The smallest key that each node's pieces can reach in the tile.
     #[inline(always)]
     pub fn key_bounds<const LUMEN_FIRST: bool>(&self, tile: &Tile, rule: &Rule) -> [f32; FAN] {
-        let mut bounds = self.squared_distances(tile);
+        let mut bounds = self.squared_distances(&tile.area);
         for n in 0..FAN {
             bounds[n] = rule.bound::<LUMEN_FIRST>(self.z[n], bounds[n].sqrt(), self.radius[n]);
         }
@@ -133,6 +133,29 @@ impl Hierarchy {
                 return Self { bundles: vec![Bundle::EMPTY; bundles], heights };
             }
         }
+    }
+
+    /// Takes depths and radii away from all pieces: what is left is how they lie in the image.
+    pub fn flatten(&mut self) {
+        for bundle in &mut self.bundles {
+            for s in 0..FAN {
+                let flat = |z: f32| if z < ABSENT { 0.0 } else { ABSENT };
+                bundle.stripe_z[s] = flat(bundle.stripe_z[s]);
+                bundle.wedge_z[s] = flat(bundle.wedge_z[s]);
+            }
+            (bundle.stripe_dz, bundle.radius, bundle.radius_change) = ([0.0; FAN], [0.0; FAN], [0.0; FAN]);
+        }
+        self.enclose();
+    }
+
+    /// Makes all radii larger by so much (mm).
+    pub fn widen(&mut self, by: f32) {
+        for bundle in &mut self.bundles {
+            for s in 0..FAN {
+                bundle.radius[s] += by;
+            }
+        }
+        self.enclose();
     }
 
     /// Draws all boxes anew around the bundles.

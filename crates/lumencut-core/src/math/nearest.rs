@@ -47,11 +47,7 @@ impl NearestPoint {
     #[inline(always)]
     pub fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
         let [cx, cy] = tile.area.center;
-        let mut squared = [0.0; FAN];
-        for s in 0..FAN {
-            let (dx, dy) = to_segment(bundle, s, cx, cy);
-            squared[s] = dx * dx + dy * dy;
-        }
+        let squared = squared_distances_to_segments(bundle, cx, cy);
         let least = smallest(&squared);
         let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
         // From the segment, not from the tile: a far tile would round the point away from its segment.
@@ -95,6 +91,17 @@ impl NearestPoint {
 fn slack(tile: &Tile, x: f32, y: f32) -> f32 {
     let ([cx, cy], [hx, hy]) = (tile.area.center, tile.area.half);
     1e-6 * (cx.abs() + cy.abs() + hx + hy + x.abs() + y.abs()) + 1e-6
+}
+
+/// The squared distances (mm²) of (x, y) to the segments of a bundle.
+#[inline(always)]
+pub fn squared_distances_to_segments(bundle: &Bundle, x: f32, y: f32) -> [f32; FAN] {
+    let mut squared = [0.0; FAN];
+    for s in 0..FAN {
+        let (dx, dy) = to_segment(bundle, s, x, y);
+        squared[s] = dx * dx + dy * dy;
+    }
+    squared
 }
 
 /// From the nearest point of the segment in slot `s` to (x, y).

@@ -135,7 +135,7 @@ impl Radii {
     }
 
     /// What is made of one radius (mm).
-    fn of(self, radius: f32) -> f32 {
+    pub fn of(self, radius: f32) -> f32 {
         let known = radius * self.scale;
         if known > 0.0 { known } else { self.unknown }
     }

@@ -138,7 +138,7 @@ pub fn smallest_distances(
             continue;
         }
         if height > 0 {
-            let bounds = hierarchy.heights[height as usize - 1][node as usize].squared_distances(tile);
+            let bounds = hierarchy.heights[height as usize - 1][node as usize].squared_distances(&tile.area);
             stack.push_nodes(tile, &bounds, limit * limit, [height - 1, node * FAN as u32]);
         } else {
             let bundle = &hierarchy.bundles[node as usize];

@@ -3,6 +3,7 @@
 use super::images::Images;
 use crate::camera::Camera;
 use crate::error::Result;
+use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::math::context_parameters::StartParameters;
 use crate::math::ray::{NONE, WHOLE};
@@ -198,7 +199,12 @@ pub(super) struct Lines<'a> {
     pub value: &'a [f32],
 }
 
-impl Lines<'_> {
+impl<'a> Lines<'a> {
+    /// Those of a frame, whatever it shows.
+    pub fn of(frame: &'a Frame) -> Self {
+        Self { depth: frame.depth(), vessel: &frame.vessel, leap: &frame.leap, value: &[] }
+    }
+
     /// The strength of the silhouettes by the rule of the settings.
     pub fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
         let (mut strength, parameters) =

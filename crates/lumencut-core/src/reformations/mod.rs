@@ -1,6 +1,13 @@
 //! Reformations: methods that find where each pixel looks in another way than the cut surface does. What is shown there is
 //! up to `look` ([`crate::pipeline`]).
 
+mod connections;
 pub mod cpr;
+pub mod cr;
+mod found;
 pub mod frames;
+pub mod mpcpr;
 pub mod path;
+
+pub use connections::Connections;
+pub use found::NO_VESSEL;

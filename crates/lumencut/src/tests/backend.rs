@@ -4,7 +4,9 @@ use std::task::{Poll, Waker};
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
+use lumencut_core::reformations::cr::CrParameters;
 use lumencut_core::settings::Settings;
+use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
 
 use super::*;
@@ -48,5 +50,26 @@ fn an_interrupted_picture_leaves_the_reason_of_the_fall_back_to_the_next() {
         let (first, second, _) = render(limit);
         assert_eq!(first.unwrap_err().kind, ErrorKind::Interrupted, "{limit} of {checks}");
         assert_eq!(second, Some(reason.clone()), "{limit} of {checks}");
+    }
+}
+
+#[test]
+fn reformations_need_a_tree_and_a_cut_surface_does_not() {
+    let voxels: Vec<i16> = (0..512).collect();
+    let volume = Volume::new(Voxels::I16(&voxels), [8; 3], [1, 8, 64], DAffine3::IDENTITY).unwrap();
+    let camera = Camera::new(DVec3::splat(3.5), DVec3::Y, DVec3::Z, [9, 8], 1.0).unwrap();
+    let settings = Settings::default();
+    let request = Request::new(&camera, &settings);
+    let alone = Scene::default().with_volume(volume);
+    let line = Vessel::new(vec![DVec3::new(2.0, 3.0, 0.0), DVec3::new(5.0, 4.0, 7.0)], None).unwrap();
+    let whole = alone.clone().with_tree(VesselTree::new(vec![line]).unwrap());
+    for method in [Method::MpCpr, Method::Cr(CrParameters::default())] {
+        let mut backend = Backend { computer: Computer::Cpu(CpuRenderer::default()), untold: None };
+        let refused = at_once(backend.render_by(method, &alone, &request)).map(|_| ()).unwrap_err();
+        assert_eq!(refused.kind, ErrorKind::VesselTree);
+        let (frame, told) = at_once(backend.render_by(method, &whole, &request)).unwrap();
+        assert_eq!((frame.image.len(), frame.vessel.len(), told), (72, 72, None));
+        // The folds are those of mpCPR alone.
+        assert_eq!(frame.folded.len(), if method == Method::MpCpr { 72 } else { 0 });
     }
 }

@@ -1,0 +1,201 @@
+//! Where vessels meet, and how far two places of a tree lie apart along it.
+
+use std::borrow::Cow;
+use std::collections::{BinaryHeap, HashMap};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use glam::DVec3;
+
+use crate::math::projection::Level;
+
+/// A point nearer than this to an end of a vessel is that end (mm).
+const SAME_PLACE: f64 = 1e-3;
+
+/// A place where a vessel meets others.
+#[derive(Clone, Copy, Debug)]
+struct Meeting {
+    vessel: u32,
+    /// Where along the vessel it is (mm).
+    arc_length: f64,
+    junction: u32,
+}
+
+/// A place that can be reached from a junction, and how far that is (mm).
+#[derive(Clone, Copy, Debug)]
+struct Reached {
+    meeting: u32,
+    distance: f32,
+}
+
+/// How many places that can be reached are kept, of all junctions together: more are found anew at each need.
+const MOST_KEPT: usize = 1 << 24;
+
+/// Where the vessels of a tree meet: wherever one of them ends at a point of another.
+#[derive(Debug)]
+pub struct Connections {
+    /// The places of each vessel, in the order of vessels and along them.
+    meetings: Vec<Meeting>,
+    /// The first place of each vessel, and the number of places at the end.
+    first_of_vessel: Vec<u32>,
+    /// The places of each junction.
+    of_junction: Vec<Vec<u32>>,
+    /// What can be reached from each junction, found when it is first needed, and how many places that is so far.
+    reached: Vec<OnceLock<Vec<Reached>>>,
+    kept: AtomicUsize,
+    /// How far apart places still belong together (mm).
+    threshold: f64,
+}
+
+impl Connections {
+    /// The connections of the vessels of `level`, to tell which places lie within `threshold` mm of each other.
+    pub fn new(level: &Level, threshold: f64) -> Self {
+        let ends = Ends::of(level);
+        let (mut meetings, mut first_of_vessel) = (Vec::new(), vec![0]);
+        let mut of_junction = vec![Vec::new(); ends.count as usize];
+        for (vessel, slots) in (0..).zip(level.first_slot.windows(2)) {
+            for slot in slots[0] as usize..slots[1] as usize {
+                let Some(junction) = ends.at(level.points[slot]) else { continue };
+                of_junction[junction as usize].push(meetings.len() as u32);
+                let arc_length = f64::from(level.arc_length[slot]);
+                meetings.push(Meeting { vessel, arc_length, junction });
+            }
+            first_of_vessel.push(meetings.len() as u32);
+        }
+        let reached = of_junction.iter().map(|_| OnceLock::new()).collect();
+        Self { meetings, first_of_vessel, of_junction, reached, kept: AtomicUsize::new(0), threshold }
+    }
+
+    /// Whether two places, each a vessel and an arc length (mm), lie within the threshold of each other along the tree.
+    pub fn are_near(&self, (vessel, arc_length): (i32, f32), (other, other_arc_length): (i32, f32)) -> bool {
+        let (from, to) = (f64::from(arc_length), f64::from(other_arc_length));
+        if vessel == other && (from - to).abs() <= self.threshold {
+            return true;
+        }
+        let [first, end] = [other, other + 1].map(|id| self.first_of_vessel[id as usize]);
+        self.meetings_of(vessel as u32).iter().any(|meeting| {
+            let left = self.threshold - (meeting.arc_length - from).abs();
+            if left < 0.0 {
+                return false;
+            }
+            let reached = self.reached(meeting.junction);
+            let start = reached.partition_point(|at| at.meeting < first);
+            let there = reached[start..].iter().take_while(|at| at.meeting < end);
+            there.into_iter().any(|at| {
+                let arc_length = self.meetings[at.meeting as usize].arc_length;
+                f64::from(at.distance) + (arc_length - to).abs() <= left
+            })
+        })
+    }
+
+    /// All that may lie within the threshold of a part of a vessel between two arc lengths (mm): vessels, and from and to
+    /// which arc length.
+    pub fn stretches(&self, vessel: u32, [low, high]: [f64; 2]) -> Vec<(u32, [f64; 2])> {
+        let mut stretches = vec![(vessel, [low - self.threshold, high + self.threshold])];
+        for meeting in self.meetings_of(vessel) {
+            let left = self.threshold - (low - meeting.arc_length).max(meeting.arc_length - high).max(0.0);
+            if left < 0.0 {
+                continue;
+            }
+            for at in self.reached(meeting.junction).iter() {
+                let Meeting { vessel, arc_length, .. } = self.meetings[at.meeting as usize];
+                let further = left - f64::from(at.distance);
+                if further >= 0.0 {
+                    stretches.push((vessel, [arc_length - further, arc_length + further]));
+                }
+            }
+        }
+        stretches
+    }
+
+    fn meetings_of(&self, vessel: u32) -> &[Meeting] {
+        let [first, end] = [vessel, vessel + 1].map(|id| self.first_of_vessel[id as usize] as usize);
+        &self.meetings[first..end]
+    }
+
+    /// The places that can be reached from a junction within the threshold, in the order of vessels and along them.
+    fn reached(&self, junction: u32) -> Cow<'_, [Reached]> {
+        let known = &self.reached[junction as usize];
+        if let Some(reached) = known.get() {
+            return Cow::Borrowed(reached);
+        }
+        let mut reached = Vec::new();
+        for (junction, distance) in self.shortest_ways(junction) {
+            let there = self.of_junction[junction as usize].iter();
+            reached.extend(there.map(|meeting| Reached { meeting: *meeting, distance: distance as f32 }));
+        }
+        reached.sort_unstable_by_key(|at| at.meeting);
+        if self.kept.fetch_add(reached.len(), Ordering::Relaxed) + reached.len() > MOST_KEPT {
+            return Cow::Owned(reached);
+        }
+        Cow::Borrowed(known.get_or_init(|| reached))
+    }
+
+    /// The junctions within the threshold of one of them, and how far they are along the tree (mm): Dijkstra's algorithm.
+    fn shortest_ways(&self, start: u32) -> Vec<(u32, f64)> {
+        let mut known: HashMap<u32, f64> = HashMap::from([(start, 0.0)]);
+        // Distances are not negative, so their bits have their order; the heap hands out the largest first.
+        let mut waiting = BinaryHeap::from([(std::cmp::Reverse(0.0f64.to_bits()), start)]);
+        while let Some((std::cmp::Reverse(bits), junction)) = waiting.pop() {
+            let distance = f64::from_bits(bits);
+            if known[&junction] < distance {
+                continue;
+            }
+            for n in &self.of_junction[junction as usize] {
+                let here = self.meetings[*n as usize];
+                for there in self.meetings_of(here.vessel) {
+                    let further = distance + (there.arc_length - here.arc_length).abs();
+                    let shortest = known.get(&there.junction).copied().unwrap_or(f64::MAX);
+                    if further <= self.threshold && further < shortest {
+                        known.insert(there.junction, further);
+                        waiting.push((std::cmp::Reverse(further.to_bits()), there.junction));
+                    }
+                }
+            }
+        }
+        known.into_iter().collect()
+    }
+}
+
+/// The ends of all vessels; those in the same place are one junction.
+struct Ends {
+    cells: HashMap<[i64; 3], Vec<(DVec3, u32)>>,
+    count: u32,
+}
+
+impl Ends {
+    fn of(level: &Level) -> Self {
+        let mut ends = Self { cells: HashMap::new(), count: 0 };
+        for slots in level.first_slot.windows(2) {
+            for slot in [slots[0], slots[1] - 1] {
+                ends.add(level.points[slot as usize]);
+            }
+        }
+        ends
+    }
+
+    /// Cells of ten times [`SAME_PLACE`]: most points need one of them.
+    fn cell(point: DVec3) -> [i64; 3] {
+        (point / (10.0 * SAME_PLACE)).floor().as_i64vec3().to_array()
+    }
+
+    /// Writes an end into every cell that holds points near it, as a junction of its own unless there is one.
+    fn add(&mut self, end: DVec3) {
+        if self.at(end).is_some() {
+            return;
+        }
+        let (low, high) = (Self::cell(end - SAME_PLACE), Self::cell(end + SAME_PLACE));
+        for (x, y) in (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y))) {
+            for z in low[2]..=high[2] {
+                self.cells.entry([x, y, z]).or_default().push((end, self.count));
+            }
+        }
+        self.count += 1;
+    }
+
+    /// The junction at `point`.
+    fn at(&self, point: DVec3) -> Option<u32> {
+        let near = self.cells.get(&Self::cell(point))?;
+        near.iter().find(|(end, _)| end.distance(point) <= SAME_PLACE).map(|(_, junction)| *junction)
+    }
+}

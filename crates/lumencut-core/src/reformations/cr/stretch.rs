@@ -1,0 +1,133 @@
+//! The search for the nearest piece of one stretch of the tree, for the pixels of a tile.
+
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
+
+use super::view::{CrView, Seen};
+use crate::math::lanes::FAN;
+use crate::math::nearest::squared_distances_to_segments;
+use crate::math::tile::{Area, Tile};
+
+/// For how many chains a search keeps what lies around them.
+const MOST_KEPT: usize = 256;
+
+/// The search for the piece nearest to a pixel in the image among those within the threshold of a place along the tree.
+/// Places on one chain have much the same pieces around them, and so do the pixels of a tile.
+pub(super) struct StretchSearch<'a> {
+    view: &'a CrView<'a>,
+    /// For a chain, which chains may lie within the threshold of a place on it, from and to.
+    around: HashMap<u32, Vec<[u32; 2]>>,
+    /// For a chain, the chains around it as seen from this tile.
+    in_tile: Vec<(u32, NearFirst)>,
+}
+
+impl<'a> StretchSearch<'a> {
+    pub fn new(view: &'a CrView<'a>) -> Self {
+        Self { view, around: HashMap::new(), in_tile: Vec::new() }
+    }
+
+    /// Goes on to another tile.
+    pub fn begin_tile(&mut self) {
+        self.in_tile.clear();
+    }
+
+    /// The piece nearest to the pixel at (x, y) among those of the stretch around `front`, which is one of them; of those
+    /// equally near the first one.
+    #[inline(never)]
+    pub fn nearest(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
+        let view = self.view;
+        let chain = view.chains.chain_of(view.level, front.vessel, front.piece / 2);
+        let known = self.in_tile.iter().position(|(known, _)| *known == chain);
+        let n = known.unwrap_or_else(|| {
+            let near = self.seen_from(tile, chain);
+            self.in_tile.push((chain, near));
+            self.in_tile.len() - 1
+        });
+        let mut best = Best::new(view, front);
+        let pixel = Area { center: [x, y], half: [0.0; 2] };
+        let mut place = 0;
+        while let Some(chain) = self.in_tile[n].1.within(place, best.limit) {
+            place += 1;
+            if view.chains.squared_distance(chain, &pixel) <= best.limit {
+                best.meet(chain, [x, y]);
+            }
+        }
+        best.seen
+    }
+
+    /// The chains around a chain as seen from a tile.
+    fn seen_from(&mut self, tile: &Tile, chain: u32) -> NearFirst {
+        let view = self.view;
+        if self.around.len() > MOST_KEPT {
+            self.around.clear();
+        }
+        let around = self.around.entry(chain).or_insert_with(|| view.around(chain));
+        // Squares are not negative, so their bits have their order.
+        let entry = |chain| Reverse((view.chains.squared_distance(chain, &tile.area).to_bits(), chain));
+        let rest: Vec<_> = around.iter().flat_map(|[from, to]| *from..*to).map(entry).collect();
+        NearFirst { ordered: Vec::new(), rest: rest.into() }
+    }
+}
+
+/// Chains in the order of their squared distance (mm²) from a tile, as far as anybody has asked for them.
+struct NearFirst {
+    ordered: Vec<(f32, u32)>,
+    rest: BinaryHeap<Reverse<(u32, u32)>>,
+}
+
+impl NearFirst {
+    /// The chain in a place of the order, unless it lies beyond `limit` (mm²); places are asked for one after the other.
+    #[inline(always)]
+    fn within(&mut self, place: usize, limit: f32) -> Option<u32> {
+        if place == self.ordered.len() {
+            let Reverse((bits, chain)) = self.rest.pop()?;
+            self.ordered.push((f32::from_bits(bits), chain));
+        }
+        let (squared, chain) = self.ordered[place];
+        (squared <= limit).then_some(chain)
+    }
+}
+
+/// The best piece so far.
+struct Best<'a> {
+    view: &'a CrView<'a>,
+    /// The place in the middle of the stretch: a vessel and an arc length (mm).
+    middle: (i32, f32),
+    seen: Seen,
+    /// The squared distance (mm²) beyond which nothing is nearer.
+    limit: f32,
+}
+
+impl<'a> Best<'a> {
+    fn new(view: &'a CrView<'a>, front: Seen) -> Self {
+        let mut best = Self { view, middle: front.place(), seen: front, limit: 0.0 };
+        best.take(front);
+        best
+    }
+
+    #[inline(always)]
+    fn take(&mut self, seen: Seen) {
+        let reach = seen.distance + self.view.plane_rule.distance_slack;
+        (self.seen, self.limit) = (seen, reach * reach);
+    }
+
+    /// Meets the pieces of a chain.
+    #[inline(always)]
+    fn meet(&mut self, chain: u32, [x, y]: [f32; 2]) {
+        let chain = &self.view.chains.bundles[chain as usize];
+        let squared = squared_distances_to_segments(chain, x, y);
+        for s in 0..FAN {
+            if squared[s] > self.limit {
+                continue;
+            }
+            for piece in [2 * chain.slot[s], 2 * chain.slot[s] + 1] {
+                let seen = self.view.seen(piece, x, y);
+                let is_nearer = (seen.distance, seen.piece) < (self.seen.distance, self.seen.piece);
+                let near = |seen: &Seen| self.view.connections.are_near(self.middle, seen.place());
+                if seen.is_covered && is_nearer && near(&seen) {
+                    self.take(seen);
+                }
+            }
+        }
+    }
+}

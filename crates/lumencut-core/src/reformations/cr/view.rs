@@ -1,0 +1,157 @@
+//! The pieces of a tree in one view, as CR asks for them: the nearest in the image, and the foremost whose disc holds a pixel.
+
+use super::chains::Chains;
+use super::parameters::CrParameters;
+use crate::camera::Camera;
+use crate::math::cost::Rule;
+use crate::math::hierarchy::Hierarchy;
+use crate::math::lanes::PIXELS;
+use crate::math::pieces::Envelope;
+use crate::math::projection::{Level, Projected, ProjectedLevel, Radii};
+use crate::math::tile::Tile;
+use crate::math::walk::{Seeds, lowest_keys};
+use crate::pipeline::Request;
+use crate::reformations::connections::Connections;
+use crate::stages::depth::Sheet;
+
+/// A tree in one view.
+pub(super) struct CrView<'a> {
+    pub level: &'a Level,
+    pub camera: &'a Camera,
+    /// The slots in their order.
+    projected: Vec<Projected>,
+    /// Their pieces without depth and radius: the smallest key is the smallest distance.
+    plane: Hierarchy,
+    pub plane_rule: Rule,
+    /// Their pieces with the radii of the discs: the smallest key is the foremost one whose disc holds the pixel.
+    discs: Hierarchy,
+    disc_rule: Rule,
+    /// Their segments in the order of their vessels.
+    pub chains: Chains,
+    pub connections: Connections,
+}
+
+impl<'a> CrView<'a> {
+    pub fn new(level: &'a Level, parameters: &CrParameters, request: &Request<'a>) -> Self {
+        let &Request { camera, settings, .. } = request;
+        let side = camera.pixel_spacing();
+        let mut view = ProjectedLevel::new(level);
+        view.project(level, camera, Radii { scale: 1.0, unknown: settings.unknown_radius as f32 });
+        let (tree_reach, chains) = (view.reach(), Chains::new(level, &view));
+        let ProjectedLevel { projected, hierarchy } = view;
+        let (mut plane, mut discs) = (hierarchy.clone(), hierarchy);
+        plane.flatten();
+        discs.widen((parameters.radius_offset * side) as f32);
+        let view_reach = camera.view_x(0).abs().max(camera.view_y(0).abs()) as f32;
+        let disc_rule = Rule { margin: 0.0, ..Rule::new(settings, tree_reach, view_reach) };
+        let connections = Connections::new(level, parameters.arc_threshold * side);
+        let plane_rule = Rule { weight: 1.0, ..disc_rule };
+        Self { level, camera, projected, plane, plane_rule, discs, disc_rule, chains, connections }
+    }
+
+    /// The piece of each pixel that is nearest in the image; of those equally near the first one.
+    #[inline(always)]
+    pub fn nearest(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
+        let mut nearest = Envelope::new(&[1.0; PIXELS]);
+        lowest_keys::<false>(&self.plane, tile, &self.plane_rule, seeds, &mut nearest);
+        *seeds = Seeds::collect(&nearest, &self.level.bundle_of_slot);
+        nearest.piece
+    }
+
+    /// The foremost piece whose disc holds each pixel, [`NO_PIECE`] where none does.
+    #[inline(always)]
+    pub fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
+        let mut foremost = Envelope::new(&[1.0; PIXELS]);
+        // No piece counts whose disc does not hold the pixel: its key is above this.
+        foremost.key = [-1.5 * self.disc_rule.lift; PIXELS];
+        lowest_keys::<true>(&self.discs, tile, &self.disc_rule, seeds, &mut foremost);
+        *seeds = Seeds::collect(&foremost, &self.level.bundle_of_slot);
+        foremost.piece
+    }
+
+    /// The chains that may lie within the threshold of a place on one of them, from and to.
+    pub fn around(&self, chain: u32) -> Vec<[u32; 2]> {
+        let slot = self.chains.bundles[chain as usize].slot[0];
+        let vessel = self.level.vessel_of_slot[slot as usize];
+        let span = self.chains.span(self.level, vessel, chain);
+        let stretches = self.connections.stretches(vessel as u32, span);
+        let chains =
+            stretches.into_iter().map(|(vessel, span)| self.chains.between(self.level, vessel, span));
+        let mut chains: Vec<_> = chains.collect();
+        chains.sort_unstable();
+        chains.dedup_by(|next, last| {
+            let meets = next[0] <= last[1];
+            last[1] = if meets { last[1].max(next[1]) } else { last[1] };
+            meets
+        });
+        chains
+    }
+
+    /// How the pixel at (x, y) lies to a piece.
+    #[inline(always)]
+    pub fn seen(&self, piece: u32, x: f32, y: f32) -> Seen {
+        let here = &self.projected[(piece / 2) as usize];
+        let [z, radius, arc_length] = [here.point[2], here.radius, here.arc_length];
+        let at_start = Seen {
+            piece,
+            vessel: here.vessel,
+            is_covered: false,
+            distance: 0.0,
+            z,
+            radius,
+            arc_length,
+            slope: [0.0; 2],
+        };
+        if piece.is_multiple_of(2) {
+            let (covered, distance) = here.wedge().cover(x, y);
+            return Seen { is_covered: covered & here.stands, distance, ..at_start };
+        }
+        if !here.has_stripe() {
+            return at_start;
+        }
+        let next = &self.projected[(piece / 2) as usize + 1];
+        let foot = here.stripe(next).foot(x, y);
+        Seen {
+            is_covered: foot.covered,
+            distance: foot.distance,
+            z: z + foot.t * (next.point[2] - z),
+            radius: radius + foot.t * (next.radius - radius),
+            arc_length: arc_length + foot.t * (next.arc_length - arc_length),
+            slope: here.slope(next),
+            ..at_start
+        }
+    }
+}
+
+/// No piece: as an envelope has it before any piece was offered.
+pub(super) const NO_PIECE: u32 = u32::MAX;
+
+/// How a pixel lies to a piece.
+#[derive(Clone, Copy)]
+pub(super) struct Seen {
+    /// Twice its slot, plus 1 for the stripe.
+    pub piece: u32,
+    pub vessel: i32,
+    pub is_covered: bool,
+    /// In the image (mm).
+    pub distance: f32,
+    /// Depth (mm).
+    pub z: f32,
+    radius: f32,
+    arc_length: f32,
+    slope: [f32; 2],
+}
+
+impl Seen {
+    /// Where on the tree it is.
+    #[inline(always)]
+    pub fn place(&self) -> (i32, f32) {
+        (self.vessel, self.arc_length)
+    }
+
+    #[inline(always)]
+    pub fn sheet(&self) -> Sheet {
+        let radius = if self.distance <= self.radius { self.radius } else { -self.radius };
+        [self.slope[0], self.slope[1], radius, 0.0]
+    }
+}

@@ -1,0 +1,247 @@
+//! Multipath curved planar reformation (mpCPR): the projected CPRs of all vessels of a tree in one image.
+//!
+//! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular
+//! Structures", IEEE Visualization 2003, doi:10.1109/VISUAL.2003.1250353. Each vessel c(t) is cut along the surface
+//! c(t) + s·(v × u), with v the direction of view and u upwards in the image: every row of the image cuts a vessel in points
+//! of its own, and a pixel shows the depth of the point that is nearest to it along its row.
+
+use rayon::prelude::*;
+
+use super::found::{Found, Place, expect_lengths, work};
+use crate::camera::Camera;
+use crate::error::Result;
+use crate::frame::Frame;
+use crate::math::projection::{Level, Radii};
+use crate::pipeline::Request;
+use crate::scene::LeveledTree;
+use crate::stages::depth::Sheet;
+
+/// How many points in a row share one range of view y.
+const BLOCK: usize = 64;
+
+/// The steepest slope that is told (mm per mm): where a vessel runs nearly along a row, it grows beyond all numbers.
+const STEEPEST: f64 = 1e9;
+
+/// Where the pixels of a view look by mpCPR. Of the settings `centerline_smoothing` counts, and `unknown_radius` where silhouettes ask
+/// for lumen; there are neither levels of detail nor a depth filter.
+///
+/// Rows that no vessel crosses look beyond every volume ([`crate::math::lanes::FAR`]) and have the vessel
+/// [`super::NO_VESSEL`].
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Settings`] for a setting outside its range, [`crate::error::ErrorKind::VesselTree`] for a
+/// vessel without length, [`crate::error::ErrorKind::Interrupted`] once the caller asks to stop.
+pub fn mpcpr(tree: &LeveledTree, request: &Request) -> Result<Frame> {
+    request.settings.check()?;
+    let levels = tree.levels(0, request.settings.centerline_smoothing);
+    expect_lengths(&levels[0])?;
+    let (camera, work) = (request.camera, work(request));
+    let radii = Radii { scale: 1.0, unknown: request.settings.unknown_radius as f32 };
+    let (lines, width) = (Lines::new(&levels[0], camera, radii), camera.size()[0]);
+    let mut found = Found::nothing(work.pixels());
+    let Found { depth, vessel, sheet, folded } = &mut found;
+    let rows = depth.par_chunks_mut(width).zip(vessel.par_chunks_mut(width));
+    let rows = rows.zip(sheet.par_chunks_mut(width)).zip(folded.par_chunks_mut(width));
+    rows.enumerate().try_for_each(|(j, (((depth, vessel), sheet), folded))| {
+        work.begin(width)?;
+        let mut row = lines.row(camera.view_y(j));
+        for i in 0..width {
+            let Some(place) = row.nearest(camera.view_x(i)) else { break };
+            (depth[i], vessel[i], sheet[i], folded[i]) =
+                (place.depth, place.vessel, place.sheet, place.is_folded);
+        }
+        Ok(())
+    })?;
+    found.into_frame(request)
+}
+
+/// A point of a centerline in view space (mm).
+#[derive(Clone, Copy)]
+struct Point {
+    x: f64,
+    y: f64,
+    z: f64,
+    radius: f64,
+    vessel: i32,
+}
+
+/// The centerlines of a tree in view space.
+struct Lines {
+    points: Vec<Point>,
+    /// The smallest and largest y of the segments that start in each block of points.
+    blocks: Vec<[f64; 2]>,
+}
+
+impl Lines {
+    fn new(level: &Level, camera: &Camera, radii: Radii) -> Self {
+        let slots = level.points.iter().zip(&level.radii).zip(&level.vessel_of_slot);
+        let points: Vec<Point> = slots
+            .map(|((point, radius), vessel)| {
+                let view = camera.view_from_world(*point);
+                Point {
+                    x: view.x,
+                    y: view.y,
+                    z: view.z,
+                    radius: f64::from(radii.of(*radius)),
+                    vessel: *vessel,
+                }
+            })
+            .collect();
+        let range = |start: usize| {
+            // The last segment of a block ends at the first point of the next one.
+            let ends = points[start..points.len().min(start + BLOCK + 1)].iter();
+            ends.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.y), high.max(p.y)])
+        };
+        let blocks = (0..points.len()).step_by(BLOCK).map(range).collect();
+        Self { points, blocks }
+    }
+
+    /// Where the row at view `y` crosses them.
+    fn row(&self, y: f64) -> Row {
+        let mut row = Row::default();
+        for (n, &[low, high]) in self.blocks.iter().enumerate() {
+            if low <= y && y <= high {
+                let starts = n * BLOCK..(self.points.len() - 1).min((n + 1) * BLOCK);
+                starts.for_each(|slot| self.cross(slot, y, &mut row));
+            }
+        }
+        row.finish();
+        row
+    }
+
+    /// Adds what the row at `y` has of the segment that starts at `slot`. A segment owns its start and what lies between
+    /// its ends; the last one of a vessel owns its end too. So each crossing is met once. Both ends in the row: all of it.
+    fn cross(&self, slot: usize, y: f64, row: &mut Row) {
+        let (a, b) = (self.points[slot], self.points[slot + 1]);
+        if a.vessel != b.vessel {
+            return;
+        }
+        let is_last = self.points.get(slot + 2).is_none_or(|next| next.vessel != a.vessel);
+        if a.y == y && b.y == y {
+            row.runs.push(Run { a, b, slot });
+        } else if a.y == y || (a.y < y && y < b.y) || (b.y < y && y < a.y) {
+            row.crossings.push(Crossing::new(&a, &b, slot, y));
+        } else if is_last && b.y == y {
+            row.crossings.push(Crossing { slot: slot + 1, ..Crossing::new(&a, &b, slot, y) });
+        }
+    }
+}
+
+/// A point at which a row crosses a vessel.
+#[derive(Clone, Copy)]
+struct Crossing {
+    x: f64,
+    z: f64,
+    vessel: i32,
+    /// Orders the points of a vessel: the slot of its segment.
+    slot: usize,
+    /// Upwards, how its depth changes (mm per mm).
+    slope: f64,
+    radius: f64,
+    /// How far from the centerline a point of the surface lies, for each mm along the row.
+    lean: f64,
+    /// Whether its vessel has other points in the row.
+    is_folded: bool,
+}
+
+impl Crossing {
+    /// The point of the segment from `a` to `b` at view `y`.
+    fn new(a: &Point, b: &Point, slot: usize, y: f64) -> Self {
+        let [dx, dy, dz] = [b.x - a.x, b.y - a.y, b.z - a.z];
+        let t = (y - a.y) / dy;
+        Self {
+            x: a.x + t * dx,
+            z: a.z + t * dz,
+            vessel: a.vessel,
+            slot,
+            slope: (dz / dy).clamp(-STEEPEST, STEEPEST),
+            radius: a.radius + t * (b.radius - a.radius),
+            lean: dy.hypot(dz) / dx.hypot(dy).hypot(dz),
+            is_folded: false,
+        }
+    }
+
+    /// The order of points that are equally far from a pixel: nearer to the viewer, then the vessel, then along it.
+    fn comes_before(&self, other: &Self) -> bool {
+        (self.z, self.vessel, self.slot) < (other.z, other.vessel, other.slot)
+    }
+
+    /// What the pixel at view `x` shows of it.
+    fn place(&self, x: f64) -> Place {
+        let is_lumen = (x - self.x).abs() * self.lean <= self.radius;
+        let radius = if is_lumen { self.radius } else { -self.radius };
+        let sheet: Sheet = [0.0, self.slope as f32, radius as f32, 0.0];
+        Place { depth: self.z as f32, vessel: self.vessel, sheet, is_folded: self.is_folded }
+    }
+}
+
+/// A segment that lies within a row.
+struct Run {
+    a: Point,
+    b: Point,
+    slot: usize,
+}
+
+impl Run {
+    /// Its point nearest to view `x`.
+    fn nearest(&self, x: f64) -> Crossing {
+        let dx = self.b.x - self.a.x;
+        let t = if dx == 0.0 {
+            // Along the view all of it stands at one place of the row.
+            f64::from(u8::from(self.b.z < self.a.z))
+        } else {
+            ((x - self.a.x) / dx).clamp(0.0, 1.0)
+        };
+        Crossing {
+            x: self.a.x + t * dx,
+            z: self.a.z + t * (self.b.z - self.a.z),
+            vessel: self.a.vessel,
+            slot: self.slot,
+            slope: 0.0,
+            radius: self.a.radius + t * (self.b.radius - self.a.radius),
+            lean: 1.0,
+            is_folded: true,
+        }
+    }
+}
+
+/// Where one row crosses the vessels.
+#[derive(Default)]
+struct Row {
+    /// Its points; once finished, from left to right, of those at one x the one that counts.
+    crossings: Vec<Crossing>,
+    runs: Vec<Run>,
+    /// The first point that is not to the left of the pixel before.
+    next: usize,
+}
+
+impl Row {
+    /// Tells which vessels have several points in the row, and orders them.
+    fn finish(&mut self) {
+        for group in self.crossings.chunk_by_mut(|a, b| a.vessel == b.vessel) {
+            let vessel = group[0].vessel;
+            let is_folded = group.len() > 1 || self.runs.iter().any(|run| run.a.vessel == vessel);
+            group.iter_mut().for_each(|crossing| crossing.is_folded = is_folded);
+        }
+        self.crossings.sort_by(|a, b| {
+            let place = |c: &Crossing| (c.vessel, c.slot);
+            a.x.total_cmp(&b.x).then(a.z.total_cmp(&b.z)).then(place(a).cmp(&place(b)))
+        });
+        self.crossings.dedup_by(|later, first| later.x == first.x);
+    }
+
+    /// What the pixel at view `x` shows; pixels come from left to right. Nothing where no vessel is in the row.
+    fn nearest(&mut self, x: f64) -> Option<Place> {
+        while self.crossings.get(self.next).is_some_and(|crossing| crossing.x < x) {
+            self.next += 1;
+        }
+        let left = self.next.checked_sub(1).map(|n| self.crossings[n]);
+        let right = self.crossings.get(self.next).copied();
+        let in_runs = self.runs.iter().map(|run| run.nearest(x));
+        let nearest = left.into_iter().chain(right).chain(in_runs).reduce(|best, other| {
+            let [far, near] = [&best, &other].map(|crossing| (x - crossing.x).abs());
+            if near < far || (near == far && other.comes_before(&best)) { other } else { best }
+        });
+        nearest.map(|crossing| crossing.place(x))
+    }
+}
