@@ -11,8 +11,8 @@ use crate::reformations::path::Path;
 /// How often an interval is halved at most to find a section: below what a number can tell.
 const HALVINGS: usize = 60;
 
-/// Within an interval that turns by more than this (radians) a line can meet sections though it meets none at its ends.
-const STRONG_TURN: f64 = 0.1;
+/// How far the sections of an interval turn at most (radians).
+const LARGEST_TURN: f64 = 0.1;
 
 /// The sections of a vessel, whatever the angle from which it is seen.
 pub(super) struct Sections {
@@ -47,8 +47,14 @@ impl Section {
 
 impl Sections {
     pub fn new(path: Arc<Path>, frames: Frames) -> Self {
-        let stations = frames.stations().iter().map(|station| station.at);
-        let mut at: Vec<_> = path.arc_length().iter().copied().chain(stations).collect();
+        let mut at = path.arc_length().to_vec();
+        for ends in frames.stations().windows(2) {
+            let [from, to] = [ends[0].at, ends[1].at];
+            let parts = (ends[0].turn.length() * (to - from) / LARGEST_TURN).ceil().max(1.0);
+            // At most 32: no turn is larger than half of a circle.
+            at.extend((0..parts as usize).map(|part| from + (to - from) * (part as f64 / parts)));
+        }
+        at.extend(frames.stations().last().map(|station| station.at));
         at.sort_by(f64::total_cmp);
         at.dedup();
         let mark = |at| Mark { at, point: path.at(at), frame: frames.at(at) };
@@ -118,17 +124,28 @@ impl Sections {
         self.section(station, at, point)
     }
 
-    /// Whether a line surely meets no section of an interval where the picture from an angle is.
+    /// Whether a line surely meets no section of an interval where the picture from an angle is: as far as the interval turns,
+    /// its sections lie beyond those at its ends by no more than the margin.
     pub fn is_apart(&self, n: usize, line: [DVec3; 2], angle: [f64; 2]) -> bool {
         let ends = [self.marks[n], self.marks[n + 1]];
-        let turn = self.frames.station(ends[0].at).turn.length() * (ends[1].at - ends[0].at);
+        let length = ends[1].at - ends[0].at;
+        let turn = self.frames.station(ends[0].at).turn.length() * length;
+        let reach = line.map(|end| end.distance(ends[0].point));
+        let margin = SAME_PLACE + turn * (turn * (reach[0].max(reach[1]) + length) + 2.0 * length) / 8.0;
         let frames = ends.map(|mark| mark.frame.turned(angle));
         let same = |normals: [DVec3; 2]| {
-            let sides = [0, 1].map(|n| ends[n].sides(line, normals[n]));
+            let sides = [0, 1].map(|n| ends[n].side(line, normals[n], margin));
             sides[0] != 0 && sides[0] == sides[1]
         };
-        turn <= STRONG_TURN
-            && (same(frames.map(|frame| frame.tangent)) || same(frames.map(|frame| frame.ahead)))
+        same(frames.map(|frame| frame.tangent)) || same(frames.map(|frame| frame.ahead))
+    }
+
+    /// Whether an interval holds the section at `at`, and surely no other one through a point that lies in it `aside` mm from
+    /// its centre: where the image moves so far for each mm of the vessel that it turns back nowhere in the interval.
+    pub fn holds_no_other(&self, n: usize, at: f64, aside: f64, moves: f64) -> bool {
+        let [from, to] = [self.marks[n].at, self.marks[n + 1].at];
+        let rate = self.frames.station(from).turn.length();
+        from <= at && at <= to && moves > rate * (to - from) * (aside.abs() * rate + 2.0)
     }
 }
 
@@ -165,9 +182,9 @@ impl Mark {
         Section { at: self.at + along, offset: here.offset - self.frame.tangent * along, ..here }
     }
 
-    /// Whether all points of a line lie on one side of a plane through the centre here: 1 or -1, or else 0.
-    fn sides(&self, line: [DVec3; 2], normal: DVec3) -> i8 {
+    /// On which side of a plane through the centre here a line lies with a margin: 1 or -1, or else 0.
+    fn side(&self, line: [DVec3; 2], normal: DVec3, margin: f64) -> i8 {
         let [one, other] = line.map(|end| (end - self.point).dot(normal));
-        if one.min(other) > SAME_PLACE { 1 } else { -i8::from(one.max(other) < -SAME_PLACE) }
+        if one.min(other) > margin { 1 } else { -i8::from(one.max(other) < -margin) }
     }
 }

@@ -111,15 +111,16 @@ impl Surface for Straightened {
         // How the image moves along the vessel's tangent from row to row, in the middle and per mm beside it.
         let middle = path.direction()[path.segment(y)].dot(frame.tangent);
         let aside = station.turn.cross(frame.across).dot(frame.tangent);
-        let mut folded: Vec<_> = x.iter().map(|x| middle + aside * x <= 0.0).collect();
-        self.mark_shown_elsewhere(y, x, &mut folded);
+        let moves: Vec<_> = x.iter().map(|x| middle + aside * x).collect();
+        let mut folded: Vec<_> = moves.iter().map(|moves| *moves <= 0.0).collect();
+        self.mark_shown_elsewhere(y, x, &moves, &mut folded);
         folded
     }
 }
 
 impl Straightened {
     /// Marks the pixels of a row whose points the picture shows in another row, where they belong rather.
-    fn mark_shown_elsewhere(&self, y: f64, x: &[f64], folded: &mut [bool]) {
+    fn mark_shown_elsewhere(&self, y: f64, x: &[f64], moves: &[f64], folded: &mut [bool]) {
         let row = self.row(y);
         let line = [x[0], x[x.len() - 1]].map(|x| row.place(x));
         let mut found = Vec::new();
@@ -127,7 +128,10 @@ impl Straightened {
             if self.sections.is_apart(n, line, self.angle) {
                 continue;
             }
-            for (x, folded) in x.iter().zip(&mut *folded) {
+            for ((x, moves), folded) in x.iter().zip(moves).zip(&mut *folded) {
+                if *folded || self.sections.holds_no_other(n, y, *x, *moves) {
+                    continue;
+                }
                 found.clear();
                 self.sections.within(n, row.place(*x), &mut found);
                 for place in found.iter().map(|section| self.place(section)) {
