@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from lumencut import Volume
+
 
 def view_of(tree, camera):
     """View coordinates of the points of each vessel."""
@@ -145,3 +147,18 @@ def _ends(start, beyond, length):
     """Both ends of segments, and how far a place on them lies from each."""
     following = np.where(length > 0, start + 1, start)
     return (start, beyond), (following, length - beyond)
+
+
+def index_valued(affine, size=(30, 26, 22)):
+    """Three volumes whose voxels have their own index i, j and k as values."""
+    k, j, i = np.meshgrid(*(np.arange(n, dtype=np.float64) for n in size[::-1]), indexing="ij")
+    return [Volume(axis, world_from_index=affine) for axis in (i, j, k)]
+
+
+GRIDS = {
+    "straight": np.array([[1.1, 0, 0, -15], [0, 0.9, 0, -12], [0, 0, 1.3, -14], [0, 0, 0, 1.0]]),
+    "oblique": np.array(
+        [[0.9, -0.3, 0.2, -12], [0.35, 0.85, 0.1, -16], [-0.2, 0.1, 1.2, -11], [0, 0, 0, 1.0]]
+    ),
+    "sheared": np.array([[1.0, 0, 0.4, -20], [0, 1, -0.3, -10], [0, 0, 1.2, -13], [0, 0, 0, 1.0]]),
+}

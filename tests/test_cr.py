@@ -17,6 +17,7 @@ from lumencut import (
     VesselTree,
     VesselTreeError,
     VolumeError,
+    Window,
     cr,
 )
 from scenes import wandering
@@ -95,6 +96,23 @@ def test_the_images_of_the_frame():
     assert np.array_equal(alone.depth, frame.depth)
     with pytest.raises(VolumeError, match="folded"):
         _ = frame.folded
+
+
+@pytest.mark.parametrize("grid", reference.GRIDS)
+def test_values_are_those_of_the_positions(grid):
+    affine = reference.GRIDS[grid]
+    tree = VesselTree(
+        [Vessel([(-6, -5, -8), (3, 0, 2), (1, 2, 9)], 2.0), Vessel([(6, -3, -8), (-5, 1, 8)], 1.0)]
+    )
+    camera = Camera((0.2, 0.1, 0), (0.2, 1, 0.1), (0.1, 0, 1), (60, 40), 0.5)
+    bare = Settings(context=None, silhouettes=False, window=Window(50, 100))
+    frames = [cr(volume, tree, camera, bare, 4, 20) for volume in reference.index_valued(affine)]
+    position = frames[0].position.reshape(-1, 3)
+    expected = (position - affine[:3, 3]) @ np.linalg.inv(affine[:3, :3]).T
+    found = np.stack([frame.value.ravel() for frame in frames], axis=1)
+    within = (expected >= 0).all(axis=1) & (expected <= np.array([29, 25, 21])).all(axis=1)
+    assert within.sum() > 800
+    assert np.abs(found - expected)[within].max() < 1e-3
 
 
 def test_within_their_lumen_vessels_without_others_are_shown_as_by_csr():

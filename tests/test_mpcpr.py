@@ -83,28 +83,13 @@ def test_a_slanted_vessel_is_as_thin_as_the_geometry_predicts(phi, theta):
     assert expected <= 8.0 + 1e-9
 
 
-def index_valued(affine, size=(30, 26, 22)):
-    """Three volumes whose voxels have their own index i, j and k as values."""
-    k, j, i = np.meshgrid(*(np.arange(n, dtype=np.float64) for n in size[::-1]), indexing="ij")
-    return [Volume(axis, world_from_index=affine) for axis in (i, j, k)]
-
-
-GRIDS = {
-    "straight": np.array([[1.1, 0, 0, -15], [0, 0.9, 0, -12], [0, 0, 1.3, -14], [0, 0, 0, 1.0]]),
-    "oblique": np.array(
-        [[0.9, -0.3, 0.2, -12], [0.35, 0.85, 0.1, -16], [-0.2, 0.1, 1.2, -11], [0, 0, 0, 1.0]]
-    ),
-    "sheared": np.array([[1.0, 0, 0.4, -20], [0, 1, -0.3, -10], [0, 0, 1.2, -13], [0, 0, 0, 1.0]]),
-}
-
-
-@pytest.mark.parametrize("grid", GRIDS)
+@pytest.mark.parametrize("grid", reference.GRIDS)
 def test_values_are_those_of_the_positions(grid):
-    affine = GRIDS[grid]
+    affine = reference.GRIDS[grid]
     line = np.array([[-6, -5, -8], [-2, 4, -3], [3, 0, 2], [1, 2, 9.0]])
     tree = VesselTree([Vessel(line, 2.0), Vessel(line[::-1] + np.array([5, 1, -2]), 1.0)])
     camera = Camera((0.2, 0.1, 0), (0.2, 1, 0.1), (0.1, 0, 1), (60, 40), 0.5)
-    frames = [mpcpr(volume, tree, camera, BARE) for volume in index_valued(affine)]
+    frames = [mpcpr(volume, tree, camera, BARE) for volume in reference.index_valued(affine)]
     position = frames[0].position.reshape(-1, 3)
     expected = (position - affine[:3, 3]) @ np.linalg.inv(affine[:3, :3]).T
     found = np.stack([frame.value.ravel() for frame in frames], axis=1)
