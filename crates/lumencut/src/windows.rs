@@ -25,6 +25,11 @@ const LUMEN_AT: [f64; 2] = [0.52, 0.65];
 /// How far below the lumen such a window begins, in differences of lumen and tissue: without noise, and at most.
 const BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
 
+/// Where dark values are cut off, tissue above them lies at this part of the way from black to the lumen at least. For that,
+/// black lies below them by at most so many times their distance from the tissue.
+const TISSUE_AT: f64 = 0.23;
+const BELOW_DARKEST: f64 = 2.0;
+
 /// Which part of a normal distribution lies within a standard deviation below its middle, and within one above.
 const SPREAD: [f64; 2] = [0.16, 0.84];
 
@@ -61,8 +66,9 @@ pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
 /// A window that shows lumen light grey, tissue dark, calcifications and stents white.
 ///
 /// The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for the tissue
-/// around it; where most of that is padding or outside the volume, the edges of the vessels do. Black lies 1.5 times their difference below the lumen, farther for a lumen that is noisy, and not below
-/// what the volume holds. White lies where the brightest voxels are, so far as the lumen stays at 52 to 65 % of the
+/// around it; where most of that is padding or outside the volume, the edges of the vessels do. Black lies 1.5 times their
+/// difference below the lumen, farther for a lumen that is noisy, and not below what the volume holds, except as far as the
+/// tissue would be black. White lies where the brightest voxels are, so far as the lumen stays at 52 to 65 % of the
 /// range. Where the lumen is the darker of the two, all this is mirrored: it lies at 35 to 48 %, its surroundings above.
 ///
 /// # Errors
@@ -74,6 +80,7 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
         return Ok(OF_NOTHING);
     };
     let mut looked = Looked::at(volume);
+    let is_cut_off = padding(&mut looked.voxels).is_some();
     let Some(beyond) = tissue_around(volume, tree, level, &mut looked) else {
         return Ok(OF_NOTHING);
     };
@@ -86,7 +93,9 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let [lower, upper] = SPREAD.map(|part| quantile(&mut lumen, part).unwrap_or_default());
     let [low, high] = [DARKEST, BRIGHTEST].map(|part| quantile(&mut looked.voxels, part).unwrap_or_default());
     let high = high.max(quantile(&mut wall, BRIGHT).unwrap_or(high));
-    let [black, white] = around_lumen(sign * level, sign * beyond, (upper - lower) / 2.0, [low, high]);
+    // Only dark values are cut off, not what is bright.
+    let darkest = if is_cut_off && sign > 0.0 { darkest(level, beyond, low) } else { low };
+    let [black, white] = around_lumen(sign * level, sign * beyond, (upper - lower) / 2.0, [darkest, high]);
     within(sign * (black + white) / 2.0, white - black, || {
         format!("values around {} along the centerlines, {} beside", rounded(level, 3), rounded(beyond, 3))
     })
@@ -119,6 +128,13 @@ fn around_lumen(lumen: f64, tissue: f64, spread: f64, ends: [f64; 2]) -> [f64; 2
     let black = (lumen - below).max(ends[0].min(tissue)).min(lumen);
     let [farthest, nearest] = LUMEN_AT.map(|place| lumen + (lumen - black) * (1.0 / place - 1.0));
     [black, ends[1].clamp(nearest, farthest)]
+}
+
+/// The darkest voxels that are cut off at `low`, as at 0 HU, as they would be for a window: far enough below the tissue to
+/// leave it visible.
+fn darkest(lumen: f64, tissue: f64, low: f64) -> f64 {
+    let visible = (tissue - TISSUE_AT * lumen) / (1.0 - TISSUE_AT);
+    low.min(visible.max(low - BELOW_DARKEST * (tissue - low).max(0.0)))
 }
 
 /// Six points around each point of the tree, so far beyond the wall (mm, LPS).

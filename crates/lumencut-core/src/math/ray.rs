@@ -3,6 +3,7 @@
 use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
 use super::ray_lines::{IndexFromView, Lines};
+pub use super::ray_lines::{NEVER, NONE, WHOLE};
 use super::sampling::{Grid, PLACE_ROUNDING, Path, Places};
 use crate::camera::Camera;
 use crate::volume::Volume;
@@ -11,13 +12,6 @@ use crate::volume::Volume;
 pub const PACKET: [usize; 2] = [4, 4];
 /// The parts of a ray that are sampled, or skipped, together.
 pub const STEPS: usize = 8;
-
-/// Where a ray starts that crosses the whole volume (depth in mm).
-pub const WHOLE: f32 = -1e9;
-/// Where a ray starts that is not needed.
-pub const NONE: f32 = 1e9;
-/// Beyond both.
-pub const NEVER: f64 = 2e9;
 
 /// The most samples along a ray, and of a slab.
 pub const MOST_SAMPLES: f64 = 65_536.0;

@@ -3,10 +3,16 @@
 use glam::DVec3;
 
 use super::lanes::FAN;
-use super::ray::{NEVER, NONE};
 use super::sampling::Grid;
 use crate::camera::Camera;
 use crate::volume::Volume;
+
+/// Where a ray starts that crosses the whole volume (depth in mm).
+pub const WHOLE: f32 = -1e9;
+/// Where a ray starts that is not needed.
+pub const NONE: f32 = 1e9;
+/// Beyond both.
+pub const NEVER: f64 = 2e9;
 
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
 pub const PARALLEL: f64 = 1e-9;

@@ -67,6 +67,19 @@ fn white_is_the_brightest_there_is_and_black_the_darkest_within_what_the_lumen_n
 }
 
 #[test]
+fn tissue_just_above_what_is_cut_off_is_not_black() {
+    // A CT whose values below 0 HU are cut off.
+    let [black, white] = around_lumen(325.0, 30.0, 0.0, [darkest(325.0, 30.0, 0.0), 1000.0]);
+    let share = (30.0 - black) / (white - black);
+    assert!(black < 0.0 && (0.1..0.15).contains(&share), "black {black}, tissue at {share}");
+    // Nearly as dark as the darkest: hardly any tissue, so hardly any range for it.
+    assert!((darkest(325.0, 1.0, 0.0) + 2.0).abs() < 1e-9);
+    assert!(darkest(325.0, 0.0, 0.0).abs() < 1e-9);
+    // Bright enough as it is.
+    assert!(darkest(325.0, 80.0, 0.0).abs() < 1e-9);
+}
+
+#[test]
 fn noise_widens_a_window_until_the_tissue_would_be_grey() {
     let ends = [-1000.0, 5000.0];
     let black = |spread| around_lumen(300.0, 200.0, spread, ends)[0];
