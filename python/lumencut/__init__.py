@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lumencut._lumencut import __version__
     from lumencut.camera import VIEWS, Camera
+    from lumencut.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.centerline_writers import write_centerlines
     from lumencut.centerlines import read_centerlines
     from lumencut.device import Device, devices
@@ -35,12 +36,14 @@ if TYPE_CHECKING:
     )
     from lumencut.evaluation import Evaluation, evaluate
     from lumencut.frame import Frame
+    from lumencut.mask_tracing import trace_mask
     from lumencut.renderer import Renderer, render
     from lumencut.settings import Settings
     from lumencut.slab import Slab
     from lumencut.threads import get_threads, set_threads
     from lumencut.transfer import TransferFunction
     from lumencut.turntables import fitted_turn, save_animation, turntable
+    from lumencut.vessel_gap import Gap
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
     from lumencut.volume_files import SeriesReport, list_series, read_volume
@@ -50,6 +53,7 @@ if TYPE_CHECKING:
 _HOME = {
     "_lumencut": ("__version__",),
     "camera": ("VIEWS", "Camera"),
+    "centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "centerline_writers": ("write_centerlines",),
     "centerlines": ("read_centerlines",),
     "device": ("Device", "devices"),
@@ -69,12 +73,14 @@ _HOME = {
     ),
     "evaluation": ("Evaluation", "evaluate"),
     "frame": ("Frame",),
+    "mask_tracing": ("trace_mask",),
     "renderer": ("Renderer", "render"),
     "settings": ("Settings",),
     "slab": ("Slab",),
     "threads": ("get_threads", "set_threads"),
     "transfer": ("TransferFunction",),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
+    "vessel_gap": ("Gap",),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),
     "volume_files": ("SeriesReport", "list_series", "read_volume"),
@@ -86,6 +92,7 @@ __all__ = [
     "VIEWS",
     "Camera",
     "CameraError",
+    "CenterlineComparison",
     "Device",
     "DeviceError",
     "DeviceWarning",
@@ -93,6 +100,7 @@ __all__ = [
     "FileError",
     "FormatError",
     "Frame",
+    "Gap",
     "LumencutError",
     "MissingPackageError",
     "Opacity",
@@ -111,6 +119,7 @@ __all__ = [
     "VolumeError",
     "Window",
     "__version__",
+    "compare_centerlines",
     "devices",
     "evaluate",
     "fitted_turn",
@@ -121,6 +130,7 @@ __all__ = [
     "render",
     "save_animation",
     "set_threads",
+    "trace_mask",
     "turntable",
     "write_centerlines",
 ]

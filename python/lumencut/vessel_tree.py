@@ -10,10 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import integers, number, numbers
+from lumencut._checks import flag, integers, number, numbers
 from lumencut._values import Value, content_of
 from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
+from lumencut.vessel_gap import Gap
 
 #: How many names an error lists.
 _MOST_NAMES = 24
@@ -30,6 +31,8 @@ class Vessel(Value):
         Radius of the lumen at each point (mm), 0 or more; without it the wall lies on the centerline.
     name : str, optional
         The vessel's name.
+    bridged : bool, default False
+        Whether nothing shows a lumen along it: it bridges a gap because that was asked for.
 
     Raises
     ------
@@ -38,13 +41,19 @@ class Vessel(Value):
     """
 
     def __init__(
-        self, points: npt.ArrayLike, radius: npt.ArrayLike | None = None, name: str | None = None
+        self,
+        points: npt.ArrayLike,
+        radius: npt.ArrayLike | None = None,
+        name: str | None = None,
+        *,
+        bridged: bool = False,
     ) -> None:
         self._points = numbers(VesselTreeError, "points of the vessel", points, (-1, 3))
         self._radius = None if radius is None else _radii(radius, len(self._points))
         if not (name is None or isinstance(name, str)):
             raise VesselTreeError("name of the vessel", f"{type(name).__name__}", "a text or None")
         self._name = name
+        self._bridged = flag(VesselTreeError, "bridged", bridged)
         _lumencut.check_vessel(self._points, self._radius)
 
     @property
@@ -63,19 +72,25 @@ class Vessel(Value):
         return self._name
 
     @property
+    def bridged(self) -> bool:
+        """Whether it bridges a gap in which nothing shows a lumen."""
+        return self._bridged
+
+    @property
     def length(self) -> float:
         """Arc length (mm)."""
         return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
 
     def _content(self) -> tuple[Any, ...]:
-        return content_of(self._points), content_of(self._radius), self._name
+        return content_of(self._points), content_of(self._radius), self._name, self._bridged
 
     def __len__(self) -> int:
         return len(self._points)
 
     def __repr__(self) -> str:
         name = "" if self._name is None else f"{self._name!r}, "
-        return f"Vessel({name}{len(self)} points, {self.length:.1f} mm)"
+        bridged = ", bridged" if self._bridged else ""
+        return f"Vessel({name}{len(self)} points, {self.length:.1f} mm{bridged})"
 
 
 class _VesselNameError(VesselTreeError, KeyError):
@@ -103,6 +118,8 @@ class VesselTree(Value):
 
     #: Whether the user named the space of the coordinates, or was warned that it looks wrong.
     _space_settled = False
+    _gaps: tuple[Gap, ...] = ()
+    _notes: tuple[str, ...] = ()
 
     def __init__(self, vessels: Iterable[Vessel]) -> None:
         try:
@@ -130,10 +147,10 @@ class VesselTree(Value):
         """
         (checked,) = integers(VesselTreeError, "count of levels", [count], 0, 64, 1)
         made = _lumencut.levels(self._arrays(), checked)
-        names = [vessel.name for vessel in self._vessels]
         return [
             VesselTree(
-                Vessel(points, radius, name) for (points, radius), name in zip(level, names, strict=True)
+                Vessel(points, radius, vessel.name, bridged=vessel.bridged)
+                for (points, radius), vessel in zip(level, self._vessels, strict=True)
             )
             for level in made
         ]
@@ -157,7 +174,7 @@ class VesselTree(Value):
         """
         made = _lumencut.smoothed(self._arrays(), number(SettingsError, "centerline_smoothing", radii))
         smoothed = VesselTree(
-            Vessel(points, vessel.radius, vessel.name)
+            Vessel(points, vessel.radius, vessel.name, bridged=vessel.bridged)
             for points, vessel in zip(made, self._vessels, strict=True)
         )
         smoothed._space_settled = self._space_settled
@@ -226,6 +243,19 @@ class VesselTree(Value):
         )
         mend = f"perhaps {alike[close[0]]!r} is meant" if close else ""
         raise _VesselNameError(f"vessel {name!r}", "no vessel of this name", expected, mend)
+
+    @property
+    def gaps(self) -> tuple[Gap, ...]:
+        """Gaps between the pieces of the mask that the tree was traced from, the narrowest first.
+
+        Trees from elsewhere, and parts of a tree, have none.
+        """
+        return self._gaps
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What there is to know of how the tree was traced, a sentence each."""
+        return self._notes
 
     @property
     def bounds(self) -> npt.NDArray[np.float64]:

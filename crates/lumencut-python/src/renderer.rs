@@ -129,7 +129,7 @@ impl Renderer {
             pool::install(|| pollster::block_on(backend.render(&scene, &request)))?.map_err(to_python)
         })?;
         if let Some(watched) = watched {
-            watched.tell(py, SHARES)?;
+            watched.tell_whole(py)?;
         }
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)
@@ -153,13 +153,20 @@ fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult
     given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
 }
 
-/// How far a rendering is, and the function of Python that is told so.
-struct Watched<'a> {
-    progress: &'a Progress,
-    told: &'a Py<PyAny>,
+/// How far the work is, and the function of Python that is told so.
+pub struct Watched<'a> {
+    /// How far it is.
+    pub progress: &'a Progress,
+    /// The function, which gets the parts that are done and all parts.
+    pub told: &'a Py<PyAny>,
 }
 
 impl Watched<'_> {
+    /// Tells that all is done.
+    pub fn tell_whole(&self, py: Python<'_>) -> PyResult<()> {
+        self.tell(py, SHARES)
+    }
+
     /// Tells how much is done, of `SHARES` parts.
     fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
         self.told.call1(py, (done, SHARES)).map(drop)
@@ -173,7 +180,7 @@ impl Watched<'_> {
 }
 
 /// Runs `work` on a thread of its own without the GIL while this one listens for signals, and tells how far it is.
-fn interruptible<T: Send>(
+pub fn interruptible<T: Send>(
     py: Python<'_>,
     watched: Option<&Watched<'_>>,
     work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,
