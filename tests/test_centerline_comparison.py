@@ -156,7 +156,7 @@ def test_a_missing_branch_is_missed():
     assert found.ov < 0.8
     more = compare_centerlines(three, three.without(2))
     assert more.ov == 1
-    # Up to where it is 2 mm away from the other branch, at an angle whose cosine is 5/13, it lies in that one's lumen.
+    # Its start lies in the lumen of the other branch, 2 mm wide, at an angle whose sine is 12/13.
     assert more.false_length == pytest.approx(three[2].length - 2 / (12 / 13), abs=0.6)
 
 
@@ -164,6 +164,15 @@ def test_the_piece_that_fits_best_is_taken():
     reference = straight((0, 0, 0), (0, 0, 40))
     pieces = VesselTree([straight((0.2, 0, 1), (0.2, 0, 39)), straight((0, 0, -0.2), (0, -20, -0.2))])
     assert compare_centerlines(pieces, reference).ov > 0.97
+
+
+def test_ways_around_a_cycle_take_the_side_of_the_reference():
+    turn = np.linspace(0, 2 * np.pi, 121)
+    ring = np.stack([20 * np.cos(turn), 20 * np.sin(turn), np.zeros(121)], axis=1)
+    ring[-1] = ring[0]
+    traced = VesselTree([Vessel(ring[:31], 2.0), Vessel(ring[30:], 2.0)])
+    for reference in (Vessel(ring, 2.0), Vessel(ring[30:], 2.0), Vessel(ring[:91], 2.0)):
+        assert compare_centerlines(traced, VesselTree([reference])).ov == 1
 
 
 def test_what_cannot_be_compared_is_refused():

@@ -153,14 +153,15 @@ def _summary(
 
     length = sum(one.length for one in counts)
     first = counts[0]
-    has_error = len(counts) == 1 and first.before_error < first.reference
+    has_error = not vessels and first.before_error < first.reference
+    first_error = length * first.before_error / (first.reference - 1) if has_error else None
     return CenterlineComparison(
         ov=share("right", "all"),
         of=sum(one.length * one.before_error / one.reference for one in counts) / length,
         ot=share("relevant_right", "relevant"),
         ai=share("inside_sum", "inside"),
         length=length,
-        first_error=length * first.before_error / (first.reference - 1) if has_error and not vessels else None,
+        first_error=first_error,
         false_length=false_length,
         vessels=vessels,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -18,6 +19,9 @@ _STEP = 0.5
 
 #: How far apart the points of a line are that say which piece it belongs to (mm).
 _VOTES = 1.0
+
+#: A way that is shorter than this share of a line may lead around the wrong side of a cycle.
+_AS_LONG = 0.8
 
 _Points = npt.NDArray[np.float64]
 
@@ -50,7 +54,9 @@ class CenterlinePaths:
     def along(self, line: _Points) -> _Points | None:
         """Return the shortest way from the point nearest to a line's start to the one nearest to its end.
 
-        Both are points of the piece that is nearest to most of the line.
+        Both are points of the piece that is nearest to most of the line. Where the way is shorter than four
+        fifths of the line, as on the other side of a cycle, it leads through the points nearest to both
+        thirds of the line if that comes nearer to its length.
 
         Parameters
         ----------
@@ -64,8 +70,20 @@ class CenterlinePaths:
         """
         votes = [self._piece[self._nearest(point, None)] for point in _parted(line, _VOTES)]
         piece = int(np.bincount(votes).argmax())
-        start, end = self._nearest(line[0], piece), self._nearest(line[-1], piece)
-        return None if start == end else self._points[self._shortest(start, end)]
+        parts = _parted(line, _VOTES)
+        places = [line[0], parts[len(parts) // 3], parts[2 * len(parts) // 3], line[-1]]
+        stops = [self._nearest(place, piece) for place in places]
+        wanted = _length(line)
+        way = self._points[self._through(stops[::3])]
+        if _length(way) < _AS_LONG * wanted:
+            longer = self._points[self._through(stops)]
+            way = min(way, longer, key=lambda way: abs(_length(way) - wanted))
+        return way if len(way) > 1 else None
+
+    def _through(self, stops: Sequence[int]) -> list[int]:
+        """The shortest way through points in their order."""
+        ways = (self._shortest(start, end)[1:] for start, end in itertools.pairwise(stops))
+        return [stops[0], *itertools.chain.from_iterable(ways)]
 
     def _nearest(self, point: _Points, piece: int | None) -> int:
         distance = np.linalg.norm(self._points - point, axis=1)
@@ -121,3 +139,7 @@ def _parted(points: _Points, step: float) -> _Points:
         for a, b, count in zip(points[:-1], points[1:], counts, strict=True)
     ]
     return np.concatenate([*parts, points[-1:]])
+
+
+def _length(points: _Points) -> float:
+    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())

@@ -36,9 +36,9 @@ def trace_mask(
 ) -> VesselTree:
     """Trace the centerlines of a mask of the lumen, or of labels of a label map.
 
-    Cavities are filled. The mask is thinned to lines with its topology, those voxels first that are nearest to
-    the wall, so pieces and cycles stay. Short branches go, the lines are moved to the centres of
-    gravity of their cross-sections, smoothed over half a radius and led out to the caps of their ends.
+    Cavities are filled. The mask is thinned to lines with its topology, those voxels first that are nearest
+    to the wall, so pieces and cycles stay. Short branches go, the lines are moved to the centres of gravity
+    of their cross-sections, smoothed over half a radius and led out to the caps of their ends.
     Vessels that meet share their end points to the bit; neighbouring points are at most 0.5 mm apart. A
     vessel leads away from the free end of the widest vessel of its piece.
 
@@ -54,17 +54,18 @@ def trace_mask(
     mask : Volume, or an image that :func:`lumencut.render` takes as a volume
         Whole numbers: 0 is background.
     volume : Volume or such an image, optional
-        The angiography of the mask, on the same grid: corners may differ by a tenth of a voxel, and axes may
-        be stored in another order or direction.
+        The angiography of the mask. So far only its grid is looked at, which must be that of the mask:
+        corners may differ by a tenth of a voxel, and axes may be stored in another order or direction. Its
+        values do not yet move the lines.
     labels : mapping of int to str, or iterable of int, optional
-        Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it every
-        value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values.
-        A vessel with several labels is parted where one ends and the other begins.
+        Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
+        every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values. A
+        vessel with several labels is parted where one ends and the other begins.
     shortest_branch : float, default 2
         How long a branch must be to stay, from the centerline of its parent to its cap, in radii of the
         parent. A branch that reaches four of its own radii beyond the parent's wall stays too.
     bridge : float, default 0
-        The widest gap (mm) between pieces that a straight vessel bridges, which is marked as
+        The widest gap (mm) between pieces that a straight vessel bridges, whose points are all marked as
         :attr:`Vessel.bridged`. Gaps are listed in :attr:`VesselTree.gaps` whether or not they are bridged.
     progress : callable, optional
         Called now and then with how much is done and how much there is to do.
@@ -77,14 +78,17 @@ def trace_mask(
     Raises
     ------
     VolumeError
-        For a mask that has no lumen or no background, is of a float type, is a single slice, is nowhere longer
-        than wide, or lies on another grid than the volume.
+        For a mask that has no lumen or no background, is of a float type, is a single slice, is nowhere
+        longer than wide, or lies on another grid than the volume.
     SettingsError
         For labels, a shortest branch or a bridge of another kind.
     KeyboardInterrupt
         After Ctrl-C.
     """
     grid = as_volume(mask)
+    if grid.dtype.kind == "f":
+        mend = "compare the values with a threshold, as --threshold does: Volume(mask.array >= 0.5, …)"
+        raise VolumeError("mask", f"voxels of type {grid.dtype}", "whole numbers", mend)
     names = _names(labels)
     if volume is not None:
         _check_grid(grid, as_volume(volume))
@@ -100,19 +104,20 @@ def trace_mask(
     known = names or {}
     several = len(values - {0}) > 1
     tree = VesselTree(
-        Vessel(points, radius, known.get(label) or (f"label {label}" if several and label else None),
-               bridged=bridged)
+        Vessel(
+            points,
+            radius,
+            known.get(label) or (f"label {label}" if several and label else None),
+            bridged=np.full(len(points), bridged),
+        )
         for points, radius, label, bridged in found["vessels"]
-    )  # fmt: skip
-    tree._gaps = tuple(
-        Gap(width, tuple(vessels), tuple(map(tuple, points)), bridged)
-        for width, vessels, points, bridged in found["gaps"]
     )
+    tree._gaps = tuple(Gap(*parts) for parts in found["gaps"])
     tree._notes = tuple(_notes(grid, found, tree))
     return tree
 
 
-def _notes(mask: Volume, found: dict[str, Any], tree: VesselTree) -> Iterable[str]:
+def _notes(mask: Volume, found: Mapping[str, Any], tree: VesselTree) -> Iterable[str]:
     cavities, voxels = found["filled"]
     if cavities:
         holes = "1 cavity" if cavities == 1 else f"{cavities} cavities"

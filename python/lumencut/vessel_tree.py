@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import flag, integers, number, numbers
+from lumencut._checks import integers, number, numbers
 from lumencut._values import Value, content_of
 from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
@@ -21,7 +21,7 @@ _MOST_NAMES = 24
 
 
 class Vessel(Value):
-    """One unbranched centerline; vessels with the same points, radii and name are equal.
+    """One unbranched centerline; vessels with the same points, radii, name, confidence and bridges are equal.
 
     Parameters
     ----------
@@ -31,8 +31,10 @@ class Vessel(Value):
         Radius of the lumen at each point (mm), 0 or more; without it the wall lies on the centerline.
     name : str, optional
         The vessel's name.
-    bridged : bool, default False
-        Whether nothing shows a lumen along it: it bridges a gap because that was asked for.
+    confidence : array_like, shape (n,), optional
+        How sure each point is, 0 to 1, where the vessel was traced.
+    bridged : array_like of bool, shape (n,), optional
+        Which points lie where no lumen was to be seen, and were put there because a bridge was asked for.
 
     Raises
     ------
@@ -46,14 +48,16 @@ class Vessel(Value):
         radius: npt.ArrayLike | None = None,
         name: str | None = None,
         *,
-        bridged: bool = False,
+        confidence: npt.ArrayLike | None = None,
+        bridged: npt.ArrayLike | None = None,
     ) -> None:
         self._points = numbers(VesselTreeError, "points of the vessel", points, (-1, 3))
         self._radius = None if radius is None else _radii(radius, len(self._points))
         if not (name is None or isinstance(name, str)):
             raise VesselTreeError("name of the vessel", f"{type(name).__name__}", "a text or None")
         self._name = name
-        self._bridged = flag(VesselTreeError, "bridged", bridged)
+        self._confidence = None if confidence is None else _shares(confidence, len(self._points))
+        self._bridged = None if bridged is None else _marks(bridged, len(self._points))
         _lumencut.check_vessel(self._points, self._radius)
 
     @property
@@ -72,9 +76,18 @@ class Vessel(Value):
         return self._name
 
     @property
-    def bridged(self) -> bool:
-        """Whether it bridges a gap in which nothing shows a lumen."""
+    def confidence(self) -> npt.NDArray[np.float64] | None:
+        """How sure each point is, 0 to 1, shape (n,), where known."""
+        return self._confidence
+
+    @property
+    def bridged(self) -> npt.NDArray[np.bool_] | None:
+        """Which points lie where no lumen was to be seen, shape (n,), where known."""
         return self._bridged
+
+    def named(self, name: str | None) -> Vessel:
+        """Return the vessel with another name."""
+        return Vessel(self._points, self._radius, name, confidence=self._confidence, bridged=self._bridged)
 
     @property
     def length(self) -> float:
@@ -82,15 +95,21 @@ class Vessel(Value):
         return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
 
     def _content(self) -> tuple[Any, ...]:
-        return content_of(self._points), content_of(self._radius), self._name, self._bridged
+        marks = None if self._bridged is None else self._bridged.tobytes()
+        return (
+            content_of(self._points),
+            content_of(self._radius),
+            self._name,
+            content_of(self._confidence),
+            marks,
+        )
 
     def __len__(self) -> int:
         return len(self._points)
 
     def __repr__(self) -> str:
         name = "" if self._name is None else f"{self._name!r}, "
-        bridged = ", bridged" if self._bridged else ""
-        return f"Vessel({name}{len(self)} points, {self.length:.1f} mm{bridged})"
+        return f"Vessel({name}{len(self)} points, {self.length:.1f} mm)"
 
 
 class _VesselNameError(VesselTreeError, KeyError):
@@ -147,10 +166,10 @@ class VesselTree(Value):
         """
         (checked,) = integers(VesselTreeError, "count of levels", [count], 0, 64, 1)
         made = _lumencut.levels(self._arrays(), checked)
+        names = [vessel.name for vessel in self._vessels]
         return [
             VesselTree(
-                Vessel(points, radius, vessel.name, bridged=vessel.bridged)
-                for (points, radius), vessel in zip(level, self._vessels, strict=True)
+                Vessel(points, radius, name) for (points, radius), name in zip(level, names, strict=True)
             )
             for level in made
         ]
@@ -174,7 +193,7 @@ class VesselTree(Value):
         """
         made = _lumencut.smoothed(self._arrays(), number(SettingsError, "centerline_smoothing", radii))
         smoothed = VesselTree(
-            Vessel(points, vessel.radius, vessel.name, bridged=vessel.bridged)
+            Vessel(points, vessel.radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
             for points, vessel in zip(made, self._vessels, strict=True)
         )
         smoothed._space_settled = self._space_settled
@@ -254,7 +273,7 @@ class VesselTree(Value):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What there is to know of how the tree was traced, a sentence each."""
+        """What there is to know of how the tree was traced from a mask, a sentence each."""
         return self._notes
 
     @property
@@ -311,3 +330,22 @@ def _radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
     if not isinstance(radius, Sequence) and np.ndim(radius) == 0:
         radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
     return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))
+
+
+def _shares(confidence: Any, count: int) -> npt.NDArray[np.float64]:
+    shares = numbers(VesselTreeError, "confidence of the vessel", confidence, (count,))
+    if not ((shares >= 0) & (shares <= 1)).all():
+        found = f"{shares.min():g} to {shares.max():g}"
+        raise VesselTreeError("confidence of the vessel", found, "numbers from 0 to 1")
+    return shares
+
+
+def _marks(bridged: Any, count: int) -> npt.NDArray[np.bool_]:
+    marks = np.array(bridged)
+    if marks.dtype != np.bool_ or marks.shape != (count,):
+        found = f"{marks.dtype} of shape {marks.shape}"
+        raise VesselTreeError(
+            "bridged points of the vessel", found, f"True or False for each of {count} points"
+        )
+    marks.flags.writeable = False
+    return marks

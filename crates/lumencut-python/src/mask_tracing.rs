@@ -9,15 +9,17 @@ use pyo3::types::PyDict;
 
 use crate::errors::to_python;
 use crate::pool;
-use crate::renderer::{Watched, interruptible};
+use crate::renderer::{SHARES, Watched, interruptible};
 use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 
 /// Points (n, 3), radii (n,), the label, and whether it bridges a gap.
 type TracedArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, i64, bool);
 
+type Place = (f64, f64, f64);
+
 /// Width (mm), the ids of the vessels and the points on both sides, whether it was bridged.
-type GapParts = (f64, [usize; 2], [[f64; 3]; 2], bool);
+type GapParts = (f64, (usize, usize), (Place, Place), bool);
 
 /// The connections between two lines of points (n, 3), (m, 3) as indices of their points, shape (n + m - 1, 2).
 #[pyfunction]
@@ -52,11 +54,19 @@ pub fn trace_mask<'py>(
     let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
     let traced = interruptible(py, watched.as_ref(), |stop| {
         let labels = labels.as_deref();
-        let request = mask::Request { labels, parent_radii, step, bridge, stop, progress: Some(&progress) };
+        let request = mask::Request {
+            labels,
+            parent_radii,
+            step,
+            bridge,
+            refine: None,
+            stop,
+            progress: Some(&progress),
+        };
         pool::install(|| mask::trace_mask(&volume, &request))?.map_err(to_python)
     })?;
     if let Some(watched) = watched {
-        watched.tell_whole(py)?;
+        watched.tell(py, SHARES)?;
     }
     let vessels = traced.vessels.into_iter().map(|vessel| -> TracedArrays<'py> {
         let points = Array2::from_shape_fn((vessel.points.len(), 3), |(n, axis)| vessel.points[n][axis]);
@@ -64,7 +74,7 @@ pub fn trace_mask<'py>(
         (PyArray2::from_owned_array(py, points), radius, vessel.label, vessel.is_bridge)
     });
     let gaps = traced.gaps.into_iter().map(|gap| -> GapParts {
-        (gap.width, gap.vessels, gap.points.map(|point| point.to_array()), gap.is_bridged)
+        (gap.width, gap.vessels.into(), gap.points.map(Into::into).into(), gap.is_bridged)
     });
     let all = PyDict::new(py);
     all.set_item("vessels", vessels.collect::<Vec<_>>())?;

@@ -30,7 +30,7 @@ use crate::volume::VolumeArgument;
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
 /// Into how many parts a rendering is divided for whoever is told how far it is.
-const SHARES: u32 = 1000;
+pub const SHARES: u32 = 1000;
 
 /// Renders views of one tree, or of a volume alone; every view is of the same volume. Renderers of the same volume with
 /// other trees share what computes and what is known of the volume.
@@ -129,7 +129,7 @@ impl Renderer {
             pool::install(|| pollster::block_on(backend.render(&scene, &request)))?.map_err(to_python)
         })?;
         if let Some(watched) = watched {
-            watched.tell_whole(py)?;
+            watched.tell(py, SHARES)?;
         }
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)
@@ -153,22 +153,15 @@ fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult
     given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
 }
 
-/// How far the work is, and the function of Python that is told so.
+/// How far long work is, and the function of Python that is told so.
 pub struct Watched<'a> {
-    /// How far it is.
     pub progress: &'a Progress,
-    /// The function, which gets the parts that are done and all parts.
     pub told: &'a Py<PyAny>,
 }
 
 impl Watched<'_> {
-    /// Tells that all is done.
-    pub fn tell_whole(&self, py: Python<'_>) -> PyResult<()> {
-        self.tell(py, SHARES)
-    }
-
     /// Tells how much is done, of `SHARES` parts.
-    fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
+    pub fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
         self.told.call1(py, (done, SHARES)).map(drop)
     }
 

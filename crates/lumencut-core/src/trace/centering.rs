@@ -19,6 +19,9 @@ const SMOOTHING_VOXELS: f64 = 1.0;
 const REACH: f64 = 0.75;
 const REACH_VOXELS: f64 = 1.5;
 
+/// Differences (mm, or shares) that rounding can make: they decide nothing.
+const TINY: f64 = 1e-6;
+
 /// A point may move to a place whose distance to the wall is at least this share of its own.
 const LEAST_ROOM: f64 = 0.8;
 
@@ -80,20 +83,27 @@ fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
     ways.iter().map(|way| weight(*way, on_other[0]).min(weight(whole - *way, on_other[1]))).collect()
 }
 
+/// How far from an end (mm) the end is no nearer than the wall, at most `limit`; `radius` gives the way to the wall.
+fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
+    let (mut way, mut missing) = (0.0, radius(0.0));
+    while missing > TINY && way < limit {
+        let next = radius(way + step) - (way + step);
+        if next <= 0.0 {
+            way += step * missing / (missing - next);
+            break;
+        }
+        (way, missing) = (way + step, next);
+    }
+    way.min(limit)
+}
+
 /// Leads the first point of a line out to the wall, straight on from one radius before it. `most` is how much of the line
 /// may be given up for that (mm).
-pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) -> usize {
+pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = ways(points);
     let whole = ways[ways.len() - 1];
     let inner = |way: f64| lumen.radius(at(points, &ways, way));
-    // From the end inwards to where the end is no nearer than the wall.
-    let step = lumen.side() / 2.0;
-    let limit = most.min(whole / 2.0);
-    let mut cut = 0.0;
-    while cut < limit && cut < inner(cut) {
-        cut += step;
-    }
-    let cut = cut.min(limit);
+    let cut = way_inwards(inner, lumen.side() / 2.0, most.min(whole / 2.0));
     let radius = inner(cut).max(lumen.side());
     let from = at(points, &ways, cut);
     let behind = at(points, &ways, (cut + 2.0 * radius).min(whole));
@@ -108,15 +118,14 @@ pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) -> usize {
         let direction = (points[0] - behind).normalize_or_zero();
         (points[0], direction, lumen.way_to_wall(points[0], direction, 4.0 * radius))
     };
-    let removed = ways.iter().filter(|known| **known < kept).count().max(1);
-    let count = (way / lumen.side()).ceil().max(1.0) as usize;
+    let removed = ways.iter().filter(|known| **known < kept - TINY).count().max(1);
+    let count = (way / lumen.side() - TINY).ceil().max(1.0) as usize;
     let mut led: Vec<DVec3> =
         (0..=count).rev().map(|n| from + way * (n as f64 / count as f64) * direction).collect();
     let tail = points.split_off(removed);
-    let added = led.len();
     // The point itself and one that lies in the same place.
-    let tail: Vec<DVec3> = tail.into_iter().skip_while(|point| point.distance(from) < step).collect();
+    let tail: Vec<DVec3> =
+        tail.into_iter().skip_while(|point| point.distance(from) < lumen.side() / 2.0 - TINY).collect();
     led.extend(tail.iter().copied());
     *points = led;
-    added
 }

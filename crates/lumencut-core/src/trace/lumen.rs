@@ -13,6 +13,10 @@ const RAYS: usize = 24;
 /// A ray ends at so many times the median of all rays, as where a branch leaves the vessel.
 const LONGEST_RAY: f64 = 1.5;
 
+/// The share of lumen at the wall: a half, but for as little that no place between voxels has it by symmetry, where
+/// rounding would decide on which side of the wall it is.
+const WALL: f64 = 0.499;
+
 /// A mask with its distances to the background.
 pub struct Lumen<'a> {
     squares: &'a [f32],
@@ -106,7 +110,7 @@ impl<'a> Lumen<'a> {
     /// The way from a place along a unit vector to the wall (mm), at most `most`; 0 outside the lumen.
     pub fn way_to_wall(&self, place: DVec3, direction: DVec3, most: f64) -> f64 {
         let (mut way, mut before) = (0.0, self.share(place));
-        if before < 0.5 {
+        if before < WALL {
             return 0.0;
         }
         let smallest = self.side / 2.0;
@@ -115,8 +119,8 @@ impl<'a> Lumen<'a> {
             let free = self.radius(place + way * direction) - 3.0 * self.half_diagonal;
             let step = free.max(smallest);
             let share = self.share(place + (way + step) * direction);
-            if share < 0.5 {
-                return way + step * (before - 0.5) / (before - share);
+            if share < WALL {
+                return way + step * (before - WALL) / (before - share);
             }
             (way, before) = (way + step, share);
         }
@@ -155,7 +159,8 @@ impl<'a> Lumen<'a> {
 
 /// Two unit vectors across a direction and across each other.
 fn across(direction: DVec3) -> [DVec3; 2] {
-    let size = direction.abs();
+    // Without the digits that rounding may change: in grids many directions are as near to one axis as to another.
+    let size = (direction.abs() * 1e6).round();
     let axis = if size.x <= size.y && size.x <= size.z {
         DVec3::X
     } else if size.y <= size.z {

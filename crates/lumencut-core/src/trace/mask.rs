@@ -9,10 +9,10 @@ use crate::stop::{Stop, go_on};
 use crate::trace::centering::{center, lead_to_cap};
 use crate::trace::distance_transform::squared_distances;
 use crate::trace::foreground::{Foreground, LUMEN};
-use crate::trace::gaps::{Gap, bridge, gaps};
 use crate::trace::graph::Graph;
 use crate::trace::labels::parted;
 use crate::trace::lumen::Lumen;
+use crate::trace::mask_gaps::{Gap, bridge, gaps};
 use crate::trace::polyline::{at, directions, resampled, ways};
 use crate::trace::pruning::{merge_junctions, prune, remove_round_pieces};
 use crate::trace::runs::{fill_cavities, pieces};
@@ -24,6 +24,9 @@ use crate::volume::Volume;
 /// The most cells in the box around the lumen: their numbers have 32 bits.
 const MOST_CELLS: usize = u32::MAX as usize;
 
+/// Makes of the points of a centerline (mm, LPS) better ones, with the radius at each (mm).
+pub type Refine<'a> = &'a (dyn Fn(&[DVec3]) -> Result<(Vec<DVec3>, Vec<f64>)> + Sync);
+
 /// What is traced, and how.
 pub struct Request<'a> {
     /// The values that stand for lumen; without them every value but 0.
@@ -34,6 +37,9 @@ pub struct Request<'a> {
     pub step: f64,
     /// The widest gap that is bridged (mm).
     pub bridge: f64,
+    /// What moves each vessel into the middle of what the volume shows, and measures its radius there; its ends that
+    /// meet others are brought back to where they were.
+    pub refine: Option<Refine<'a>>,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
     /// Told how far the work is.
@@ -51,6 +57,9 @@ pub struct TracedMask {
     /// How many pieces the lumen has, whose voxels touch nowhere.
     pub pieces: usize,
 }
+
+/// Where an end is moved to another line, so many radii of the line move with it.
+const JOINED: f64 = 1.5;
 
 /// The steps of the work, and how long each takes for each voxel of lumen in comparison.
 const COSTS: [usize; 4] = [2, 3, 6, 4];
@@ -125,8 +134,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<Traced
     lines.par_iter_mut().try_for_each(|line| center(line, lumen, on_other(line), request.stop))?;
     let mut node_place: Vec<Option<DVec3>> = vec![None; graph.nodes.len()];
     for line in &lines {
-        for (n, knot) in line.knots.iter().enumerate().filter(|(n, _)| passes(line, *n)) {
-            let _ = n;
+        for (_, knot) in line.knots.iter().enumerate().filter(|(n, _)| passes(line, *n)) {
             node_place[knot.node].get_or_insert(line.points[knot.point]);
         }
     }
@@ -135,7 +143,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<Traced
         .map(|line| {
             go_on(request.stop)?;
             attach(line, &node_place, on_other(line));
-            Ok(split(line, graph, lumen, request.step))
+            split(line, graph, lumen, request)
         })
         .collect::<Result<_>>()?;
     Ok(made.into_iter().flatten().collect())
@@ -149,14 +157,10 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
     for (end, radius) in on_other.into_iter().enumerate() {
         let knot = line.knots[if end == 0 { 0 } else { line.knots.len() - 1 }];
         let (Some(radius), Some(place)) = (radius, node_place[knot.node]) else { continue };
-        let delta = place - line.points[if end == 0 { 0 } else { last }];
-        let length = (1.5 * radius).min(whole / 2.0).max(1e-9);
-        for (n, point) in line.points.iter_mut().enumerate() {
-            let way = if end == 0 { ways[n] } else { whole - ways[n] };
-            let share = (1.0 - way / length).max(0.0);
-            *point += share * share * (3.0 - 2.0 * share) * delta;
-        }
-        line.points[if end == 0 { 0 } else { last }] = place;
+        let point = if end == 0 { 0 } else { last };
+        let delta = place - line.points[point];
+        bring_back(&mut line.points, &ways, end, delta, (JOINED * radius).min(whole / 2.0));
+        line.points[point] = place;
     }
     for knot in &line.knots {
         if let Some(place) = node_place[knot.node] {
@@ -166,7 +170,7 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
 }
 
 /// The vessels of a line: its parts between nodes.
-fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, step: f64) -> Vec<Traced> {
+fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<Traced>> {
     let mut made = Vec::new();
     for pair in line.knots.windows(2) {
         let mut points = line.points[pair[0].point..=pair[1].point].to_vec();
@@ -178,12 +182,40 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, step: f64) -> Vec<Tra
             }
             points.reverse();
         }
-        let points = resampled(&points, step);
-        let radius = radii(&points, is_free, lumen);
+        let points = resampled(&points, request.step);
+        let (points, radius) = match request.refine {
+            Some(refine) => refined(&points, is_free, refine)?,
+            None => (points.clone(), radii(&points, is_free, lumen)),
+        };
         let nodes = [pair[0].node, pair[1].node];
         made.push(Traced { points, radius, nodes, is_free, label: 0, is_bridge: false });
     }
-    made
+    Ok(made)
+}
+
+/// A vessel as `refine` sees it, with those ends where they were that are not free.
+fn refined(points: &[DVec3], is_free: [bool; 2], refine: Refine) -> Result<(Vec<DVec3>, Vec<f64>)> {
+    let (mut moved, radius) = refine(points)?;
+    let ends = [points[0], points[points.len() - 1]];
+    let ways = ways(&moved);
+    let (last, whole) = (moved.len() - 1, ways[ways.len() - 1]);
+    for end in (0..2).filter(|&end| !is_free[end]) {
+        let place = if end == 0 { 0 } else { last };
+        let delta = ends[end] - moved[place];
+        bring_back(&mut moved, &ways, end, delta, (JOINED * radius[place]).min(whole / 2.0));
+        moved[place] = ends[end];
+    }
+    Ok((moved, radius))
+}
+
+/// Moves an end of a line, and what is within `length` (mm) of it part of the way.
+fn bring_back(points: &mut [DVec3], ways: &[f64], end: usize, delta: DVec3, length: f64) {
+    let whole = ways[ways.len() - 1];
+    for (point, way) in points.iter_mut().zip(ways) {
+        let way = if end == 0 { *way } else { whole - way };
+        let share = (1.0 - way / length.max(1e-9)).max(0.0);
+        *point += share * share * (3.0 - 2.0 * share) * delta;
+    }
 }
 
 /// The radius of the lumen at each point: that of a circle with the area of the cross-section, but no more than half a
@@ -196,7 +228,7 @@ fn radii(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Vec<f64> {
     let ways = ways(points);
     let whole = ways[ways.len() - 1];
     let measured = |way: f64| {
-        let n = ways.partition_point(|known| *known < way).min(points.len() - 1);
+        let n = ways.partition_point(|known| *known < way - 1e-6).min(points.len() - 1);
         let section = lumen.cross_section(at(points, &ways, way), along[n]);
         section.map_or(0.0, |section| section.radius.min(section.shortest + side / 2.0))
     };

@@ -5,6 +5,9 @@ use glam::DVec3;
 /// A Gaussian reaches so many standard deviations.
 const REACH: f64 = 3.0;
 
+/// A share of a step that rounding can make: it adds no point.
+const TINY: f64 = 1e-6;
+
 /// The way from the first point to each point (mm).
 pub fn ways(points: &[DVec3]) -> Vec<f64> {
     let mut way = 0.0;
@@ -94,14 +97,14 @@ pub fn resampled(points: &[DVec3], step: f64) -> Vec<DVec3> {
     let mut fine = vec![points[0]];
     for n in 1..points.len() {
         let length = points[n].distance(points[n - 1]);
-        let parts = (4.0 * length / step).ceil().max(1.0) as usize;
+        let parts = (4.0 * length / step - TINY).ceil().max(1.0) as usize;
         for part in 1..=parts {
             fine.push(curve(points, n, part as f64 / parts as f64));
         }
     }
     let fine_ways = ways(&fine);
     let whole = fine_ways[fine_ways.len() - 1];
-    let count = (whole / step).ceil().max(1.0) as usize;
+    let count = (whole / step - TINY).ceil().max(1.0) as usize;
     let inner = (1..count).map(|n| at(&fine, &fine_ways, whole * n as f64 / count as f64));
     let mut made = vec![points[0]];
     made.extend(inner);

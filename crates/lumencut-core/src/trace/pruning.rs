@@ -24,17 +24,14 @@ const ELONGATED: f64 = 1.25;
 pub fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
     let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = BinaryHeap::new();
     let push = |graph: &Graph, waiting: &mut BinaryHeap<Reverse<(u64, usize)>>, number: usize| {
-        if let Some(significance) = significance(graph, lumen, number, parent_radii).filter(|s| *s < 1.0) {
-            // Numbers that are not negative sort as their bits do.
-            waiting.push(Reverse((significance.max(0.0).to_bits(), number)));
-        }
+        let rank = significance(graph, lumen, number, parent_radii).map(rank);
+        waiting.extend(rank.filter(|rank| *rank < WHOLE).map(|rank| Reverse((rank, number))));
     };
     for number in 0..graph.branches.len() {
         push(graph, &mut waiting, number);
     }
-    while let Some(Reverse((bits, number))) = waiting.pop() {
-        let now = significance(graph, lumen, number, parent_radii).map(|s| s.max(0.0).to_bits());
-        if now != Some(bits) {
+    while let Some(Reverse((before, number))) = waiting.pop() {
+        if significance(graph, lumen, number, parent_radii).map(rank) != Some(before) {
             continue;
         }
         let Some(branch) = graph.remove(number) else { continue };
@@ -48,6 +45,14 @@ pub fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
             push(graph, &mut waiting, joined);
         }
     }
+}
+
+/// The rank of a branch that just stays.
+const WHOLE: u64 = 1 << 20;
+
+/// A significance without the digits that rounding may change.
+fn rank(significance: f64) -> u64 {
+    (significance.max(0.0) * WHOLE as f64).round() as u64
 }
 
 /// How far a branch with one free end is from being a spur, which it is below 1; `None` for other branches.
@@ -69,13 +74,14 @@ fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) 
     let (mut walked, mut outside) = (0.0, Vec::new());
     for (n, point) in outwards.iter().enumerate() {
         walked += if n == 0 { 0.0 } else { point.distance(outwards[n - 1]) };
-        if walked >= parent {
+        if walked >= parent - 1e-6 {
             outside.push(lumen.radius(*point));
         }
     }
-    let mean = if outside.is_empty() { 0.0 } else { outside.iter().sum::<f64>() / outside.len() as f64 };
+    outside.sort_unstable_by(f64::total_cmp);
+    let median = outside.get(outside.len() / 2).copied().unwrap_or(0.0);
     let by_parent = length / (parent_radii * parent + side);
-    let by_itself = (length - parent) / (OWN_RADII * mean.max(side));
+    let by_itself = (length - parent) / (OWN_RADII * median.max(side));
     Some(by_parent.max(by_itself))
 }
 
@@ -89,7 +95,7 @@ fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -
         if branch.nodes[0] != junction {
             points.reverse();
         }
-        let away = points.iter().find(|point| point.distance(points[0]) >= at_junction);
+        let away = points.iter().find(|point| point.distance(points[0]) >= at_junction - 1e-6);
         away.map_or(at_junction, |point| lumen.radius(*point))
     });
     along.fold(0.0, f64::max).min(at_junction)

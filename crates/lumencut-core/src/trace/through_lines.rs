@@ -100,7 +100,8 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
             }
             let likeness = radius.min(*width) / radius.max(*width).max(1e-9);
             let score = likeness - direction.dot(*other);
-            if best.is_none_or(|(most, _)| score > most) {
+            // What is equal but for rounding is decided by the order of the branches.
+            if best.is_none_or(|(most, _)| score > most + 1e-6) {
                 best = Some((score, [*first, *second]));
             }
         }
@@ -116,7 +117,7 @@ fn outward(lumen: &Lumen, cells: &[u32], from_end: bool, node: u32) -> (DVec3, f
     }
     let away = 2.0 * lumen.radius_at_cell(node).max(lumen.side());
     let middle = points.len() / 2;
-    let place = points.iter().position(|point| point.distance(points[0]) >= away);
+    let place = points.iter().position(|point| point.distance(points[0]) >= away - 1e-6);
     let place = place.unwrap_or(middle.max(1));
     ((points[place] - points[0]).normalize_or_zero(), lumen.radius(points[place]))
 }

@@ -55,8 +55,9 @@ pub fn outwards(vessels: Vec<Traced>) -> Vec<Traced> {
     let mut by_width: Vec<usize> = (0..vessels.len()).collect();
     let is_inner = |number: usize| !vessels[number].is_free.contains(&true);
     by_width.sort_by(|&a, &b| {
-        let width = vessels[b].mean_radius().total_cmp(&vessels[a].mean_radius());
-        is_inner(a).cmp(&is_inner(b)).then(width)
+        // Without the digits that rounding may change.
+        let width = |number: usize| (vessels[number].mean_radius() * 1e6).round();
+        is_inner(a).cmp(&is_inner(b)).then(width(b).total_cmp(&width(a)))
     });
     let mut waiting: Vec<Option<Traced>> = vessels.into_iter().map(Some).collect();
     let mut pieces: Vec<Vec<Traced>> = Vec::new();
@@ -77,7 +78,7 @@ pub fn outwards(vessels: Vec<Traced>) -> Vec<Traced> {
         }
         pieces.push(piece);
     }
-    let whole = |piece: &[Traced]| piece.iter().map(Traced::length).sum::<f64>();
+    let whole = |piece: &[Traced]| (piece.iter().map(Traced::length).sum::<f64>() * 1e6).round();
     pieces.sort_by(|a, b| whole(b).total_cmp(&whole(a)));
     pieces.into_iter().flatten().collect()
 }
