@@ -172,7 +172,8 @@ def test_grids_that_are_anisotropic_or_sheared(columns):
     assert found.of == 1
     assert found.ai < grid.spacing.min() / 2
     middle = np.linalg.norm(vessel.points - truth.mean(axis=0), axis=1) < 4
-    assert vessel.radius[middle] == pytest.approx(3, abs=0.25)
+    assert vessel.radius[middle] == pytest.approx(3, abs=0.3)
+    assert vessel.radius[middle].mean() == pytest.approx(3, abs=0.15)
 
 
 @pytest.mark.parametrize("name", ["helix", "y_junction", "trefoil"])

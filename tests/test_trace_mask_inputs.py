@@ -68,10 +68,7 @@ def test_gaps_are_listed_and_bridged_on_request(tube):
     (gap,) = tree.gaps
     assert gap.width == pytest.approx(4, abs=0.05)
     assert not gap.bridged
-    assert {point[0] for point in gap.points} == {
-        pytest.approx(26.5, abs=0.05),
-        pytest.approx(30.5, abs=0.05),
-    }
+    assert sorted(point[0] for point in gap.points) == pytest.approx([26.5, 30.5], abs=0.05)
     assert betti_of(tree) == (2, 0)
     assert betti_of(trace_mask(broken(tube), bridge=3.9)) == (2, 0)
     bridged = trace_mask(broken(tube), bridge=4.1)
@@ -164,8 +161,10 @@ def test_progress_is_told_and_ctrl_c_is_heard(tube, interruptible):
     def interrupt(_done, _whole):
         raise KeyboardInterrupt
 
+    array = np.zeros((300, 300, 400), np.uint8)
+    array[100:200, 100:200, 5:395] = 1
     with pytest.raises(KeyboardInterrupt):
-        trace_mask(tubes([TUBE], 3, (400, 300, 300)), progress=interrupt)
+        trace_mask(Volume(array), progress=interrupt)
 
 
 def test_trees_say_what_was_traced(tube):

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::error::Result;
 use crate::stop::{Stop, go_on};
+use crate::trace::polyline::ways;
 use crate::trace::traced::Traced;
 
 /// A gap between two pieces of lumen.
@@ -89,13 +90,12 @@ fn starts(vessel: &Traced) -> Vec<usize> {
 /// The gap from a point of a vessel to where another one is nearest.
 fn gap(numbers: [usize; 2], vessel: &Traced, from: usize, target: &Traced) -> Gap {
     let point = vessel.points[from];
-    let is_end = |vessel: &Traced, n: usize| {
-        (n == 0 && vessel.is_free[0]) || (n == vessel.points.len() - 1 && vessel.is_free[1])
-    };
-    let inside = |vessel: &Traced, n: usize| if is_end(vessel, n) { 0.0 } else { vessel.radius[n] };
-    let width =
-        |n: usize| (point.distance(target.points[n]) - inside(vessel, from) - inside(target, n)).max(0.0);
-    let nearest = (0..target.points.len()).min_by(|&a, &b| width(a).total_cmp(&width(b))).unwrap_or(0);
+    let start = to_wall(vessel)[from];
+    let inside = to_wall(target);
+    let width = |n: usize| (point.distance(target.points[n]) - start - inside[n]).max(0.0);
+    // Of places that are equally near, but for rounding, an end comes first.
+    let rank = |n: usize| ((width(n) * 1e6).round() as u64, inside[n] > 0.0);
+    let nearest = (0..target.points.len()).min_by_key(|&n| rank(n)).unwrap_or(0);
     Gap {
         width: width(nearest),
         vessels: numbers,
@@ -125,4 +125,16 @@ fn root(parent: &mut [usize], mut place: usize) -> usize {
         place = parent[place];
     }
     place
+}
+
+/// How far the lumen reaches beyond each point of a vessel towards another piece (mm): to the wall, but no farther than
+/// to a free end of the vessel.
+fn to_wall(vessel: &Traced) -> Vec<f64> {
+    let ways = ways(&vessel.points);
+    let whole = ways[ways.len() - 1];
+    let to_end = |way: f64| {
+        let ends = [way, whole - way].into_iter().zip(vessel.is_free);
+        ends.filter_map(|(way, is_free)| is_free.then_some(way)).fold(f64::INFINITY, f64::min)
+    };
+    ways.iter().zip(&vessel.radius).map(|(way, radius)| radius.min(to_end(*way))).collect()
 }
