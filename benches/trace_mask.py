@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import resource
 import statistics
 import sys
 import time
@@ -14,7 +13,16 @@ from pathlib import Path
 
 import numpy as np
 
-from lumencut import VesselTree, Volume, compare_centerlines, phantom, read_centerlines, read_volume, trace_mask
+from lumencut import (
+    Vessel,
+    VesselTree,
+    Volume,
+    compare_centerlines,
+    phantom,
+    read_centerlines,
+    read_volume,
+    trace_mask,
+)
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
@@ -29,23 +37,34 @@ MASKS = (
     ("dissection-cta/aorta_false_lumen.nii.gz", "dissection-cta/false_lumen_centerline_LPS.vtp"),
 )
 """Masks of patients, and lines that VMTK made of them."""
+COLUMNS = (
+    *("mask", "voxels", "grid", "time", "memory", "b₀, b₁ of mask, of tree"),
+    *("OV", "OF", "OT", "AI of voxel (mm)", "false length"),
+)
 RUNS = 3
 """The median of so many runs is told."""
 
 
-def peak() -> float:
-    """The most memory that the process had so far (MB)."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+def memory(name: str) -> float:
+    """What Linux tells of the memory of the process (MB): `VmRSS` now, `VmHWM` at most."""
+    status = Path("/proc/self/status").read_text("ascii")
+    return int(status.partition(f"{name}:")[2].split()[0]) / 1024
+
+
+def forget_peak() -> None:
+    """From now on `VmHWM` counts anew."""
+    Path("/proc/self/clear_refs").write_text("5", "ascii")
 
 
 def row(name: str, mask: Volume, truth: VesselTree) -> str:
     """Trace a mask a few times, and compare the lines with the truth."""
-    before, times = peak(), []
+    forget_peak()
+    before, times = memory("VmRSS"), []
     for _ in range(RUNS):
         start = time.perf_counter()
         tree = trace_mask(mask)
         times.append(time.perf_counter() - start)
-    grown = peak() - before
+    grown = memory("VmHWM") - before
     found = compare_centerlines(tree, truth, sampling=0.05)
     traced = sum(vessel.length for vessel in tree)
     numbers = [
@@ -66,9 +85,9 @@ def row(name: str, mask: Volume, truth: VesselTree) -> str:
 def large() -> tuple[Volume, VesselTree]:
     """The phantom `cervical` in 512 × 512 × 600 voxels, with radii that make some 10⁶ of them lumen."""
     made = phantom.cervical()
-    from lumencut import Vessel
-
-    tree = VesselTree([Vessel(vessel.points, 1.25 * vessel.radius + 0.6, vessel.name) for vessel in made.tree])
+    tree = VesselTree(
+        [Vessel(vessel.points, 1.25 * vessel.radius + 0.6, vessel.name) for vessel in made.tree]
+    )
     low, high = made.volume.corners.min(axis=0), made.volume.corners.max(axis=0)
     spacing = (high - low) / (512, 512, 600)
     grid = Volume(np.zeros((600, 512, 512), np.uint8), spacing=spacing, origin=low + spacing / 2)
@@ -77,8 +96,8 @@ def large() -> tuple[Volume, VesselTree]:
 
 def main() -> None:
     """Print a Markdown table."""
-    print("| mask | voxels | grid | time | memory | b₀, b₁ of mask, of tree | OV | OF | OT | AI (mm) | false length |")
-    print("|" + "---|" * 11)
+    print("| " + " | ".join(COLUMNS) + " |")
+    print("|" + "---|" * len(COLUMNS))
     print(row("10⁶ voxels", *large()), flush=True)
     for name in ("helix", "y_junction", "trefoil", "aorta", "runoff", "cervical"):
         made = getattr(phantom, name)()

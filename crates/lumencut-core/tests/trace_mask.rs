@@ -45,9 +45,10 @@ fn distances_are_those_to_the_nearest_background() {
     ];
     for (seed, axes) in (1..).zip(grids) {
         let grid = foreground(&voxels(seed), axes);
-        let places = |value: bool| (0..grid.cells.len()).filter(move |&c| (grid_value(&grid, c)) == value);
-        let lumen: Vec<u32> = places(true).map(|cell| cell as u32).collect();
-        let background: Vec<DVec3> = places(false).map(|cell| grid.position(cell)).collect();
+        let (lumen, outside): (Vec<usize>, Vec<usize>) =
+            (0..grid.cells.len()).partition(|&cell| grid.cells[cell] == LUMEN);
+        let lumen: Vec<u32> = lumen.into_iter().map(|cell| cell as u32).collect();
+        let background: Vec<DVec3> = outside.iter().map(|&cell| grid.position(cell)).collect();
         let squares = squared_distances(&grid, &lumen, &|| false).unwrap_or_else(|error| panic!("{error}"));
         for &cell in &lumen {
             let place = grid.position(cell as usize);
@@ -56,12 +57,8 @@ fn distances_are_those_to_the_nearest_background() {
             let found = f64::from(squares[cell as usize]);
             assert!((found - nearest).abs() <= 1e-5 * nearest, "{found} {nearest} at {place}");
         }
-        assert!(places(false).all(|cell| squares[cell].to_bits() == 0));
+        assert!(outside.into_iter().all(|cell| squares[cell].to_bits() == 0));
     }
-}
-
-fn grid_value(grid: &Foreground, cell: usize) -> bool {
-    grid.cells[cell] == LUMEN
 }
 
 /// A bar along x in a grid of 1 mm.

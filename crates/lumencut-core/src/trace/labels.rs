@@ -17,9 +17,9 @@ struct Stretch {
 }
 
 /// A vessel in parts of one label each; parts that follow each other share a point.
-pub fn parted(vessel: Traced, mask: &Volume, labels: Option<&[i64]>) -> Vec<Traced> {
+pub fn parted(vessel: &Traced, mask: &Volume, labels: Option<&[i64]>) -> Vec<Traced> {
     let ways = ways(&vessel.points);
-    let mut stretches = stretches(&vessel, mask, labels);
+    let mut stretches = stretches(vessel, mask, labels);
     let shortest = SHORTEST * vessel.mean_radius();
     let length = |stretch: &Stretch| ways[stretch.to] - ways[stretch.from];
     while stretches.len() > 1 {

@@ -102,7 +102,7 @@ pub fn trace_mask(mask: &Volume, request: &Request) -> Result<TracedMask> {
     merge_junctions(&mut graph, &lumen);
     let vessels = outwards(vessels(&graph, &lumen, request)?);
     let mut vessels: Vec<Traced> =
-        vessels.into_iter().flat_map(|vessel| parted(vessel, mask, request.labels)).collect();
+        vessels.iter().flat_map(|vessel| parted(vessel, mask, request.labels)).collect();
     let mut gaps = gaps(&vessels, stop)?;
     bridge(&mut vessels, &mut gaps, request.bridge, request.step);
     if let Some(progress) = request.progress {
@@ -161,11 +161,31 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
         let delta = place - line.points[point];
         bring_back(&mut line.points, &ways, end, delta, (JOINED * radius).min(whole / 2.0));
         line.points[point] = place;
+        let next = line.knots[if end == 0 { 1 } else { line.knots.len() - 2 }].point;
+        lead_in(&mut line.points, end, place, radius, next);
     }
     for knot in &line.knots {
         if let Some(place) = node_place[knot.node] {
             line.points[knot.point] = place;
         }
+    }
+}
+
+/// Leads a line from where it leaves the lumen of another one, `radius` (mm) from `place`, straight on and in one bend to
+/// that place, which is its end. Before point `next` it stays as it is.
+fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: usize) {
+    let last = points.len() - 1;
+    let from_end = |n: usize| if end == 0 { n } else { last - n };
+    let most = if end == 0 { next } else { last - next };
+    let Some(exit) = (1..most).find(|&n| points[from_end(n)].distance(place) >= radius) else { return };
+    let outside = points[from_end((exit + 3).min(most))] - points[from_end(exit)];
+    let direction = outside.normalize_or_zero();
+    let from = points[from_end(exit)];
+    // A parabola whose direction at the exit is that of the line.
+    let control = from - direction * (from.distance(place) / 2.0);
+    for n in 1..exit {
+        let t = n as f64 / exit as f64;
+        points[from_end(n)] = place.lerp(control, t).lerp(control.lerp(from, t), t);
     }
 }
 
