@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lumencut._lumencut import __version__
     from lumencut.camera import VIEWS, Camera
+    from lumencut.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.centerline_writers import write_centerlines
     from lumencut.centerlines import read_centerlines
     from lumencut.device import Device, devices
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from lumencut.evaluation import Evaluation, evaluate
     from lumencut.feature_aggregation import FeatureAggregation, cfa
     from lumencut.frame import Frame
+    from lumencut.mask_tracing import trace_mask
     from lumencut.planar_reformation import cpr
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
@@ -46,6 +48,7 @@ if TYPE_CHECKING:
     from lumencut.transfer import TransferFunction
     from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
+    from lumencut.vessel_gap import Gap
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
     from lumencut.volume_files import SeriesReport, list_series, read_volume
@@ -55,6 +58,7 @@ if TYPE_CHECKING:
 _HOME = {
     "_lumencut": ("__version__",),
     "camera": ("VIEWS", "Camera"),
+    "centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "centerline_writers": ("write_centerlines",),
     "centerlines": ("read_centerlines",),
     "device": ("Device", "devices"),
@@ -75,6 +79,7 @@ _HOME = {
     "evaluation": ("Evaluation", "evaluate"),
     "feature_aggregation": ("FeatureAggregation", "cfa"),
     "frame": ("Frame",),
+    "mask_tracing": ("trace_mask",),
     "planar_reformation": ("cpr",),
     "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
@@ -85,6 +90,7 @@ _HOME = {
     "transfer": ("TransferFunction",),
     "tree_reformations": ("cr", "mpcpr"),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
+    "vessel_gap": ("Gap",),
     "vessel_tree": ("Vessel", "VesselTree"),
     "volume": ("Volume",),
     "volume_files": ("SeriesReport", "list_series", "read_volume"),
@@ -96,6 +102,7 @@ __all__ = [
     "VIEWS",
     "Camera",
     "CameraError",
+    "CenterlineComparison",
     "Device",
     "DeviceError",
     "DeviceWarning",
@@ -104,6 +111,7 @@ __all__ = [
     "FileError",
     "FormatError",
     "Frame",
+    "Gap",
     "LumencutError",
     "MissingPackageError",
     "Opacity",
@@ -125,6 +133,7 @@ __all__ = [
     "Window",
     "__version__",
     "cfa",
+    "compare_centerlines",
     "cpr",
     "cr",
     "devices",
@@ -139,6 +148,7 @@ __all__ = [
     "save_animation",
     "set_threads",
     "straightened_volume",
+    "trace_mask",
     "turntable",
     "write_centerlines",
 ]

@@ -35,6 +35,7 @@ __all__ = [
     "check_vessel",
     "check_window",
     "contains",
+    "correspondence",
     "devices",
     "fits_nowhere",
     "fitted",
@@ -54,6 +55,7 @@ __all__ = [
     "set_threads",
     "smoothed",
     "threads",
+    "trace_mask",
     "whole_window",
     "window_from_data",
     "write_centerlines",
@@ -170,6 +172,9 @@ def check_transfer_function(points: Sequence[tuple[float, tuple[int, int, int], 
 def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
 def check_window(level: float, width: float) -> None: ...
 def contains(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]: ...
+def correspondence(
+    first: npt.NDArray[np.float64], second: npt.NDArray[np.float64]
+) -> npt.NDArray[np.int64]: ...
 def devices() -> list[dict[str, Any]]: ...
 def fitted(camera: Any, points: npt.NDArray[np.float64]) -> dict[str, Any]: ...
 def fitted_turn(
@@ -196,10 +201,26 @@ def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float
 def set_threads(count: int) -> None: ...
 def smoothed(vessels: list[_Arrays], radii: float) -> list[npt.NDArray[np.float64]]: ...
 def threads() -> int: ...
+def trace_mask(
+    volume: Any,
+    labels: list[int] | None,
+    parent_radii: float,
+    step: float,
+    bridge: float,
+    told: Callable[[int, int], object] | None = None,
+) -> _TracedMask: ...
 def whole_window(volume: Any) -> tuple[float, float]: ...
 def window_from_data(volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
 def write_centerlines(vessels: list[_NamedArrays], kind: str) -> bytes: ...
 def zoomed(camera: Any, factor: float) -> dict[str, Any]: ...
+
+class _TracedMask(TypedDict):
+    vessels: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], int, bool]]
+    gaps: list[
+        tuple[float, tuple[int, int], tuple[tuple[float, float, float], tuple[float, float, float]], bool]
+    ]
+    filled: tuple[int, int]
+    pieces: int
 
 class _Phantom(TypedDict):
     name: str

@@ -7,6 +7,7 @@ mod centerlines;
 mod cpr;
 mod device;
 mod errors;
+mod mask_tracing;
 mod phantom;
 mod placement;
 mod pool;
@@ -58,6 +59,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(placement::fits_nowhere, module)?)?;
     module.add_function(wrap_pyfunction!(volume::contains, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
+    module.add_function(wrap_pyfunction!(mask_tracing::correspondence, module)?)?;
+    module.add_function(wrap_pyfunction!(mask_tracing::trace_mask, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
     module.add_function(wrap_pyfunction!(write_centerlines::write_centerlines, module)?)?;
     module.add_function(wrap_pyfunction!(pool::set_threads, module)?)?;

@@ -1,0 +1,150 @@
+//! Simple points: voxels of lumen whose removal leaves the topology of a mask as it is.
+//!
+//! Lumen is joined by faces, edges and corners, background by faces. Bertrand and Malandain, "A new characterization
+//! of three-dimensional simple points", Pattern Recognition Letters 15(2), 1994, doi:10.1016/0167-8655(94)90046-9: a
+//! point is simple where the lumen around it is one part, and the background around it that touches it is one part
+//! among the 18 neighbours by faces and edges.
+
+/// The place of a voxel among the 27 around it: i + 3 j + 9 k, each from 0 to 2.
+const CENTER: usize = 13;
+
+/// For each of the 27 places, the others that touch it by a face, an edge or a corner.
+const TOUCHING: [u32; 27] = neighbours(3, 0);
+/// For each of the 27 places, the others that touch it by a face, but for the corners of the cube.
+const BY_FACES: [u32; 27] = neighbours(1, CORNERS);
+/// The eight corners of the cube.
+const CORNERS: u32 = 1 | 1 << 2 | 1 << 6 | 1 << 8 | 1 << 18 | 1 << 20 | 1 << 24 | 1 << 26;
+/// The six places that touch the middle by a face.
+const FACES: u32 = 1 << 4 | 1 << 10 | 1 << 12 | 1 << 14 | 1 << 16 | 1 << 22;
+/// All places but the middle.
+const AROUND: u32 = ((1 << 27) - 1) & !(1 << CENTER);
+
+/// For each place, the other places within one step along each axis and `most` steps in all, but for those left out
+/// and for the middle.
+const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
+    let mut all = [0; 27];
+    let mut place = 0_usize;
+    while place < 27 {
+        let mut other = 0_usize;
+        while other < 27 {
+            let [i, j, k] = [
+                (place % 3).abs_diff(other % 3),
+                (place / 3 % 3).abs_diff(other / 3 % 3),
+                (place / 9).abs_diff(other / 9),
+            ];
+            let near = i <= 1 && j <= 1 && k <= 1 && i + j + k <= most && other != place;
+            if near && other != CENTER && left_out >> other & 1 == 0 {
+                all[place] |= 1 << other;
+            }
+            other += 1;
+        }
+        place += 1;
+    }
+    all
+}
+
+/// The voxels around one, a bit for each of the 27 places that is lumen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Neighbourhood(u32);
+
+impl Neighbourhood {
+    /// The neighbourhood of a cell in a grid of these strides; cells other than 0 are lumen.
+    #[inline(always)]
+    pub fn of(cells: &[u8], cell: usize, strides: [usize; 3]) -> Self {
+        let mut bits = 0;
+        let first = cell - strides[1] - strides[2] - 1;
+        for k in 0..3 {
+            for j in 0..3 {
+                let start = first + j * strides[1] + k * strides[2];
+                for (i, &value) in cells[start..start + 3].iter().enumerate() {
+                    bits |= u32::from(value != 0) << (i + 3 * j + 9 * k);
+                }
+            }
+        }
+        Self(bits & AROUND)
+    }
+
+    /// How many of the 26 neighbours are lumen.
+    pub fn count(self) -> u32 {
+        self.0.count_ones()
+    }
+
+    /// Whether the voxel in the middle can go without a change of the topology.
+    pub fn is_simple(self) -> bool {
+        let background = !self.0 & AROUND & !CORNERS;
+        let faces = background & FACES;
+        if self.0 == 0 || faces == 0 {
+            return false;
+        }
+        part(self.0, self.0, &TOUCHING) == self.0 && faces & !part(background, faces, &BY_FACES) == 0
+    }
+}
+
+/// The part of `places` that holds the first of `seeds`.
+fn part(places: u32, seeds: u32, touching: &[u32; 27]) -> u32 {
+    let mut reached = seeds & seeds.wrapping_neg();
+    let mut new = reached;
+    while new != 0 {
+        let mut around = 0;
+        while new != 0 {
+            around |= touching[new.trailing_zeros() as usize];
+            new &= new - 1;
+        }
+        new = around & places & !reached;
+        reached |= new;
+    }
+    reached
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The number of parts of `places`, counted by joining pairs of places that touch.
+    fn parts(places: u32, touch: impl Fn(usize, usize) -> bool) -> Vec<u32> {
+        let mut parts: Vec<u32> = (0..27).filter(|n| places >> n & 1 == 1).map(|n| 1 << n).collect();
+        while let Some((a, b)) = (0..parts.len()).flat_map(|b| (0..b).map(move |a| (a, b))).find(|&(a, b)| {
+            (0..27).any(|p| (0..27).any(|q| parts[a] >> p & 1 == 1 && parts[b] >> q & 1 == 1 && touch(p, q)))
+        }) {
+            let joined = parts.swap_remove(b);
+            parts[a] |= joined;
+        }
+        parts
+    }
+
+    fn steps(p: usize, q: usize) -> [usize; 3] {
+        [(p % 3).abs_diff(q % 3), (p / 3 % 3).abs_diff(q / 3 % 3), (p / 9).abs_diff(q / 9)]
+    }
+
+    #[test]
+    fn simple_points_are_those_of_the_definition() {
+        let mut state = 1_u32;
+        let mut simple = 0;
+        for round in 0..4000 {
+            let mut bits = 0;
+            for place in 0..27 {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                bits |= u32::from((state >> 16) % 8 < 1 + round % 7) << place;
+            }
+            bits &= AROUND;
+            let lumen = parts(bits, |p, q| steps(p, q).into_iter().max() == Some(1)).len();
+            let background =
+                parts(!bits & AROUND & !CORNERS, |p, q| steps(p, q).into_iter().sum::<usize>() == 1);
+            let touching = background.iter().filter(|part| **part & FACES != 0).count();
+            assert_eq!(Neighbourhood(bits).is_simple(), lumen == 1 && touching == 1, "{bits:027b}");
+            simple += u32::from(lumen == 1 && touching == 1);
+        }
+        assert!((500..3500).contains(&simple));
+    }
+
+    #[test]
+    fn neighbourhoods_are_read_in_order() {
+        let mut cells = [0; 5 * 4 * 3];
+        let strides = [1, 5, 20];
+        let middle = 2 + 5 + 20;
+        assert_eq!(Neighbourhood::of(&cells, middle, strides), Neighbourhood(0));
+        cells[middle] = 1;
+        cells[middle + 1 - 5 + 20] = 1;
+        assert_eq!(Neighbourhood::of(&cells, middle, strides), Neighbourhood(1 << (2 + 18)));
+    }
+}

@@ -1,0 +1,247 @@
+"""How alike traced centerlines are to a reference, by the measures of the Rotterdam coronary evaluation.
+
+Schaap et al., "Standardized evaluation methodology and reference database for evaluating coronary artery
+centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import number
+from lumencut.centerline_paths import CenterlinePaths
+from lumencut.errors import SettingsError, VesselTreeError
+from lumencut.vessel_tree import Vessel, VesselTree
+
+#: Errors nearer to the start of the reference do not count as the first one (mm).
+_FREE_START = 5.0
+
+#: From the last point that is at least so wide to its start a reference is clinically relevant (mm).
+_RELEVANT_RADIUS = 0.75
+
+#: The disc at the start of the reference is so many times as wide as the vessel there.
+_DISC = 2.0
+
+_Points = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class CenterlineComparison:
+    """What :func:`lumencut.compare_centerlines` found; shares are from 0 to 1, NaN where nothing counts.
+
+    Attributes
+    ----------
+    ov : float
+        Overlap: the share of points of both lines that are connected to a point of the other line nearer
+        than the radius of the reference there.
+    of : float
+        Overlap until the first error: the share of the reference before the first of its points, 5 mm or
+        more from its start, that is not.
+    ot : float
+        Overlap of the clinically relevant part: as ``ov``, of the reference from its start to its last
+        point whose radius is 0.75 mm or more, and of what is connected to it.
+    ai : float
+        Accuracy inside: the mean length of the connections that are shorter than the radius (mm).
+    length : float
+        Length of the reference (mm).
+    first_error : float or None
+        Where the first error lies along the reference (mm), None where there is none; for a tree always None.
+    false_length : float
+        Length of traced vessels in no lumen of the reference (mm): where each point of the reference is
+        farther away than the radius there.
+    vessels : tuple of CenterlineComparison
+        For a tree the same for each vessel of the reference, in its order.
+    """
+
+    ov: float
+    of: float
+    ot: float
+    ai: float
+    length: float
+    first_error: float | None
+    false_length: float
+    vessels: tuple[CenterlineComparison, ...] = ()
+
+
+def compare_centerlines(
+    traced: Vessel | VesselTree, reference: Vessel | VesselTree, *, sampling: float = 0.03
+) -> CenterlineComparison:
+    """Compare traced centerlines with a reference, as the Rotterdam coronary evaluation does.
+
+    Both lines are sampled at equal distances. What the traced one has before it first passes through the disc
+    at the start of the reference, across it and twice as wide as the vessel, is left out. Connections join
+    points of both lines, from both starts to both ends, so that either line advances by one point from each
+    connection to the next, and the sum of their lengths is the smallest. A connection counts where it
+    is shorter than the radius of the reference at its point. Even lines in the same place have connections of
+    one sampling distance between them, so ``ai`` is never below half of that.
+
+    Two vessels are compared as they are; the traced one is turned round where its ends fit better then. In
+    a tree each vessel of the reference is compared with a way through the traced tree: through the piece that
+    is nearest to most of the reference, from its point nearest to the start of the reference the
+    shortest way to the point nearest to its end. So it does not matter where vessels are parted. ``ov``,
+    ``ot`` and ``ai`` are then those of all points and connections together, ``of`` is the mean over the
+    length of the reference. What the traced tree has elsewhere is told by ``false_length`` alone.
+
+    Parameters
+    ----------
+    traced : Vessel or VesselTree
+        The centerlines to judge (mm, LPS).
+    reference : Vessel or VesselTree
+        The centerlines that are held to be true, with radii.
+    sampling : float, default 0.03
+        Distance between the sampled points (mm), as in the paper. Time and memory grow with the square of the
+        number of points: a bit for each pair of them.
+
+    Returns
+    -------
+    CenterlineComparison
+
+    Raises
+    ------
+    VesselTreeError
+        For anything but vessels and trees, a reference without radii, or lines too long for the sampling.
+    SettingsError
+        For a sampling that is not above 0.
+    KeyboardInterrupt
+        After Ctrl-C.
+    """
+    step = number(SettingsError, "sampling", sampling)
+    if not 0 < step < float("inf"):
+        raise SettingsError("sampling", f"{step:g}", "a distance above 0 (mm)")
+    for what, given in (("traced centerlines", traced), ("reference", reference)):
+        if not isinstance(given, (Vessel, VesselTree)):
+            raise VesselTreeError(what, type(given).__name__, "a Vessel or a VesselTree")
+    references = (reference,) if isinstance(reference, Vessel) else tuple(reference)
+    for index, vessel in enumerate(references):
+        if vessel.radius is None:
+            raise VesselTreeError(f"vessel {index} of the reference", "no radius", "a radius at each point")
+    false_length = _false_length(traced, references)
+    if isinstance(traced, Vessel) and isinstance(reference, Vessel):
+        return _summary([_counted(_like(traced.points, reference.points), reference, step)], false_length)
+    paths = CenterlinePaths((traced,) if isinstance(traced, Vessel) else tuple(traced))
+    counts = [_counted(paths.along(vessel.points), vessel, step) for vessel in references]
+    return _summary(counts, false_length, tuple(_summary([one], float("nan")) for one in counts))
+
+
+@dataclass(frozen=True)
+class _Counts:
+    """What is counted of one vessel of the reference: points that are right and all, connections inside."""
+
+    right: int
+    all: int
+    relevant_right: int
+    relevant: int
+    before_error: int
+    reference: int
+    inside: int
+    inside_sum: float
+    length: float
+
+
+def _summary(
+    counts: Sequence[_Counts], false_length: float, vessels: tuple[CenterlineComparison, ...] = ()
+) -> CenterlineComparison:
+    def share(part: str, whole: str) -> float:
+        total = sum(getattr(one, whole) for one in counts)
+        return float(sum(getattr(one, part) for one in counts) / total) if total else float("nan")
+
+    length = sum(one.length for one in counts)
+    first = counts[0]
+    has_error = not vessels and first.before_error < first.reference
+    first_error = length * first.before_error / (first.reference - 1) if has_error else None
+    return CenterlineComparison(
+        ov=share("right", "all"),
+        of=sum(one.length * one.before_error / one.reference for one in counts) / length,
+        ot=share("relevant_right", "relevant"),
+        ai=share("inside_sum", "inside"),
+        length=length,
+        first_error=first_error,
+        false_length=false_length,
+        vessels=vessels,
+    )
+
+
+def _counted(traced: _Points | None, reference: Vessel, step: float) -> _Counts:
+    """Count what is right along a vessel of the reference; ``traced`` is None where nothing belongs to it."""
+    points, radius = _sampled(reference.points, step, reference.radius)
+    length, count = reference.length, len(points)
+    relevant = np.flatnonzero(radius >= _RELEVANT_RADIUS)
+    part = int(relevant[-1]) + 1 if len(relevant) else 0
+    if traced is None:
+        free = min(count, int(np.ceil(_FREE_START / max(length, 1e-12) * (count - 1))))
+        return _Counts(0, count, 0, part, free, count, 0, 0.0, length)
+    line = _clipped(_sampled(traced, step)[0], points, _DISC * radius[0])
+    pairs = _lumencut.correspondence(line, points)
+    distance = np.linalg.norm(line[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
+    inside = distance < radius[pairs[:, 1]]
+    right = np.bincount(pairs[inside, 1], minlength=count) > 0
+    right_traced = np.bincount(pairs[inside, 0], minlength=len(line)) > 0
+    in_part = np.bincount(pairs[pairs[:, 1] < part, 0], minlength=len(line)) > 0
+    way = np.linspace(0.0, length, count)
+    errors = np.flatnonzero(~right & (way >= _FREE_START))
+    return _Counts(
+        right=int(right.sum() + right_traced.sum()),
+        all=count + len(line),
+        relevant_right=int(right[:part].sum() + (right_traced & in_part).sum()),
+        relevant=part + int(in_part.sum()),
+        before_error=int(errors[0]) if len(errors) else count,
+        reference=count,
+        inside=int(inside.sum()),
+        inside_sum=float(distance[inside].sum()),
+        length=length,
+    )
+
+
+def _sampled(
+    points: _Points, step: float, values: npt.NDArray[np.float64] | None = None
+) -> tuple[_Points, npt.NDArray[np.float64]]:
+    """Points at equal distances of about ``step`` along a line, both ends among them, and values there."""
+    ways = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    count = max(2, round(float(ways[-1]) / step) + 1)
+    wanted = np.linspace(0.0, ways[-1], count)
+    made = np.stack([np.interp(wanted, ways, points[:, axis]) for axis in range(3)], axis=1)
+    return made, np.interp(wanted, ways, np.zeros(len(ways)) if values is None else values)
+
+
+def _clipped(line: _Points, reference: _Points, width: float) -> _Points:
+    """Leave out what comes before a line first passes through the disc at the start of the reference."""
+    normal = reference[1] - reference[0]
+    height = (line - reference[0]) @ normal
+    crosses = np.flatnonzero(height[:-1] * height[1:] <= 0)
+    for n in crosses:
+        fall = height[n] - height[n + 1]
+        share = height[n] / fall if fall else 0.0
+        place = line[n] + share * (line[n + 1] - line[n])
+        if np.linalg.norm(place - reference[0]) <= width:
+            first = int(n) if share == 0 else int(n) + 1
+            return line[min(first, len(line) - 1) :]
+    return line
+
+
+def _like(points: _Points, reference: _Points) -> _Points:
+    """The points in the direction in which their ends fit those of the reference better."""
+    ends = reference[[0, -1]]
+    kept = np.linalg.norm(points[[0, -1]] - ends, axis=1).sum()
+    turned = np.linalg.norm(points[[-1, 0]] - ends, axis=1).sum()
+    return points if kept <= turned else points[::-1]
+
+
+def _false_length(traced: Vessel | VesselTree, references: Sequence[Any], step: float = 0.5) -> float:
+    """Length of traced vessels (mm) that no lumen of the reference holds."""
+    known = [_sampled(vessel.points, step, vessel.radius) for vessel in references]
+    points = np.concatenate([points for points, _ in known])
+    radius = np.concatenate([radius for _, radius in known])
+    wrong = 0.0
+    for vessel in (traced,) if isinstance(traced, Vessel) else traced:
+        line, _ = _sampled(vessel.points, step)
+        outside = [
+            (np.linalg.norm(points - point, axis=1) >= radius).all() for point in (line[:-1] + line[1:]) / 2
+        ]
+        wrong += vessel.length * float(np.mean(outside))
+    return wrong

@@ -1,0 +1,122 @@
+"""``lumencut trace --mask``: centerlines of a mask or of labels of a label map."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from lumencut.cli.options import FILE, added
+from lumencut.cli.report import bar, detail, say, warn
+
+if TYPE_CHECKING:
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+#: The options of `mask_options` that mean something only together with ``--mask``.
+WITH_MASK = ("label", "threshold", "bridge", "shortest_branch")
+
+
+def mask_options(command: _Command) -> _Command:
+    """Add the options of a mask."""
+    parts = (
+        click.option("--mask", type=FILE, metavar="FILE", help="A mask of the lumen, or a label map."),
+        click.option(
+            "--label",
+            multiple=True,
+            metavar="52[=aorta]",
+            help="A value of the mask that is lumen, and the name of its vessels; may be given again. Names "
+            "are also taken from files of 3D Slicer and TotalSegmentator, and stand for their values. "
+            "Default: every value but 0.",
+        ),
+        click.option(
+            "--threshold",
+            type=float,
+            metavar="VALUE",
+            help="Lumen is where the mask has this value or more, for masks that are no whole numbers.",
+        ),
+        click.option(
+            "--bridge",
+            type=click.FloatRange(0),
+            default=0.0,
+            metavar="MM",
+            help="Bridge gaps between pieces up to so wide by straight vessels; default: none.",
+        ),
+        click.option(
+            "--shortest-branch",
+            type=click.FloatRange(0),
+            default=2.0,
+            show_default=True,
+            metavar="RADII",
+            help="Leave out branches shorter than so many radii of their parent.",
+        ),
+    )
+    return added(parts, command)
+
+
+def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTree:
+    """Trace the mask that the options name, and say what was found."""
+    from lumencut.mask_tracing import trace_mask
+    from lumencut.volume_files import read_volume
+    from lumencut.volume_files.label_names import read_label_names
+
+    path: Path = chosen["mask"]
+    with bar(f"reading {path.name}", "slice") as told:
+        mask = read_volume(path, progress=told)
+    detail(f"{path}: {mask!r}")
+    known = read_label_names(path)
+    labels = _labels(chosen["label"], known)
+    if chosen["threshold"] is not None:
+        if labels is not None:
+            raise click.UsageError("--label and --threshold: a mask has either labels or a threshold")
+        mask = _above(mask, chosen["threshold"])
+    with bar(f"tracing {path.name}", "share") as told:
+        tree = trace_mask(
+            mask,
+            volume,
+            labels=known or None if labels is None else labels,
+            shortest_branch=chosen["shortest_branch"],
+            bridge=chosen["bridge"],
+            progress=told,
+        )
+    _report(tree)
+    return tree
+
+
+def _labels(words: tuple[str, ...], known: dict[int, str]) -> dict[int, str] | None:
+    """The labels that are written as ``52``, ``52=aorta`` or by a name of the file."""
+    labels: dict[int, str] = {}
+    values = {name: value for value, name in known.items()}
+    for word in words:
+        value, equals, name = word.partition("=")
+        if value.strip().lstrip("-").isdigit():
+            number = int(value)
+            labels[number] = name if equals else known.get(number, f"label {number}")
+        elif word in values:
+            labels[values[word]] = word
+        else:
+            names = f", or a name of the file: {', '.join(values)}" if values else ""
+            raise click.UsageError(f"--label {word!r}: expected a value such as 52 or 52=aorta{names}")
+    return labels or None
+
+
+def _above(mask: Volume, threshold: float) -> Volume:
+    from lumencut.volume import Volume
+
+    return Volume(mask.array >= threshold, world_from_index=mask.world_from_index)
+
+
+def _report(tree: VesselTree) -> None:
+    length = sum(vessel.length for vessel in tree)
+    say(f"{len(tree)} vessels, {length:.0f} mm")
+    for gap in tree.gaps:
+        place = ", ".join(f"{x:.1f}" for x in gap.points[0])
+        done = "bridged" if gap.bridged else "not bridged"
+        near, far = gap.vessels
+        say(f"gap of {gap.width:.1f} mm between vessels {near} and {far} at {place}: {done}")
+    for note in tree.notes:
+        warn(note)

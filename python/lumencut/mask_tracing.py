@@ -1,0 +1,169 @@
+"""Centerlines of masks and label maps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from lumencut import _lumencut
+from lumencut._checks import integers, number
+from lumencut._wording import counted
+from lumencut.errors import SettingsError, VolumeError
+from lumencut.vessel_gap import Gap
+from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.volume import Volume
+from lumencut.volume_files.memory import as_volume
+
+#: Points of the result are at most so far apart (mm).
+_STEP = 0.5
+
+#: The corners of mask and volume may lie so far apart, in the smallest side of a voxel.
+_SAME_GRID = 0.1
+
+_LARGEST_LABEL = 2**53
+
+
+def trace_mask(
+    mask: Any,
+    volume: Any = None,
+    *,
+    labels: Mapping[int, str] | Iterable[int] | None = None,
+    shortest_branch: float = 2.0,
+    bridge: float = 0.0,
+    progress: Callable[[int, int], object] | None = None,
+) -> VesselTree:
+    """Trace the centerlines of a mask of the lumen, or of labels of a label map.
+
+    Cavities are filled. The mask is thinned to lines with its topology, those voxels first that are nearest
+    to the wall, so pieces and cycles stay. Short branches go, the lines are moved to the centres of gravity
+    of their cross-sections, smoothed over half a radius and led out to the caps of their ends.
+    Vessels that meet share their end points to the bit; neighbouring points are at most 0.5 mm apart. A
+    vessel leads away from the free end of the widest vessel of its piece.
+
+    The radius is that of a circle with the area of the cross-section, but at most half a voxel beyond the
+    nearest wall. A mask tells it, and the middle, to about half a voxel.
+
+    Sources: Felzenszwalb and Huttenlocher 2012, doi:10.4086/toc.2012.v008a019 (distances); Bertrand and
+    Malandain 1994, doi:10.1016/0167-8655(94)90046-9 (simple points); Pudney 1998, doi:10.1006/cviu.1998.0680
+    (thinning in order of distance).
+
+    Parameters
+    ----------
+    mask : Volume, or an image that :func:`lumencut.render` takes as a volume
+        Whole numbers: 0 is background.
+    volume : Volume or such an image, optional
+        The angiography of the mask. So far only its grid is looked at, which must be that of the mask:
+        corners may differ by a tenth of a voxel, and axes may be stored in another order or direction. Its
+        values do not yet move the lines.
+    labels : mapping of int to str, or iterable of int, optional
+        Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
+        every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values. A
+        vessel with several labels is parted where one ends and the other begins.
+    shortest_branch : float, default 2
+        How long a branch must be to stay, from the centerline of its parent to its cap, in radii of the
+        parent. A branch that reaches four of its own radii beyond the parent's wall stays too.
+    bridge : float, default 0
+        The widest gap (mm) between pieces that a straight vessel bridges, whose points are all marked as
+        :attr:`Vessel.bridged`. Gaps are listed in :attr:`VesselTree.gaps` whether or not they are bridged.
+    progress : callable, optional
+        Called now and then with how much is done and how much there is to do.
+
+    Returns
+    -------
+    VesselTree
+        The vessels (mm, LPS), with :attr:`VesselTree.gaps` and :attr:`VesselTree.notes`.
+
+    Raises
+    ------
+    VolumeError
+        For a mask that has no lumen or no background, is of a float type, is a single slice, is nowhere
+        longer than wide, or lies on another grid than the volume.
+    SettingsError
+        For labels, a shortest branch or a bridge of another kind.
+    KeyboardInterrupt
+        After Ctrl-C.
+    """
+    grid = as_volume(mask)
+    if grid.dtype.kind == "f":
+        mend = "compare the values with a threshold, as --threshold does: Volume(mask.array >= 0.5, …)"
+        raise VolumeError("mask", f"voxels of type {grid.dtype}", "whole numbers", mend)
+    names = _names(labels)
+    if volume is not None:
+        _check_grid(grid, as_volume(volume))
+    found = _lumencut.trace_mask(
+        grid,
+        None if names is None else list(names),
+        _at_least_zero("shortest_branch", shortest_branch),
+        _STEP,
+        _at_least_zero("bridge", bridge),
+        progress,
+    )
+    values = {label for _, _, label, _ in found["vessels"]}
+    known = names or {}
+    several = len(values - {0}) > 1
+    tree = VesselTree(
+        Vessel(
+            points,
+            radius,
+            known.get(label) or (f"label {label}" if several and label else None),
+            bridged=np.full(len(points), bridged),
+        )
+        for points, radius, label, bridged in found["vessels"]
+    )
+    tree._gaps = tuple(Gap(*parts) for parts in found["gaps"])
+    tree._notes = tuple(_notes(grid, found, tree))
+    return tree
+
+
+def _notes(mask: Volume, found: Mapping[str, Any], tree: VesselTree) -> Iterable[str]:
+    cavities, voxels = found["filled"]
+    if cavities:
+        holes = "1 cavity" if cavities == 1 else f"{cavities} cavities"
+        yield f"{holes} of {counted(voxels, 'voxel')} filled"
+    traced = len(tree.gaps) + 1
+    if found["pieces"] > traced:
+        left_out = found["pieces"] - traced
+        yield f"{counted(left_out, 'piece')} of the mask left out: nowhere longer than wide"
+    half = mask.spacing.max() / 2
+    yield f"middle and radius are known to about half a voxel ({half:.2g} mm): no grey values were used"
+
+
+def _names(labels: Any) -> dict[int, str | None] | None:
+    if labels is None:
+        return None
+    given = dict(labels) if isinstance(labels, Mapping) else dict.fromkeys(_listed(labels))
+    for label, name in given.items():
+        if not (isinstance(name, str) or name is None):
+            raise SettingsError("labels", f"the name {name!r} of {label!r}", "a text")
+    checked = integers(SettingsError, "labels", list(given), -_LARGEST_LABEL, _LARGEST_LABEL, len(given))
+    if not checked or 0 in checked:
+        found = "0, which is background" if checked else "no values"
+        raise SettingsError("labels", found, "the values of the mask that stand for lumen")
+    return dict(zip(checked, given.values(), strict=True))
+
+
+def _listed(labels: Any) -> list[Any]:
+    if isinstance(labels, (str, bytes)) or not isinstance(labels, Iterable):
+        raise SettingsError("labels", f"{labels!r:.80}", "values of the mask, or values with names")
+    return list(labels)
+
+
+def _at_least_zero(name: str, value: Any) -> float:
+    checked = number(SettingsError, name, value)
+    if not 0 <= checked < float("inf"):
+        raise SettingsError(name, f"{checked:g}", "0 or more")
+    return checked
+
+
+def _check_grid(mask: Volume, volume: Volume) -> None:
+    """Refuse a volume on another grid than the mask."""
+    if sorted(mask.size) != sorted(volume.size):
+        found, expected = (" × ".join(map(str, one.size)) for one in (mask, volume))
+        raise VolumeError("mask", f"{found} voxels", f"{expected} as the volume has", "resample the mask")
+    apart = np.linalg.norm(mask.corners[:, None] - volume.corners, axis=-1).min(axis=1).max()
+    if apart > _SAME_GRID * volume.spacing.min():
+        found = f"a grid whose corners lie up to {apart:.3g} mm from those of the volume"
+        expected = f"the same grid, to {_SAME_GRID} of a voxel"
+        raise VolumeError("mask", found, expected, "resample the mask onto the grid of the volume")
