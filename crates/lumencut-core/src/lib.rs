@@ -16,5 +16,6 @@ pub mod settings;
 pub mod shaders;
 pub mod stages;
 pub mod stop;
+pub mod trace;
 pub mod vessel_tree;
 pub mod volume;
