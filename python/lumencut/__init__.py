@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         SeriesError,
         SettingsError,
         SpaceWarning,
+        TracingError,
         VesselTreeError,
         VolumeError,
     )
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from lumencut.settings import Settings
     from lumencut.slab import Slab
     from lumencut.threads import get_threads, set_threads
+    from lumencut.tracing import Tracer, trace
     from lumencut.transfer import TransferFunction
     from lumencut.turntables import fitted_turn, save_animation, turntable
     from lumencut.vessel_tree import Vessel, VesselTree
@@ -64,6 +66,7 @@ _HOME = {
         "SeriesError",
         "SettingsError",
         "SpaceWarning",
+        "TracingError",
         "VesselTreeError",
         "VolumeError",
     ),
@@ -73,6 +76,7 @@ _HOME = {
     "settings": ("Settings",),
     "slab": ("Slab",),
     "threads": ("get_threads", "set_threads"),
+    "tracing": ("Tracer", "trace"),
     "transfer": ("TransferFunction",),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
     "vessel_tree": ("Vessel", "VesselTree"),
@@ -103,6 +107,8 @@ __all__ = [
     "SettingsError",
     "Slab",
     "SpaceWarning",
+    "Tracer",
+    "TracingError",
     "TransferFunction",
     "Vessel",
     "VesselTree",
@@ -121,6 +127,7 @@ __all__ = [
     "render",
     "save_animation",
     "set_threads",
+    "trace",
     "turntable",
     "write_centerlines",
 ]

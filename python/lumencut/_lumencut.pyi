@@ -24,6 +24,7 @@ __all__ = [
     "Renderer",
     "Setting",
     "Settings",
+    "Tracer",
     "__version__",
     "better_place",
     "check_camera",
@@ -112,6 +113,22 @@ class CenterlineFile:
         self, mm_per_unit: float
     ) -> tuple[
         list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]], list[str]
+    ]: ...
+
+@final
+class Tracer:
+    def __new__(cls) -> Tracer: ...
+    def trace(
+        self,
+        volume: Any,
+        vessels: Sequence[npt.NDArray[np.float64]],
+        stoppers: Sequence[tuple[tuple[float, ...], float]],
+        bridge: bool,
+        told: Callable[[int, int], object] | None = None,
+    ) -> list[
+        tuple[
+            npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.bool_]
+        ]
     ]: ...
 
 @final

@@ -20,7 +20,7 @@ _MOST_NAMES = 24
 
 
 class Vessel(Value):
-    """One unbranched centerline; vessels with the same points, radii and name are equal.
+    """One unbranched centerline; vessels with the same points, radii, name, confidence and bridges are equal.
 
     Parameters
     ----------
@@ -30,6 +30,10 @@ class Vessel(Value):
         Radius of the lumen at each point (mm), 0 or more; without it the wall lies on the centerline.
     name : str, optional
         The vessel's name.
+    confidence : array_like, shape (n,), optional
+        How sure each point is, 0 to 1, where the vessel was traced.
+    bridged : array_like of bool, shape (n,), optional
+        Which points lie where no lumen was to be seen, and were put there because a bridge was asked for.
 
     Raises
     ------
@@ -38,13 +42,21 @@ class Vessel(Value):
     """
 
     def __init__(
-        self, points: npt.ArrayLike, radius: npt.ArrayLike | None = None, name: str | None = None
+        self,
+        points: npt.ArrayLike,
+        radius: npt.ArrayLike | None = None,
+        name: str | None = None,
+        *,
+        confidence: npt.ArrayLike | None = None,
+        bridged: npt.ArrayLike | None = None,
     ) -> None:
         self._points = numbers(VesselTreeError, "points of the vessel", points, (-1, 3))
         self._radius = None if radius is None else _radii(radius, len(self._points))
         if not (name is None or isinstance(name, str)):
             raise VesselTreeError("name of the vessel", f"{type(name).__name__}", "a text or None")
         self._name = name
+        self._confidence = None if confidence is None else _shares(confidence, len(self._points))
+        self._bridged = None if bridged is None else _marks(bridged, len(self._points))
         _lumencut.check_vessel(self._points, self._radius)
 
     @property
@@ -63,12 +75,33 @@ class Vessel(Value):
         return self._name
 
     @property
+    def confidence(self) -> npt.NDArray[np.float64] | None:
+        """How sure each point is, 0 to 1, shape (n,), where known."""
+        return self._confidence
+
+    @property
+    def bridged(self) -> npt.NDArray[np.bool_] | None:
+        """Which points lie where no lumen was to be seen, shape (n,), where known."""
+        return self._bridged
+
+    def named(self, name: str | None) -> Vessel:
+        """Return the vessel with another name."""
+        return Vessel(self._points, self._radius, name, confidence=self._confidence, bridged=self._bridged)
+
+    @property
     def length(self) -> float:
         """Arc length (mm)."""
         return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
 
     def _content(self) -> tuple[Any, ...]:
-        return content_of(self._points), content_of(self._radius), self._name
+        marks = None if self._bridged is None else self._bridged.tobytes()
+        return (
+            content_of(self._points),
+            content_of(self._radius),
+            self._name,
+            content_of(self._confidence),
+            marks,
+        )
 
     def __len__(self) -> int:
         return len(self._points)
@@ -157,7 +190,9 @@ class VesselTree(Value):
         """
         made = _lumencut.smoothed(self._arrays(), number(SettingsError, "centerline_smoothing", radii))
         smoothed = VesselTree(
-            Vessel(points, vessel.radius, vessel.name)
+            Vessel(
+                points, vessel.radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged
+            )
             for points, vessel in zip(made, self._vessels, strict=True)
         )
         smoothed._space_settled = self._space_settled
@@ -281,3 +316,20 @@ def _radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
     if not isinstance(radius, Sequence) and np.ndim(radius) == 0:
         radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
     return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))
+
+
+def _shares(confidence: Any, count: int) -> npt.NDArray[np.float64]:
+    shares = numbers(VesselTreeError, "confidence of the vessel", confidence, (count,))
+    if not ((shares >= 0) & (shares <= 1)).all():
+        found = f"{shares.min():g} to {shares.max():g}"
+        raise VesselTreeError("confidence of the vessel", found, "numbers from 0 to 1")
+    return shares
+
+
+def _marks(bridged: Any, count: int) -> npt.NDArray[np.bool_]:
+    marks = np.array(bridged)
+    if marks.dtype != np.bool_ or marks.shape != (count,):
+        found = f"{marks.dtype} of shape {marks.shape}"
+        raise VesselTreeError("bridged points of the vessel", found, f"True or False for each of {count} points")
+    marks.flags.writeable = False
+    return marks

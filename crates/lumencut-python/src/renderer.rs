@@ -30,7 +30,7 @@ use crate::volume::VolumeArgument;
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
 /// Into how many parts a rendering is divided for whoever is told how far it is.
-const SHARES: u32 = 1000;
+pub const SHARES: u32 = 1000;
 
 /// Renders views of one tree, or of a volume alone; every view is of the same volume. Renderers of the same volume with
 /// other trees share what computes and what is known of the volume.
@@ -153,15 +153,15 @@ fn say_that_the_cpu_goes_on(py: Python<'_>, given_up: Option<Error>) -> PyResult
     given_up.map_or(Ok(()), |error| warn(py, "DeviceWarning", &format!("{error}; the CPU goes on")))
 }
 
-/// How far a rendering is, and the function of Python that is told so.
-struct Watched<'a> {
-    progress: &'a Progress,
-    told: &'a Py<PyAny>,
+/// How far long work is, and the function of Python that is told so.
+pub struct Watched<'a> {
+    pub progress: &'a Progress,
+    pub told: &'a Py<PyAny>,
 }
 
 impl Watched<'_> {
     /// Tells how much is done, of `SHARES` parts.
-    fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
+    pub fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
         self.told.call1(py, (done, SHARES)).map(drop)
     }
 
@@ -173,7 +173,7 @@ impl Watched<'_> {
 }
 
 /// Runs `work` on a thread of its own without the GIL while this one listens for signals, and tells how far it is.
-fn interruptible<T: Send>(
+pub fn interruptible<T: Send>(
     py: Python<'_>,
     watched: Option<&Watched<'_>>,
     work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,

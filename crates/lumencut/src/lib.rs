@@ -23,7 +23,7 @@ pub mod views;
 pub mod windows;
 
 pub use lumencut_core::{
-    camera, error, frame, geometry, math, pipeline, progress, scene, settings, stages, stop, vessel_tree,
-    volume, with_voxels,
+    camera, error, frame, geometry, math, pipeline, progress, scene, settings, stages, stop, trace,
+    vessel_tree, volume, with_voxels,
 };
 pub use lumencut_io as centerlines;

@@ -16,6 +16,11 @@ const OUTSIDE: f64 = 1.5;
 /// The widest lumen (mm from a point within it to the wall).
 pub const WIDEST: f64 = 45.0;
 
+/// The smaller eigenvalue of the directions in which the wall was seen: at most the first where it was seen on two sides
+/// alone, about the second where a quarter is missing.
+const TWO_SIDED: f64 = 0.25;
+const ROUND: f64 = 0.38;
+
 /// At least this share of the rays must meet a wall.
 const LEAST_RAYS: usize = RAYS * 3 / 8;
 
@@ -58,7 +63,7 @@ impl Probe<'_, '_> {
         let circle = Circle::around(&wall);
         let seen = wall.len() as f64 / RAYS as f64;
         let rough = circle.spread / circle.radius;
-        let trust = seen * (-(rough / 0.25).powi(2)).exp();
+        let trust = seen * (-(rough / 0.25).powi(2)).exp() * circle.roundness(&wall);
         let [x, y] = circle.center;
         let is_odd = !(trust > 0.0 && circle.radius > 0.0) || x.hypot(y) > reach;
         (!is_odd).then(|| CrossSection {
@@ -128,7 +133,8 @@ impl Probe<'_, '_> {
             n += 1;
         }
         let (inside, outside) = (value(n), value(n + 1));
-        let share = if outside == inside { 0.5 } else { ((half - inside) / (outside - inside)).clamp(0.0, 1.0) };
+        let share =
+            if outside == inside { 0.5 } else { ((half - inside) / (outside - inside)).clamp(0.0, 1.0) };
         share.is_finite().then_some((n as f64 + share) * step)
     }
 }
@@ -173,14 +179,36 @@ impl Circle {
         1.4826 * away[away.len() / 2]
     }
 
+    /// Whether the points that count lie on all sides, 0 to 1: those of a vessel cut lengthwise lie on two sides alone and
+    /// say nothing of where along it the middle should be.
+    fn roundness(&self, points: &[[f64; 2]]) -> f64 {
+        let [mut xx, mut xy, mut yy, mut all] = [0.0; 4];
+        for p in points {
+            let weight = self.weight(self.miss(*p));
+            let (x, y) = (p[0] - self.center[0], p[1] - self.center[1]);
+            let share = weight / (x * x + y * y).max(1e-12);
+            xx += share * x * x;
+            xy += share * x * y;
+            yy += share * y * y;
+            all += weight;
+        }
+        let least = 0.5 * (xx + yy - (xx - yy).hypot(2.0 * xy)) / all.max(1e-12);
+        ((least - TWO_SIDED) / (ROUND - TWO_SIDED)).clamp(0.0, 1.0)
+    }
+
+    /// How much a point counts that lies so far from the circle.
+    fn weight(&self, miss: f64) -> f64 {
+        let scale = 4.0 * self.spread.max(0.03 * self.radius).max(1e-6);
+        let share = (miss / scale).abs().min(1.0);
+        (1.0 - share * share).powi(2)
+    }
+
     /// One step of Gauss and Newton.
     fn step(&mut self, points: &[[f64; 2]]) {
-        let scale = 4.0 * self.spread.max(0.03 * self.radius).max(1e-6);
         let (mut matrix, mut right) = (glam::DMat3::ZERO, DVec3::ZERO);
         for p in points {
             let miss = self.miss(*p);
-            let share = (miss / scale).abs().min(1.0);
-            let weight = (1.0 - share * share).powi(2);
+            let weight = self.weight(miss);
             let length = (miss + self.radius).max(1e-9);
             let slope = DVec3::new((p[0] - self.center[0]) / length, (p[1] - self.center[1]) / length, 1.0);
             matrix += glam::DMat3::from_cols(slope * slope.x, slope * slope.y, slope * slope.z) * weight;

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::region::{BLOCK, BlockCosts, FORBIDDEN, Region, SIDE, costs, voxel_of};
+use super::region::{BLOCK, BlockCosts, FORBIDDEN, Region, SIDE, WEAK, costs, voxel_of};
 use super::voxels::Voxels;
 use crate::error::Result;
 use crate::stop::{Stop, go_on};
@@ -96,7 +96,7 @@ impl Front {
             settled: 0,
             steps: steps(voxels),
             costs: costs(),
-            weak: region.weak_code(),
+            weak: region.code_below(WEAK),
         };
         let (block, voxel) = front.locate(voxels, region, source);
         front.known[block].way[voxel] = 0.0;
@@ -133,15 +133,15 @@ impl Front {
             if way.is_finite() && bucket_of(way) < self.first {
                 return Ok(Found::Target);
             }
-            let Some(waiting) = self.buckets.get_mut(self.first).and_then(Vec::pop) else {
-                return Ok(if way.is_finite() { Found::Target } else { Found::NoWay });
-            };
             if until_stop == 0 {
                 go_on(stop)?;
                 until_stop = BETWEEN_STOPS;
                 told(nearest);
             }
             until_stop -= 1;
+            let Some(waiting) = self.buckets.get_mut(self.first).and_then(Vec::pop) else {
+                return Ok(if way.is_finite() { Found::Target } else { Found::NoWay });
+            };
             if let Some(distance) = self.settle(voxels, region, waiting, goal) {
                 nearest = nearest.min(distance);
                 if self.settled > self.reach.most_voxels {
@@ -178,7 +178,8 @@ impl Front {
 
     /// Sorts those that wait by the straight distance to a new goal.
     fn aim(&mut self, voxels: &Voxels, goal: DVec3) {
-        let waiting: Vec<Waiting> = self.buckets.iter_mut().skip(self.first).flat_map(std::mem::take).collect();
+        let waiting: Vec<Waiting> =
+            self.buckets.iter_mut().skip(self.first).flat_map(std::mem::take).collect();
         self.buckets.clear();
         self.first = 0;
         for waiting in waiting {
@@ -213,7 +214,8 @@ impl Front {
             if way >= self.known[to].way[at] {
                 continue;
             }
-            let stretch = if code >= self.weak { run.saturating_add((f64::from(length) / RUN) as u8) } else { 0 };
+            let stretch =
+                if code >= self.weak { run.saturating_add((f64::from(length) / RUN) as u8) } else { 0 };
             if self.reach.longest_gap.is_some_and(|longest| f64::from(stretch) * RUN > longest) {
                 continue;
             }
@@ -236,7 +238,13 @@ impl Front {
     }
 
     /// The block and the place in it of a voxel next to one of block `near`; none outside the volume.
-    fn neighbour(&mut self, voxels: &Voxels, region: &mut Region, near: usize, voxel: [i32; 3]) -> Option<(usize, usize)> {
+    fn neighbour(
+        &mut self,
+        voxels: &Voxels,
+        region: &mut Region,
+        near: usize,
+        voxel: [i32; 3],
+    ) -> Option<(usize, usize)> {
         let corner = self.known[near].corner;
         let inside: [i32; 3] = std::array::from_fn(|a| voxel[a] - corner[a]);
         if inside.iter().all(|c| (0..SIDE as i32).contains(c)) {

@@ -13,6 +13,9 @@ use crate::error::{Error, ErrorKind};
 pub const LONGEST_GAP: f64 = 5.0;
 const LONGEST_TURN: f64 = 1.2;
 
+/// The thickest wall between two vessels that a way might cross unseen (mm).
+const LONGEST_WALL: f64 = 3.0;
+
 /// A turn within a gap: the cosine between the vessel before or after it and the gap itself.
 const SAME_DIRECTION: f64 = 0.6;
 
@@ -34,54 +37,99 @@ pub struct Gap {
     pub is_open: bool,
 }
 
-/// The gaps of a way; `weak` says which of its points show no lumen.
-pub fn gaps(voxels: &Voxels, model: &LumenModel, way: &[DVec3], weak: &[bool]) -> Vec<Gap> {
-    let lengths = arc_lengths(way);
+/// A way, to look for gaps in it.
+pub struct Line<'a, 'v> {
+    voxels: &'a Voxels<'v>,
+    model: &'a LumenModel,
+    way: &'a [DVec3],
+    lengths: Vec<f64>,
+}
+
+impl<'a, 'v> Line<'a, 'v> {
+    /// A way through a volume.
+    pub fn new(voxels: &'a Voxels<'v>, model: &'a LumenModel, way: &'a [DVec3]) -> Self {
+        Self { voxels, model, way, lengths: arc_lengths(way) }
+    }
+
+    /// The gaps; `weak` says which points show no lumen.
+    pub fn gaps(&self, weak: &[bool]) -> Vec<Gap> {
+        stretches(weak).into_iter().map(|points| self.gap(points)).collect()
+    }
+
+    /// Where the way crosses from one vessel to another through the wall between them: it turns on both sides of a short
+    /// stretch that looks less like lumen than what is just before and after. `thin` says which points look little like
+    /// lumen, `full` which ones look just like it.
+    pub fn crossings(&self, thin: &[bool], full: &[bool]) -> Vec<Gap> {
+        let short = stretches(thin).into_iter().map(|points| self.gap(points));
+        let crossings = short.filter(|gap| {
+            gap.length < LONGEST_WALL && self.turns(gap) == [true, true] && self.is_between_lumen(gap, full)
+        });
+        crossings.map(|gap| Gap { is_open: true, ..gap }).collect()
+    }
+
+    fn is_between_lumen(&self, gap: &Gap, full: &[bool]) -> bool {
+        let (before, after) = self.beside(&gap.points);
+        let near = |from: usize, n: usize| (self.lengths[n] - self.lengths[from]).abs() < LONGEST_WALL;
+        (0..=before).rev().take_while(|n| near(before, *n)).any(|n| full[n])
+            && (after..full.len()).take_while(|n| near(after, *n)).any(|n| full[n])
+    }
+
+    fn gap(&self, points: Range<usize>) -> Gap {
+        let (before, after) = self.beside(&points);
+        let length = self.lengths[after] - self.lengths[before];
+        let value_of = |n: usize| self.voxels.at(self.way[n]);
+        let share = |n: usize| self.model.membership(value_of(n));
+        let weakest = points.clone().min_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(points.start);
+        let mut gap =
+            Gap { points, length, place: self.way[weakest], value: value_of(weakest), is_open: false };
+        let limit = if self.turns(&gap) == [false, false] { LONGEST_GAP } else { LONGEST_TURN };
+        gap.is_open = length > limit;
+        gap
+    }
+
+    /// The points before and after a stretch.
+    fn beside(&self, points: &Range<usize>) -> (usize, usize) {
+        (points.start.saturating_sub(1), points.end.min(self.way.len() - 1))
+    }
+
+    /// Whether the vessel runs in another direction than the gap, before it and after it.
+    fn turns(&self, gap: &Gap) -> [bool; 2] {
+        let (way, lengths) = (self.way, &self.lengths);
+        let (before, after) = self.beside(&gap.points);
+        let first = lengths.partition_point(|l| *l < lengths[before] - BESIDE);
+        let last = lengths.partition_point(|l| *l <= lengths[after] + BESIDE) - 1;
+        let across = (way[after] - way[before]).normalize_or_zero();
+        let turns = |from: usize, to: usize| {
+            from != to && (way[to] - way[from]).normalize_or_zero().dot(across) < SAME_DIRECTION
+        };
+        [turns(first, before), turns(after, last)]
+    }
+}
+
+/// The stretches of points that are marked.
+fn stretches(marked: &[bool]) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut i = 0;
-    while i < way.len() {
-        let end = (i..way.len()).find(|n| !weak[*n]).unwrap_or(way.len());
+    while i < marked.len() {
+        let end = (i..marked.len()).find(|n| !marked[*n]).unwrap_or(marked.len());
         if end > i {
-            found.push(gap(voxels, model, way, &lengths, i..end));
+            found.push(i..end);
         }
         i = end + 1;
     }
     found
 }
 
-fn gap(voxels: &Voxels, model: &LumenModel, way: &[DVec3], lengths: &[f64], points: Range<usize>) -> Gap {
-    let last = way.len() - 1;
-    let (before, after) = (points.start.saturating_sub(1), points.end.min(last));
-    let length = lengths[after] - lengths[before];
-    let value_of = |n: usize| voxels.at(way[n]);
-    let share = |n: usize| model.membership(value_of(n));
-    let weakest = points.clone().min_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(points.start);
-    let limit = if goes_on(way, lengths, before, after) { LONGEST_GAP } else { LONGEST_TURN };
-    Gap { points, length, place: way[weakest], value: value_of(weakest), is_open: length > limit }
-}
-
-/// Whether the vessel before and after a gap runs in the direction of the gap.
-fn goes_on(way: &[DVec3], lengths: &[f64], before: usize, after: usize) -> bool {
-    let first = lengths.partition_point(|l| *l < lengths[before] - BESIDE);
-    let last = lengths.partition_point(|l| *l <= lengths[after] + BESIDE) - 1;
-    let across = (way[after] - way[before]).normalize_or_zero();
-    let same = |from: usize, to: usize| {
-        from == to || (way[to] - way[from]).normalize_or_zero().dot(across) > SAME_DIRECTION
-    };
-    same(first, before) && same(after, last)
-}
-
 /// The error for a gap that is too long.
 pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
     let found = format!(
-        "{:.1} mm without lumen between them, weakest at {}, where the volume has {:.0}",
+        "{:.1} mm between them that do not look like lumen, least at {}, where the volume has {:.0}",
         gap.length,
         at(gap.place),
         gap.value
     );
-    Error::new(ErrorKind::Tracing, subject(between), found, expected(model)).mend(
-        "add a point where the vessel goes on, or ask for a bridge where it is occluded",
-    )
+    Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
+        .mend("add a point where the vessel goes on, or ask for a bridge where it is occluded")
 }
 
 /// The error for two points between which nothing was found at all.

@@ -73,6 +73,9 @@ impl LumenModel {
 /// How much membership values far above the lumen lose.
 const ABOVE_IS_NOT: f64 = 0.88;
 
+/// What a click hit instead of lumen, and what was expected.
+type Mistake = (&'static str, String);
+
 /// What surrounds the lumen, before any click is judged.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings {
@@ -102,16 +105,20 @@ impl Surroundings {
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
         let local = |i: usize| local_lumen(voxels, clicks[i], values[i], self.tissue);
         let lumens: Vec<[f64; 2]> = (0..clicks.len()).map(local).collect();
+        for (click, value) in clicks.iter().zip(&values) {
+            self.check(voxels, *click, *value, self.mistaken(*value))?;
+        }
         let model = model_of(&lumens, self);
+        let usual = lower_median(lumens.iter().map(|lumen| lumen[0]).collect());
         for (i, click) in clicks.iter().enumerate() {
-            self.check_click(voxels, *click, [values[i], lumens[i][0]], &model)?;
+            self.check(voxels, *click, values[i], self.unlike(lumens[i], usual))?;
         }
         Ok(model)
     }
 
     /// Refuses a click that lies in no lumen, and says what it lies in.
-    fn check_click(&self, voxels: &Voxels, click: DVec3, [value, lumen]: [f64; 2], model: &LumenModel) -> Result<()> {
-        let Some((tissue, expected)) = self.mistaken(value, lumen, model) else { return Ok(()) };
+    fn check(&self, voxels: &Voxels, click: DVec3, value: f64, mistake: Option<Mistake>) -> Result<()> {
+        let Some((tissue, expected)) = mistake else { return Ok(()) };
         let found = format!("{tissue}: the volume has {value:.0} there");
         let error = Error::new(ErrorKind::Tracing, format!("point {}", at(click)), found, expected);
         Err(match self.nearest_lumen(voxels, click) {
@@ -124,32 +131,36 @@ impl Surroundings {
         })
     }
 
-    /// What a click hit that is no lumen, and what was expected; nothing where it is lumen.
-    fn mistaken(&self, value: f64, lumen: f64, model: &LumenModel) -> Option<(&'static str, String)> {
+    /// What a click hit whose value alone shows that it is no lumen.
+    fn mistaken(&self, value: f64) -> Option<Mistake> {
         if !value.is_finite() {
             return Some(("no number", "a finite value".to_owned()));
         }
-        let is_far_above = lumen - self.tissue > MOST_TIMES * model.contrast().max(0.0);
-        let expected = format!("lumen of about {:.0}, as at another point", model.low);
-        if self.is_hounsfield {
-            let tissue = match value {
-                v if v < AIR => "air",
-                v if v < FAT => "fat",
-                v if v < SOFT_TISSUE => "soft tissue, or blood without contrast medium",
-                v if v > BONE => "bone, metal or calcium",
-                _ if is_far_above => return Some(("bone, metal or calcium", expected)),
-                _ => return None,
-            };
-            let expected = format!("lumen with contrast medium, from {SOFT_TISSUE:.0} to {BONE:.0} HU");
-            return Some((tissue, expected));
+        let tissue = match value {
+            _ if !self.is_hounsfield => return None,
+            v if v < AIR => "air",
+            v if v < FAT => "fat",
+            v if v < SOFT_TISSUE => "soft tissue, or blood without contrast medium",
+            v if v > BONE => "bone, metal or calcium",
+            _ => return None,
+        };
+        Some((tissue, format!("lumen with contrast medium, from {SOFT_TISSUE:.0} to {BONE:.0} HU")))
+    }
+
+    /// What a click hit that is unlike the lumen that the others hit as a rule, or no brighter than tissue.
+    fn unlike(&self, [lumen, noise]: [f64; 2], usual: f64) -> Option<Mistake> {
+        let contrast = usual - self.tissue;
+        let least = self.tissue + (0.15 * (self.bright - self.tissue)).max(0.3 * contrast).max(2.5 * noise);
+        if lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
+            return Some((
+                "bone, metal or calcium",
+                format!("lumen of about {usual:.0}, as at another point"),
+            ));
         }
-        let range = self.bright.max(model.high) - self.tissue;
-        let least = self.tissue + (0.2 * range).max(0.3 * (model.high - self.tissue));
         // What is no number is not brighter either.
-        let is_bright = lumen > least && range > 0.0;
-        (!is_bright).then(|| {
-            ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}"))
-        })
+        let is_bright = lumen > least;
+        (!is_bright)
+            .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))
     }
 
     /// The nearest place within 10 mm whose surroundings have the values of lumen.
@@ -228,13 +239,18 @@ fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
 
 /// The tissue around the lumen: bright for what is not lumen.
 fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = clicks.iter().copied().filter(|value| value.is_finite()).collect();
-    sorted.sort_unstable_by(f64::total_cmp);
     let median = quantile(tissue, 0.5);
-    let lumen = sorted.get(sorted.len().saturating_sub(1) / 2).copied().unwrap_or(median);
+    let values: Vec<f64> = clicks.iter().copied().filter(|value| value.is_finite()).collect();
+    let lumen = if values.is_empty() { median } else { lower_median(values) };
     let middle = f64::midpoint(median, lumen);
     let below = tissue.partition_point(|value| f64::from(*value) < middle);
     if below == 0 { quantile(tissue, 0.01) } else { quantile(&tissue[..below], 0.75) }
+}
+
+/// The median, of an even number of values the lower one of the middle; not of none.
+fn lower_median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    values[(values.len() - 1) / 2]
 }
 
 /// The median of the lumen around a click, and its spread.

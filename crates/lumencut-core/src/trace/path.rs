@@ -70,7 +70,8 @@ pub fn frames(points: &[DVec3], directions: &[DVec3]) -> Vec<[DVec3; 2]> {
         let reflected = |v: DVec3, n: DVec3, square: f64| {
             if square > 0.0 { v - n * (2.0 * n.dot(v) / square) } else { v }
         };
-        let (carried, direction) = (reflected(across, step, length), reflected(directions[i - 1], step, length));
+        let (carried, direction) =
+            (reflected(across, step, length), reflected(directions[i - 1], step, length));
         let second = directions[i] - direction;
         across = reflected(carried, second, second.length_squared());
         across = (across - directions[i] * across.dot(directions[i]))
@@ -137,18 +138,13 @@ impl<const N: usize> Parabola<N> {
         if m0 < 0.3 {
             return None;
         }
-        let matrix = glam::DMat3::from_cols(
-            DVec3::new(m0, m1, m2),
-            DVec3::new(m1, m2, m3),
-            DVec3::new(m2, m3, m4),
-        );
+        let matrix =
+            glam::DMat3::from_cols(DVec3::new(m0, m1, m2), DVec3::new(m1, m2, m3), DVec3::new(m2, m3, m4));
         // Values on one side alone tell too little of a bend.
         if matrix.determinant() < 1e-2 * m0 * m0 * m0 {
             return None;
         }
         let first = matrix.inverse().x_axis;
-        Some(std::array::from_fn(|n| {
-            (0..3).map(|p| first[p] * self.values[p][n]).sum()
-        }))
+        Some(std::array::from_fn(|n| (0..3).map(|p| first[p] * self.values[p][n]).sum()))
     }
 }

@@ -17,6 +17,12 @@ const ROUNDS: usize = 4;
 /// The width of the smoothing along the line (mm): as much as an average over 1 mm takes of noise.
 const SMOOTHING: f64 = 1.5;
 
+/// A cross-section that is trusted less was not seen.
+const LEAST_TRUST: f64 = 0.1;
+
+/// How much a point counts at which no lumen was seen.
+const UNSEEN: f64 = 0.1;
+
 /// A centerline, and what is known at each of its points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Centerline {
@@ -26,6 +32,20 @@ pub struct Centerline {
     pub radius: Vec<f64>,
     /// How sure the point is, 0 to 1.
     pub confidence: Vec<f64>,
+}
+
+impl Centerline {
+    /// The same line in even steps; its ends stay to the bit.
+    pub fn resampled(&self) -> Self {
+        let mut points = resampled(&self.points, STEP);
+        let last = points.len() - 1;
+        (points[0], points[last]) = (self.points[0], self.points[self.points.len() - 1]);
+        Self {
+            points,
+            radius: resampled_values(&self.points, &self.radius, STEP),
+            confidence: resampled_values(&self.points, &self.confidence, STEP),
+        }
+    }
 }
 
 /// The line in the middle of the lumen that a way runs through.
@@ -58,26 +78,24 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
             probe.look(points[i], across[i], guess)
         })
         .collect();
-    let radii = medians(&sections, 7);
-    let trust: Vec<f64> = sections.iter().zip(&radii).map(|(section, median)| trust_of(section, *median)).collect();
+    let medians = medians(&sections, 3);
+    let trust: Vec<f64> =
+        sections.iter().zip(&medians).map(|(section, median)| trust_of(section, *median)).collect();
+    let radii = filled(&sections, &trust, &lengths);
     let values: Vec<[f64; 4]> = (0..points.len())
         .map(|i| {
-            let (center, radius) = match sections[i] {
-                Some(section) if trust[i] > 0.0 => (section.center, section.radius),
-                _ => (points[i], radii[i].unwrap_or(0.0)),
-            };
-            [center.x, center.y, center.z, radius]
+            let center =
+                sections[i].filter(|_| trust[i] > LEAST_TRUST).map_or(points[i], |section| section.center);
+            [center.x, center.y, center.z, radii[i]]
         })
         .collect();
     let wide = if round == 0 { 0.5 } else { 0.15 };
-    let smooth = smoothed(&lengths, &values, &trust, |i| SMOOTHING.max(wide * values[i][3]));
+    // Where nothing was seen the line holds on to where it is, so that no end of what was seen swings out.
+    let weights: Vec<f64> = trust.iter().map(|trust| trust.max(UNSEEN)).collect();
+    let smooth = smoothed(&lengths, &values, &weights, |i| SMOOTHING.max(wide * values[i][3]));
     let moved: Vec<DVec3> = smooth.iter().map(|v| DVec3::new(v[0], v[1], v[2])).collect();
     let radius: Vec<f64> = smooth.iter().map(|v| v[3].max(0.0)).collect();
-    Centerline {
-        points: resampled(&moved, STEP),
-        radius: resampled_values(&moved, &radius, STEP),
-        confidence: resampled_values(&moved, &trust, STEP),
-    }
+    Centerline { points: moved, radius, confidence: trust }.resampled()
 }
 
 /// How much a cross-section counts: little where its radius is far from those around it.
@@ -87,14 +105,34 @@ fn trust_of(section: &Option<CrossSection>, median: Option<f64>) -> f64 {
     section.trust * (-odd * odd).exp()
 }
 
-/// The median radius of the sections around each, where any was seen.
+/// The median radius of the sections around each, where any was seen well.
 fn medians(sections: &[Option<CrossSection>], reach: usize) -> Vec<Option<f64>> {
     (0..sections.len())
         .map(|i| {
             let around = &sections[i.saturating_sub(reach)..(i + reach + 1).min(sections.len())];
-            let mut radii: Vec<f64> = around.iter().flatten().map(|section| section.radius).collect();
+            let seen = around.iter().flatten().filter(|section| section.trust > LEAST_TRUST);
+            let mut radii: Vec<f64> = seen.map(|section| section.radius).collect();
             radii.sort_unstable_by(f64::total_cmp);
             radii.get(radii.len() / 2).copied()
+        })
+        .collect()
+}
+
+/// The radius of each section that was seen well, and between them what lies between their radii.
+fn filled(sections: &[Option<CrossSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
+    let seen: Vec<(f64, f64)> = (0..sections.len())
+        .filter(|i| trust[*i] > LEAST_TRUST)
+        .filter_map(|i| sections[i].map(|section| (lengths[i], section.radius)))
+        .collect();
+    lengths
+        .iter()
+        .map(|length| {
+            let after = seen.partition_point(|(at, _)| at < length);
+            match (after.checked_sub(1).and_then(|n| seen.get(n)), seen.get(after)) {
+                (Some((a, low)), Some((b, high))) => low + (high - low) * ((length - a) / (b - a).max(1e-9)),
+                (Some((_, radius)), None) | (None, Some((_, radius))) => *radius,
+                (None, None) => 0.0,
+            }
         })
         .collect()
 }

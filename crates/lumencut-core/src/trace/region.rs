@@ -21,7 +21,7 @@ const LEAST_MEMBERSHIP: f64 = 0.05;
 const LEAST_OF_BRIDGES: f64 = 0.2;
 
 /// How much longer a way is that has no lumen around it than one in the middle of a wide vessel.
-const OFF_MIDDLE: f64 = 1.0;
+const OFF_MIDDLE: f64 = 0.4;
 
 /// The dearest millimetre: that of tissue far from lumen.
 const DEAREST: f64 = (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
@@ -29,8 +29,13 @@ const DEAREST: f64 = (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
 /// The code of a voxel that no way may pass; those of others rise with the cost.
 pub const FORBIDDEN: u8 = 0;
 
-/// A voxel shows no lumen whose membership, and that of its neighbours, is below this on average.
-const WEAK: f64 = 0.2;
+/// A voxel shows no lumen whose membership, and that of its neighbours, is below this on average; it is thin below the
+/// second one.
+pub const WEAK: f64 = 0.2;
+/// See `WEAK`.
+pub const THIN: f64 = 0.75;
+/// From this membership on a voxel lies well within lumen.
+pub const FULL: f64 = 0.9;
 
 /// Whether ways keep to the lumen, or may go through tissue where that is much shorter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +66,6 @@ pub fn costs() -> [f32; 256] {
 fn code_of(cost: f64) -> u8 {
     (1.0 + 254.0 * cost.ln() / DEAREST.ln()).round().clamp(1.0, 255.0) as u8
 }
-
 
 /// A place that no way may pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,16 +121,11 @@ impl Region {
         self.costs_of(voxels, block)[((k % SIDE) * SIDE + j % SIDE) * SIDE + i % SIDE]
     }
 
-    /// From this code on a voxel shows no lumen.
-    pub fn weak_code(&self) -> u8 {
+    /// From this code on the membership is below `limit`.
+    pub fn code_below(&self, limit: f64) -> u8 {
         let least = self.strictness.least_membership();
-        let membership = least + (1.0 - least) * WEAK;
+        let membership = least + (1.0 - least) * limit;
         code_of((1.0 + 0.8 * OFF_MIDDLE) / (membership * membership))
-    }
-
-    /// Whether a voxel shows no lumen.
-    pub fn is_weak(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> bool {
-        self.code_of(voxels, voxel) >= self.weak_code()
     }
 
     /// Forgets the costs of the blocks that a ball touches.
@@ -190,13 +189,14 @@ impl Region {
 
 /// Voxel `n` of the block whose first voxel is `corner`.
 pub fn voxel_of(corner: [i32; 3], n: usize) -> [i32; 3] {
-    [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)].into_iter().zip(corner).fold(
-        ([0; 3], 0),
-        |(mut voxel, a), (step, from)| {
+    [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)]
+        .into_iter()
+        .zip(corner)
+        .fold(([0; 3], 0), |(mut voxel, a), (step, from)| {
             voxel[a] = from + step as i32;
             (voxel, a + 1)
-        },
-    ).0
+        })
+        .0
 }
 
 /// A cube of `WIDE` voxels a side, averaged with these weights along each axis; right where all of them lie within it.

@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use super::cross_section::Probe;
 use super::front::{Found, Front, Reach};
-use super::gaps::{Gap, LONGEST_GAP, gaps, no_lumen, no_way};
-use super::junctions::joined;
+use super::gaps::{Gap, LONGEST_GAP, Line, no_lumen, no_way};
+use super::junctions::{joined, nearest};
 use super::lumen_model::{LumenModel, Surroundings, at};
 use super::refine::{Centerline, refined};
-use super::region::{Region, Stopper, Strictness};
+use super::region::{FULL, Region, Stopper, Strictness, THIN, WEAK};
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind, Result};
 use crate::progress::Progress;
@@ -39,6 +39,8 @@ pub struct Traced {
     pub line: Centerline,
     /// Which points lie on a stretch without lumen that was bridged.
     pub bridged: Vec<bool>,
+    /// The first and the last click.
+    pub ends: [DVec3; 2],
 }
 
 /// The way between two clicks through voxels.
@@ -46,6 +48,21 @@ pub struct Traced {
 struct Way {
     points: Vec<DVec3>,
     gaps: Vec<Gap>,
+}
+
+impl Way {
+    /// Its points, those of gaps put on a straight line: nothing is seen there that could lead it.
+    fn straightened(&self) -> Vec<DVec3> {
+        let mut points = self.points.clone();
+        for gap in &self.gaps {
+            let (first, last) = (gap.points.start.saturating_sub(1), gap.points.end.min(points.len() - 1));
+            let [from, to] = [points[first], points[last]];
+            for i in gap.points.clone() {
+                points[i] = from.lerp(to, (i - first) as f64 / (last - first).max(1) as f64);
+            }
+        }
+        points
+    }
 }
 
 /// Two voxels, from the first to the second.
@@ -153,7 +170,7 @@ impl Tracer {
                 is_open[gap.points.clone()].fill(true);
             }
             let skip = usize::from(!points.is_empty());
-            points.extend(&way.points[skip..]);
+            points.extend(&way.straightened()[skip..]);
             open.extend(&is_open[skip..]);
         }
         let Some(region) = &self.region else { return Err(Error::interrupted()) };
@@ -165,7 +182,7 @@ impl Tracer {
                 *confidence = 0.0;
             }
         }
-        Ok(Traced { line, bridged })
+        Ok(Traced { line, bridged, ends: [clicks[0], clicks[clicks.len() - 1]] })
     }
 
     /// The way between two clicks, as it was or found anew.
@@ -249,8 +266,12 @@ fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
 /// A way through voxels with its gaps.
 fn way_of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Way {
     let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
-    let weak: Vec<bool> = steps.iter().map(|voxel| region.is_weak(voxels, *voxel)).collect();
-    let gaps = gaps(voxels, &region.model, &points, &weak);
+    let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
+    let below = |limit: f64| codes.iter().map(|code| *code >= region.code_below(limit)).collect::<Vec<_>>();
+    let (weak, thin) = (below(WEAK), below(THIN));
+    let full: Vec<bool> = below(FULL).iter().map(|is_below| !is_below).collect();
+    let line = Line::new(voxels, &region.model, &points);
+    let gaps = [line.gaps(&weak), line.crossings(&thin, &full)].concat();
     Way { points, gaps }
 }
 
@@ -271,11 +292,6 @@ fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
     best.1
 }
 
-fn nearest(points: &[DVec3], place: DVec3) -> usize {
-    let distance = |i: &usize| points[*i].distance_squared(place);
-    (0..points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
-}
-
 /// Refuses clicks that no vessel can run through, whatever the volume holds.
 fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
     let wrong = |subject: String, found: String, expected: &str| {
@@ -288,19 +304,32 @@ fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
         }
         for (i, point) in points.iter().enumerate() {
             if !point.is_finite() {
-                return wrong(format!("point {i} of vessel {n}"), format!("{point}"), "finite coordinates (mm, LPS)");
+                return wrong(
+                    format!("point {i} of vessel {n}"),
+                    format!("{point}"),
+                    "finite coordinates (mm, LPS)",
+                );
             }
             if voxels.voxel_at(*point).is_none() {
                 let corner = |c: [f64; 3]| at(voxels.world_from_index.transform_point3(DVec3::from_array(c)));
                 let last = voxels.size.map(|n| n as f64 - 1.0);
-                let expected = format!("a point between its corners {} and {}", corner([0.0; 3]), corner(last));
-                return wrong(format!("point {i} of vessel {n}"), format!("{}, outside the volume", at(*point)), &expected);
+                let expected =
+                    format!("a point between its corners {} and {}", corner([0.0; 3]), corner(last));
+                return wrong(
+                    format!("point {i} of vessel {n}"),
+                    format!("{}, outside the volume", at(*point)),
+                    &expected,
+                );
             }
         }
         let near = 0.5 * voxels.smallest_side;
         if let Some(i) = (1..points.len()).find(|i| points[*i].distance(points[i - 1]) < near) {
             let found = format!("points {} and {i}, both {}", i - 1, at(points[i]));
-            return wrong(format!("points of vessel {n}"), found, "points that differ by more than half a voxel");
+            return wrong(
+                format!("points of vessel {n}"),
+                found,
+                "points that differ by more than half a voxel",
+            );
         }
     }
     for stopper in &clicks.stoppers {
