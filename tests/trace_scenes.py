@@ -70,7 +70,8 @@ class Scene:
         """Paint rings of a stent around a line, one each so many mm."""
         distance, nearest = self.distance(line, np.full(len(line), radius))
         along = np.r_[0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))][nearest.astype(int)]
-        ring = np.abs(distance) < thickness / 2
+        # No caps over the ends.
+        ring = (np.abs(distance) < thickness / 2) & (nearest > 0) & (nearest < len(line) - 1)
         self.values[ring & (along % every < every / 2)] = value
 
     def volume(self, seed: int, noise: float = 20.0) -> Volume:
@@ -122,3 +123,78 @@ def room(line: Floats, spacing: float, margin: float = 12.0) -> tuple[int, int, 
     reach = np.abs(line).max(axis=0) + margin
     ni, nj, nk = (int(n) for n in np.ceil(2 * reach / spacing))
     return ni, nj, nk
+
+
+def beside(line: Floats, distance: float, angle: float, first: float, last: float) -> Floats:
+    """The part of a line from `first` to `last` (mm), moved so many mm across it in the direction of an angle."""
+    ahead = np.gradient(line, axis=0)
+    ahead /= np.linalg.norm(ahead, axis=1)[:, None]
+    u = np.cross(ahead, [0.3, 0.9, 0.1])
+    u /= np.linalg.norm(u, axis=1)[:, None]
+    moved = line + distance * (np.cos(angle) * u + np.sin(angle) * np.cross(ahead, u))
+    along = lengths(line)
+    return moved[(along >= first) & (along <= last)]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene with its truth, and clicks: the ends of the vessel and a point between them."""
+
+    volume: Volume
+    line: Floats
+    radius: Floats
+    clicks: Floats
+    what: str
+
+
+def random_case(seed: int) -> Case:
+    """A vessel among what lies next to vessels, all of it chosen by the seed."""
+    random = np.random.default_rng(seed)
+    spacing = random.uniform(0.5, 0.8)
+    line = _turned(arc(random.uniform(70, 110), bend=random.uniform(20, 80)), random)
+    healthy = random.uniform(1.6, 4.0)
+    percent = random.choice([0, 50, 70, 80])
+    radius = narrowed(line, healthy, float(percent), random.uniform(0.3, 0.7), random.uniform(8, 16))
+    scene = Scene(room(line, spacing, healthy + 9), (spacing,) * 3)
+    scene.values[:] = random.choice([FAT, TISSUE])
+    what = [f"{percent} % stenosis of {2 * healthy:.1f} mm"]
+    end = lengths(line)[-1]
+    angle, first = random.uniform(0, 2 * np.pi), random.uniform(10, end - 50)
+    if random.random() < 0.4:
+        scene.paint(beside(line, healthy + 6, angle, first, first + 30), 6.0, LUMEN + 800)
+        what.append("bone")
+    if random.random() < 0.4:
+        other = angle + np.pi * random.uniform(0.7, 1.3)
+        scene.paint(beside(line, healthy + 1 + 3.5, other, 5, end - 5), 3.5, LUMEN - random.uniform(0, 80))
+        what.append("vein")
+    scene.paint(line, radius, np.linspace(LUMEN, random.uniform(220, LUMEN), len(line)))
+    if random.random() < 0.3:
+        stented = (lengths(line) > first) & (lengths(line) < first + 25)
+        scene.shell(line[stented], healthy, spacing, STENT, 3.0)
+        what.append("stent")
+    volume = scene.volume(seed, random.uniform(10, 30))
+    middle = int(random.uniform(0.4, 0.6) * len(line))
+    clicks = np.array([_off_middle(line, radius, n, random) for n in (8, middle, len(line) - 9)])
+    return Case(volume, line, radius, clicks, ", ".join(what))
+
+
+def _turned(line: Floats, random: np.random.Generator) -> Floats:
+    """A line turned at random, in the middle of its box."""
+    axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    turned: Floats = line @ axes
+    return turned - (turned.min(axis=0) + turned.max(axis=0)) / 2
+
+
+def _off_middle(line: Floats, radius: Floats, n: int, random: np.random.Generator) -> Floats:
+    """A point of the lumen up to half a radius from its middle."""
+    ahead = line[n + 1] - line[n - 1]
+    across = np.cross(ahead, random.normal(size=3))
+    moved: Floats = line[n] + across / np.linalg.norm(across) * random.uniform(0, 0.5) * radius[n]
+    return moved
+
+
+def leaks(points: Floats, case: Case) -> bool:
+    """Whether a traced line leaves the lumen that the vessel would have without its stenosis, or does not reach the ends."""
+    healthy = float(case.radius.max())
+    inner = case.line[10:-10]
+    return bool((away(points, case.line) > healthy).any() or (away(inner, points) > healthy).any())

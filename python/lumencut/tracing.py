@@ -73,6 +73,9 @@ def trace(
     """
     tracer = Tracer(volume, bridge=bridge)
     for vessel, listed in enumerate(_lists(points)):
+        if len(listed) < 2:
+            found = counted(len(listed), "point")
+            raise TracingError(f"points of vessel {vessel}", found, "two or more, in order along the vessel")
         for point in listed:
             tracer.add(point, vessel)
     for stopper in _rows("stoppers", stoppers):
@@ -180,7 +183,7 @@ class Tracer:
         TracingError
             As :func:`trace`; the points stay as they are, and can be changed.
         """
-        lists = [np.array(vessel) for vessel in self._vessels if vessel]
+        lists = [np.array(vessel) for vessel in self._vessels if len(vessel) > 1]
         called = [None] * len(lists) if names is None else list(names)
         if len(called) != len(lists):
             raise TracingError("names", counted(len(called), "name"), f"one for each of {counted(len(lists), 'vessel')}")

@@ -14,6 +14,7 @@ from lumencut.cli.evaluate import evaluate
 from lumencut.cli.info import info
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
+from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
 from lumencut.cli.write_settings import settings
 
@@ -50,5 +51,5 @@ def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
 
 
-for _command in (render, turntable, evaluate, info, settings, demo):
+for _command in (render, turntable, trace, evaluate, info, settings, demo):
     main.add_command(_command)

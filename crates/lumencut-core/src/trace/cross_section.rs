@@ -7,9 +7,6 @@ use glam::DVec3;
 use super::lumen_model::LumenModel;
 use super::voxels::Voxels;
 
-/// The rays of a cross-section.
-const RAYS: usize = 32;
-
 /// How far beyond the wall its outside is looked for (mm).
 const OUTSIDE: f64 = 1.5;
 
@@ -22,7 +19,7 @@ const TWO_SIDED: f64 = 0.25;
 const ROUND: f64 = 0.38;
 
 /// At least this share of the rays must meet a wall.
-const LEAST_RAYS: usize = RAYS * 3 / 8;
+const LEAST_SEEN: f64 = 0.375;
 
 /// The lumen around a point of the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +38,8 @@ pub struct Probe<'a, 'v> {
     pub voxels: &'a Voxels<'v>,
     /// What lumen looks like.
     pub model: &'a LumenModel,
+    /// The number of rays of a cross-section.
+    pub rays: usize,
 }
 
 impl Probe<'_, '_> {
@@ -50,18 +49,18 @@ impl Probe<'_, '_> {
         let step = self.step(guess);
         let lumen = self.local_lumen(center, across, guess)?;
         let reach = guess.map_or(WIDEST, |radius| (2.5 * radius + 2.0).min(WIDEST));
-        let mut wall = Vec::with_capacity(RAYS);
-        for n in 0..RAYS {
-            let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
+        let mut wall = Vec::with_capacity(self.rays);
+        for n in 0..self.rays {
+            let (sin, cos) = (TAU * n as f64 / self.rays as f64).sin_cos();
             if let Some(length) = self.wall(center, across[0] * cos + across[1] * sin, lumen, step, reach) {
                 wall.push([length * cos, length * sin]);
             }
         }
-        if wall.len() < LEAST_RAYS {
+        let seen = wall.len() as f64 / self.rays as f64;
+        if seen < LEAST_SEEN {
             return None;
         }
         let circle = Circle::around(&wall);
-        let seen = wall.len() as f64 / RAYS as f64;
         let rough = circle.spread / circle.radius;
         let trust = seen * (-(rough / 0.25).powi(2)).exp() * circle.roundness(&wall);
         let [x, y] = circle.center;
@@ -97,52 +96,63 @@ impl Probe<'_, '_> {
 
     /// The distance to the wall along a ray: where the value is half way between the lumen here and what lies outside,
     /// be that darker or brighter.
-    fn wall(&self, center: DVec3, ray: DVec3, lumen: f64, step: f64, reach: f64) -> Option<f64> {
+    fn wall(&self, center: DVec3, direction: DVec3, lumen: f64, step: f64, reach: f64) -> Option<f64> {
         let start = self.voxels.index_from_world.transform_point3(center);
-        let stride = self.voxels.index_from_world.transform_vector3(ray) * step;
-        let value = |n: usize| f64::from(self.voxels.at_index(start + stride * n as f64));
+        let stride = self.voxels.index_from_world.transform_vector3(direction) * step;
+        let mut ray = Ray { voxels: self.voxels, start, stride, values: Vec::with_capacity(64) };
         let contrast = lumen - self.model.tissue;
         let dark = lumen - 0.5 * contrast;
         let bright = lumen + (0.5 * contrast).max(4.0 * self.model.noise);
-        let last = (reach / step) as usize;
         // The ray has left the lumen where two samples say so; beyond the volume there is none.
         let leaves = |v: f64| !(v >= dark && v <= bright);
-        let mut here = value(0);
-        let mut out = None;
-        for n in 1..=last {
-            let next = value(n);
-            if leaves(here) && leaves(next) {
-                out = Some(n - 1);
-                break;
-            }
-            here = next;
-        }
-        let out = out?;
-        if value(out).is_nan() {
+        let last = (reach / step) as usize;
+        let out = (1..=last).find(|n| leaves(ray.value(*n)) && leaves(ray.value(n - 1)))? - 1;
+        let edge = ray.value(out);
+        if edge.is_nan() {
             return None;
         }
-        let beyond: Vec<f64> = (out..=out + (OUTSIDE / step).ceil() as usize).map(value).collect();
-        let is_dark = value(out) < dark;
-        let outside = extreme(&beyond, is_dark);
+        let beyond = out + (OUTSIDE / step).ceil() as usize;
+        let is_dark = edge < dark;
+        let outside = ray.extreme(out, beyond, is_dark);
         let half = f64::midpoint(lumen, outside);
         let is_out = |v: f64| if is_dark { v < half } else { v > half };
         // From within the lumen outwards: the last sample inside, and the first one outside.
-        let begin = (0..=out).rev().find(|n| !is_out(value(*n)))?;
-        let mut n = begin;
-        while n < out + beyond.len() && !is_out(value(n + 1)) {
+        let mut n = (0..=out).rev().find(|n| !is_out(ray.value(*n)))?;
+        while n < beyond && !is_out(ray.value(n + 1)) {
             n += 1;
         }
-        let (inside, outside) = (value(n), value(n + 1));
+        let (inside, outside) = (ray.value(n), ray.value(n + 1));
         let share =
             if outside == inside { 0.5 } else { ((half - inside) / (outside - inside)).clamp(0.0, 1.0) };
         share.is_finite().then_some((n as f64 + share) * step)
     }
 }
 
-/// The darkest or brightest of the first values that go on falling or rising, numbers alone.
-fn extreme(values: &[f64], is_dark: bool) -> f64 {
-    let finite = values.iter().copied().filter(|v| v.is_finite());
-    if is_dark { finite.fold(f64::MAX, f64::min) } else { finite.fold(f64::MIN, f64::max) }
+/// How many samples of a ray are taken at a time.
+const SAMPLES: usize = 8;
+
+/// The samples of a ray, taken where they are first needed.
+struct Ray<'a, 'v> {
+    voxels: &'a Voxels<'v>,
+    start: DVec3,
+    stride: DVec3,
+    values: Vec<f32>,
+}
+
+impl Ray<'_, '_> {
+    fn value(&mut self, n: usize) -> f64 {
+        while n >= self.values.len() {
+            self.voxels.along(self.start, self.stride, SAMPLES, &mut self.values);
+        }
+        f64::from(self.values[n])
+    }
+
+    /// The darkest or brightest of some samples, numbers alone.
+    fn extreme(&mut self, first: usize, last: usize, is_dark: bool) -> f64 {
+        self.value(last);
+        let finite = self.values[first..=last].iter().map(|v| f64::from(*v)).filter(|v| v.is_finite());
+        if is_dark { finite.fold(f64::MAX, f64::min) } else { finite.fold(f64::MIN, f64::max) }
+    }
 }
 
 /// A circle among points of a plane.

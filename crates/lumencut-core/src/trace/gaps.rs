@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::lumen_model::{LumenModel, at};
 use super::path::arc_lengths;
+use super::region::Stopper;
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind};
 
@@ -14,10 +15,11 @@ pub const LONGEST_GAP: f64 = 5.0;
 const LONGEST_TURN: f64 = 1.2;
 
 /// The thickest wall between two vessels that a way might cross unseen (mm).
-const LONGEST_WALL: f64 = 3.0;
+const LONGEST_WALL: f64 = 5.0;
 
 /// A turn within a gap: the cosine between the vessel before or after it and the gap itself.
 const SAME_DIRECTION: f64 = 0.6;
+const CROSSING: f64 = 0.8;
 
 /// How far before and after a gap the direction of the vessel is looked at (mm).
 const BESIDE: f64 = 5.0;
@@ -35,6 +37,17 @@ pub struct Gap {
     pub value: f32,
     /// Whether it is too long to be passed.
     pub is_open: bool,
+}
+
+impl Gap {
+    /// Whether the straight line over the gap passes a stopper.
+    pub fn passes(&self, way: &[DVec3], stopper: &Stopper) -> bool {
+        let (from, to) = (way[self.points.start.saturating_sub(1)], way[self.points.end.min(way.len() - 1)]);
+        let across = to - from;
+        let share =
+            ((stopper.center - from).dot(across) / across.length_squared().max(1e-12)).clamp(0.0, 1.0);
+        (from + across * share).distance(stopper.center) < stopper.radius
+    }
 }
 
 /// A way, to look for gaps in it.
@@ -62,7 +75,9 @@ impl<'a, 'v> Line<'a, 'v> {
     pub fn crossings(&self, thin: &[bool], full: &[bool]) -> Vec<Gap> {
         let short = stretches(thin).into_iter().map(|points| self.gap(points));
         let crossings = short.filter(|gap| {
-            gap.length < LONGEST_WALL && self.turns(gap) == [true, true] && self.is_between_lumen(gap, full)
+            gap.length < LONGEST_WALL
+                && self.turns(gap, CROSSING) == [true, true]
+                && self.is_between_lumen(gap, full)
         });
         crossings.map(|gap| Gap { is_open: true, ..gap }).collect()
     }
@@ -82,7 +97,8 @@ impl<'a, 'v> Line<'a, 'v> {
         let weakest = points.clone().min_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(points.start);
         let mut gap =
             Gap { points, length, place: self.way[weakest], value: value_of(weakest), is_open: false };
-        let limit = if self.turns(&gap) == [false, false] { LONGEST_GAP } else { LONGEST_TURN };
+        let limit =
+            if self.turns(&gap, SAME_DIRECTION) == [false, false] { LONGEST_GAP } else { LONGEST_TURN };
         gap.is_open = length > limit;
         gap
     }
@@ -93,14 +109,14 @@ impl<'a, 'v> Line<'a, 'v> {
     }
 
     /// Whether the vessel runs in another direction than the gap, before it and after it.
-    fn turns(&self, gap: &Gap) -> [bool; 2] {
+    fn turns(&self, gap: &Gap, least: f64) -> [bool; 2] {
         let (way, lengths) = (self.way, &self.lengths);
         let (before, after) = self.beside(&gap.points);
         let first = lengths.partition_point(|l| *l < lengths[before] - BESIDE);
         let last = lengths.partition_point(|l| *l <= lengths[after] + BESIDE) - 1;
         let across = (way[after] - way[before]).normalize_or_zero();
         let turns = |from: usize, to: usize| {
-            from != to && (way[to] - way[from]).normalize_or_zero().dot(across) < SAME_DIRECTION
+            from != to && (way[to] - way[from]).normalize_or_zero().dot(across) < least
         };
         [turns(first, before), turns(after, last)]
     }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::path::arc_lengths;
-use super::refine::Centerline;
+use super::refine::{Centerline, STEP};
 use super::tracer::Traced;
 use crate::error::{Error, ErrorKind, Result};
 
@@ -150,7 +150,7 @@ impl Traced {
 
     /// The same line with even steps, and its ends where they were.
     fn in_even_steps(self) -> Self {
-        let line = self.line.resampled();
+        let line = self.line.resampled(STEP);
         let bridged =
             line.points.iter().map(|point| self.bridged[nearest(&self.line.points, *point)]).collect();
         Self { line, bridged, ..self }

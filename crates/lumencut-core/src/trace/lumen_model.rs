@@ -20,6 +20,9 @@ const BONE: f64 = 900.0;
 /// The contrast of one click may be so many times that of another one as contrast medium fades.
 const MOST_TIMES: f64 = 3.5;
 
+/// The lumen of a model has at least this part of the contrast that the clicks have as a rule.
+const LEAST_PART: f64 = 0.6;
+
 /// What muscle, wall and blood without contrast medium have at least (HU).
 const LEAST_TISSUE: f64 = 50.0;
 
@@ -108,12 +111,24 @@ impl Surroundings {
         for (click, value) in clicks.iter().zip(&values) {
             self.check(voxels, *click, *value, self.mistaken(*value))?;
         }
-        let model = model_of(&lumens, self);
         let usual = lower_median(lumens.iter().map(|lumen| lumen[0]).collect());
         for (i, click) in clicks.iter().enumerate() {
             self.check(voxels, *click, values[i], self.unlike(lumens[i], usual))?;
         }
-        Ok(model)
+        Ok(self.model_of(&lumens, usual))
+    }
+
+    fn model_of(&self, lumens: &[[f64; 2]], usual: f64) -> LumenModel {
+        let of = |n: usize| lumens.iter().map(move |lumen| lumen[n]);
+        // A click into the throat of a stenosis hits the tissue beside it too.
+        let least = self.tissue + LEAST_PART * (usual - self.tissue);
+        LumenModel {
+            tissue: self.tissue,
+            low: of(0).fold(f64::MAX, f64::min).max(least),
+            high: of(0).fold(f64::MIN, f64::max),
+            noise: of(1).fold(0.0, f64::max),
+            is_hounsfield: self.is_hounsfield,
+        }
     }
 
     /// Refuses a click that lies in no lumen, and says what it lies in.
@@ -150,7 +165,7 @@ impl Surroundings {
     /// What a click hit that is unlike the lumen that the others hit as a rule, or no brighter than tissue.
     fn unlike(&self, [lumen, noise]: [f64; 2], usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
-        let least = self.tissue + (0.15 * (self.bright - self.tissue)).max(0.3 * contrast).max(2.5 * noise);
+        let least = self.tissue + (0.3 * contrast).max(2.5 * noise);
         if lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
             return Some((
                 "bone, metal or calcium",
@@ -178,17 +193,6 @@ impl Surroundings {
             voxels.ball(place, 1.75 * voxels.smallest_side).iter().all(|(_, value)| is_bright(*value))
         };
         near.iter().map(|(place, _)| *place).find(|place| is_lumen(*place))
-    }
-}
-
-fn model_of(lumens: &[[f64; 2]], around: &Surroundings) -> LumenModel {
-    let of = |n: usize| lumens.iter().map(move |lumen| lumen[n]);
-    LumenModel {
-        tissue: around.tissue,
-        low: of(0).fold(f64::MAX, f64::min),
-        high: of(0).fold(f64::MIN, f64::max),
-        noise: of(1).fold(0.0, f64::max),
-        is_hounsfield: around.is_hounsfield,
     }
 }
 

@@ -3,7 +3,9 @@
 use glam::DVec3;
 
 use super::cross_section::{CrossSection, Probe};
+use super::lumen_model::LumenModel;
 use super::path::{arc_lengths, directions, frames, resampled, resampled_values, smoothed};
+use super::voxels::Voxels;
 use crate::error::Result;
 use crate::stop::{Stop, go_on};
 use rayon::prelude::*;
@@ -11,11 +13,14 @@ use rayon::prelude::*;
 /// Points of the result are at most so far apart (mm).
 pub const STEP: f64 = 0.5;
 
-/// How often the line moves to the middle.
-const ROUNDS: usize = 4;
+/// The rounds in which the line moves to the middle: how far its points are apart (mm), and with how many rays each looks.
+const ROUNDS: [(f64, usize); 4] = [(1.0, 16), (1.0, 16), (STEP, 24), (STEP, 24)];
 
 /// The width of the smoothing along the line (mm): as much as an average over 1 mm takes of noise.
 const SMOOTHING: f64 = 1.5;
+
+/// How far before and after a cross-section others are that should have about its radius (mm).
+const BESIDE: f64 = 1.75;
 
 /// A cross-section that is trusted less was not seen.
 const LEAST_TRUST: f64 = 0.1;
@@ -35,15 +40,15 @@ pub struct Centerline {
 }
 
 impl Centerline {
-    /// The same line in even steps; its ends stay to the bit.
-    pub fn resampled(&self) -> Self {
-        let mut points = resampled(&self.points, STEP);
+    /// The same line in even steps of at most `step` (mm); its ends stay to the bit.
+    pub fn resampled(&self, step: f64) -> Self {
+        let mut points = resampled(&self.points, step);
         let last = points.len() - 1;
         (points[0], points[last]) = (self.points[0], self.points[self.points.len() - 1]);
         Self {
             points,
-            radius: resampled_values(&self.points, &self.radius, STEP),
-            confidence: resampled_values(&self.points, &self.confidence, STEP),
+            radius: resampled_values(&self.points, &self.radius, step),
+            confidence: resampled_values(&self.points, &self.confidence, step),
         }
     }
 }
@@ -52,17 +57,15 @@ impl Centerline {
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
-pub fn refined(probe: &Probe, way: &[DVec3], stop: Stop) -> Result<Centerline> {
-    let mut line = Centerline {
-        points: resampled(&resampled(way, 2.0 * STEP), STEP),
-        radius: Vec::new(),
-        confidence: Vec::new(),
-    };
-    for round in 0..ROUNDS {
+pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -> Result<Centerline> {
+    let points = resampled(way, 2.0 * STEP);
+    let mut line =
+        Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
+    for (round, (step, rays)) in ROUNDS.into_iter().enumerate() {
         go_on(stop)?;
-        line = moved(probe, &line, round);
+        line = moved(&Probe { voxels, model, rays }, &line.resampled(step), round);
     }
-    Ok(line)
+    Ok(line.resampled(STEP))
 }
 
 /// The line one round nearer to the middle.
@@ -78,7 +81,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
             probe.look(points[i], across[i], guess)
         })
         .collect();
-    let medians = medians(&sections, 3);
+    let medians = medians(&sections, &lengths);
     let trust: Vec<f64> =
         sections.iter().zip(&medians).map(|(section, median)| trust_of(section, *median)).collect();
     let radii = filled(&sections, &trust, &lengths);
@@ -95,7 +98,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let smooth = smoothed(&lengths, &values, &weights, |i| SMOOTHING.max(wide * values[i][3]));
     let moved: Vec<DVec3> = smooth.iter().map(|v| DVec3::new(v[0], v[1], v[2])).collect();
     let radius: Vec<f64> = smooth.iter().map(|v| v[3].max(0.0)).collect();
-    Centerline { points: moved, radius, confidence: trust }.resampled()
+    Centerline { points: moved, radius, confidence: trust }
 }
 
 /// How much a cross-section counts: little where its radius is far from those around it.
@@ -106,10 +109,12 @@ fn trust_of(section: &Option<CrossSection>, median: Option<f64>) -> f64 {
 }
 
 /// The median radius of the sections around each, where any was seen well.
-fn medians(sections: &[Option<CrossSection>], reach: usize) -> Vec<Option<f64>> {
+fn medians(sections: &[Option<CrossSection>], lengths: &[f64]) -> Vec<Option<f64>> {
     (0..sections.len())
         .map(|i| {
-            let around = &sections[i.saturating_sub(reach)..(i + reach + 1).min(sections.len())];
+            let first = lengths.partition_point(|length| *length < lengths[i] - BESIDE);
+            let end = lengths.partition_point(|length| *length <= lengths[i] + BESIDE);
+            let around = &sections[first..end];
             let seen = around.iter().flatten().filter(|section| section.trust > LEAST_TRUST);
             let mut radii: Vec<f64> = seen.map(|section| section.radius).collect();
             radii.sort_unstable_by(f64::total_cmp);

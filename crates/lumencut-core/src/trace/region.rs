@@ -23,8 +23,11 @@ const LEAST_OF_BRIDGES: f64 = 0.2;
 /// How much longer a way is that has no lumen around it than one in the middle of a wide vessel.
 const OFF_MIDDLE: f64 = 0.4;
 
+/// How much longer a way is through the wall between two vessels.
+const WALL: f64 = 15.0;
+
 /// The dearest millimetre: that of tissue far from lumen.
-const DEAREST: f64 = (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
+const DEAREST: f64 = (1.0 + WALL) * (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
 
 /// The code of a voxel that no way may pass; those of others rise with the cost.
 pub const FORBIDDEN: u8 = 0;
@@ -163,7 +166,8 @@ impl Region {
                     let from = ((k + HALO) * WIDE + j + HALO) * WIDE + i + HALO;
                     let membership = least + (1.0 - least) * f64::from(near[from]);
                     let off_middle = OFF_MIDDLE.mul_add(1.0 - f64::from(wide[from]), 1.0);
-                    codes[(k * SIDE + j) * SIDE + i] = code_of(off_middle / (membership * membership));
+                    let wall = WALL.mul_add(wall_between(&near, from), 1.0);
+                    codes[(k * SIDE + j) * SIDE + i] = code_of(wall * off_middle / (membership * membership));
                 }
             }
         }
@@ -198,6 +202,52 @@ pub fn voxel_of(corner: [i32; 3], n: usize) -> [i32; 3] {
         })
         .0
 }
+
+/// How much a voxel lies in a wall between two lumens, 0 to 1: darker than both its neighbours in one direction, and not
+/// brighter than those in the two directions across, as the throat of a stenosis is.
+fn wall_between(shares: &[f32], at: usize) -> f64 {
+    let share = f64::from(shares[at]);
+    if !(0.1..0.95).contains(&share) {
+        return 0.0;
+    }
+    let strides = [1, WIDE, WIDE * WIDE];
+    let value = |n: usize| f64::from(shares[n]);
+    let mut bends = [[0.0; 3]; 3];
+    for a in 0..3 {
+        bends[a][a] = value(at + strides[a]) + value(at - strides[a]) - 2.0 * share;
+        for b in 0..a {
+            let (plus, minus) = (strides[a] + strides[b], strides[a] - strides[b]);
+            let across = value(at + plus) + value(at - plus) - value(at + minus) - value(at - minus);
+            (bends[a][b], bends[b][a]) = (across / 4.0, across / 4.0);
+        }
+    }
+    let [most, middle, _] = eigenvalues(bends);
+    let is_throat = middle < -THROAT * most;
+    if most <= 0.0 || is_throat { 0.0 } else { (most / DIP).min(1.0) }
+}
+
+/// The eigenvalues of a symmetric matrix, falling.
+fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
+    let mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
+    let mut square = 2.0 * (m[0][1].powi(2) + m[0][2].powi(2) + m[1][2].powi(2));
+    square += (0..3).map(|a| (m[a][a] - mean).powi(2)).sum::<f64>();
+    let size = (square / 6.0).sqrt();
+    if size < 1e-9 {
+        return [mean; 3];
+    }
+    let unit = |a: usize, b: usize| (m[a][b] - if a == b { mean } else { 0.0 }) / size;
+    let matrix =
+        glam::DMat3::from_cols_array_2d(&std::array::from_fn(|a| std::array::from_fn(|b| unit(a, b))));
+    let angle = (matrix.determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
+    let first = mean + 2.0 * size * angle.cos();
+    let last = mean + 2.0 * size * (angle + std::f64::consts::TAU / 3.0).cos();
+    [first, 3.0 * mean - first - last, last]
+}
+
+/// A wall is this much darker than its neighbours on both sides (membership, twice), and its curvature along it at least
+/// this part of that across it where it is none but a throat.
+const DIP: f64 = 0.1;
+const THROAT: f64 = 0.3;
 
 /// A cube of `WIDE` voxels a side, averaged with these weights along each axis; right where all of them lie within it.
 fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::cross_section::Probe;
 use super::front::{Found, Front, Reach};
 use super::gaps::{Gap, LONGEST_GAP, Line, no_lumen, no_way};
 use super::junctions::{joined, nearest};
@@ -174,8 +173,7 @@ impl Tracer {
             open.extend(&is_open[skip..]);
         }
         let Some(region) = &self.region else { return Err(Error::interrupted()) };
-        let probe = Probe { voxels: search.voxels, model: &region.model };
-        let mut line = refined(&probe, &points, search.stop)?;
+        let mut line = refined(search.voxels, &region.model, &points, search.stop)?;
         let bridged: Vec<bool> = line.points.iter().map(|point| open[nearest(&points, *point)]).collect();
         for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
             if *is_bridged {
@@ -271,7 +269,11 @@ fn way_of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Way {
     let (weak, thin) = (below(WEAK), below(THIN));
     let full: Vec<bool> = below(FULL).iter().map(|is_below| !is_below).collect();
     let line = Line::new(voxels, &region.model, &points);
-    let gaps = [line.gaps(&weak), line.crossings(&thin, &full)].concat();
+    let mut gaps = [line.gaps(&weak), line.crossings(&thin, &full)].concat();
+    for gap in &mut gaps {
+        // A way around a stopper through tissue is none.
+        gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
+    }
     Way { points, gaps }
 }
 

@@ -11,6 +11,8 @@ pub trait VoxelSource: Sync {
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
     /// The value at a continuous index, trilinear; NaN more than half a voxel beyond the outermost centres.
     fn at(&self, index: DVec3) -> f32;
+    /// Appends `count` values at steps of `stride` from `start` on, counted on from those that are there.
+    fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>);
 }
 
 /// A volume as tracing reads it: its voxels and the way from them to the world and back.
@@ -54,6 +56,11 @@ impl<'a> Voxels<'a> {
     /// The value at a continuous index, trilinear; NaN outside.
     pub fn at_index(&self, index: DVec3) -> f32 {
         self.source.at(index)
+    }
+
+    /// Appends values along a line in index space, as [`VoxelSource::along`] does.
+    pub fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {
+        self.source.along(start, stride, count, values);
     }
 
     /// The voxel nearest to a world position, where one is there.
@@ -131,6 +138,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
         }
     }
 
+    #[inline]
     fn at(&self, index: DVec3) -> f32 {
         let mut offset = 0;
         let mut step = [0; 3];
@@ -151,5 +159,10 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
         let line = |n: usize| value(n) + (value(n + step[0]) - value(n)) * weight[0];
         let plane = |n: usize| line(n) + (line(n + step[1]) - line(n)) * weight[1];
         plane(offset) + (plane(offset + step[2]) - plane(offset)) * weight[2]
+    }
+
+    fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {
+        let first = values.len();
+        values.extend((first..first + count).map(|n| self.at(start + stride * n as f64)));
     }
 }

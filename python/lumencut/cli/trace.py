@@ -1,0 +1,183 @@
+"""``lumencut trace``: centerlines from points along vessels."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from lumencut.cli import options
+from lumencut.cli.mistakes import check_reading
+from lumencut.cli.options import FILE
+from lumencut.cli.parameters import VECTOR
+from lumencut.cli.report import bar, busy, detail, say, verbose_option
+from lumencut.cli.scene import volume_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+    Points = npt.NDArray[np.float64]
+
+
+@click.command(short_help="Trace centerlines from points along vessels.")
+@click.argument("volume", type=FILE)
+@click.option(
+    "--point",
+    type=VECTOR,
+    multiple=True,
+    help="A point in the vessel (mm, LPS); two or more in order along one vessel.",
+)
+@click.option(
+    "--index",
+    type=VECTOR,
+    multiple=True,
+    metavar="I,J,K",
+    help="The same as indices of voxels, from 0, in place of --point.",
+)
+@click.option(
+    "--points",
+    type=FILE,
+    multiple=True,
+    help="A file of points: .mrk.json, .fcsv, .csv or another format of centerlines, each line of it a vessel; "
+    "may be repeated.",
+)
+@click.option(
+    "--stopper", type=VECTOR, multiple=True, help="A place that no vessel may pass (mm, LPS); may be repeated."
+)
+@click.option(
+    "--stopper-radius",
+    type=click.FloatRange(min=0, min_open=True),
+    default=3.0,
+    show_default=True,
+    metavar="MM",
+    help="How far around a stopper is forbidden.",
+)
+@click.option("--ras", is_flag=True, help="Points and stoppers of this command line are in RAS, not LPS.")
+@click.option(
+    "--bridge", is_flag=True, help="Go on where no lumen is to be seen, as in an occlusion; marked as not sure."
+)
+@click.option(
+    "-o",
+    "--output",
+    type=FILE,
+    required=True,
+    help="The centerlines (mm, LPS): .vtp, .vtk, .mrk.json, .csv or .swc.",
+)
+@click.option("--preview", type=FILE, help="A picture of the result from the front, such as preview.png.")
+@options.series_option
+@options.phase_option
+@options.fill_gaps_option
+@options.resample_slices_option
+@options.device_option
+@options.threads_option
+@verbose_option
+def trace(
+    volume: Path,
+    output: Path,
+    preview: Path | None,
+    bridge: bool,
+    device: Literal["auto", "cpu", "gpu"],
+    **chosen: Any,
+) -> None:
+    """Trace the centerlines of vessels in VOLUME from two or more points along each.
+
+    The points need not be central. All --point are one vessel; files of --points may hold several, which join
+    where they meet. Points are at most 0.5 mm apart in the result, with the radius of the lumen and with how
+    sure each point is.
+
+    \b
+    lumencut trace ct.nii.gz --point 12,-30,85 --point 8,-41,-20 -o aorta.vtp --preview aorta.png
+    lumencut trace dicom/ --points vessels.mrk.json --stopper 20,-35,40 -o lines.vtp
+    """  # noqa: D301 - click needs the control character itself
+    _check(volume, output, preview, chosen)
+    voxels = volume_of(volume, chosen)
+    tree = _traced(voxels, chosen, bridge=bridge)
+    from lumencut.centerline_writers import write_centerlines
+
+    with busy(f"writing {output.name}"):
+        write_centerlines(tree, output)
+    for vessel in tree:
+        detail(f"{vessel!r}, radius {_mean(vessel.radius):.2f} mm, confidence {_mean(vessel.confidence):.2f}")
+    say(f"{output}: {tree!r}, {sum(vessel.length for vessel in tree):.1f} mm")
+    if preview is not None:
+        _render(voxels, tree, preview, device)
+
+
+def _check(volume: Path, output: Path, preview: Path | None, chosen: dict[str, Any]) -> None:
+    """Refuse what a user cannot mean before any voxel is read."""
+    given = [name for name in ("point", "index", "points") if chosen[name]]
+    if not given:
+        raise click.UsageError("found no points; expected --point, --index or --points along a vessel")
+    if {"point", "index"} <= set(given):
+        raise click.UsageError("found --point and --index; expected one of them, whose order is that of the vessel")
+    for name in ("point", "index"):
+        if len(chosen[name]) == 1:
+            raise click.UsageError(f"found one --{name}; expected two or more in order along the vessel")
+    if chosen["ras"] and not (chosen["point"] or chosen["stopper"]):
+        raise click.UsageError("--ras without --point or --stopper does nothing: files state their own space")
+    check_reading({"coordinates": None, "unit": None, **chosen}, [volume], has_centerlines=True)
+    options.check_folder(output)
+    if preview is not None:
+        options.check_picture(preview)
+
+
+def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTree:
+    from lumencut.tracing import trace
+
+    lists, names = _vessels(voxels, chosen)
+    with bar("tracing", "share") as told:
+        return trace(
+            voxels,
+            lists,
+            _in_lps(chosen["stopper"], chosen),
+            stopper_radius=chosen["stopper_radius"],
+            bridge=bridge,
+            names=names,
+            progress=told,
+        )
+
+
+def _vessels(voxels: Volume, chosen: dict[str, Any]) -> tuple[list[Points], list[str | None]]:
+    """The points of each vessel (mm, LPS), and their names."""
+    import numpy as np
+
+    lists: list[Points] = []
+    names: list[str | None] = []
+    if chosen["point"]:
+        lists.append(_in_lps(chosen["point"], chosen))
+    if chosen["index"]:
+        affine = voxels.world_from_index
+        lists.append(np.array(chosen["index"]) @ affine[:3, :3].T + affine[:3, 3])
+    names += [None] * len(lists)
+    if chosen["points"]:
+        from lumencut.centerlines import read_centerlines
+
+        for vessel in read_centerlines(list(chosen["points"]), volume=voxels):
+            lists.append(vessel.points)
+            names.append(vessel.name)
+    return lists, names
+
+
+def _in_lps(points: tuple[tuple[float, ...], ...], chosen: dict[str, Any]) -> Points:
+    import numpy as np
+
+    signs = (-1.0, -1.0, 1.0) if chosen["ras"] else (1.0, 1.0, 1.0)
+    return np.array(points, dtype=np.float64).reshape(-1, 3) * signs
+
+
+def _mean(numbers: Points | None) -> float:
+    return float("nan") if numbers is None else float(numbers.mean())
+
+
+def _render(voxels: Volume, tree: VesselTree, path: Path, device: Literal["auto", "cpu", "gpu"]) -> None:
+    from lumencut.renderer import Renderer
+
+    with bar("rendering", "share") as told:
+        frame = Renderer(voxels, tree, device).render(progress=told)
+    frame.save(path)
+    say(str(path))
