@@ -342,7 +342,9 @@ def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("command", ["", "render", "turntable", "trace", "evaluate", "info", "settings", "demo"])
+@pytest.mark.parametrize(
+    "command", ["", "render", "turntable", "trace", "evaluate", "info", "settings", "demo"]
+)
 def test_help_imports_nothing_heavy(command):
     code = (
         "import sys; from lumencut.cli import main; main(sys.argv[1:], standalone_mode=False); "

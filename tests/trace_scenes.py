@@ -1,7 +1,8 @@
-"""Vessels made from formulas among bone, veins, stents and plaque, with seeded noise, to trace centerlines in."""
+"""Vessels made from formulas among bone, veins and stents, with seeded noise, to trace centerlines in."""
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -31,7 +32,7 @@ class Scene:
         self.affine[:3, 3] = -self.affine[:3, :3] @ (np.asarray(self.size) - 1) / 2
 
     def distance(self, line: Floats, radius: Floats) -> tuple[Floats, Floats]:
-        """The signed distance of every voxel from the surface of a tube (mm), and where along it the nearest point is."""
+        """The signed distance of voxels from a tube's surface (mm), and the nearest point of its line."""
         inverse = np.linalg.inv(self.affine)
         found = np.full(self.size[::-1], 1e3)
         nearest = np.zeros(self.size[::-1])
@@ -111,7 +112,7 @@ def narrowed(line: Floats, radius: float, percent: float, at: float = 0.5, lengt
 def away(points: Floats, line: Floats) -> Floats:
     """The distance of each point from a line (mm)."""
     found = np.full(len(points), np.inf)
-    for a, b in zip(line[:-1], line[1:], strict=True):
+    for a, b in itertools.pairwise(line):
         ab = b - a
         t = np.clip((points - a) @ ab / max(ab @ ab, 1e-12), 0, 1)
         found = np.minimum(found, np.linalg.norm(points - a - t[:, None] * ab, axis=1))
@@ -126,7 +127,7 @@ def room(line: Floats, spacing: float, margin: float = 12.0) -> tuple[int, int, 
 
 
 def beside(line: Floats, distance: float, angle: float, first: float, last: float) -> Floats:
-    """The part of a line from `first` to `last` (mm), moved so many mm across it in the direction of an angle."""
+    """The part of a line from `first` to `last` (mm), moved so many mm across it at an angle."""
     ahead = np.gradient(line, axis=0)
     ahead /= np.linalg.norm(ahead, axis=1)[:, None]
     u = np.cross(ahead, [0.3, 0.9, 0.1])
@@ -194,7 +195,7 @@ def _off_middle(line: Floats, radius: Floats, n: int, random: np.random.Generato
 
 
 def leaks(points: Floats, case: Case) -> bool:
-    """Whether a traced line leaves the lumen that the vessel would have without its stenosis, or does not reach the ends."""
+    """Whether a traced line leaves the healthy vessel, or does not follow it from end to end."""
     healthy = float(case.radius.max())
     inner = case.line[10:-10]
     return bool((away(points, case.line) > healthy).any() or (away(inner, points) > healthy).any())

@@ -27,9 +27,10 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
       no names, and a reader has a branch from each forking to the next. Unknown radii are 0. The format
       states no space: read it with ``coordinates="lps"``.
 
-    The confidence of traced vessels is written too, for other programs, as the array of points ``Confidence``,
-    the measurement ``Confidence`` or the column ``confidence``; points of other vessels beside them have 1, and
-    bridged points have 0. ``.swc`` has no place for it, and `read_centerlines` does not read it.
+    The confidence of traced vessels is written too, for other programs: as the array of points
+    ``Confidence``, the measurement ``Confidence`` or the column ``confidence``. Points of other vessels
+    beside them have 1, bridged points have 0. ``.swc`` has no place for it, and `read_centerlines` does not
+    read it.
 
     Parameters
     ----------

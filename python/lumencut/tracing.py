@@ -51,8 +51,9 @@ def trace(
     stopper_radius : float, default 3.0
         How far around a stopper is forbidden (mm).
     bridge : bool, default False
-        Whether vessels may go on where no lumen is to be seen, as in an occlusion. Without it a stretch of more
-        than 5 mm is an error, and of more than 1.2 mm where the vessel does not go on in the same direction.
+        Whether vessels may go on where no lumen is to be seen, as in an occlusion. Without it a stretch of
+        more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not go on in the same
+        direction.
     names : sequence of str or None, optional
         The names of the vessels.
     progress : callable, optional
@@ -86,9 +87,10 @@ def trace(
 class Tracer:
     """Centerlines of one volume that follow points and stoppers as they are added, moved and removed.
 
-    Asked for its :attr:`tree` after a change it traces again what lies next to the change and keeps the rest.
-    Lines may differ from those of :func:`trace` by small parts of a voxel, because what lumen looks like is not
-    judged anew as long as all points fit. Changes must not come from several threads at a time.
+    Asked for its :attr:`tree` after a change, it finds the ways between points next to the change again and
+    keeps those of all other points. Lines may differ from those of :func:`trace` by small parts of a voxel:
+    what lumen looks like is not judged anew as long as all points fit. Changes must not come from several
+    threads at a time.
 
     Parameters
     ----------
@@ -164,7 +166,9 @@ class Tracer:
 
     def stop(self, point: npt.ArrayLike, radius: float = 3.0) -> int:
         """Forbid what lies within a radius (mm) of a place (mm, LPS); return the stopper's index."""
-        self._stoppers.append((_place("stopper", point), number(TracingError, "radius of the stopper", radius)))
+        self._stoppers.append(
+            (_place("stopper", point), number(TracingError, "radius of the stopper", radius))
+        )
         self._tree = None
         return len(self._stoppers) - 1
 
@@ -186,7 +190,9 @@ class Tracer:
         lists = [np.array(vessel) for vessel in self._vessels if len(vessel) > 1]
         called = [None] * len(lists) if names is None else list(names)
         if len(called) != len(lists):
-            raise TracingError("names", counted(len(called), "name"), f"one for each of {counted(len(lists), 'vessel')}")
+            raise TracingError(
+                "names", counted(len(called), "name"), f"one for each of {counted(len(lists), 'vessel')}"
+            )
         if self._tree is None:
             if not lists:
                 raise TracingError("points", "none", "two or more points along a vessel")
@@ -220,7 +226,9 @@ def _lists(points: Any) -> list[_Points]:
     try:
         several = list(points)
     except TypeError as error:
-        raise TracingError("points", type(points).__name__, "points of shape (n, 3), or a list of them") from error
+        raise TracingError(
+            "points", type(points).__name__, "points of shape (n, 3), or a list of them"
+        ) from error
     return [_rows(f"points of vessel {n}", listed) for n, listed in enumerate(several)]
 
 

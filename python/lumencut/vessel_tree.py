@@ -190,9 +190,7 @@ class VesselTree(Value):
         """
         made = _lumencut.smoothed(self._arrays(), number(SettingsError, "centerline_smoothing", radii))
         smoothed = VesselTree(
-            Vessel(
-                points, vessel.radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged
-            )
+            Vessel(points, vessel.radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
             for points, vessel in zip(made, self._vessels, strict=True)
         )
         smoothed._space_settled = self._space_settled
@@ -330,6 +328,8 @@ def _marks(bridged: Any, count: int) -> npt.NDArray[np.bool_]:
     marks = np.array(bridged)
     if marks.dtype != np.bool_ or marks.shape != (count,):
         found = f"{marks.dtype} of shape {marks.shape}"
-        raise VesselTreeError("bridged points of the vessel", found, f"True or False for each of {count} points")
+        raise VesselTreeError(
+            "bridged points of the vessel", found, f"True or False for each of {count} points"
+        )
     marks.flags.writeable = False
     return marks

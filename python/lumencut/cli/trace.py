@@ -43,11 +43,14 @@ if TYPE_CHECKING:
     "--points",
     type=FILE,
     multiple=True,
-    help="A file of points: .mrk.json, .fcsv, .csv or another format of centerlines, each line of it a vessel; "
-    "may be repeated.",
+    help="A file of points: .mrk.json, .fcsv, .csv or another format of centerlines, each line of it a "
+    "vessel; may be repeated.",
 )
 @click.option(
-    "--stopper", type=VECTOR, multiple=True, help="A place that no vessel may pass (mm, LPS); may be repeated."
+    "--stopper",
+    type=VECTOR,
+    multiple=True,
+    help="A place that no vessel may pass (mm, LPS); may be repeated.",
 )
 @click.option(
     "--stopper-radius",
@@ -59,7 +62,9 @@ if TYPE_CHECKING:
 )
 @click.option("--ras", is_flag=True, help="Points and stoppers of this command line are in RAS, not LPS.")
 @click.option(
-    "--bridge", is_flag=True, help="Go on where no lumen is to be seen, as in an occlusion; marked as not sure."
+    "--bridge",
+    is_flag=True,
+    help="Go on where no lumen is to be seen, as in an occlusion; marked as not sure.",
 )
 @click.option(
     "-o",
@@ -114,7 +119,9 @@ def _check(volume: Path, output: Path, preview: Path | None, chosen: dict[str, A
     if not given:
         raise click.UsageError("found no points; expected --point, --index or --points along a vessel")
     if {"point", "index"} <= set(given):
-        raise click.UsageError("found --point and --index; expected one of them, whose order is that of the vessel")
+        raise click.UsageError(
+            "found --point and --index; expected one of them, whose order is that of the vessel"
+        )
     for name in ("point", "index"):
         if len(chosen[name]) == 1:
             raise click.UsageError(f"found one --{name}; expected two or more in order along the vessel")

@@ -83,7 +83,7 @@ impl Probe<'_, '_> {
         let near = guess.map_or(0.0, |radius| 0.35 * radius).max(0.35 * self.voxels.smallest_side);
         let mut values = vec![self.voxels.at(center)];
         for n in 0..16 {
-            let (sin, cos) = (TAU * n as f64 / 8.0).sin_cos();
+            let (sin, cos) = (TAU * f64::from(n) / 8.0).sin_cos();
             let length = if n < 8 { near } else { 0.5 * near };
             values.push(self.voxels.at(center + (across[0] * cos + across[1] * sin) * length));
         }

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::lumen_model::{LumenModel, at};
 use super::path::arc_lengths;
-use super::region::Stopper;
+use super::region::{FULL, Stopper, THIN};
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind};
 
@@ -17,12 +17,16 @@ const LONGEST_TURN: f64 = 1.2;
 /// The thickest wall between two vessels that a way might cross unseen (mm).
 const LONGEST_WALL: f64 = 5.0;
 
-/// A turn within a gap: the cosine between the vessel before or after it and the gap itself.
-const SAME_DIRECTION: f64 = 0.6;
-const CROSSING: f64 = 0.8;
+/// What is a turn: how far from a gap the direction of the vessel is looked at (mm), and the cosine of the least turn.
+struct Turn {
+    beside: [f64; 2],
+    least: f64,
+}
 
-/// How far before and after a gap the direction of the vessel is looked at (mm).
-const BESIDE: f64 = 5.0;
+/// A turn at a gap, and one from one vessel into another: the line goes from the middle of the one to that of the other, so
+/// that next to the wall its direction is that of the crossing.
+const TURN: Turn = Turn { beside: [0.0, 5.0], least: 0.6 };
+const CROSSING: Turn = Turn { beside: [3.0, 8.0], least: 0.7 };
 
 /// A stretch of a way that shows no lumen.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,17 +73,18 @@ impl<'a, 'v> Line<'a, 'v> {
         stretches(weak).into_iter().map(|points| self.gap(points)).collect()
     }
 
-    /// Where the way crosses from one vessel to another through the wall between them: it turns on both sides of a short
-    /// stretch that looks less like lumen than what is just before and after. `thin` says which points look little like
-    /// lumen, `full` which ones look just like it.
-    pub fn crossings(&self, thin: &[bool], full: &[bool]) -> Vec<Gap> {
-        let short = stretches(thin).into_iter().map(|points| self.gap(points));
-        let crossings = short.filter(|gap| {
+    /// Where a centerline crosses from one vessel to another through the wall between them: it turns on both sides of a
+    /// short stretch that looks less like lumen than what is just before and after.
+    pub fn crossing(&self) -> Option<Gap> {
+        let shares: Vec<f32> =
+            self.way.iter().map(|place| self.model.membership(self.voxels.at(*place))).collect();
+        let below = |limit: f64| shares.iter().map(|share| f64::from(*share) < limit).collect::<Vec<_>>();
+        let full: Vec<bool> = below(FULL).iter().map(|is_below| !is_below).collect();
+        stretches(&below(THIN)).into_iter().map(|points| self.gap(points)).find(|gap| {
             gap.length < LONGEST_WALL
-                && self.turns(gap, CROSSING) == [true, true]
-                && self.is_between_lumen(gap, full)
-        });
-        crossings.map(|gap| Gap { is_open: true, ..gap }).collect()
+                && self.turns(gap, &CROSSING) == [true, true]
+                && self.is_between_lumen(gap, &full)
+        })
     }
 
     fn is_between_lumen(&self, gap: &Gap, full: &[bool]) -> bool {
@@ -97,8 +102,7 @@ impl<'a, 'v> Line<'a, 'v> {
         let weakest = points.clone().min_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(points.start);
         let mut gap =
             Gap { points, length, place: self.way[weakest], value: value_of(weakest), is_open: false };
-        let limit =
-            if self.turns(&gap, SAME_DIRECTION) == [false, false] { LONGEST_GAP } else { LONGEST_TURN };
+        let limit = if self.turns(&gap, &TURN) == [false, false] { LONGEST_GAP } else { LONGEST_TURN };
         gap.is_open = length > limit;
         gap
     }
@@ -109,16 +113,18 @@ impl<'a, 'v> Line<'a, 'v> {
     }
 
     /// Whether the vessel runs in another direction than the gap, before it and after it.
-    fn turns(&self, gap: &Gap, least: f64) -> [bool; 2] {
+    fn turns(&self, gap: &Gap, turn: &Turn) -> [bool; 2] {
         let (way, lengths) = (self.way, &self.lengths);
         let (before, after) = self.beside(&gap.points);
-        let first = lengths.partition_point(|l| *l < lengths[before] - BESIDE);
-        let last = lengths.partition_point(|l| *l <= lengths[after] + BESIDE) - 1;
         let across = (way[after] - way[before]).normalize_or_zero();
-        let turns = |from: usize, to: usize| {
-            from != to && (way[to] - way[from]).normalize_or_zero().dot(across) < least
+        let at = |length: f64| lengths.partition_point(|l| *l < length).min(way.len() - 1);
+        let turns = |from: f64, to: f64| {
+            let along = way[at(to)] - way[at(from)];
+            along.length_squared() > 0.0 && along.normalize().dot(across) < turn.least
         };
-        [turns(first, before), turns(after, last)]
+        let [near, far] = turn.beside;
+        let (first, last) = (lengths[before], lengths[after]);
+        [turns(first - far, first - near), turns(last + near, last + far)]
     }
 }
 

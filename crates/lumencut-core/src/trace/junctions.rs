@@ -11,6 +11,9 @@ use crate::error::{Error, ErrorKind, Result};
 const END_TO_END: f64 = 0.7;
 const NEAREST_END: f64 = 1.0;
 
+/// How far beyond an end a vessel still holds what is next to it: in radii.
+const ENDS: f64 = 0.3;
+
 /// How much of a line tells in which direction it has left a vessel (mm).
 const LEAVING: f64 = 4.0;
 
@@ -98,8 +101,11 @@ impl Traced {
         let near = self.nearest(place);
         let across = place - points[near];
         let last = points.len() - 1;
-        let is_beyond = (near == 0 && across.dot(points[0] - points[1]) > 0.0)
-            || (near == last && across.dot(points[last] - points[last - 1]) > 0.0);
+        let slack = (ENDS * self.line.radius[near]).max(STEP);
+        let beyond = |end: usize, next: usize| {
+            near == end && across.dot((points[end] - points[next]).normalize_or_zero()) > slack
+        };
+        let is_beyond = beyond(0, 1) || beyond(last, last - 1);
         across.length() < self.line.radius[near] && !is_beyond
     }
 

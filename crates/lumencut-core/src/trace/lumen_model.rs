@@ -113,7 +113,7 @@ impl Surroundings {
         }
         let usual = lower_median(lumens.iter().map(|lumen| lumen[0]).collect());
         for (i, click) in clicks.iter().enumerate() {
-            self.check(voxels, *click, values[i], self.unlike(lumens[i], usual))?;
+            self.check(voxels, *click, values[i], self.unlike(lumens[i][0], noise(voxels, *click), usual))?;
         }
         Ok(self.model_of(&lumens, usual))
     }
@@ -163,9 +163,9 @@ impl Surroundings {
     }
 
     /// What a click hit that is unlike the lumen that the others hit as a rule, or no brighter than tissue.
-    fn unlike(&self, [lumen, noise]: [f64; 2], usual: f64) -> Option<Mistake> {
+    fn unlike(&self, lumen: f64, noise: f64, usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
-        let least = self.tissue + (0.3 * contrast).max(2.5 * noise);
+        let least = self.tissue + (0.3 * contrast).max(1.5 * noise);
         if lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
             return Some((
                 "bone, metal or calcium",
@@ -255,6 +255,16 @@ fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
 fn lower_median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values[(values.len() - 1) / 2]
+}
+
+/// The noise around a click, as neighbours differ where they differ little: most are not at the edge of a vessel.
+fn noise(voxels: &Voxels, click: DVec3) -> f64 {
+    let near = voxels.ball(click, (4.0 * voxels.smallest_side).max(3.0));
+    let mut steps: Vec<f32> = near.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect();
+    steps.retain(|step| step.is_finite());
+    steps.sort_unstable_by(f32::total_cmp);
+    // A quarter of the differences of two normal deviates is below this part of the standard deviation of one.
+    if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
 }
 
 /// The median of the lumen around a click, and its spread.

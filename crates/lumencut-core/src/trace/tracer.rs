@@ -9,7 +9,7 @@ use super::gaps::{Gap, LONGEST_GAP, Line, no_lumen, no_way};
 use super::junctions::{joined, nearest};
 use super::lumen_model::{LumenModel, Surroundings, at};
 use super::refine::{Centerline, refined};
-use super::region::{FULL, Region, Stopper, Strictness, THIN, WEAK};
+use super::region::{FORBIDDEN, Region, Stopper, Strictness, THIN, WEAK};
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind, Result};
 use crate::progress::Progress;
@@ -180,7 +180,12 @@ impl Tracer {
                 *confidence = 0.0;
             }
         }
-        Ok(Traced { line, bridged, ends: [clicks[0], clicks[clicks.len() - 1]] })
+        let ends = [clicks[0], clicks[clicks.len() - 1]];
+        let crossing = Line::new(search.voxels, &region.model, &line.points).crossing();
+        if let Some(crossing) = crossing.filter(|_| !search.clicks.bridge) {
+            return Err(no_lumen(ends, &crossing, &region.model));
+        }
+        Ok(Traced { line, bridged, ends })
     }
 
     /// The way between two clicks, as it was or found anew.
@@ -266,10 +271,9 @@ fn way_of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Way {
     let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
     let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
     let below = |limit: f64| codes.iter().map(|code| *code >= region.code_below(limit)).collect::<Vec<_>>();
-    let (weak, thin) = (below(WEAK), below(THIN));
-    let full: Vec<bool> = below(FULL).iter().map(|is_below| !is_below).collect();
+    let weak = below(WEAK);
     let line = Line::new(voxels, &region.model, &points);
-    let mut gaps = [line.gaps(&weak), line.crossings(&thin, &full)].concat();
+    let mut gaps = line.gaps(&weak);
     for gap in &mut gaps {
         // A way around a stopper through tissue is none.
         gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
@@ -277,16 +281,19 @@ fn way_of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Way {
     Way { points, gaps }
 }
 
-/// The voxel where the front of a click starts: the one of it and its neighbours that costs least.
+/// The voxel where the front of a click starts: its own, or where that is at the wall the neighbour that costs least.
 fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
     let middle = voxels.voxel_at(click).unwrap_or([0; 3]);
     let mut best = (region.code_of(voxels, middle), middle);
+    if best.0 != FORBIDDEN && best.0 < region.code_below(THIN) {
+        return middle;
+    }
     for n in 0..27 {
         let step = [n % 3, n / 3 % 3, n / 9].map(|c| c - 1);
         let next: [i32; 3] = std::array::from_fn(|a| middle[a] + step[a]);
         if (0..3).all(|a| next[a] >= 0 && (next[a] as usize) < voxels.size[a]) {
             let code = region.code_of(voxels, next);
-            if code < best.0 {
+            if code != FORBIDDEN && (best.0 == FORBIDDEN || code < best.0) {
                 best = (code, next);
             }
         }
