@@ -40,3 +40,12 @@ def write_lines(path: Path, points=None, radius=3.0, title="line") -> Path:
         rows += [str(radius)] * count
     path.write_text("\n".join(rows) + "\n")
     return path
+
+
+def write_volume_of(volume, path: Path) -> Path:
+    """Write a volume of the package (mm, LPS) as NIfTI."""
+    ras_from_lps = np.diag([-1.0, -1.0, 1.0, 1.0])
+    image = nib.Nifti1Image(volume.array.transpose(2, 1, 0), ras_from_lps @ volume.world_from_index)
+    image.header.set_xyzt_units("mm")
+    nib.save(image, path)
+    return path

@@ -201,7 +201,7 @@ def test_the_command_line_traces_a_mask(tube, saved, tmp_path):
     tree = read_centerlines(lines)
     assert sorted(vessel.name for vessel in tree) == ["aorta", "label 7"]
     assert compare_centerlines(tree, trace_mask(broken(tube))).ov == 1
-    bridged = trace("--mask", saved(broken(tube)), "--bridge", 5, "-o", lines)
+    bridged = trace("--mask", saved(broken(tube)), "--bridge-gaps", 5, "-o", lines)
     assert "3 vessels" in bridged.stdout
     assert ": bridged" in bridged.stdout
 

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         SeriesError,
         SettingsError,
         SpaceWarning,
+        TracingError,
         VesselTreeError,
         VolumeError,
     )
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from lumencut.slab import Slab
     from lumencut.straightening import StraightenedVolume, straightened_volume
     from lumencut.threads import get_threads, set_threads
+    from lumencut.tracing import Tracer, trace
     from lumencut.transfer import TransferFunction
     from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
@@ -73,6 +75,7 @@ _HOME = {
         "SeriesError",
         "SettingsError",
         "SpaceWarning",
+        "TracingError",
         "VesselTreeError",
         "VolumeError",
     ),
@@ -87,6 +90,7 @@ _HOME = {
     "slab": ("Slab",),
     "straightening": ("StraightenedVolume", "straightened_volume"),
     "threads": ("get_threads", "set_threads"),
+    "tracing": ("Tracer", "trace"),
     "transfer": ("TransferFunction",),
     "tree_reformations": ("cr", "mpcpr"),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
@@ -124,6 +128,8 @@ __all__ = [
     "Slab",
     "SpaceWarning",
     "StraightenedVolume",
+    "Tracer",
+    "TracingError",
     "TransferFunction",
     "Vessel",
     "VesselTree",
@@ -148,6 +154,7 @@ __all__ = [
     "save_animation",
     "set_threads",
     "straightened_volume",
+    "trace",
     "trace_mask",
     "turntable",
     "write_centerlines",

@@ -10,6 +10,9 @@ from lumencut.placement import Coordinates, Unit
 
 _Axis = str | npt.NDArray[np.float64]
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
+_WrittenArrays = tuple[
+    npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None, npt.NDArray[np.float64] | None
+]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
@@ -25,6 +28,7 @@ __all__ = [
     "Renderer",
     "Setting",
     "Settings",
+    "Tracer",
     "__version__",
     "better_place",
     "check_camera",
@@ -141,6 +145,22 @@ class Cpr:
     def straightened_from_world(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 
 @final
+class Tracer:
+    def __new__(cls) -> Tracer: ...
+    def trace(
+        self,
+        volume: Any,
+        vessels: Sequence[npt.NDArray[np.float64]],
+        stoppers: Sequence[tuple[tuple[float, ...], float]],
+        bridge: bool,
+        told: Callable[[int, int], object] | None = None,
+    ) -> list[
+        tuple[
+            npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.bool_]
+        ]
+    ]: ...
+
+@final
 class Renderer:
     def __new__(cls, vessels: list[_Arrays] | None, device: str) -> Renderer: ...
     @property
@@ -211,7 +231,7 @@ def trace_mask(
 ) -> _TracedMask: ...
 def whole_window(volume: Any) -> tuple[float, float]: ...
 def window_from_data(volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
-def write_centerlines(vessels: list[_NamedArrays], kind: str) -> bytes: ...
+def write_centerlines(vessels: list[_WrittenArrays], kind: str) -> bytes: ...
 def zoomed(camera: Any, factor: float) -> dict[str, Any]: ...
 
 class _TracedMask(TypedDict):

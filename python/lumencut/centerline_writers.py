@@ -27,6 +27,11 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
       no names, and a reader has a branch from each forking to the next. Unknown radii are 0. The format
       states no space: read it with ``coordinates="lps"``.
 
+    The confidence of traced vessels is written too, for other programs: as the array of points
+    ``Confidence``, the measurement ``Confidence`` or the column ``confidence``. Points of other vessels
+    beside them have 1, bridged points have 0. ``.swc`` has no place for it, and `read_centerlines` does not
+    read it.
+
     Parameters
     ----------
     tree : VesselTree
@@ -54,7 +59,7 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
         )
     try:
         content = _lumencut.write_centerlines(
-            [(vessel.points, vessel.radius, vessel.name) for vessel in tree], kind
+            [(vessel.points, vessel.radius, vessel.name, vessel.confidence) for vessel in tree], kind
         )
     except UnicodeEncodeError as error:
         found = ascii(error.object)

@@ -49,6 +49,10 @@ class DeviceError(LumencutError, RuntimeError):
     """A GPU that is not there, too small for the work, or failed."""
 
 
+class TracingError(LumencutError, ValueError):
+    """Points between which no centerline can be traced: outside the lumen, or with none between them."""
+
+
 class FormatError(LumencutError, ValueError):
     """A file whose content is not what its format promises, or a format that is not read."""
 

@@ -16,18 +16,21 @@ pub enum ErrorKind {
     Settings,
     /// A GPU that is not there, too small for the work, or failed.
     Device,
+    /// A point between which and others no centerline can be traced.
+    Tracing,
     /// The caller asked to stop.
     Interrupted,
 }
 
 impl ErrorKind {
     /// Every kind, for tests that each of them can be met.
-    pub const ALL: [ErrorKind; 6] = [
+    pub const ALL: [ErrorKind; 7] = [
         ErrorKind::Volume,
         ErrorKind::VesselTree,
         ErrorKind::Camera,
         ErrorKind::Settings,
         ErrorKind::Device,
+        ErrorKind::Tracing,
         ErrorKind::Interrupted,
     ];
 }

@@ -39,6 +39,8 @@ pub struct Line {
     pub group: Option<i64>,
     /// The name that the file gives this line.
     pub name: Option<String>,
+    /// How sure each point is, 0 to 1, where the line was traced; it is written and not read.
+    pub confidence: Option<Vec<f64>>,
 }
 
 /// The lines of one file.

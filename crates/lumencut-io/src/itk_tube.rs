@@ -92,6 +92,7 @@ fn points(object: &MetaObject, cursor: &mut Cursor) -> Result<Line> {
         radius: radius.map(|r| rows.map(|row| row[r] * spacing.x).collect()),
         group: None,
         name: object.get("Name").filter(|name| !name.is_empty()).map(str::to_owned),
+        ..Line::default()
     })
 }
 

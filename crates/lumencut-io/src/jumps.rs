@@ -69,6 +69,7 @@ fn parted(line: Line, ends: Vec<usize>) -> Vec<Line> {
             radius: line.radius.as_ref().map(|radius| radius[range].to_vec()),
             group: line.group,
             name: line.name.clone(),
+            ..Line::default()
         }
     };
     ends.into_iter().map(part).collect()

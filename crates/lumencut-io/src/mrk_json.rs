@@ -128,7 +128,7 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<()>
                 .into(),
         );
     }
-    out.lines.push(Line { points, radius, group: None, name: markup.name.and_then(Json::text) });
+    out.lines.push(Line { points, radius, name: markup.name.and_then(Json::text), ..Line::default() });
     Ok(())
 }
 

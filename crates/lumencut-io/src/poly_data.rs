@@ -105,6 +105,7 @@ impl PolyData {
                 radius: radius.map(|(r, part)| ids.iter().map(|i| r[*i] * part).collect()),
                 group,
                 name: names.get(cell).filter(|_| says(has_name, cell)).cloned(),
+                ..Line::default()
             };
             match &groups {
                 Groups::None => out.lines.push(line(&ids, None)),

@@ -15,6 +15,7 @@ pub fn to_python(error: Error) -> PyErr {
         ErrorKind::Camera => "CameraError",
         ErrorKind::Settings => "SettingsError",
         ErrorKind::Device => "DeviceError",
+        ErrorKind::Tracing => "TracingError",
         ErrorKind::Interrupted => return PyKeyboardInterrupt::new_err(error.to_string()),
     };
     exception(class, &error.subject, &error.found, &error.expected, &error.mend)

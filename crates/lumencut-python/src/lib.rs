@@ -14,6 +14,7 @@ mod pool;
 mod ranges;
 mod renderer;
 mod settings;
+mod tracing;
 mod tree;
 mod values;
 mod views;
@@ -31,6 +32,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<cpr::Cpr>()?;
     module.add_class::<renderer::Renderer>()?;
     module.add_class::<settings::Checked>()?;
+    module.add_class::<tracing::Tracer>()?;
     module.add_function(wrap_pyfunction!(cpr::picture, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;

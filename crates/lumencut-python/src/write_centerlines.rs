@@ -8,8 +8,11 @@ use pyo3::types::PyBytes;
 use crate::errors::exception;
 use crate::tree::points_of;
 
-/// Points (n, 3), radii (n,) and name of one vessel.
-type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>, Option<String>);
+/// Numbers (n,), where they are known.
+type Numbers<'py> = Option<PyReadonlyArray1<'py, f64>>;
+
+/// Points (n, 3), radii (n,), name and confidence (n,) of one vessel.
+type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Numbers<'py>, Option<String>, Numbers<'py>);
 
 /// The content of a file of vessels in mm, LPS; `kind` is the ending of its name.
 #[pyfunction]
@@ -34,7 +37,8 @@ pub fn write_centerlines<'py>(
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn line((points, radius, name): NamedVessel) -> PyResult<Line> {
+fn line((points, radius, name, confidence): NamedVessel) -> PyResult<Line> {
     let points = points_of(&points)?;
-    Ok(Line { points, radius: radius.map(|r| r.as_array().to_vec()), group: None, name })
+    let [radius, confidence] = [radius, confidence].map(|numbers| numbers.map(|n| n.as_array().to_vec()));
+    Ok(Line { points, radius, group: None, name, confidence })
 }

@@ -101,15 +101,20 @@ def _centerlines(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | 
 
 
 def _read_volume(path: Path, files: SceneFiles) -> Volume:
+    return volume_of(path, {field.name: getattr(files, field.name) for field in fields(files)})
+
+
+def volume_of(path: Path, chosen: dict[str, Any]) -> Volume:
+    """Read a volume as the options say."""
     from lumencut.volume_files import read_volume
 
     with bar(f"reading {path.name}", "slice") as told:
         voxels = read_volume(
             path,
-            series=files.series,
-            phase=files.phase,
-            fill_gaps=files.fill_gaps,
-            resample_slices=files.resample_slices,
+            series=chosen["series"],
+            phase=chosen["phase"],
+            fill_gaps=chosen["fill_gaps"],
+            resample_slices=chosen["resample_slices"],
             progress=told,
         )
     detail(f"{path}: {voxels!r}")

@@ -1,46 +1,217 @@
-"""``lumencut trace``: centerlines of a mask."""
+"""``lumencut trace``: centerlines from points along vessels, or from a mask."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from lumencut.cli.options import FILE, threads_option
-from lumencut.cli.report import bar, say, verbose_option
-from lumencut.cli.trace_mask import mask_options, traced_from_mask
+from lumencut.cli import options
+from lumencut.cli.mistakes import check_reading
+from lumencut.cli.options import FILE
+from lumencut.cli.parameters import VECTOR
+from lumencut.cli.report import bar, busy, detail, say, verbose_option
+from lumencut.cli.scene import volume_of
+from lumencut.cli.trace_mask import WITH_MASK, mask_options, traced_from_mask
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+    Points = npt.NDArray[np.float64]
 
 
-@click.command(short_help="Trace the centerlines of a mask.")
+@click.command(short_help="Trace centerlines from points along vessels, or from a mask.")
 @click.argument("volume", type=FILE, required=False)
+@click.option(
+    "--point",
+    type=VECTOR,
+    multiple=True,
+    help="A point in the vessel (mm, LPS); two or more in order along one vessel.",
+)
+@click.option(
+    "--index",
+    type=VECTOR,
+    multiple=True,
+    metavar="I,J,K",
+    help="The same as indices of voxels, from 0, in place of --point.",
+)
+@click.option(
+    "--points",
+    type=FILE,
+    multiple=True,
+    help="A file of points: .mrk.json, .fcsv, .csv or another format of centerlines, each line of it a "
+    "vessel; may be repeated.",
+)
+@click.option(
+    "--stopper",
+    type=VECTOR,
+    multiple=True,
+    help="A place that no vessel may pass (mm, LPS); may be repeated.",
+)
+@click.option(
+    "--stopper-radius",
+    type=click.FloatRange(min=0, min_open=True),
+    default=3.0,
+    show_default=True,
+    metavar="MM",
+    help="How far around a stopper is forbidden.",
+)
+@click.option("--ras", is_flag=True, help="Points and stoppers of this command line are in RAS, not LPS.")
+@click.option(
+    "--bridge",
+    is_flag=True,
+    help="Go on where no lumen is to be seen, as in an occlusion; marked as not sure.",
+)
 @mask_options
 @click.option(
     "-o",
     "--output",
     type=FILE,
     required=True,
-    help="The centerlines: .vtp, .mrk.json, .vtk, .csv or .swc.",
+    help="The centerlines (mm, LPS): .vtp, .vtk, .mrk.json, .csv or .swc.",
 )
-@threads_option
+@click.option("--preview", type=FILE, help="A picture of the result from the front, such as preview.png.")
+@options.series_option
+@options.phase_option
+@options.fill_gaps_option
+@options.resample_slices_option
+@options.device_option
+@options.threads_option
 @verbose_option
-def trace(volume: Path | None, output: Path, **chosen: Any) -> None:
-    """Trace the centerlines of a mask of the lumen, or of labels of a label map.
+def trace(
+    volume: Path | None,
+    output: Path,
+    preview: Path | None,
+    bridge: bool,
+    device: Literal["auto", "cpu", "gpu"],
+    **chosen: Any,
+) -> None:
+    """Trace the centerlines of vessels in VOLUME from two or more points along each, or those of a mask.
 
-    VOLUME is the angiography, whose grid must be that of the mask.
+    The points need not be central. All --point are one vessel; files of --points may hold several, which join
+    where they meet. Points are at most 0.5 mm apart in the result, with the radius of the lumen and with how
+    sure each point is. With --mask they are those of a mask of the lumen, or of labels of a label map; VOLUME
+    is not needed then, and must have its grid.
 
     \b
-    lumencut trace --mask lumen.nii.gz -o lines.vtp
+    lumencut trace ct.nii.gz --point 12,-30,85 --point 8,-41,-20 -o aorta.vtp --preview aorta.png
     lumencut trace --mask total.nii.gz --label 52=aorta --label 65 -o lines.vtp
+    lumencut trace dicom/ --points vessels.mrk.json --stopper 20,-35,40 -o lines.vtp
     """  # noqa: D301 - click needs the control character itself
-    if chosen["mask"] is None:
-        raise click.UsageError("Missing option '--mask'.")
+    _check(volume, output, preview, {**chosen, "bridge": bridge})
+    voxels = None if volume is None else volume_of(volume, chosen)
+    if voxels is None or chosen["mask"] is not None:
+        tree = traced_from_mask(chosen, voxels)
+    else:
+        tree = _traced(voxels, chosen, bridge=bridge)
     from lumencut.centerline_writers import write_centerlines
-    from lumencut.volume_files import read_volume
 
-    voxels = None
-    if volume is not None:
-        with bar(f"reading {volume.name}", "slice") as told:
-            voxels = read_volume(volume, progress=told)
-    write_centerlines(traced_from_mask(chosen, voxels), output)
-    say(str(output))
+    with busy(f"writing {output.name}"):
+        write_centerlines(tree, output)
+    for vessel in tree:
+        detail(f"{vessel!r}, radius {_mean(vessel.radius):.2f} mm, confidence {_mean(vessel.confidence):.2f}")
+    say(f"{output}: {tree!r}, {sum(vessel.length for vessel in tree):.1f} mm")
+    if preview is not None and voxels is not None:
+        _render(voxels, tree, preview, device)
+
+
+#: The options of clicks, which do nothing with a mask.
+_WITH_POINTS = ("point", "index", "points", "stopper", "ras", "bridge")
+
+
+def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict[str, Any]) -> None:
+    """Refuse what a user cannot mean before any voxel is read."""
+    has_mask = chosen["mask"] is not None
+    for name in _WITH_POINTS if has_mask else WITH_MASK:
+        if chosen[name]:
+            where = "with" if has_mask else "without"
+            raise click.UsageError(f"--{name.replace('_', '-')} {where} --mask does nothing; leave it out")
+    if volume is None and not has_mask:
+        raise click.UsageError("found no VOLUME; expected one, or --mask")
+    if volume is None and preview is not None:
+        raise click.UsageError("--preview without VOLUME: a mask alone has no picture")
+    if not has_mask:
+        _check_points(chosen)
+    volumes = [] if volume is None else [volume]
+    check_reading({"coordinates": None, "unit": None, **chosen}, volumes, has_centerlines=True)
+    options.check_folder(output)
+    if preview is not None:
+        options.check_picture(preview)
+
+
+def _check_points(chosen: dict[str, Any]) -> None:
+    """Refuse points that are no vessel."""
+    given = [name for name in ("point", "index", "points") if chosen[name]]
+    if not given:
+        raise click.UsageError("found no points; expected --point, --index or --points along a vessel")
+    if {"point", "index"} <= set(given):
+        raise click.UsageError(
+            "found --point and --index; expected one of them, whose order is that of the vessel"
+        )
+    for name in ("point", "index"):
+        if len(chosen[name]) == 1:
+            raise click.UsageError(f"found one --{name}; expected two or more in order along the vessel")
+    if chosen["ras"] and not (chosen["point"] or chosen["stopper"]):
+        raise click.UsageError("--ras without --point or --stopper does nothing: files state their own space")
+
+
+def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTree:
+    from lumencut.tracing import trace
+
+    lists, names = _vessels(voxels, chosen)
+    with bar("tracing", "share") as told:
+        return trace(
+            voxels,
+            lists,
+            _in_lps(chosen["stopper"], chosen),
+            stopper_radius=chosen["stopper_radius"],
+            bridge=bridge,
+            names=names,
+            progress=told,
+        )
+
+
+def _vessels(voxels: Volume, chosen: dict[str, Any]) -> tuple[list[Points], list[str | None]]:
+    """The points of each vessel (mm, LPS), and their names."""
+    import numpy as np
+
+    lists: list[Points] = []
+    names: list[str | None] = []
+    if chosen["point"]:
+        lists.append(_in_lps(chosen["point"], chosen))
+    if chosen["index"]:
+        affine = voxels.world_from_index
+        lists.append(np.array(chosen["index"]) @ affine[:3, :3].T + affine[:3, 3])
+    names += [None] * len(lists)
+    if chosen["points"]:
+        from lumencut.centerlines import read_centerlines
+
+        for vessel in read_centerlines(list(chosen["points"]), volume=voxels):
+            lists.append(vessel.points)
+            names.append(vessel.name)
+    return lists, names
+
+
+def _in_lps(points: tuple[tuple[float, ...], ...], chosen: dict[str, Any]) -> Points:
+    import numpy as np
+
+    signs = (-1.0, -1.0, 1.0) if chosen["ras"] else (1.0, 1.0, 1.0)
+    return np.array(points, dtype=np.float64).reshape(-1, 3) * signs
+
+
+def _mean(numbers: Points | None) -> float:
+    return float("nan") if numbers is None else float(numbers.mean())
+
+
+def _render(voxels: Volume, tree: VesselTree, path: Path, device: Literal["auto", "cpu", "gpu"]) -> None:
+    from lumencut.renderer import Renderer
+
+    with bar("rendering", "share") as told:
+        frame = Renderer(voxels, tree, device).render(progress=told)
+    frame.save(path)
+    say(str(path))

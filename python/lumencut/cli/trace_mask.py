@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
-#: The options of `mask_options` that mean something only together with ``--mask``.
-WITH_MASK = ("label", "threshold", "bridge", "shortest_branch")
+#: The options of `mask_options` that do nothing without ``--mask`` and are not given by default.
+WITH_MASK = ("label", "threshold", "bridge_gaps")
 
 
 def mask_options(command: _Command) -> _Command:
@@ -40,7 +40,7 @@ def mask_options(command: _Command) -> _Command:
             help="Lumen is where the mask has this value or more, for masks that are no whole numbers.",
         ),
         click.option(
-            "--bridge",
+            "--bridge-gaps",
             type=click.FloatRange(0),
             default=0.0,
             metavar="MM",
@@ -80,7 +80,7 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
             volume,
             labels=known or None if labels is None else labels,
             shortest_branch=chosen["shortest_branch"],
-            bridge=chosen["bridge"],
+            bridge=chosen["bridge_gaps"],
             progress=told,
         )
     _report(tree)

@@ -61,7 +61,13 @@ pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
                 let (start, first) = graph.beginning(path.nodes[i], *edge);
                 let chain = graph.chain(start, first, &mut done);
                 let (points, radius) = graph.along(start, &chain, points, paths);
-                out.push(Line { points, radius, group: path.group, name: path.name.clone() });
+                out.push(Line {
+                    points,
+                    radius,
+                    group: path.group,
+                    name: path.name.clone(),
+                    ..Line::default()
+                });
             }
         }
     }

@@ -222,6 +222,7 @@ fn cut_lines_whose_shared_points_say_where_they_part_are_not_merged_further() {
         radius: line.radius.as_ref().map(|radius| radius[range].to_vec()),
         group: Some(group),
         name: None,
+        ..Line::default()
     });
     assert_eq!(lengths(&join(cut.to_vec())), [21, 16, 16]);
 }

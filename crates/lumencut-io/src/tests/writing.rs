@@ -142,7 +142,7 @@ fn tree(random: &mut Random) -> Vec<Line> {
         }
         let radius = (random.below(3) > 0).then(|| points.iter().map(|_| number(random).abs()).collect());
         let name = (random.below(3) > 0).then(|| NAMES[random.below(NAMES.len())].to_owned());
-        out.push(Line { points, radius, group: None, name });
+        out.push(Line { points, radius, group: None, name, ..Line::default() });
     }
     out
 }

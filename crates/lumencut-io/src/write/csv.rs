@@ -1,11 +1,12 @@
 //! Tables (`.csv`): a row per point.
 
-use super::check_all;
+use super::{check_all, confidences};
 use crate::centerlines::Line;
 use crate::error::{Error, Result};
 
 /// A `.csv` file of vessels (mm, LPS): the columns `line`, which counts the vessels from 0, `name` where any
-/// vessel has one, `l (mm)`, `p (mm)`, `s (mm)`, and `radius (mm)` where any vessel has radii.
+/// vessel has one, `l (mm)`, `p (mm)`, `s (mm)`, `radius (mm)` where any vessel has radii, and
+/// `confidence`, 0 to 1, where any vessel was traced.
 ///
 /// Where only some vessels have radii, those of the others are 0. Coordinates and radii are read back to the
 /// bit; names are not read, and lines that meet are joined anew as those of any table.
@@ -24,7 +25,9 @@ pub fn write_csv(vessels: &[Line]) -> Result<Vec<u8>> {
     let with_radii = vessels.iter().any(|vessel| vessel.radius.is_some());
     let (name, radius) =
         (if with_names { ",name" } else { "" }, if with_radii { ",radius (mm)" } else { "" });
-    let mut out = format!("line{name},l (mm),p (mm),s (mm){radius}\n");
+    let mut confidence = confidences(vessels).map(Vec::into_iter);
+    let sure = if confidence.is_some() { ",confidence" } else { "" };
+    let mut out = format!("line{name},l (mm),p (mm),s (mm){radius}{sure}\n");
     for (index, vessel) in vessels.iter().enumerate() {
         let name = quoted(vessel.name.as_deref().unwrap_or_default());
         for (i, point) in vessel.points.iter().enumerate() {
@@ -35,6 +38,9 @@ pub fn write_csv(vessels: &[Line]) -> Result<Vec<u8>> {
             out += &format!(",{:?},{:?},{:?}", point.x, point.y, point.z);
             if with_radii {
                 out += &format!(",{:?}", vessel.radius.as_ref().map_or(0.0, |radius| radius[i]));
+            }
+            if let Some(number) = confidence.as_mut().and_then(Iterator::next) {
+                out += &format!(",{number:?}");
             }
             out.push('\n');
         }

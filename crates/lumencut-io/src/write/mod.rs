@@ -21,6 +21,18 @@ use crate::centerlines::{Limit, Line, check};
 use crate::error::{Error, Result};
 use crate::unit::Unit;
 
+/// The array, column or measurement of how sure the points are.
+const CONFIDENCE: &str = "Confidence";
+
+/// The confidence of all points, one vessel after the other; none where no vessel was traced, and 1 for the points of
+/// vessels that were not.
+fn confidences(vessels: &[Line]) -> Option<Vec<f64>> {
+    vessels.iter().any(|vessel| vessel.confidence.is_some()).then(|| {
+        let of = |vessel: &Line| vessel.confidence.clone().unwrap_or_else(|| vec![1.0; vessel.points.len()]);
+        vessels.iter().flat_map(of).collect()
+    })
+}
+
 /// Checks that reading gives every vessel back.
 ///
 /// # Errors
@@ -39,6 +51,10 @@ fn check_all(vessels: &[Line]) -> Result<()> {
         if let Some(i) = (1..count).find(|i| vessel.points[*i] == vessel.points[i - 1]) {
             let found = format!("point {i} equal to the one before");
             return Err(Error::new(subject(), found, "no two neighbours equal").mend("leave one of them out"));
+        }
+        if let Some(confidence) = vessel.confidence.as_ref().filter(|confidence| confidence.len() != count) {
+            let found = format!("{} for {count} points", confidence.len());
+            return Err(Error::new(format!("confidence of line {index}"), found, "one number per point"));
         }
         if let Some(radius) = vessel.radius.as_ref().filter(|radius| radius.len() != count) {
             let found = format!("{} radii for {count} points", radius.len());

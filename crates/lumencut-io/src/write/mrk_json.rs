@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::check_all;
+use super::{CONFIDENCE, check_all};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 
@@ -28,7 +28,7 @@ fn curve(vessel: &Line) -> String {
          \"controlPoints\": [\n    {}\n  ],\n  \"measurements\": [{}]\n}}",
         name.unwrap_or_default(),
         points.join(",\n    "),
-        vessel.radius.as_deref().map(measurement).unwrap_or_default(),
+        measurements(vessel),
     )
 }
 
@@ -40,9 +40,17 @@ fn control_point((i, point): (usize, &glam::DVec3)) -> String {
     )
 }
 
-fn measurement(radius: &[f64]) -> String {
+/// Radii in mm, and how sure the points of a traced vessel are.
+fn measurements(vessel: &Line) -> String {
+    let radius = vessel.radius.as_deref().map(|radius| measurement("Radius", "mm", radius));
+    let confidence = vessel.confidence.as_deref().map(|numbers| measurement(CONFIDENCE, "", numbers));
+    let all: Vec<String> = radius.into_iter().chain(confidence).collect();
+    if all.is_empty() { String::new() } else { format!("\n    {}\n  ", all.join(",\n    ")) }
+}
+
+fn measurement(name: &str, units: &str, numbers: &[f64]) -> String {
     format!(
-        "\n    {{\"name\": \"Radius\", \"enabled\": true, \"units\": \"mm\", \"printFormat\": \"%-#4.4g%s\",\n     \
-         \"controlPointValues\": {radius:?}}}\n  "
+        "{{\"name\": \"{name}\", \"enabled\": true, \"units\": \"{units}\", \"printFormat\": \"%-#4.4g%s\",\n     \
+         \"controlPointValues\": {numbers:?}}}"
     )
 }

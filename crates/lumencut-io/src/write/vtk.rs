@@ -1,6 +1,6 @@
 //! Legacy VTK poly data (`.vtk`): one polyline per vessel, in text.
 
-use super::check_all;
+use super::{CONFIDENCE, check_all, confidences};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 use crate::poly_data::{HAS_RADIUS, NAMES, RADIUS_NAMES};
@@ -33,19 +33,27 @@ pub fn write_vtk(vessels: &[Line]) -> Result<Vec<u8>> {
         out += &format!("{count} {}\n", ids.join(" "));
         next += count;
     }
-    out += &radii(vessels, points);
+    out += &point_data(vessels, points);
     out += &cell_data(vessels);
     Ok(out.into_bytes())
 }
 
-fn radii(vessels: &[Line], points: usize) -> String {
-    if vessels.iter().all(|vessel| vessel.radius.is_none()) {
+/// Radii and confidence, where any vessel has them.
+fn point_data(vessels: &[Line], points: usize) -> String {
+    let mut arrays = Vec::new();
+    if vessels.iter().any(|vessel| vessel.radius.is_some()) {
+        let of = |vessel: &Line| vessel.radius.clone().unwrap_or_else(|| vec![0.0; vessel.points.len()]);
+        arrays.push((RADIUS_NAMES[0], vessels.iter().flat_map(of).collect()));
+    }
+    arrays.extend(confidences(vessels).map(|numbers| (CONFIDENCE, numbers)));
+    if arrays.is_empty() {
         return String::new();
     }
-    let mut out = format!("POINT_DATA {points}\nFIELD FieldData 1\n{} 1 {points} double\n", RADIUS_NAMES[0]);
-    for vessel in vessels {
-        for i in 0..vessel.points.len() {
-            out += &format!("{:?}\n", vessel.radius.as_ref().map_or(0.0, |radius| radius[i]));
+    let mut out = format!("POINT_DATA {points}\nFIELD FieldData {}\n", arrays.len());
+    for (name, numbers) in arrays {
+        out += &format!("{name} 1 {points} double\n");
+        for number in numbers {
+            out += &format!("{number:?}\n");
         }
     }
     out

@@ -1,6 +1,6 @@
 //! VTK XML poly data (`.vtp`): one polyline per vessel, in text.
 
-use super::check_all;
+use super::{CONFIDENCE, check_all, confidences};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::{Error, Result};
 use crate::poly_data::{HAS_NAME, HAS_RADIUS, NAMES, RADIUS_NAMES};
@@ -8,7 +8,8 @@ use crate::poly_data::{HAS_NAME, HAS_RADIUS, NAMES, RADIUS_NAMES};
 /// A `.vtp` file of vessels (mm, LPS): each with points of its own, so that vessels that meet repeat their
 /// shared end point.
 ///
-/// Radii are the array of points `MaximumInscribedSphereRadius`, names the string array of cells `Name`.
+/// Radii are the array of points `MaximumInscribedSphereRadius`, names the string array of cells `Name`. How sure the
+/// points of traced vessels are is the array of points `Confidence`.
 /// Where only some vessels have radii, those of the others are 0 and the array of cells `HasRadius` tells
 /// them apart by 1 and 0; `HasName` does the same where only some have a name.
 ///
@@ -31,7 +32,7 @@ pub fn write_vtp(vessels: &[Line]) -> Result<Vec<u8>> {
          NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
          <PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<Lines>\n{}</Lines>\n\
          </Piece>\n</PolyData>\n</VTKFile>\n",
-        radii(vessels),
+        radii(vessels) + &confidence(vessels),
         names(vessels) + &which_have(HAS_RADIUS, vessels, |vessel| vessel.radius.is_some()),
         coordinates(vessels),
         cells(vessels, points),
@@ -61,6 +62,12 @@ fn radii(vessels: &[Line]) -> String {
         (0..vessel.points.len()).map(|i| format!("{:?}", vessel.radius.as_ref().map_or(0.0, |r| r[i])))
     });
     element("DataArray", "Float64", RADIUS_NAMES[0], "", rows)
+}
+
+fn confidence(vessels: &[Line]) -> String {
+    confidences(vessels).map_or_else(String::new, |numbers| {
+        element("DataArray", "Float64", CONFIDENCE, "", numbers.iter().map(|number| format!("{number:?}")))
+    })
 }
 
 fn names(vessels: &[Line]) -> String {

@@ -1,0 +1,82 @@
+//! Centerlines from clicks: without the GIL, and stopped by Ctrl-C.
+
+use std::sync::{Mutex, PoisonError};
+
+use glam::DVec3;
+use lumencut::progress::Progress;
+use lumencut::trace::region::Stopper;
+use lumencut::trace::tracer::{Clicks, Traced, Tracer as Core};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+use crate::pool;
+use crate::renderer::{SHARES, Watched, interruptible};
+use crate::tree::points_of;
+use crate::volume::VolumeArgument;
+
+/// Points (n, 3), radii (n,), confidence (n,), and which points were bridged (n,).
+type TracedArrays<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<bool>>,
+);
+
+/// What is kept of one volume from one tracing to the next.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct Tracer(Mutex<Core>);
+
+#[pymethods]
+impl Tracer {
+    #[new]
+    fn new() -> Self {
+        Self(Mutex::new(Core::default()))
+    }
+
+    /// The centerlines between the points (n, 3) of each vessel, around stoppers `(position, radius)`.
+    /// While it runs, `told` is called now and then with how much is done, in parts of the whole.
+    #[pyo3(signature = (volume, vessels, stoppers, bridge, told=None))]
+    #[allow(clippy::needless_pass_by_value)]
+    fn trace<'py>(
+        &self,
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+        vessels: Vec<PyReadonlyArray2<'py, f64>>,
+        stoppers: Vec<([f64; 3], f64)>,
+        bridge: bool,
+        told: Option<Py<PyAny>>,
+    ) -> PyResult<Vec<TracedArrays<'py>>> {
+        let borrowed = volume.borrow()?;
+        let volume = volume.volume(&borrowed)?;
+        let vessels = vessels.iter().map(points_of).collect::<PyResult<_>>()?;
+        let stoppers = stoppers
+            .into_iter()
+            .map(|(c, radius)| Stopper { center: DVec3::from_array(c), radius })
+            .collect();
+        let clicks = Clicks { vessels, stoppers, bridge };
+        let progress = Progress::default();
+        let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
+        let traced = interruptible(py, watched.as_ref(), |stop| {
+            let progress = watched.as_ref().map(|watched| watched.progress);
+            let mut tracer = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let tracer = &mut *tracer;
+            pool::install(|| tracer.trace(&volume, &clicks, stop, progress))?.map_err(to_python)
+        })?;
+        if let Some(watched) = watched {
+            watched.tell(py, SHARES)?;
+        }
+        traced.into_iter().map(|traced| arrays(py, traced)).collect()
+    }
+}
+
+fn arrays(py: Python<'_>, traced: Traced) -> PyResult<TracedArrays<'_>> {
+    let line = traced.line;
+    let flat: Vec<f64> = line.points.iter().flat_map(|p| p.to_array()).collect();
+    Ok((
+        PyArray1::from_vec(py, flat).reshape([line.points.len(), 3])?,
+        PyArray1::from_vec(py, line.radius),
+        PyArray1::from_vec(py, line.confidence),
+        PyArray1::from_vec(py, traced.bridged),
+    ))
+}

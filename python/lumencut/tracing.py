@@ -1,0 +1,251 @@
+"""Centerlines from a volume and a few points along its vessels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, SupportsIndex
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import flag, number, numbers
+from lumencut._wording import counted
+from lumencut.errors import TracingError
+from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.volume import Volume
+from lumencut.volume_files.memory import as_volume
+
+Progress = Callable[[int, int], object]
+_Points = npt.NDArray[np.float64]
+
+
+def trace(
+    volume: Volume | Any,
+    points: npt.ArrayLike | Sequence[npt.ArrayLike],
+    stoppers: npt.ArrayLike = (),
+    *,
+    stopper_radius: float = 3.0,
+    bridge: bool = False,
+    names: Sequence[str | None] | None = None,
+    progress: Progress | None = None,
+) -> VesselTree:
+    """Trace the centerlines of vessels from two or more points along each.
+
+    The points need not be central: each line runs in the middle of the lumen, from the cross-section of its
+    first point to that of its last one. A minimal path leads from point to point, where lumen is cheap by its
+    likeness to the values at the points and by how much lumen is around it; it is then moved to the middle of
+    cross-sections and smoothed over about 1 mm. The outline is that of Tang et al. 2012, Metz et al. 2009 and
+    Manniesing et al. 2010; METHOD.md, "Tracing from clicks", says where it differs.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography; lumen must be brighter than the tissue around it.
+    points : array_like, shape (n, 3), or a sequence of several such
+        Two or more points in order along one vessel (mm, LPS), or a list of them for each of several vessels.
+        A later vessel that begins or ends within an earlier one is joined to it: its end is equal to the bit
+        to a point of the earlier one.
+    stoppers : array_like, shape (m, 3), default none
+        Points (mm, LPS) around which no vessel may pass.
+    stopper_radius : float, default 3.0
+        How far around a stopper is forbidden (mm).
+    bridge : bool, default False
+        Whether vessels may go on where no lumen is to be seen, as in an occlusion. Without it a stretch of
+        more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not go on in the same
+        direction.
+    names : sequence of str or None, optional
+        The names of the vessels.
+    progress : callable, optional
+        Called now and then with how much is done and how much there is to do.
+
+    Returns
+    -------
+    VesselTree
+        A vessel for each list, points at most 0.5 mm apart, with ``radius``, ``confidence`` and ``bridged``.
+
+    Raises
+    ------
+    TracingError
+        For points outside the volume or not in lumen, equal points, and points between which there is no
+        lumen: the error names the weakest place, what the volume has there, and what was expected.
+    VolumeError
+        For what is no volume.
+    """
+    tracer = Tracer(volume, bridge=bridge)
+    for vessel, listed in enumerate(_lists(points)):
+        if len(listed) < 2:
+            found = counted(len(listed), "point")
+            raise TracingError(f"points of vessel {vessel}", found, "two or more, in order along the vessel")
+        for point in listed:
+            tracer.add(point, vessel)
+    for stopper in _rows("stoppers", stoppers):
+        tracer.stop(stopper, stopper_radius)
+    return tracer.route(names=names, progress=progress)
+
+
+class Tracer:
+    """Centerlines of one volume that follow points and stoppers as they are added, moved and removed.
+
+    Asked for its :attr:`tree` after a change, it finds the ways between points next to the change again and
+    keeps those of all other points. Lines may differ from those of :func:`trace` by small parts of a voxel:
+    what lumen looks like is not judged anew as long as all points fit. Changes must not come from several
+    threads at a time.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography. Its voxels must not change as long as the tracer is used.
+    bridge : bool, default False
+        As for :func:`trace`.
+
+    Raises
+    ------
+    VolumeError
+        For what is no volume.
+    """
+
+    def __init__(self, volume: Volume | Any, *, bridge: bool = False) -> None:
+        self._volume = as_volume(volume)
+        self._bridge = flag(TracingError, "bridge", bridge)
+        self._kept = _lumencut.Tracer()
+        self._vessels: list[list[_Points]] = []
+        self._stoppers: list[tuple[_Points, float]] = []
+        self._tree: VesselTree | None = None
+
+    @property
+    def points(self) -> tuple[_Points, ...]:
+        """The points of each vessel, each of shape (n, 3), mm, LPS."""
+        return tuple(np.array(vessel).reshape(-1, 3) for vessel in self._vessels)
+
+    @property
+    def stoppers(self) -> tuple[tuple[_Points, float], ...]:
+        """The stoppers: position (3,) (mm, LPS) and radius (mm)."""
+        return tuple(self._stoppers)
+
+    @property
+    def tree(self) -> VesselTree:
+        """The vessels of two and more points; as :meth:`route`, with its errors."""
+        return self.route()
+
+    def add(self, point: npt.ArrayLike, vessel: int | None = None, index: int | None = None) -> int:
+        """Add a point to a vessel and return the vessel.
+
+        Parameters
+        ----------
+        point : array_like, shape (3,)
+            The point (mm, LPS).
+        vessel : int, optional
+            To which vessel; by default the last one. The number of vessels begins a new one.
+        index : int, optional
+            Before which of its points; by default after all of them.
+        """
+        added = _place("point", point)
+        count = len(self._vessels)
+        vessel = max(count - 1, 0) if vessel is None else _index("vessel", vessel, count + 1)
+        here = self._vessels[vessel] if vessel < count else []
+        at = len(here) if index is None else _index("index of the point", index, len(here) + 1)
+        if vessel == count:
+            self._vessels.append(here)
+        here.insert(at, added)
+        self._tree = None
+        return vessel
+
+    def move(self, index: int, point: npt.ArrayLike, vessel: int = 0) -> None:
+        """Move a point of a vessel to another place (mm, LPS)."""
+        moved = _place("point", point)
+        here = self._vessel(vessel)
+        here[_index("index of the point", index, len(here))] = moved
+        self._tree = None
+
+    def remove(self, index: int, vessel: int = 0) -> None:
+        """Remove a point of a vessel; a vessel without points keeps its place among the others."""
+        here = self._vessel(vessel)
+        del here[_index("index of the point", index, len(here))]
+        self._tree = None
+
+    def stop(self, point: npt.ArrayLike, radius: float = 3.0) -> int:
+        """Forbid what lies within a radius (mm) of a place (mm, LPS); return the stopper's index."""
+        self._stoppers.append(
+            (_place("stopper", point), number(TracingError, "radius of the stopper", radius))
+        )
+        self._tree = None
+        return len(self._stoppers) - 1
+
+    def remove_stopper(self, index: int) -> None:
+        """Allow again what a stopper forbids."""
+        del self._stoppers[_index("index of the stopper", index, len(self._stoppers))]
+        self._tree = None
+
+    def route(
+        self, *, names: Sequence[str | None] | None = None, progress: Progress | None = None
+    ) -> VesselTree:
+        """Trace what has changed, and return the vessels of two and more points; parameters as :func:`trace`.
+
+        Raises
+        ------
+        TracingError
+            As :func:`trace`; the points stay as they are, and can be changed.
+        """
+        lists = [np.array(vessel) for vessel in self._vessels if len(vessel) > 1]
+        called = [None] * len(lists) if names is None else list(names)
+        if len(called) != len(lists):
+            raise TracingError(
+                "names", counted(len(called), "name"), f"one for each of {counted(len(lists), 'vessel')}"
+            )
+        if self._tree is None:
+            if not lists:
+                raise TracingError("points", "none", "two or more points along a vessel")
+            traced = self._kept.trace(
+                self._volume,
+                lists,
+                [(tuple(center.tolist()), radius) for center, radius in self._stoppers],
+                self._bridge,
+                progress,
+            )
+            self._tree = VesselTree(
+                Vessel(points, radius, confidence=confidence, bridged=bridged)
+                for points, radius, confidence, bridged in traced
+            )
+        if names is None:
+            return self._tree
+        return VesselTree(vessel.named(name) for vessel, name in zip(self._tree, called, strict=True))
+
+    def _vessel(self, vessel: int) -> list[_Points]:
+        return self._vessels[_index("vessel", vessel, len(self._vessels))]
+
+
+def _lists(points: Any) -> list[_Points]:
+    """The points of each vessel, from those of one or of several."""
+    try:
+        is_one = np.ndim(points) == 2
+    except ValueError:
+        is_one = False
+    if is_one:
+        return [_rows("points", points)]
+    try:
+        several = list(points)
+    except TypeError as error:
+        raise TracingError(
+            "points", type(points).__name__, "points of shape (n, 3), or a list of them"
+        ) from error
+    return [_rows(f"points of vessel {n}", listed) for n, listed in enumerate(several)]
+
+
+def _rows(subject: str, points: Any) -> _Points:
+    """Points as an array (n, 3), with n = 0 for an empty list."""
+    if np.size(points) == 0:
+        return np.empty((0, 3))
+    return numbers(TracingError, subject, points, (-1, 3))
+
+
+def _place(subject: str, point: Any) -> _Points:
+    return numbers(TracingError, subject, point, (3,))
+
+
+def _index(subject: str, index: SupportsIndex, count: int) -> int:
+    try:
+        return range(count)[index]
+    except (IndexError, TypeError) as error:
+        expected = f"a whole number from 0 to {count - 1}" if count else "nothing: there is none yet"
+        raise TracingError(subject, f"{index!r}", expected) from error

@@ -1,0 +1,309 @@
+"""Centerlines from clicks against vessels whose centerlines are known."""
+
+import numpy as np
+import pytest
+
+import lumencut
+from lumencut import Tracer, Vessel, VesselTree, Volume, phantom, read_centerlines, trace, write_centerlines
+from trace_scenes import (
+    BONE,
+    FAT,
+    LUMEN,
+    STENT,
+    TISSUE,
+    Scene,
+    arc,
+    away,
+    beside,
+    leaks,
+    lengths,
+    narrowed,
+    random_case,
+    room,
+)
+
+
+def painted(line, radius, *, spacing=0.6, value=LUMEN, seed=1, before=None, after=None, background=TISSUE):
+    """A volume of one vessel, with what `before` and `after` paint into the scene."""
+    scene = Scene(room(line, spacing), (spacing,) * 3)
+    scene.values[:] = background
+    if before:
+        before(scene)
+    scene.paint(line, radius, value)
+    if after:
+        after(scene)
+    return scene.volume(seed)
+
+
+@pytest.fixture(scope="module")
+def tube():
+    """The line, the radii and the volume of a bent tube of 151 mm with a stenosis of 45 %."""
+    line = arc(151)
+    radius = narrowed(line, 3.0, 45)
+    return line, radius, painted(line, radius, spacing=0.5)
+
+
+@pytest.fixture(scope="module")
+def short():
+    """A line of 60 mm, and the volume of a vessel of radius 2.5 mm along it."""
+    line = arc(60)
+    return line, painted(line, 2.5, background=FAT)
+
+
+def true_radius(points, line, radius):
+    nearest = [np.argmin(((line - point) ** 2).sum(axis=1)) for point in points]
+    return np.broadcast_to(radius, len(line))[nearest]
+
+
+def test_a_tube_with_a_stenosis_is_traced_within_a_twentieth_of_a_millimetre(tube):
+    line, radius, volume = tube
+    (vessel,) = trace(volume, [line[5], line[-6]])
+    off = away(vessel.points, line)
+    assert off.mean() <= 0.05
+    assert off.max() <= 0.25
+    # All of it, from click to click.
+    assert away(line[6:-6], vessel.points).max() < 0.3
+    assert np.linalg.norm(np.diff(vessel.points, axis=0), axis=1).max() <= 0.5
+    wrong = vessel.radius - true_radius(vessel.points, line, radius)
+    assert np.abs(wrong).mean() < 0.05
+    assert vessel.radius.min() == pytest.approx(0.55 * 3.0, abs=0.15)
+    assert vessel.confidence.min() > 0.8
+    assert not vessel.bridged.any()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_clicks_off_the_middle_move_the_line_by_less_than_a_tenth_of_a_millimetre(tube, seed):
+    line, radius, volume = tube
+    random = np.random.default_rng(seed)
+    clicks = []
+    for n in (5, len(line) // 2, len(line) - 6):
+        across = np.cross(line[n + 1] - line[n - 1], random.normal(size=3))
+        clicks.append(line[n] + 0.7 * radius[n] * across / np.linalg.norm(across))
+    (central,) = trace(volume, [line[5], line[-6]])
+    (vessel,) = trace(volume, clicks)
+    # Points that lie beyond the other line's end in its direction are no nearer to it.
+    assert away(vessel.points[3:-3], central.points).max() < 0.1
+    assert away(vessel.points[3:-3], line).max() < 0.1
+
+
+def bone(line):
+    return lambda scene: scene.paint(beside(line, 2.5 + 6, 0.0, 15, 45), 6.0, BONE)
+
+
+def vein(line):
+    return lambda scene: scene.paint(beside(line, 2.5 + 1 + 4, 2.0, 2, 58), 4.0, LUMEN - 20)
+
+
+def stent(line):
+    return lambda scene: scene.shell(line[100:220], 2.6, 0.8, STENT, 3.0)
+
+
+@pytest.mark.parametrize("clicks", [2, 3])
+@pytest.mark.parametrize("what", ["stenosis", "bone", "vein", "stent", "fading"])
+def test_what_lies_in_and_beside_vessels_does_not_lead_the_line_astray(what, clicks):
+    line = arc(60)
+    radius = narrowed(line, 2.5, 80 if what == "stenosis" else 0)
+    value = np.linspace(LUMEN, 200, len(line)) if what == "fading" else LUMEN
+    before = {"bone": bone, "vein": vein}.get(what)
+    volume = painted(
+        line,
+        radius,
+        value=value,
+        before=before and before(line),
+        after=stent(line) if what == "stent" else None,
+    )
+    n = [5, 90, len(line) - 6] if clicks == 3 else [5, len(line) - 6]
+    (vessel,) = trace(volume, line[n])
+    off = away(vessel.points, line)
+    assert off.mean() < 0.08
+    assert off.max() < 0.25
+
+
+@pytest.mark.parametrize("seed", [1, 5, 9, 12, 21])
+def test_seeded_scenes_have_no_leak(seed):
+    case = random_case(seed)
+    for clicks in (case.clicks[[0, -1]], case.clicks):
+        (vessel,) = trace(case.volume, clicks)
+        assert not leaks(vessel.points, case), case.what
+
+
+@pytest.mark.parametrize(
+    ("spacing", "shear"), [((0.6, 0.6, 0.6), 0.3), ((0.5, 0.5, 1.5), 0.0), ((0.4, 0.4, 3.0), 0.2)]
+)
+def test_any_affine_grid_will_do(spacing, shear):
+    line = arc(60)
+    reach = 2 * np.abs(line).max(axis=0) + [24, 40, 24]
+    scene = Scene(tuple(int(n) for n in np.ceil(reach / spacing)), spacing, shear=shear)
+    scene.paint(line, 2.5, LUMEN)
+    (vessel,) = trace(scene.volume(3), [line[5], line[-6]])
+    assert away(vessel.points, line).max() < 0.25
+
+
+def test_the_orientation_of_the_grid_changes_nothing(short):
+    line, volume = short
+    clicks = [line[5], line[-6]]
+    (plain,) = trace(volume, clicks)
+    for axes in ((2, 1, 0), (0, 2, 1), (1, 0, 2)):
+        array = np.ascontiguousarray(volume.array.transpose(axes))
+        affine = volume.world_from_index.copy()
+        # The axes of the array are k, j, i.
+        affine[:, :3] = volume.world_from_index[:, [2 - axes[2 - a] for a in range(3)]]
+        (turned,) = trace(Volume(array[::-1], world_from_index=_flipped(affine, array)), clicks)
+        assert away(turned.points, plain.points).max() < 0.02
+
+
+def _flipped(affine, array):
+    """The affine of an array whose k runs the other way."""
+    flip = np.eye(4)
+    flip[2, 2], flip[2, 3] = -1, len(array) - 1
+    return affine @ flip
+
+
+def test_threads_change_no_bit(short):
+    line, volume = short
+    before = lumencut.get_threads()
+    trees = []
+    try:
+        for count in (1, 2, 5):
+            lumencut.set_threads(count)
+            trees.append(trace(volume, [line[5], line[-6]]))
+    finally:
+        lumencut.set_threads(before)
+    assert trees[0] == trees[1] == trees[2]
+
+
+def test_every_type_of_voxel_gives_the_same_line(short):
+    line, volume = short
+    clicks = [line[5], line[-6]]
+    first = trace(volume, clicks)
+    for kind in (np.int32, np.float32, np.float64):
+        other = Volume(volume.array.astype(kind), world_from_index=volume.world_from_index)
+        assert trace(other, clicks) == first
+
+
+def test_several_vessels_join_where_they_meet():
+    made = phantom.y_junction()
+    ends = [vessel.points[[0, -1]] for vessel in made.tree]
+    trunk, left, right = trace(made.volume, ends, names=["trunk", "left", "right"])
+    assert (trunk.name, left.name, right.name) == ("trunk", "left", "right")
+    for branch in (left, right):
+        shared = (trunk.points == branch.points[0]).all(axis=1) | (trunk.points == branch.points[-1]).all(
+            axis=1
+        )
+        assert shared.sum() == 1
+    for vessel, truth in zip((trunk, left, right), made.tree, strict=True):
+        assert away(vessel.points, truth.points).max() < 1.0
+
+
+def test_a_branch_from_the_same_first_click_leaves_the_trunk_at_a_point_of_it():
+    line = arc(60)
+    side = line[150] + np.linspace(0, 1, 150)[:, None] * np.array([22.0, -9.0, 0.0])
+    volume = painted(line, 3.0, after=lambda scene: scene.paint(side, 1.8, LUMEN))
+    trunk, branch = trace(volume, [[line[5], line[-6]], [line[5], side[-8]]])
+    assert (trunk.points == branch.points[0]).all(axis=1).sum() == 1
+    assert np.linalg.norm(branch.points[0] - line[150]) < 2.0
+    assert branch.length < 24
+    assert away(branch.points, side).max() < 1.0
+
+
+def test_a_tracer_follows_what_is_added_moved_and_removed(short):
+    line, volume = short
+    tracer = Tracer(volume)
+    assert tracer.add(line[5]) == 0
+    tracer.add(line[-6])
+    first = tracer.tree
+    assert first == trace(volume, [line[5], line[-6]])
+    tracer.add(line[100], index=1)
+    tracer.move(1, line[120] + [0.8, 0, 0])
+    moved = tracer.tree
+    assert away(moved[0].points, first[0].points).max() < 0.1
+    tracer.move(0, line[60])
+    assert tracer.tree[0].length == pytest.approx(lengths(line)[-6] - lengths(line)[60], abs=1.0)
+    tracer.remove(1)
+    tracer.move(0, line[5])
+    assert away(tracer.tree[0].points, first[0].points).max() < 0.02
+    assert [len(points) for points in tracer.points] == [2]
+    assert tracer.add(line[30], vessel=1) == 1
+    # A vessel of one point is not traced yet.
+    assert len(tracer.tree) == 1
+
+
+def test_a_stopper_forbids_a_place():
+    bend = np.linspace(0, np.pi, 200)
+    way = np.stack([20 * np.cos(bend), np.zeros_like(bend), 20 * np.sin(bend)], axis=1)
+    other = way * [1, 1, -1]
+    volume = painted(way, 2.0, after=lambda scene: scene.paint(other, 2.5, LUMEN), spacing=0.8)
+    clicks = [way[0], way[-1]]
+    tracer = Tracer(volume)
+    for click in clicks:
+        tracer.add(click)
+    # A loop of two vessels: the line takes the other one where one is forbidden.
+    taken = way if away(tracer.tree[0].points, way).max() < 1 else other
+    stopper = tracer.stop(taken[100], radius=4.0)
+    left = other if taken is way else way
+    assert away(tracer.tree[0].points[10:-10], left).max() < 1
+    assert trace(volume, clicks, [taken[100]], stopper_radius=4.0) == tracer.tree
+    tracer.remove_stopper(stopper)
+    assert away(tracer.tree[0].points[10:-10], taken).max() < 1
+
+
+def test_an_occlusion_is_bridged_only_where_that_is_asked_for():
+    line = arc(60)
+    along = lengths(line)
+    shut = np.abs(along - 30) < 6
+    volume = painted(line, 2.5, value=np.where(shut, TISSUE, LUMEN))
+    clicks = [line[5], line[-6]]
+    with pytest.raises(lumencut.TracingError, match="do not look like lumen, least at"):
+        trace(volume, clicks)
+    (vessel,) = trace(volume, clicks, bridge=True)
+    middle = np.abs(along[[np.argmin(((line - p) ** 2).sum(axis=1)) for p in vessel.points]] - 30)
+    assert vessel.bridged[middle < 4].all()
+    assert not vessel.bridged[middle > 8].any()
+    assert (vessel.confidence[vessel.bridged] == 0).all()
+    # The bridge is straight, the vessel was not.
+    assert away(vessel.points, line).max() < 2.0
+
+
+def test_a_short_gap_in_the_contrast_is_passed():
+    line = arc(60)
+    volume = painted(line, 2.5, value=np.where(np.abs(lengths(line) - 30) < 1.5, TISSUE, LUMEN))
+    (vessel,) = trace(volume, [line[5], line[-6]])
+    assert away(vessel.points, line).max() < 0.5
+    assert not vessel.bridged.any()
+
+
+def test_progress_ends_with_all_of_it(short):
+    line, volume = short
+    told = []
+    trace(volume, [line[5], line[-6]], progress=lambda done, total: told.append((done, total)))
+    assert told[-1][0] == told[-1][1]
+    assert [done for done, _ in told] == sorted(done for done, _ in told)
+
+
+@pytest.mark.parametrize("ending", ["vtp", "vtk", "csv", "mrk.json"])
+def test_files_hold_radius_and_confidence(short, tmp_path, ending):
+    line, volume = short
+    tree = trace(volume, [line[5], line[-6]])
+    path = tmp_path / f"lines.{ending}"
+    write_centerlines(tree, path)
+    assert "onfidence" in path.read_text()
+    (again,) = read_centerlines(path, "lps")
+    assert np.array_equal(again.points, tree[0].points)
+    assert np.array_equal(again.radius, tree[0].radius)
+
+
+def test_vessels_know_their_confidence_and_bridges():
+    points = np.arange(9.0).reshape(3, 3)
+    vessel = Vessel(points, 1.0, confidence=[0, 0.5, 1], bridged=[True, False, False])
+    assert vessel.named("a").confidence.tolist() == [0, 0.5, 1]
+    assert vessel.named("a").bridged.tolist() == [True, False, False]
+    assert vessel != Vessel(points, 1.0)
+    assert VesselTree([vessel]).smoothed(1.0)[0].bridged.tolist() == [True, False, False]
+    for wrong in (
+        {"confidence": [0, 1]},
+        {"confidence": [0, 1, 2]},
+        {"bridged": [1, 0, 0]},
+        {"bridged": [True]},
+    ):
+        with pytest.raises(lumencut.VesselTreeError):
+            Vessel(points, 1.0, **wrong)
