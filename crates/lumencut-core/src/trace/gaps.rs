@@ -76,8 +76,9 @@ impl<'a, 'v> Line<'a, 'v> {
     /// Where a centerline crosses from one vessel to another through the wall between them: it turns on both sides of a
     /// short stretch that looks less like lumen than what is just before and after.
     pub fn crossing(&self) -> Option<Gap> {
-        let shares: Vec<f32> =
-            self.way.iter().map(|place| self.model.membership(self.voxels.at(*place))).collect();
+        // Walls are darker than lumen; calcium and stents in them are brighter and say nothing of a crossing.
+        let value = |place: &DVec3| self.voxels.at(*place).min(self.model.high as f32);
+        let shares: Vec<f32> = self.way.iter().map(|place| self.model.membership(value(place))).collect();
         let below = |limit: f64| shares.iter().map(|share| f64::from(*share) < limit).collect::<Vec<_>>();
         let full: Vec<bool> = below(FULL).iter().map(|is_below| !is_below).collect();
         stretches(&below(THIN)).into_iter().map(|points| self.gap(points)).find(|gap| {

@@ -25,6 +25,9 @@ const BESIDE: f64 = 1.75;
 /// A cross-section that is trusted less was not seen.
 const LEAST_TRUST: f64 = 0.1;
 
+/// Over how much of the line its middles must go on (mm).
+const STRETCH: f64 = 2.0;
+
 /// How much a point counts at which no lumen was seen.
 const UNSEEN: f64 = 0.1;
 
@@ -84,6 +87,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let medians = medians(&sections, &lengths);
     let trust: Vec<f64> =
         sections.iter().zip(&medians).map(|(section, median)| trust_of(section, *median)).collect();
+    let trust = unfolded(points, &sections, &trust, &lengths);
     let radii = filled(&sections, &trust, &lengths);
     let values: Vec<[f64; 4]> = (0..points.len())
         .map(|i| {
@@ -99,6 +103,22 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let moved: Vec<DVec3> = smooth.iter().map(|v| DVec3::new(v[0], v[1], v[2])).collect();
     let radius: Vec<f64> = smooth.iter().map(|v| v[3].max(0.0)).collect();
     Centerline { points: moved, radius, confidence: trust }
+}
+
+/// The trust of the sections, none for those whose middles do not go on along the line: such a line would fold back, as it
+/// does where a branch begins within a wider vessel.
+fn unfolded(points: &[DVec3], sections: &[Option<CrossSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
+    let mut left = trust.to_vec();
+    for i in 0..points.len() {
+        let j = lengths.partition_point(|length| *length < lengths[i] + STRETCH).min(points.len() - 1);
+        let (Some(from), Some(to)) = (sections[i], sections[j]) else { continue };
+        let way = points[j] - points[i];
+        let progress = (to.center - from.center).dot(way) / way.length_squared().max(1e-12);
+        if j > i && trust[i].min(trust[j]) > LEAST_TRUST && !(0.4..2.5).contains(&progress) {
+            (left[i], left[j]) = (0.0, 0.0);
+        }
+    }
+    left
 }
 
 /// How much a cross-section counts: little where its radius is far from those around it.
