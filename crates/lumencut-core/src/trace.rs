@@ -8,5 +8,6 @@ pub mod lumen_model;
 pub mod path;
 pub mod refine;
 pub mod region;
+pub mod traced;
 pub mod tracer;
 pub mod voxels;
