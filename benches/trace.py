@@ -1,6 +1,6 @@
 """How exactly and how fast centerlines are traced, on phantoms with known truth: a Markdown table.
 
-``python benches/trace.py`` needs the installed package; ``--scenes 200`` says how many seeded scenes are traced.
+``python benches/trace.py`` needs the installed package; ``--scenes`` says how many seeded scenes are traced.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
-from lumencut import Tracer, TracingError, Volume, phantom, trace
+from lumencut import Tracer, TracingError, VesselTree, Volume, phantom, trace
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
@@ -30,10 +31,11 @@ def tube() -> Iterator[Row]:
     volume = scene.volume(1)
     seconds, tree = timed(volume, line[[5, -6]])
     off = away(tree[0].points, line)
-    yield "tube of 151 mm, stenosis of 45 %", f"mean {off.mean():.3f} mm, max {off.max():.3f} mm, {seconds:.2f} s"
+    measured = f"mean {off.mean():.3f} mm, max {off.max():.3f} mm, {seconds:.2f} s"
+    yield "tube of 151 mm, stenosis of 45 %", measured
 
 
-def timed(volume: Volume, clicks: object) -> tuple[float, object]:
+def timed(volume: Volume, clicks: npt.ArrayLike) -> tuple[float, VesselTree]:
     """The least time of three tracings, and the tree."""
     times = []
     for _ in range(3):

@@ -14,6 +14,7 @@ pub mod lumen;
 pub mod lumen_model;
 pub mod mask;
 pub mod mask_gaps;
+pub mod mask_vessels;
 mod nearest_background;
 pub mod path;
 pub mod polyline;

@@ -5,7 +5,8 @@ use std::sync::{Mutex, PoisonError};
 use glam::DVec3;
 use lumencut::progress::Progress;
 use lumencut::trace::region::Stopper;
-use lumencut::trace::tracer::{Clicks, Traced, Tracer as Core};
+use lumencut::trace::traced::Traced;
+use lumencut::trace::tracer::{Clicks, Tracer as Core};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 

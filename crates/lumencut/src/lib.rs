@@ -24,7 +24,7 @@ pub mod views;
 pub mod windows;
 
 pub use lumencut_core::{
-    camera, error, frame, geometry, math, pipeline, progress, reformations, scene, settings, stages, stop, trace,
-    vessel_tree, volume, with_voxels,
+    camera, error, frame, geometry, math, pipeline, progress, reformations, scene, settings, stages, stop,
+    trace, vessel_tree, volume, with_voxels,
 };
 pub use lumencut_io as centerlines;

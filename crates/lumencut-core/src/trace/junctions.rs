@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::path::arc_lengths;
 use super::refine::{Centerline, STEP};
-use super::tracer::Traced;
+use super::traced::Traced;
 use crate::error::{Error, ErrorKind, Result};
 
 /// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least so much (mm).

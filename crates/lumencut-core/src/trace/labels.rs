@@ -1,8 +1,8 @@
 //! The labels of a label map along a vessel, which part it where one label ends and another begins.
 
 use crate::trace::foreground::label_at;
+use crate::trace::mask_vessels::MaskVessel;
 use crate::trace::polyline::ways;
-use crate::trace::traced::Traced;
 use crate::volume::Volume;
 
 /// A stretch with a label of its own is a vessel of its own where it is at least so many radii long.
@@ -17,7 +17,7 @@ struct Stretch {
 }
 
 /// A vessel in parts of one label each; parts that follow each other share a point.
-pub fn parted(vessel: &Traced, mask: &Volume, labels: Option<&[i64]>) -> Vec<Traced> {
+pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
     let ways = ways(&vessel.points);
     let mut stretches = stretches(vessel, mask, labels);
     let shortest = SHORTEST * vessel.mean_radius();
@@ -43,7 +43,7 @@ pub fn parted(vessel: &Traced, mask: &Volume, labels: Option<&[i64]>) -> Vec<Tra
         });
     }
     let last = stretches.len() - 1;
-    let part = |(n, stretch): (usize, Stretch)| Traced {
+    let part = |(n, stretch): (usize, Stretch)| MaskVessel {
         points: vessel.points[stretch.from..=stretch.to].to_vec(),
         radius: vessel.radius[stretch.from..=stretch.to].to_vec(),
         is_free: [n == 0 && vessel.is_free[0], n == last && vessel.is_free[1]],
@@ -55,7 +55,7 @@ pub fn parted(vessel: &Traced, mask: &Volume, labels: Option<&[i64]>) -> Vec<Tra
 
 /// The stretches of one label along a vessel, at least one, each of which begins with the last point of the one before.
 /// A point outside the lumen, as in a cavity that was filled, has the label of the point before.
-fn stretches(vessel: &Traced, mask: &Volume, labels: Option<&[i64]>) -> Vec<Stretch> {
+fn stretches(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<Stretch> {
     let is_lumen = |label: &i64| *label != 0 && labels.is_none_or(|labels| labels.contains(label));
     let at = |n: usize| {
         let index = mask.index_from_world().transform_point3(vessel.points[n]).round();

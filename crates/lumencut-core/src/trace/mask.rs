@@ -13,12 +13,12 @@ use crate::trace::graph::Graph;
 use crate::trace::labels::parted;
 use crate::trace::lumen::Lumen;
 use crate::trace::mask_gaps::{Gap, bridge, gaps};
+use crate::trace::mask_vessels::{MaskVessel, outwards};
 use crate::trace::polyline::{at, directions, resampled, ways};
 use crate::trace::pruning::{merge_junctions, prune, remove_round_pieces};
 use crate::trace::runs::{fill_cavities, pieces};
 use crate::trace::thinning::thin;
 use crate::trace::through_lines::{ThroughLine, through_lines};
-use crate::trace::traced::{Traced, outwards};
 use crate::volume::Volume;
 
 /// The most cells in the box around the lumen: their numbers have 32 bits.
@@ -49,7 +49,7 @@ pub struct Request<'a> {
 /// The vessels of a mask, and what was found on the way.
 pub struct TracedMask {
     /// The vessels; those that meet share their end points to the bit.
-    pub vessels: Vec<Traced>,
+    pub vessels: Vec<MaskVessel>,
     /// Between which vessels lumen is missing, the narrowest gap first.
     pub gaps: Vec<Gap>,
     /// How many cavities were filled, and how many voxels they had.
@@ -101,7 +101,7 @@ pub fn trace_mask(mask: &Volume, request: &Request) -> Result<TracedMask> {
     remove_round_pieces(&mut graph, &lumen);
     merge_junctions(&mut graph, &lumen);
     let vessels = outwards(vessels(&graph, &lumen, request)?);
-    let mut vessels: Vec<Traced> =
+    let mut vessels: Vec<MaskVessel> =
         vessels.iter().flat_map(|vessel| parted(vessel, mask, request.labels)).collect();
     let mut gaps = gaps(&vessels, stop)?;
     bridge(&mut vessels, &mut gaps, request.bridge, request.step);
@@ -116,7 +116,7 @@ pub fn trace_mask(mask: &Volume, request: &Request) -> Result<TracedMask> {
 }
 
 /// The branches of a graph as vessels.
-fn vessels(graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<Traced>> {
+fn vessels(graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<MaskVessel>> {
     let mut lines = through_lines(graph, lumen);
     let passes = |line: &ThroughLine, n: usize| line.is_closed || (n > 0 && n + 1 < line.knots.len());
     let mut is_passed = vec![false; graph.nodes.len()];
@@ -138,7 +138,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<Traced
             node_place[knot.node].get_or_insert(line.points[knot.point]);
         }
     }
-    let made: Vec<Vec<Traced>> = lines
+    let made: Vec<Vec<MaskVessel>> = lines
         .par_iter_mut()
         .map(|line| {
             go_on(request.stop)?;
@@ -190,7 +190,7 @@ fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: us
 }
 
 /// The vessels of a line: its parts between nodes.
-fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<Traced>> {
+fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<MaskVessel>> {
     let mut made = Vec::new();
     for pair in line.knots.windows(2) {
         let mut points = line.points[pair[0].point..=pair[1].point].to_vec();
@@ -208,7 +208,7 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) ->
             None => (points.clone(), radii(&points, is_free, lumen)),
         };
         let nodes = [pair[0].node, pair[1].node];
-        made.push(Traced { points, radius, nodes, is_free, label: 0, is_bridge: false });
+        made.push(MaskVessel { points, radius, nodes, is_free, label: 0, is_bridge: false });
     }
     Ok(made)
 }

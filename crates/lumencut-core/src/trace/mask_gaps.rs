@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use crate::error::Result;
 use crate::stop::{Stop, go_on};
+use crate::trace::mask_vessels::MaskVessel;
 use crate::trace::polyline::ways;
-use crate::trace::traced::Traced;
 
 /// A gap between two pieces of lumen.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub struct Gap {
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn gaps(vessels: &[Traced], stop: Stop) -> Result<Vec<Gap>> {
+pub fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     let piece_of = piece_of(vessels);
     let mut narrowest: HashMap<[usize; 2], Gap> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
@@ -62,7 +62,7 @@ pub fn gaps(vessels: &[Traced], stop: Stop) -> Result<Vec<Gap>> {
 }
 
 /// Adds a straight vessel over each gap that is no wider than `widest` (mm), with points at most `step` (mm) apart.
-pub fn bridge(vessels: &mut Vec<Traced>, gaps: &mut [Gap], widest: f64, step: f64) {
+pub fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step: f64) {
     for gap in gaps.iter_mut().filter(|gap| gap.width <= widest) {
         let [from, to] = gap.points;
         let count = (from.distance(to) / step).ceil().max(1.0) as usize;
@@ -73,13 +73,13 @@ pub fn bridge(vessels: &mut Vec<Traced>, gaps: &mut [Gap], widest: f64, step: f6
         let [label, other] = gap.vessels.map(|number| vessels[number].label);
         let label = if label == other { label } else { 0 };
         let nodes = [usize::MAX; 2];
-        vessels.push(Traced { points, radius, nodes, is_free: [false; 2], label, is_bridge: true });
+        vessels.push(MaskVessel { points, radius, nodes, is_free: [false; 2], label, is_bridge: true });
         gap.is_bridged = true;
     }
 }
 
 /// The points of a vessel from which a gap can lead: its free ends, or every point of a ring.
-fn starts(vessel: &Traced) -> Vec<usize> {
+fn starts(vessel: &MaskVessel) -> Vec<usize> {
     let last = vessel.points.len() - 1;
     if vessel.nodes[0] == vessel.nodes[1] {
         return (0..last).collect();
@@ -88,7 +88,7 @@ fn starts(vessel: &Traced) -> Vec<usize> {
 }
 
 /// The gap from a point of a vessel to where another one is nearest.
-fn gap(numbers: [usize; 2], vessel: &Traced, from: usize, target: &Traced) -> Gap {
+fn gap(numbers: [usize; 2], vessel: &MaskVessel, from: usize, target: &MaskVessel) -> Gap {
     let point = vessel.points[from];
     let start = to_wall(vessel)[from];
     let inside = to_wall(target);
@@ -106,7 +106,7 @@ fn gap(numbers: [usize; 2], vessel: &Traced, from: usize, target: &Traced) -> Ga
 }
 
 /// The piece that each vessel belongs to, by the points that their ends share.
-fn piece_of(vessels: &[Traced]) -> Vec<usize> {
+fn piece_of(vessels: &[MaskVessel]) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..vessels.len()).collect();
     let mut first_at: HashMap<[u64; 3], usize> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
@@ -129,7 +129,7 @@ fn root(parent: &mut [usize], mut place: usize) -> usize {
 
 /// How far the lumen reaches beyond each point of a vessel towards another piece (mm): to the wall, but no farther than
 /// to a free end of the vessel.
-fn to_wall(vessel: &Traced) -> Vec<f64> {
+fn to_wall(vessel: &MaskVessel) -> Vec<f64> {
     let ways = ways(&vessel.points);
     let whole = ways[ways.len() - 1];
     let to_end = |way: f64| {

@@ -8,8 +8,9 @@ use super::front::{Found, Front, Reach};
 use super::gaps::{Gap, LONGEST_GAP, Line, no_lumen, no_way};
 use super::junctions::{joined, nearest};
 use super::lumen_model::{LumenModel, Surroundings, at};
-use super::refine::{Centerline, refined};
+use super::refine::refined;
 use super::region::{FORBIDDEN, Region, Stopper, Strictness, THIN, WEAK};
+use super::traced::Traced;
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind, Result};
 use crate::progress::Progress;
@@ -29,17 +30,6 @@ pub struct Clicks {
     pub stoppers: Vec<Stopper>,
     /// Whether stretches without lumen are bridged, however long.
     pub bridge: bool,
-}
-
-/// A centerline between clicks.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Traced {
-    /// Its points, radii and confidence.
-    pub line: Centerline,
-    /// Which points lie on a stretch without lumen that was bridged.
-    pub bridged: Vec<bool>,
-    /// The first and the last click.
-    pub ends: [DVec3; 2],
 }
 
 /// The way between two clicks through voxels.
