@@ -11,8 +11,9 @@ use glam::DVec3;
 use crate::error::{Error, ErrorKind, Result};
 use crate::stop::{Stop, go_on};
 
-/// The most pairs of points that are compared; one bit is kept for each, 1 GiB in all.
-const MOST_PAIRS: usize = 1 << 33;
+/// The most pairs of points that are compared; one bit is kept for each, 512 MiB in all.
+/// Machines of 32 bits can count so many.
+const MOST_PAIRS: usize = usize::MAX >> (usize::BITS - 32);
 
 /// After so many pairs the caller is asked whether to stop.
 const PAIRS_BETWEEN_STOPS: usize = 1 << 24;
