@@ -8,6 +8,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode, Window};
+use lumencut_core::trace::tracer::{Clicks, Tracer};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_scenes::pictures::render;
@@ -62,6 +63,21 @@ fn volume_errors() -> Vec<Error> {
     ]
 }
 
+/// Clicks into a volume of one value, outside it, and twice at the same place.
+fn tracing_errors() -> Vec<Error> {
+    let voxels = [0i16; 27];
+    let volume = Volume::new(Voxels::I16(&voxels), [3; 3], [1, 3, 9], DAffine3::IDENTITY).unwrap();
+    let traced = |points: [DVec3; 2]| {
+        let clicks = Clicks { vessels: vec![points.to_vec()], stoppers: Vec::new(), bridge: false };
+        Tracer::default().trace(&volume, &clicks, &|| false, None).unwrap_err()
+    };
+    vec![
+        traced([DVec3::ZERO, DVec3::splat(2.0)]),
+        traced([DVec3::ZERO, DVec3::splat(9.0)]),
+        traced([DVec3::ONE, DVec3::ONE]),
+    ]
+}
+
 fn settings_errors() -> Vec<Error> {
     let wrong = |change: fn(&mut Settings)| {
         let mut settings = Settings::default();
@@ -96,7 +112,8 @@ fn settings_errors() -> Vec<Error> {
 
 #[test]
 fn errors_name_what_was_found_and_what_was_expected() {
-    let all = [vessel_errors(), camera_errors(), volume_errors(), settings_errors()].concat();
+    let all =
+        [vessel_errors(), camera_errors(), volume_errors(), settings_errors(), tracing_errors()].concat();
     for error in &all {
         let line = error.to_string();
         assert!(line.contains("found ") && line.contains("expected ") && !line.contains('\n'), "{line}");
@@ -113,7 +130,8 @@ fn every_kind_of_error_can_be_met() {
     let camera = front([9, 9], 1.0);
     let stopped =
         render(&Scene::default().with_tree(scene), &camera, &Settings::default(), &|| true).unwrap_err();
-    let all = [vessel_errors(), camera_errors(), volume_errors(), settings_errors(), vec![stopped]].concat();
+    let input = [vessel_errors(), camera_errors(), volume_errors(), settings_errors(), tracing_errors()];
+    let all = [input.concat(), vec![stopped]].concat();
     let met: HashSet<_> = all.iter().map(|e| e.kind).collect();
     assert_eq!(met, ErrorKind::ALL.into_iter().filter(|kind| !OF_THE_GPU.contains(kind)).collect());
 }
