@@ -71,7 +71,7 @@ impl<'a> Request<'a> {
             made = ImageSet::of(&written).and(ImageSet::of(&[Image::Depth]));
         }
         if scene.volume.is_some() {
-            stages.extend(Stage::of_look(self.settings, &Geometry::rays(*self.camera), made));
+            stages.extend(Stage::of_look(self.settings, &Geometry::rays(*self.camera), made, asked));
         }
         progress.begin_view(stages.iter().map(|stage| stage.cost()), self.camera.size().iter().product());
     }
@@ -182,7 +182,7 @@ impl CpuRenderer {
         let (mut clock, mut images) = (Clock::start(), Images::default());
         let Frame { geometry, vessel, leap, .. } = &frame;
         let pass = LookPass { work, volume, settings, geometry, vessel, leap };
-        for stage in Stage::of_look(settings, &frame.geometry, frame.images()) {
+        for stage in Stage::of_look(settings, &frame.geometry, frame.images(), request.images) {
             request.begin_stage(stage);
             pass.run(stage, &mut images)?;
             clock.lap(stage);

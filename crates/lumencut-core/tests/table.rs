@@ -15,7 +15,7 @@ use lumencut_scenes::views::front;
 fn whole(settings: &Settings) -> Vec<Stage> {
     let surface = Stage::of_cut_surface(settings, ImageSet::ALL);
     let made = ImageSet::of(&[Image::Depth, Image::Vessel, Image::Leap]);
-    let look = Stage::of_look(settings, &Geometry::rays(front([4, 3], 1.0)), made);
+    let look = Stage::of_look(settings, &Geometry::rays(front([4, 3], 1.0)), made, ImageSet::ALL);
     surface.into_iter().chain(look).collect()
 }
 
@@ -67,7 +67,7 @@ fn what_is_not_wanted_is_not_run() {
     assert_eq!(whole(&settings), [Stage::Distance, Stage::Depth, Stage::Surface, Stage::Composite]);
     let rays = Geometry::rays(front([4, 3], 1.0));
     let look = |geometry: &Geometry, made: &[Image]| {
-        Stage::of_look(&Settings::default(), geometry, ImageSet::of(made))
+        Stage::of_look(&Settings::default(), geometry, ImageSet::of(made), ImageSet::ALL)
     };
     let alone = [Stage::Blocks, Stage::Context, Stage::Composite];
     assert_eq!(look(&rays, &[]), alone);
@@ -91,6 +91,22 @@ fn what_nothing_reads_is_not_made() {
     assert_eq!(stages(&leaps, &[Image::Picture]), (vec![Stage::Depth, Stage::Leap], true));
     let paper = Settings { depth_filter: false, ..Settings::paper() };
     assert_eq!(stages(&paper, &[Image::Picture]), (vec![Stage::Distance, Stage::Depth], false));
+}
+
+#[test]
+fn a_look_makes_no_more_than_what_is_wanted() {
+    let (settings, rays) = (Settings::default(), Geometry::rays(front([4, 3], 1.0)));
+    let curved = Geometry::Curved(Curved::new([1, 1], vec![DVec3::ZERO], vec![Vec3::Z]).unwrap());
+    let made = ImageSet::of(&[Image::Depth, Image::Vessel, Image::Leap]);
+    let look = |geometry: &Geometry, wanted: Image| {
+        Stage::of_look(&settings, geometry, made, ImageSet::of(&[wanted]))
+    };
+    assert_eq!(look(&rays, Image::Depth), []);
+    assert_eq!(look(&rays, Image::Value), [Stage::Surface]);
+    let context = [Stage::Surface, Stage::Blocks, Stage::Context, Stage::Composite];
+    assert_eq!(look(&rays, Image::Context), context);
+    assert_eq!(look(&curved, Image::Value), [Stage::Surface]);
+    assert_eq!(look(&curved, Image::Picture), [Stage::Surface, Stage::Composite]);
 }
 
 #[test]

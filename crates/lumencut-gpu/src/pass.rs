@@ -58,7 +58,8 @@ impl<'a> Pass<'a> {
 
     /// Shows what is there: values, silhouettes, context, picture.
     pub async fn look(&mut self) -> Result<()> {
-        for stage in Stage::of_look(self.request.settings, &self.geometry, self.made) {
+        let Request { settings, images, .. } = *self.request;
+        for stage in Stage::of_look(settings, &self.geometry, self.made, images) {
             self.run(stage).await?;
         }
         Ok(())

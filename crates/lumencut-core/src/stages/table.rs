@@ -252,26 +252,29 @@ impl Stage {
 
     /// The stages that show what is there, in their order. `made` are the images that are there: without a depth the context
     /// alone is shown, and silhouettes need leaps or vessels too. At places of their own, which no camera looks at, there are neither
-    /// silhouettes nor a context.
-    pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet) -> Vec<Self> {
-        if matches!(geometry, Geometry::Curved(_)) {
-            return vec![Self::Surface, Self::Composite];
-        }
-        let has_surface = made.has(Image::Depth);
+    /// silhouettes nor a context. `wanted` are the images that shall come of the view.
+    pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet, wanted: ImageSet) -> Vec<Self> {
+        let has_camera = geometry.camera().is_some();
+        let has_surface = !has_camera || made.has(Image::Depth);
         let drawn_from = match settings.silhouette_rule {
             SilhouetteRule::Leap => Image::Leap,
             SilhouetteRule::Gradient => Image::Vessel,
         };
-        let has_silhouettes = settings.silhouettes && has_surface && made.has(drawn_from);
-        let has_context = settings.context.is_some();
-        let wanted = [
-            (Self::Surface, has_surface),
+        let has_picture = wanted.has(Image::Picture);
+        let can_have_silhouettes = has_camera && has_surface && made.has(drawn_from);
+        let has_silhouettes = has_picture && settings.silhouettes && can_have_silhouettes;
+        let wants_context = has_picture || wanted.has(Image::Context);
+        let has_context = wants_context && has_camera && settings.context.is_some();
+        // The rays of a context start by the values.
+        let has_values = has_surface && (has_picture || has_context || wanted.has(Image::Value));
+        let stages = [
+            (Self::Surface, has_values),
             (Self::Silhouette, has_silhouettes),
             (Self::Blocks, has_context),
             (Self::Context, has_context),
-            (Self::Composite, true),
+            (Self::Composite, has_picture || has_context),
         ];
-        needed(&wanted)
+        needed(&stages)
     }
 }
 
