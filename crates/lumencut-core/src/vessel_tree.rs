@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::arc_length::arc_lengths;
 
 /// The largest coordinate (mm) of points and cameras: one kilometre.
 pub const MAX_COORDINATE: f64 = 1e6;
@@ -47,10 +48,7 @@ impl Vessel {
 
     /// A vessel from parts that satisfy [`Vessel::new`] by construction.
     pub(crate) fn from_checked(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Self {
-        let mut arc_length = vec![0.0; points.len()];
-        for i in 1..points.len() {
-            arc_length[i] = arc_length[i - 1] + points[i].distance(points[i - 1]);
-        }
+        let arc_length = arc_lengths(&points);
         Self { points, radius, arc_length }
     }
 

@@ -1,6 +1,7 @@
 //! The arithmetic that the stages share.
 
 pub mod accumulate;
+pub mod arc_length;
 pub mod blocks;
 pub mod candidates;
 pub mod cell_walk;

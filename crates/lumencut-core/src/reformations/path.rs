@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::arc_length::arc_lengths;
 use crate::math::centerline_smoothing::smooth_centerlines;
 use crate::settings::Limits;
 use crate::vessel_tree::{Vessel, VesselTree};
@@ -42,10 +43,7 @@ impl Path {
             return Err(Error::new(ErrorKind::VesselTree, "points of the vessel", found, expected));
         }
         let direction: Vec<_> = points.windows(2).map(|ends| (ends[1] - ends[0]).normalize()).collect();
-        let mut arc_length = vec![0.0; points.len()];
-        for i in 1..points.len() {
-            arc_length[i] = arc_length[i - 1] + points[i].distance(points[i - 1]);
-        }
+        let arc_length = arc_lengths(&points);
         Ok(Self { points, arc_length, direction })
     }
 

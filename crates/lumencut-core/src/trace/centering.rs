@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use crate::error::Result;
+use crate::math::arc_length::arc_lengths;
 use crate::stop::{Stop, go_on};
 use crate::trace::lumen::Lumen;
-use crate::trace::polyline::{at, directions, smoothed, ways};
+use crate::trace::polyline::{at, directions, smoothed};
 use crate::trace::through_lines::ThroughLine;
 
 /// How often the line is moved to the centres of its cross-sections.
@@ -75,7 +76,7 @@ fn shift(lumen: &Lumen, point: DVec3, direction: DVec3) -> DVec3 {
 
 /// How much each point is moved: not within the lumen of another line, wholly from one and a half of its radii on.
 fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
-    let ways = ways(points);
+    let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     let weight = |way: f64, radius: Option<f64>| {
         radius.map_or(1.0, |radius| (2.0 * (way / radius.max(1e-9) - 1.0)).clamp(0.0, 1.0))
@@ -100,7 +101,7 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
 /// Leads the first point of a line out to the wall, straight on from one radius before it. `most` is how much of the line
 /// may be given up for that (mm).
 pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
-    let ways = ways(points);
+    let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     let inner = |way: f64| lumen.radius(at(points, &ways, way));
     let cut = way_inwards(inner, lumen.side() / 2.0, most.min(whole / 2.0));

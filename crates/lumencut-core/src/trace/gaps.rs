@@ -5,10 +5,10 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::lumen_model::{LumenModel, at};
-use super::path::arc_lengths;
 use super::region::{FULL, Stopper, THIN};
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind};
+use crate::math::arc_length::arc_lengths;
 
 /// A stretch without lumen that is passed (mm): where the vessel goes on in the same direction, and elsewhere.
 pub const LONGEST_GAP: f64 = 5.0;

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::path::arc_lengths;
 use super::refine::{Centerline, STEP};
 use super::traced::Traced;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::arc_length::arc_lengths;
 
 /// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least so much (mm).
 const END_TO_END: f64 = 0.7;

@@ -1,8 +1,8 @@
 //! The labels of a label map along a vessel, which part it where one label ends and another begins.
 
+use crate::math::arc_length::arc_lengths;
 use crate::trace::foreground::label_at;
 use crate::trace::mask_vessels::MaskVessel;
-use crate::trace::polyline::ways;
 use crate::volume::Volume;
 
 /// A stretch with a label of its own is a vessel of its own where it is at least so many radii long.
@@ -18,7 +18,7 @@ struct Stretch {
 
 /// A vessel in parts of one label each; parts that follow each other share a point.
 pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
-    let ways = ways(&vessel.points);
+    let ways = arc_lengths(&vessel.points);
     let mut stretches = stretches(vessel, mask, labels);
     let shortest = SHORTEST * vessel.mean_radius();
     let length = |stretch: &Stretch| ways[stretch.to] - ways[stretch.from];

@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::arc_length::arc_lengths;
 use crate::progress::Progress;
 use crate::stop::{Stop, go_on};
 use crate::trace::centering::{center, lead_to_cap};
@@ -14,7 +15,7 @@ use crate::trace::labels::parted;
 use crate::trace::lumen::Lumen;
 use crate::trace::mask_gaps::{Gap, bridge, gaps};
 use crate::trace::mask_vessels::{MaskVessel, outwards};
-use crate::trace::polyline::{at, directions, resampled, ways};
+use crate::trace::polyline::{at, directions, resampled};
 use crate::trace::pruning::{merge_junctions, prune, remove_round_pieces};
 use crate::trace::runs::{fill_cavities, pieces};
 use crate::trace::thinning::thin;
@@ -151,7 +152,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<MaskVe
 
 /// Brings the ends of a line that lie on other lines to where those pass, and all that is near them part of the way.
 fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Option<f64>; 2]) {
-    let ways = ways(&line.points);
+    let ways = arc_lengths(&line.points);
     let whole = ways[ways.len() - 1];
     let last = line.points.len() - 1;
     for (end, radius) in on_other.into_iter().enumerate() {
@@ -195,7 +196,7 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) ->
     for pair in line.knots.windows(2) {
         let mut points = line.points[pair[0].point..=pair[1].point].to_vec();
         let is_free = [pair[0], pair[1]].map(|knot| graph.incident[knot.node].len() == 1);
-        let whole = ways(&points)[points.len() - 1];
+        let whole = arc_lengths(&points)[points.len() - 1];
         for end in 0..2 {
             if is_free[end] {
                 lead_to_cap(&mut points, lumen, whole / 2.0);
@@ -217,7 +218,7 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) ->
 fn refined(points: &[DVec3], is_free: [bool; 2], refine: Refine) -> Result<(Vec<DVec3>, Vec<f64>)> {
     let (mut moved, radius) = refine(points)?;
     let ends = [points[0], points[points.len() - 1]];
-    let ways = ways(&moved);
+    let ways = arc_lengths(&moved);
     let (last, whole) = (moved.len() - 1, ways[ways.len() - 1]);
     for end in (0..2).filter(|&end| !is_free[end]) {
         let place = if end == 0 { 0 } else { last };
@@ -245,7 +246,7 @@ fn radii(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Vec<f64> {
     let side = lumen.side();
     let reach = vec![2.0 * side; points.len()];
     let along = directions(points, &reach, false);
-    let ways = ways(points);
+    let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     let measured = |way: f64| {
         let n = ways.partition_point(|known| *known < way - 1e-6).min(points.len() - 1);

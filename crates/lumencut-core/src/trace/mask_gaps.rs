@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use crate::error::Result;
+use crate::math::arc_length::arc_lengths;
 use crate::stop::{Stop, go_on};
 use crate::trace::mask_vessels::MaskVessel;
-use crate::trace::polyline::ways;
 
 /// A gap between two pieces of lumen.
 #[derive(Clone, Debug)]
@@ -130,7 +130,7 @@ fn root(parent: &mut [usize], mut place: usize) -> usize {
 /// How far the lumen reaches beyond each point of a vessel towards another piece (mm): to the wall, but no farther than
 /// to a free end of the vessel.
 fn to_wall(vessel: &MaskVessel) -> Vec<f64> {
-    let ways = ways(&vessel.points);
+    let ways = arc_lengths(&vessel.points);
     let whole = ways[ways.len() - 1];
     let to_end = |way: f64| {
         let ends = [way, whole - way].into_iter().zip(vessel.is_free);

@@ -4,7 +4,7 @@ use std::collections::{HashMap, VecDeque};
 
 use glam::DVec3;
 
-use crate::trace::polyline::ways;
+use crate::math::arc_length::arc_lengths;
 
 /// A vessel that was found.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ impl MaskVessel {
 
     /// The length (mm).
     pub fn length(&self) -> f64 {
-        ways(&self.points).last().copied().unwrap_or(0.0)
+        arc_lengths(&self.points).last().copied().unwrap_or(0.0)
     }
 
     /// The mean radius (mm).

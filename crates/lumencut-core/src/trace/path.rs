@@ -2,14 +2,8 @@
 
 use glam::DVec3;
 
-/// The length from the first point to each (mm).
-pub fn arc_lengths(points: &[DVec3]) -> Vec<f64> {
-    let mut lengths = vec![0.0; points.len()];
-    for i in 1..points.len() {
-        lengths[i] = lengths[i - 1] + points[i].distance(points[i - 1]);
-    }
-    lengths
-}
+use crate::math::arc_length::arc_lengths;
+use crate::reformations::frames::{MovingFrame, double_reflection};
 
 /// The same line in even steps of at most `step` (mm), at least two points.
 pub fn resampled(points: &[DVec3], step: f64) -> Vec<DVec3> {
@@ -59,25 +53,13 @@ pub fn directions(points: &[DVec3], reach: f64) -> Vec<DVec3> {
     found
 }
 
-/// Two directions across the line at each point that do not twist around it (Wang et al. 2008, double reflection,
-/// doi:10.1145/1330511.1330513).
+/// Two directions across the line at each point that do not turn around it.
 pub fn frames(points: &[DVec3], directions: &[DVec3]) -> Vec<[DVec3; 2]> {
-    let mut across = directions[0].any_orthonormal_vector();
-    let mut found = vec![[across, directions[0].cross(across)]];
+    let mut frame = MovingFrame::looking(directions[0], directions[0].any_orthonormal_vector());
+    let mut found = vec![[frame.ahead, frame.across]];
     for i in 1..points.len() {
-        let step = points[i] - points[i - 1];
-        let length = step.length_squared();
-        let reflected = |v: DVec3, n: DVec3, square: f64| {
-            if square > 0.0 { v - n * (2.0 * n.dot(v) / square) } else { v }
-        };
-        let (carried, direction) =
-            (reflected(across, step, length), reflected(directions[i - 1], step, length));
-        let second = directions[i] - direction;
-        across = reflected(carried, second, second.length_squared());
-        across = (across - directions[i] * across.dot(directions[i]))
-            .try_normalize()
-            .unwrap_or_else(|| directions[i].any_orthonormal_vector());
-        found.push([across, directions[i].cross(across)]);
+        frame = double_reflection(frame, points[i] - points[i - 1], directions[i]);
+        found.push([frame.ahead, frame.across]);
     }
     found
 }

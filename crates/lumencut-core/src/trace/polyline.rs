@@ -2,30 +2,18 @@
 
 use glam::DVec3;
 
+use crate::math::arc_length::arc_lengths;
+
 /// A Gaussian reaches so many standard deviations.
 const REACH: f64 = 3.0;
 
 /// A share of a step that rounding can make: it adds no point.
 const TINY: f64 = 1e-6;
 
-/// The way from the first point to each point (mm).
-pub fn ways(points: &[DVec3]) -> Vec<f64> {
-    let mut way = 0.0;
-    let mut before = points.first().copied().unwrap_or_default();
-    points
-        .iter()
-        .map(|point| {
-            way += before.distance(*point);
-            before = *point;
-            way
-        })
-        .collect()
-}
-
 /// The points smoothed along the line by a Gaussian whose standard deviation at each point is `sigma` (mm), or a third of the
 /// way to the nearer end where that is less: ends stay. A closed line, whose last point is its first one, has no ends.
 pub fn smoothed(points: &[DVec3], sigma: &[f64], is_closed: bool) -> Vec<DVec3> {
-    let ways = ways(points);
+    let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     let count = points.len();
     let mut made: Vec<DVec3> = (0..count)
@@ -63,7 +51,7 @@ pub fn smoothed(points: &[DVec3], sigma: &[f64], is_closed: bool) -> Vec<DVec3> 
 
 /// The direction of the line at each point, over `reach` (mm) to both sides.
 pub fn directions(points: &[DVec3], reach: &[f64], is_closed: bool) -> Vec<DVec3> {
-    let ways = ways(points);
+    let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     (0..points.len())
         .map(|n| {
@@ -102,7 +90,7 @@ pub fn resampled(points: &[DVec3], step: f64) -> Vec<DVec3> {
             fine.push(curve(points, n, part as f64 / parts as f64));
         }
     }
-    let fine_ways = ways(&fine);
+    let fine_ways = arc_lengths(&fine);
     let whole = fine_ways[fine_ways.len() - 1];
     let count = (whole / step - TINY).ceil().max(1.0) as usize;
     let inner = (1..count).map(|n| at(&fine, &fine_ways, whole * n as f64 / count as f64));

@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::cross_section::{CrossSection, Probe};
 use super::lumen_model::LumenModel;
-use super::path::{arc_lengths, directions, frames, resampled, resampled_values, smoothed};
+use super::path::{directions, frames, resampled, resampled_values, smoothed};
 use super::voxels::Voxels;
 use crate::error::Result;
+use crate::math::arc_length::arc_lengths;
 use crate::stop::{Stop, go_on};
 use rayon::prelude::*;
 
