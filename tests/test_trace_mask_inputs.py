@@ -118,10 +118,11 @@ def test_the_volume_must_have_the_grid_of_the_mask(tube):
     expected = trace_mask(tube)
     turned = np.eye(4)
     turned[0, 0], turned[0, 3] = -1, SIZE[0] - 1
+    nothing = np.zeros_like(tube.array)
     for volume in (
-        Volume(tube.array),
-        Volume(tube.array, world_from_index=turned),
-        Volume(tube.array, origin=(0.05, 0, 0)),
+        Volume(nothing),
+        Volume(nothing, world_from_index=turned),
+        Volume(nothing, origin=(0.05, 0, 0)),
     ):
         assert trace_mask(tube, volume) == expected
     for volume, message in (

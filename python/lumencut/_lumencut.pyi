@@ -222,11 +222,10 @@ def set_threads(count: int) -> None: ...
 def smoothed(vessels: list[_Arrays], radii: float) -> list[npt.NDArray[np.float64]]: ...
 def threads() -> int: ...
 def trace_mask(
-    volume: Any,
+    mask: Any,
+    volume: Any | None,
     labels: list[int] | None,
-    parent_radii: float,
-    step: float,
-    bridge: float,
+    lengths: tuple[float, float, float],
     told: Callable[[int, int], object] | None = None,
 ) -> _TracedMask: ...
 def whole_window(volume: Any) -> tuple[float, float]: ...
@@ -235,7 +234,9 @@ def write_centerlines(vessels: list[_WrittenArrays], kind: str) -> bytes: ...
 def zoomed(camera: Any, factor: float) -> dict[str, Any]: ...
 
 class _TracedMask(TypedDict):
-    vessels: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], int, bool]]
+    vessels: list[
+        tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], int, bool]
+    ]
     gaps: list[
         tuple[float, tuple[int, int], tuple[tuple[float, float, float], tuple[float, float, float]], bool]
     ]

@@ -43,7 +43,9 @@ def trace_mask(
     vessel leads away from the free end of the widest vessel of its piece.
 
     The radius is that of a circle with the area of the cross-section, but at most half a voxel beyond the
-    nearest wall. A mask tells it, and the middle, to about half a voxel.
+    nearest wall. A mask tells it, and the middle, to about half a voxel. The values of a volume tell both
+    better: with one, lines move to the middles of cross-sections that :func:`lumencut.trace` fits, and take
+    their radii. A vessel that the volume does not show, or shows elsewhere, stays as the mask has it.
 
     Sources: Felzenszwalb and Huttenlocher 2012, doi:10.4086/toc.2012.v008a019 (distances); Bertrand and
     Malandain 1994, doi:10.1016/0167-8655(94)90046-9 (simple points); Pudney 1998, doi:10.1006/cviu.1998.0680
@@ -54,9 +56,9 @@ def trace_mask(
     mask : Volume, or an image that :func:`lumencut.render` takes as a volume
         Whole numbers: 0 is background.
     volume : Volume or such an image, optional
-        The angiography of the mask. So far only its grid is looked at, which must be that of the mask:
-        corners may differ by a tenth of a voxel, and axes may be stored in another order or direction. Its
-        values do not yet move the lines.
+        The angiography of the mask, with lumen brighter than the tissue around it. Its grid must be that of
+        the mask: corners may differ by a tenth of a voxel, and axes may be stored in another order or
+        direction.
     labels : mapping of int to str, or iterable of int, optional
         Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
         every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values. A
@@ -73,7 +75,8 @@ def trace_mask(
     Returns
     -------
     VesselTree
-        The vessels (mm, LPS), with :attr:`VesselTree.gaps` and :attr:`VesselTree.notes`.
+        The vessels (mm, LPS), with :attr:`VesselTree.gaps` and :attr:`VesselTree.notes`; those that a volume
+        shows have a ``confidence``.
 
     Raises
     ------
@@ -90,17 +93,13 @@ def trace_mask(
         mend = "compare the values with a threshold, as --threshold does: Volume(mask.array >= 0.5, …)"
         raise VolumeError("mask", f"voxels of type {grid.dtype}", "whole numbers", mend)
     names = _names(labels)
-    if volume is not None:
-        _check_grid(grid, as_volume(volume))
-    found = _lumencut.trace_mask(
-        grid,
-        None if names is None else list(names),
-        _at_least_zero("shortest_branch", shortest_branch),
-        _STEP,
-        _at_least_zero("bridge", bridge),
-        progress,
-    )
-    values = {label for _, _, label, _ in found["vessels"]}
+    shown = None if volume is None else as_volume(volume)
+    if shown is not None:
+        _check_grid(grid, shown)
+    shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)
+    listed = None if names is None else list(names)
+    found = _lumencut.trace_mask(grid, shown, listed, (shortest, _STEP, widest), progress)
+    values = {label for *_, label, _ in found["vessels"]}
     known = names or {}
     several = len(values - {0}) > 1
     tree = VesselTree(
@@ -108,16 +107,19 @@ def trace_mask(
             points,
             radius,
             known.get(label) or (f"label {label}" if several and label else None),
+            confidence=confidence if shown is not None and len(confidence) else None,
             bridged=np.full(len(points), bridged),
         )
-        for points, radius, label, bridged in found["vessels"]
+        for points, radius, confidence, label, bridged in found["vessels"]
     )
     tree._gaps = tuple(Gap(*parts) for parts in found["gaps"])
-    tree._notes = tuple(_notes(grid, found, tree))
+    tree._notes = tuple(_notes(grid, shown, found, tree))
     return tree
 
 
-def _notes(mask: Volume, found: Mapping[str, Any], tree: VesselTree) -> Iterable[str]:
+def _notes(
+    mask: Volume, shown: Volume | None, found: Mapping[str, Any], tree: VesselTree
+) -> Iterable[str]:
     cavities, voxels = found["filled"]
     if cavities:
         holes = "1 cavity" if cavities == 1 else f"{cavities} cavities"
@@ -126,8 +128,12 @@ def _notes(mask: Volume, found: Mapping[str, Any], tree: VesselTree) -> Iterable
     if found["pieces"] > traced:
         left_out = found["pieces"] - traced
         yield f"{counted(left_out, 'piece')} of the mask left out: nowhere longer than wide"
-    half = mask.spacing.max() / 2
-    yield f"middle and radius are known to about half a voxel ({half:.2g} mm): no grey values were used"
+    unseen = [vessel for vessel in tree if vessel.confidence is None]
+    if unseen:
+        some = "" if len(unseen) == len(tree) else f" of {counted(len(unseen), 'vessel')}"
+        why = "no grey values were used" if shown is None else "the volume tells no better there"
+        half = mask.spacing.max() / 2
+        yield f"middle and radius{some} are known to about half a voxel ({half:.2g} mm): {why}"
 
 
 def _names(labels: Any) -> dict[int, str | None] | None:

@@ -7,6 +7,7 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::trace::distance_transform::squared_distances;
 use lumencut_core::trace::foreground::{Foreground, LUMEN};
 use lumencut_core::trace::mask::{Request, trace_mask};
+use lumencut_core::trace::refine::Centerline;
 use lumencut_core::volume::{Volume, Voxels};
 
 const SIZE: [usize; 3] = [14, 11, 9];
@@ -84,9 +85,11 @@ fn request<'a>(stop: &'a (dyn Fn() -> bool + Sync)) -> Request<'a> {
 fn a_refinement_moves_the_lines_and_measures_radii() {
     let mut voxels = Vec::new();
     let volume = bar(&mut voxels);
-    let shifted = |points: &[DVec3]| {
+    let shifted = |points: &[DVec3], radius: &[f64]| {
+        assert!(radius.iter().all(|radius| (1.5..2.5).contains(radius)), "{radius:?}");
         let moved = points.iter().map(|point| *point + DVec3::new(0.0, 0.3, 0.0)).collect();
-        Ok((moved, vec![1.25; points.len()]))
+        let [radius, confidence] = [1.25, 0.75].map(|value| vec![value; points.len()]);
+        Ok(Some(Centerline { points: moved, radius, confidence }))
     };
     let plain = trace_mask(&volume, &request(&|| false)).unwrap_or_else(|error| panic!("{error}"));
     let refined = Request { refine: Some(&shifted), ..request(&|| false) };

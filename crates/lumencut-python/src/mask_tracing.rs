@@ -1,8 +1,13 @@
 //! Centerlines of masks, and the connections between two centerlines, for `lumencut.mask_tracing` and
 //! `lumencut.centerline_comparison`.
 
+use glam::DVec3;
 use lumencut::progress::Progress;
-use lumencut::trace::{correspondence::correspondence as connections, mask};
+use lumencut::trace::correspondence::correspondence as connections;
+use lumencut::trace::grey_values::GreyValues;
+use lumencut::trace::mask::{Request, trace_mask as core_trace_mask};
+use lumencut::trace::mask_refinement::Refine;
+use lumencut::trace::voxels::Voxels;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -13,10 +18,14 @@ use crate::renderer::{SHARES, Watched, interruptible};
 use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 
-/// Points (n, 3), radii (n,), the label, and whether it bridges a gap.
-type TracedArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, i64, bool);
+/// Points (n, 3), radii (n,), confidence (n,) or none (0,), the label, and whether it bridges a gap.
+type TracedArrays<'py> =
+    (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, i64, bool);
 
 type Place = (f64, f64, f64);
+
+/// How long a branch must be to stay (radii of its parent), the step between points and the widest gap to bridge (mm).
+type Lengths = (f64, f64, f64);
 
 /// Width (mm), the ids of the vessels and the points on both sides, whether it was bridged.
 type GapParts = (f64, (usize, usize), (Place, Place), bool);
@@ -35,43 +44,44 @@ pub fn correspondence<'py>(
     Ok(PyArray2::from_owned_array(py, pairs))
 }
 
-/// The vessels of a mask with what else was found, by name.
+/// The vessels of a mask, refined by the grey values of a volume where there is one, with what else was found, by name.
 #[pyfunction]
-#[pyo3(signature = (volume, labels, parent_radii, step, bridge, told=None))]
+#[pyo3(signature = (mask, volume, labels, lengths, told=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub fn trace_mask<'py>(
     py: Python<'py>,
-    volume: VolumeArgument<'py>,
+    mask: VolumeArgument<'py>,
+    volume: Option<VolumeArgument<'py>>,
     labels: Option<Vec<i64>>,
-    parent_radii: f64,
-    step: f64,
-    bridge: f64,
+    lengths: Lengths,
     told: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let borrowed = volume.borrow()?;
-    let volume = volume.volume(&borrowed)?;
+    let borrowed = mask.borrow()?;
+    let mask = mask.volume(&borrowed)?;
+    let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
+    let volume = volume.iter().zip(&borrowed).map(|(volume, borrowed)| volume.volume(borrowed)).next();
+    let volume = volume.transpose()?;
+    let voxels = volume.as_ref().map(Voxels::new);
     let progress = Progress::default();
     let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
     let traced = interruptible(py, watched.as_ref(), |stop| {
-        let labels = labels.as_deref();
-        let request = mask::Request {
-            labels,
-            parent_radii,
-            step,
-            bridge,
-            refine: None,
-            stop,
-            progress: Some(&progress),
-        };
-        pool::install(|| mask::trace_mask(&volume, &request))?.map_err(to_python)
+        let (labels, progress) = (labels.as_deref(), Some(&progress));
+        let (parent_radii, step, bridge) = lengths;
+        let grey_values = voxels.as_ref().map(|voxels| GreyValues { voxels, stop });
+        let by_values = grey_values
+            .as_ref()
+            .map(|values| |points: &[DVec3], radius: &[f64]| values.refined(points, radius));
+        let refine = by_values.as_ref().map(|refine| -> Refine { refine });
+        let request = Request { labels, parent_radii, step, bridge, refine, stop, progress };
+        pool::install(|| core_trace_mask(&mask, &request))?.map_err(to_python)
     })?;
     if let Some(watched) = watched {
         watched.tell(py, SHARES)?;
     }
     let vessels = traced.vessels.into_iter().map(|vessel| -> TracedArrays<'py> {
         let points = Array2::from_shape_fn((vessel.points.len(), 3), |(n, axis)| vessel.points[n][axis]);
-        let radius = PyArray1::from_vec(py, vessel.radius);
-        (PyArray2::from_owned_array(py, points), radius, vessel.label, vessel.is_bridge)
+        let [radius, confidence] = [vessel.radius, vessel.confidence].map(|of| PyArray1::from_vec(py, of));
+        (PyArray2::from_owned_array(py, points), radius, confidence, vessel.label, vessel.is_bridge)
     });
     let gaps = traced.gaps.into_iter().map(|gap| -> GapParts {
         (gap.width, gap.vessels.into(), gap.points.map(Into::into).into(), gap.is_bridged)

@@ -46,6 +46,7 @@ pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec
     let part = |(n, stretch): (usize, Stretch)| MaskVessel {
         points: vessel.points[stretch.from..=stretch.to].to_vec(),
         radius: vessel.radius[stretch.from..=stretch.to].to_vec(),
+        confidence: vessel.confidence.get(stretch.from..=stretch.to).unwrap_or_default().to_vec(),
         is_free: [n == 0 && vessel.is_free[0], n == last && vessel.is_free[1]],
         label: stretch.label,
         ..vessel.clone()

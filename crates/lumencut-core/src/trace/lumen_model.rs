@@ -223,7 +223,8 @@ fn samples_around(voxels: &Voxels, clicks: &[DVec3]) -> Vec<f32> {
     values
 }
 
-fn quantile(sorted: &[f32], share: f64) -> f64 {
+/// The value below which a share of some values lies, which are sorted; no number of none.
+pub(super) fn quantile(sorted: &[f32], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1) as f64;
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
 }
@@ -241,8 +242,8 @@ fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
     quantile(&values, 0.6)
 }
 
-/// The tissue around the lumen: bright for what is not lumen.
-fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
+/// The tissue around the lumen: bright for what is not lumen. Its values are sorted.
+pub(super) fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     let median = quantile(tissue, 0.5);
     let values: Vec<f64> = clicks.iter().copied().filter(|value| value.is_finite()).collect();
     let lumen = if values.is_empty() { median } else { lower_median(values) };

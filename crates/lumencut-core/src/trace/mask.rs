@@ -14,9 +14,11 @@ use crate::trace::graph::Graph;
 use crate::trace::labels::parted;
 use crate::trace::lumen::Lumen;
 use crate::trace::mask_gaps::{Gap, bridge, gaps};
+use crate::trace::mask_refinement::{Refine, refined};
 use crate::trace::mask_vessels::{MaskVessel, outwards};
 use crate::trace::polyline::{at, directions, resampled};
 use crate::trace::pruning::{merge_junctions, prune, remove_round_pieces};
+use crate::trace::refine::Centerline;
 use crate::trace::runs::{fill_cavities, pieces};
 use crate::trace::thinning::thin;
 use crate::trace::through_lines::{ThroughLine, through_lines};
@@ -24,9 +26,6 @@ use crate::volume::Volume;
 
 /// The most cells in the box around the lumen: their numbers have 32 bits.
 const MOST_CELLS: usize = u32::MAX as usize;
-
-/// Makes of the points of a centerline (mm, LPS) better ones, with the radius at each (mm).
-pub type Refine<'a> = &'a (dyn Fn(&[DVec3]) -> Result<(Vec<DVec3>, Vec<f64>)> + Sync);
 
 /// What is traced, and how.
 pub struct Request<'a> {
@@ -38,8 +37,7 @@ pub struct Request<'a> {
     pub step: f64,
     /// The widest gap that is bridged (mm).
     pub bridge: f64,
-    /// What moves each vessel into the middle of what the volume shows, and measures its radius there; its ends that
-    /// meet others are brought back to where they were.
+    /// What moves each vessel into the middle of what the volume shows, and measures its radius there.
     pub refine: Option<Refine<'a>>,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
@@ -204,29 +202,16 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) ->
             points.reverse();
         }
         let points = resampled(&points, request.step);
-        let (points, radius) = match request.refine {
-            Some(refine) => refined(&points, is_free, refine)?,
-            None => (points.clone(), radii(&points, is_free, lumen)),
-        };
+        let radius = radii(&points, is_free, lumen);
+        let mut line = Centerline { points, radius, confidence: Vec::new() };
+        if let Some(refine) = request.refine {
+            line = refined(line, is_free, lumen, refine, request.step)?;
+        }
+        let Centerline { points, radius, confidence } = line;
         let nodes = [pair[0].node, pair[1].node];
-        made.push(MaskVessel { points, radius, nodes, is_free, label: 0, is_bridge: false });
+        made.push(MaskVessel { points, radius, confidence, nodes, is_free, label: 0, is_bridge: false });
     }
     Ok(made)
-}
-
-/// A vessel as `refine` sees it, with those ends where they were that are not free.
-fn refined(points: &[DVec3], is_free: [bool; 2], refine: Refine) -> Result<(Vec<DVec3>, Vec<f64>)> {
-    let (mut moved, radius) = refine(points)?;
-    let ends = [points[0], points[points.len() - 1]];
-    let ways = arc_lengths(&moved);
-    let (last, whole) = (moved.len() - 1, ways[ways.len() - 1]);
-    for end in (0..2).filter(|&end| !is_free[end]) {
-        let place = if end == 0 { 0 } else { last };
-        let delta = ends[end] - moved[place];
-        bring_back(&mut moved, &ways, end, delta, (JOINED * radius[place]).min(whole / 2.0));
-        moved[place] = ends[end];
-    }
-    Ok((moved, radius))
 }
 
 /// Moves an end of a line, and what is within `length` (mm) of it part of the way.

@@ -73,7 +73,9 @@ pub fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step
         let [label, other] = gap.vessels.map(|number| vessels[number].label);
         let label = if label == other { label } else { 0 };
         let nodes = [usize::MAX; 2];
-        vessels.push(MaskVessel { points, radius, nodes, is_free: [false; 2], label, is_bridge: true });
+        let confidence = vec![0.0; count + 1];
+        let is_free = [false; 2];
+        vessels.push(MaskVessel { points, radius, confidence, nodes, is_free, label, is_bridge: true });
         gap.is_bridged = true;
     }
 }

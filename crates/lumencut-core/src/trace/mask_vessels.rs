@@ -13,6 +13,8 @@ pub struct MaskVessel {
     pub points: Vec<DVec3>,
     /// The radius at each point (mm).
     pub radius: Vec<f64>,
+    /// How sure each point is, 0 to 1; empty where the volume was not asked, or does not show the vessel.
+    pub confidence: Vec<f64>,
     /// The nodes of the graph at its start and its end.
     pub nodes: [usize; 2],
     /// Whether its first and its last point are ends of the lumen.
@@ -28,6 +30,7 @@ impl MaskVessel {
     fn reverse(&mut self) {
         self.points.reverse();
         self.radius.reverse();
+        self.confidence.reverse();
         self.nodes.reverse();
         self.is_free.reverse();
     }
