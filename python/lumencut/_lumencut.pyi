@@ -234,9 +234,7 @@ def write_centerlines(vessels: list[_WrittenArrays], kind: str) -> bytes: ...
 def zoomed(camera: Any, factor: float) -> dict[str, Any]: ...
 
 class _TracedMask(TypedDict):
-    vessels: list[
-        tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], int, bool]
-    ]
+    vessels: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], int, bool]]
     gaps: list[
         tuple[float, tuple[int, int], tuple[tuple[float, float, float], tuple[float, float, float]], bool]
     ]

@@ -117,9 +117,7 @@ def trace_mask(
     return tree
 
 
-def _notes(
-    mask: Volume, shown: Volume | None, found: Mapping[str, Any], tree: VesselTree
-) -> Iterable[str]:
+def _notes(mask: Volume, shown: Volume | None, found: Mapping[str, Any], tree: VesselTree) -> Iterable[str]:
     cavities, voxels = found["filled"]
     if cavities:
         holes = "1 cavity" if cavities == 1 else f"{cavities} cavities"

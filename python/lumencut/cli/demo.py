@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -36,36 +36,42 @@ def demo(
 ) -> None:
     """Render a CT angiography of an aorta with a stent graft into DIRECTORY (default: demo).
 
-    Four pictures, one more that shows what lies behind a transparent cut surface, and a turntable. The CT
+    Four pictures, one more that shows what lies behind a transparent cut surface, one of vessels that are
+    traced from two points each, and a turntable. The CT
     (3 MB, from the Python package index) is taken once, checked and kept; where it cannot be had, a phantom
     is shown instead.
     """
     start = time.perf_counter()
-    renderer = _scene(cache, device)
+    renderer, points = _scene(cache, device)
     directory.mkdir(parents=True, exist_ok=True)
     for name, camera, settings in _views(renderer):
         frame = renderer.render(camera, settings)
         timings(name, frame.timings)
         frame.save(directory / f"{name}.png", annotate=not no_annotate)
         say(str(directory / f"{name}.png"))
+    _trace(renderer, points, directory / "traced.png", annotate=not no_annotate)
     _spin(renderer, directory / "turntable.webp")
     detail(f"device: {renderer.device}")
     say(f"made in {time.perf_counter() - start:.1f} s")
 
 
-def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> Renderer:
-    from lumencut.demo import UnreachableError, default_cache, stent_scene
+def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[Renderer, Any]:
+    """The scene, and points from which its vessels can be traced."""
+    from lumencut.demo import STENT_POINTS, UnreachableError, default_cache, stent_scene
     from lumencut.renderer import Renderer
 
     try:
         volume, tree = stent_scene(cache or default_cache())
+        points: Any = STENT_POINTS
     except UnreachableError as error:
         from lumencut.phantom import aorta
 
         warn(f"the CT of the demo cannot be had, a phantom is shown instead ({error})")
         phantom = aorta(scale=0.5)
         volume, tree = phantom.volume, phantom.tree
-    return Renderer(volume, tree, device)
+        largest = max(tree, key=lambda vessel: vessel.length * vessel.radius.mean() ** 2)
+        points = [largest.points[[2, -3]]]
+    return Renderer(volume, tree, device), points
 
 
 def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
@@ -84,6 +90,19 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
     # A window from the data has the tissue at about a fifth: it and what is darker give way.
     tissue = Opacity(window.level - window.width / 3, window.level - window.width / 6)
     yield "context", oblique, Settings(opacity=tissue)
+
+
+def _trace(renderer: Renderer, points: Any, path: Path, *, annotate: bool) -> None:
+    """Trace vessels from points alone, and show them from the front."""
+    from lumencut.camera import Camera
+    from lumencut.tracing import trace
+
+    assert renderer.volume is not None
+    with bar("tracing", "share") as told:
+        tree = trace(renderer.volume, points, progress=told)
+    camera = Camera.anterior(tree, _SIZE)
+    renderer.with_tree(tree).render(camera).save(path, annotate=annotate)
+    say(f"{path} (traced from two points for each vessel)")
 
 
 def _spin(renderer: Renderer, path: Path) -> None:

@@ -32,6 +32,14 @@ WHEEL_SHA256 = "3604d751f03002e8e0e7650aa71d8d9148144a87daf17cb1f3228e80747f2e6b
 MEMBER = "imageio/resources/images/stent.npz"
 MEMBER_SHA256 = "60a83d2296b51ee6a53153e9ba96ba9020391b0c8952895d9d60a0a629ac6bb6"
 
+#: Two points (mm, LPS) along each of three vessels of the CT, as a user might click them: from the aorta to
+#: the artery of the left leg, from there to that of the right leg, and the superior mesenteric artery.
+STENT_POINTS = (
+    ((58, 98, 250), (112, 64, 3)),
+    ((58, 98, 250), (1, 69, 12)),
+    ((56, 92, 235), (75, 7, 183)),
+)
+
 #: How long the package index may take to answer (s).
 _PATIENCE = 10
 

@@ -56,7 +56,7 @@ impl LumenModel {
         let (contrast, value) = (self.contrast(), f64::from(value));
         let (empty, full) = (self.tissue + 0.2 * contrast, self.tissue + 0.75 * contrast);
         let above = self.high + (0.35 * contrast).max(3.0 * self.noise);
-        let far_above = self.high + (0.9 * contrast).max(6.0 * self.noise);
+        let far_above = self.far_above();
         let share = if value >= above {
             1.0 - ABOVE_IS_NOT * ((value - above) / (far_above - above)).min(1.0)
         } else {
@@ -64,6 +64,21 @@ impl LumenModel {
         };
         // What is no number is no lumen.
         if share.is_finite() { share as f32 } else { 0.0 }
+    }
+
+    /// From here on a value is that of bone, calcium or metal.
+    fn far_above(&self) -> f64 {
+        self.high + (0.9 * self.contrast()).max(6.0 * self.noise)
+    }
+
+    /// Whether a value is that of bone, calcium or metal.
+    pub fn is_far_above(&self, value: f32) -> bool {
+        f64::from(value) >= self.far_above()
+    }
+
+    /// The standard deviation that noise gives the membership of values between tissue and lumen.
+    pub fn noise_of_membership(&self) -> f64 {
+        self.noise / (0.55 * self.contrast())
     }
 
     /// Whether a median of lumen lies within what the model already takes for lumen.
