@@ -69,8 +69,7 @@ def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[R
         warn(f"the CT of the demo cannot be had, a phantom is shown instead ({error})")
         phantom = aorta(scale=0.5)
         volume, tree = phantom.volume, phantom.tree
-        largest = max(tree, key=lambda vessel: vessel.length * vessel.radius.mean() ** 2)
-        points = [largest.points[[2, -3]]]
+        points = [max(tree, key=lambda vessel: vessel.length).points[[2, -3]]]
     return Renderer(volume, tree, device), points
 
 
