@@ -1,0 +1,139 @@
+//! The lumen along rays across a vessel: where it ends, and what is in the way.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use super::place::Place;
+use super::scale::Scale;
+use crate::trace::voxels::Voxels;
+
+/// The rays of a section, each the point of a contour.
+pub const RAYS: usize = 64;
+
+/// Samples along a ray lie so many of the smallest sides of a voxel apart.
+const SAMPLE: f64 = 0.4;
+
+/// What a ray meets.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Where the lumen ends (mm from where the ray begins), where it does.
+    pub edge: Option<f64>,
+    /// From here on (mm) something else is met: a neighbour, calcium, metal. Infinite where nothing is.
+    pub limit: f64,
+    /// Where it is too bright for a lumen (mm), where it is.
+    pub bright_at: Option<f64>,
+    /// The largest share within a millimetre of that; 0 where nothing is too bright.
+    pub brightest: f64,
+    /// Whether the ray leaves the volume.
+    pub is_outside: bool,
+}
+
+/// What rays are told.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// The lumen's level and that of its surroundings, as shares.
+    pub levels: [f64; 2],
+    /// Above this share there is no lumen.
+    pub bright: f64,
+    /// By so much values rise again where a neighbour begins, as a share.
+    pub rise: f64,
+    /// How far is looked (mm).
+    pub reach: f64,
+}
+
+/// The direction of a ray in the plane.
+pub fn direction(ray: usize) -> DVec2 {
+    DVec2::from_angle(TAU * ray as f64 / RAYS as f64)
+}
+
+/// The volume as shares along lines.
+pub struct Rays<'a, 'v> {
+    /// The volume.
+    pub voxels: &'a Voxels<'v>,
+    /// What lumen looks like.
+    pub scale: Scale,
+}
+
+impl Rays<'_, '_> {
+    /// The share at a point of a plane; NaN outside the volume.
+    pub fn at(&self, place: &Place, point: DVec2) -> f64 {
+        self.scale.share(f64::from(self.voxels.at(place.point(point))))
+    }
+
+    /// The distance of samples along rays (mm).
+    pub fn step(&self) -> f64 {
+        SAMPLE * self.voxels.smallest_side
+    }
+
+    /// What a ray meets.
+    pub fn ray(&self, place: &Place, center: DVec2, direction: DVec2, look: &Look) -> Ray {
+        let mut samples = Samples::new(self, place, center, direction);
+        let half = f64::midpoint(look.levels[0], look.levels[1]);
+        let mut ray =
+            Ray { edge: None, limit: f64::INFINITY, bright_at: None, brightest: 0.0, is_outside: false };
+        let (mut lowest, mut valley, mut before) = (f64::INFINITY, 0, f64::NAN);
+        for n in 0..=(look.reach / self.step()).ceil() as usize {
+            let value = samples.at(n);
+            if value.is_nan() {
+                ray.is_outside = true;
+                break;
+            }
+            let here = n as f64 * self.step();
+            // Noise does not reach that far twice in a row.
+            if value > look.bright && samples.at(n + 1) > look.bright {
+                ray.bright_at = Some(here);
+                let last = n + (1.0 / self.step()).ceil() as usize;
+                ray.brightest = (n..=last).map(|m| samples.at(m)).fold(value, f64::max);
+                ray.limit = if ray.edge.is_some() { valley as f64 * self.step() } else { here };
+                break;
+            }
+            if ray.edge.is_none() && value < half {
+                let share = if n > 0 { (value - half) / (value - before) } else { 0.0 };
+                ray.edge = Some((here - share.clamp(0.0, 1.0) * self.step()).max(0.0));
+            }
+            if ray.edge.is_some() {
+                if value < lowest {
+                    (lowest, valley) = (value, n);
+                } else if value > lowest + look.rise {
+                    ray.limit = valley as f64 * self.step();
+                    break;
+                }
+            }
+            before = value;
+        }
+        ray
+    }
+
+    /// What all rays of a section meet.
+    pub fn all(&self, place: &Place, center: DVec2, look: &Look) -> Vec<Ray> {
+        (0..RAYS).map(|n| self.ray(place, center, direction(n), look)).collect()
+    }
+}
+
+/// How many samples of a ray are taken at a time.
+const TOGETHER: usize = 16;
+
+/// The samples of a ray as shares, taken where they are first needed; NaN outside the volume.
+struct Samples<'a, 'v> {
+    rays: &'a Rays<'a, 'v>,
+    start: DVec3,
+    stride: DVec3,
+    values: Vec<f32>,
+}
+
+impl<'a, 'v> Samples<'a, 'v> {
+    fn new(rays: &'a Rays<'a, 'v>, place: &Place, center: DVec2, direction: DVec2) -> Self {
+        let index = &rays.voxels.index_from_world;
+        let start = index.transform_point3(place.point(center));
+        let stride = index.transform_vector3(place.point(direction) - place.origin) * rays.step();
+        Self { rays, start, stride, values: Vec::with_capacity(2 * TOGETHER) }
+    }
+
+    fn at(&mut self, n: usize) -> f64 {
+        while n >= self.values.len() {
+            self.rays.voxels.along(self.start, self.stride, TOGETHER, &mut self.values);
+        }
+        self.rays.scale.share(f64::from(self.values[n]))
+    }
+}

@@ -1,0 +1,227 @@
+//! The sections of a vessel: looked at, fitted, and fitted again with what all of them tell of each other.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::blur::Blur;
+use super::contour::{ellipse_within, irregularity, points, wall};
+use super::ellipse::{Boundary, Ellipse, Whitening};
+use super::fit::{Expected, Fit};
+use super::flags::{AT_LIMIT, IRREGULAR, METAL, NO_EDGE, RECENTERED};
+use super::obstacles::{Obstacles, flags_of};
+use super::place::Place;
+use super::pooled::Level;
+use super::rays::{Look, Rays, direction};
+use super::rough::Rough;
+use super::slab::{Samples, Window};
+use crate::error::Result;
+use crate::math::statistics::median;
+use crate::stop::{Stop, go_on};
+
+/// What is brighter than lumen by this share of the contrast, and by so many times the noise, is none.
+pub const BRIGHT: (f64, f64) = (0.35, 5.0);
+
+/// Values rise by this share of the contrast, and by so many times the noise, where a neighbour begins.
+const RISE: (f64, f64) = (0.2, 4.0);
+
+/// Voxels count as far beyond the wall as so many widths of the blur.
+const BEYOND: f64 = 1.5;
+
+/// How far beyond the wall rays are followed (mm, and widths of the blur).
+const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
+
+/// Semi-axes differ by this share of their mean, by and large; in lumens as narrow as the blur, whose shape cannot be seen,
+/// by less.
+const STRETCH: (f64, f64) = (0.4, 0.06);
+
+/// Diameters below so many times the point spread are at the limit.
+pub const LIMIT: f64 = 1.5;
+
+/// Walls that lie off the ellipse by this share are irregular.
+const ROUGH_WALL: f64 = 0.12;
+
+/// The noise before it is known, as a share.
+const FIRST_NOISE: f64 = 0.1;
+
+/// What sections are looked at with.
+pub struct Bench<'a, 'v> {
+    /// The volume along rays.
+    pub rays: Rays<'a, 'v>,
+    /// Its blur.
+    pub blur: Blur,
+    /// The point spread alone (FWHM, mm).
+    pub fwhm: f64,
+}
+
+/// What is known of a section before it is fitted.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    /// About where the lumen is.
+    pub ellipse: Ellipse,
+    /// The level of the lumen and its standard deviation, as shares.
+    pub lumen: Level,
+    /// The noise of a voxel, as a share.
+    pub noise: f64,
+}
+
+/// A section as it was measured.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// The fit; None where no lumen was found.
+    pub fit: Option<Fit>,
+    /// The points of the wall (mm, LPS), one for each ray; none where no lumen was found.
+    pub contour: Vec<DVec3>,
+    /// What there is to know of it.
+    pub flags: u32,
+}
+
+impl Section {
+    /// A section without lumen.
+    pub fn none() -> Self {
+        Self { fit: None, contour: Vec::new(), flags: NO_EDGE }
+    }
+}
+
+impl Bench<'_, '_> {
+    /// About where the lumen is at each place.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`].
+    pub fn rough(
+        &self,
+        places: &[Place],
+        search: f64,
+        widest: f64,
+        stop: Stop,
+    ) -> Result<Vec<Option<Rough>>> {
+        let look = |place: &Place| go_on(stop).map(|()| Rough::find(&self.rays, place, search, widest));
+        places.par_iter().map(look).collect()
+    }
+
+    /// The fits of sections by themselves, from where their lumens are about.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`].
+    pub fn first_fits(
+        &self,
+        places: &[Place],
+        rough: &[Option<Rough>],
+        stop: Stop,
+    ) -> Result<Vec<Option<Fit>>> {
+        let fit = |(place, rough): (&Place, &Option<Rough>)| {
+            go_on(stop)?;
+            let Some(rough) = rough else { return Ok(None) };
+            let known = Known {
+                ellipse: Ellipse::circle(rough.center, rough.radius),
+                lumen: [rough.lumen.max(0.8), 0.5],
+                noise: FIRST_NOISE,
+            };
+            Ok(self.fit(place, &known))
+        };
+        places.par_iter().zip(rough).map(fit).collect()
+    }
+
+    /// The fit of a section, without what is in its way.
+    pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
+        let width = self.blur.width(place);
+        let ellipse = &known.ellipse;
+        let look = self.look(place, known);
+        let rays = self.rays.all(place, ellipse.center, &look);
+        let obstacles = Obstacles::new(&rays, ellipse.center, width);
+        let [short, long] = ellipse.semi_axes();
+        let window = Window {
+            center: ellipse.center,
+            reach: 1.1 * long + BEYOND * width,
+            wall: [ellipse.mean, 1.3 * width + 0.6 * (long - short)],
+        };
+        let voxels = self.rays.voxels;
+        let samples =
+            Samples::gather(voxels, &self.rays.scale, place, &window, |point| obstacles.keeps(point));
+        let whitening = Whitening::new(self.blur.of_voxels(place));
+        let expected = Expected {
+            lumen: known.lumen,
+            background: [0.0, 0.5],
+            stretch: stretch(2.0 * ellipse.mean, width),
+            noise: known.noise,
+        };
+        Fit::new(&samples, whitening, ellipse, &expected)
+    }
+
+    fn look(&self, place: &Place, known: &Known) -> Look {
+        let width = self.blur.width(place);
+        let noise = known.noise;
+        let is_bright_lumen = self.rays.scale.contrast > 0.0;
+        let bright = known.lumen[0].max(0.5) + BRIGHT.0.max(BRIGHT.1 * noise);
+        Look {
+            levels: [known.lumen[0], 0.0],
+            // What is darker than a dark lumen is no calcium.
+            bright: if is_bright_lumen { bright } else { f64::INFINITY },
+            rise: RISE.0.max(RISE.1 * noise),
+            reach: known.ellipse.semi_axes()[1] * 1.2 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
+        }
+    }
+
+    /// A section measured with what is known of it from all sections.
+    pub fn section(&self, place: &Place, known: &Known) -> Section {
+        let Some(fit) = self.fit(place, known) else { return Section::none() };
+        let interpolated = Whitening::new(self.blur.interpolated(place));
+        let boundary = Boundary::new(&fit.ellipse, interpolated);
+        // Where the lumen is narrow its peak is lower than its level.
+        let level = 0.5 * boundary.value(fit.ellipse.center);
+        let share = |level: f64| fit.background + level * (fit.lumen[0] - fit.background);
+        let look = Look {
+            levels: [share(level), share(level)],
+            ..self.look(place, &Known { ellipse: fit.ellipse, ..*known })
+        };
+        let rays = self.rays.all(place, fit.ellipse.center, &look);
+        let width = self.blur.width(place);
+        let own = |n: usize| fit.ellipse.radius_towards(direction(n));
+        let mut flags = flags_of(&rays, own, width);
+        let mut fit = fit;
+        let mut walls = wall(&fit.ellipse, &boundary, &rays, level);
+        if flags & METAL > 0 {
+            // Within a stent the wall is where it begins to be bright.
+            let met: Vec<f64> =
+                rays.iter().zip(&walls).map(|(ray, wall)| ray.bright_at.unwrap_or(*wall)).collect();
+            if let Some(ellipse) = ellipse_within(fit.ellipse.center, &met) {
+                (fit.ellipse, walls) = (ellipse, met);
+            }
+        }
+        if fit.ellipse.equivalent_diameter() < LIMIT * self.fwhm {
+            flags |= AT_LIMIT;
+        }
+        if flags & METAL == 0
+            && fit.ellipse.equivalent_diameter() > 2.0 * width
+            && irregularity(&fit.ellipse, &walls) > ROUGH_WALL
+        {
+            flags |= IRREGULAR;
+        }
+        let towards = -fit.ellipse.center;
+        let reach = towards.try_normalize().map_or(f64::INFINITY, |d| fit.ellipse.radius_towards(d));
+        if towards.length() > reach {
+            flags |= RECENTERED;
+        }
+        let contrast = fit.lumen[0] - fit.background;
+        if contrast < 2.0 * known.noise || fit.uncertainty > 0.5 * fit.ellipse.equivalent_diameter() {
+            flags |= NO_EDGE;
+        }
+        Section { contour: points(place, fit.ellipse.center, &walls), fit: Some(fit), flags }
+    }
+}
+
+/// How far semi-axes differ from their mean by and large, as a share of it.
+fn stretch(diameter: f64, width: f64) -> f64 {
+    let seen = ((diameter / width - 1.0) / 1.0).clamp(0.0, 1.0);
+    STRETCH.1 + seen * (STRETCH.0 - STRETCH.1)
+}
+
+/// The noise of a voxel as a share: the median of what fits miss.
+pub fn noise(fits: &[Option<Fit>]) -> f64 {
+    let mut missed: Vec<f64> = fits.iter().flatten().map(|fit| fit.missed).collect();
+    median(&mut missed).unwrap_or(FIRST_NOISE).max(1e-4)
+}
+
+/// The middle of a section (mm, LPS).
+pub fn center(place: &Place, fit: &Fit) -> DVec3 {
+    place.point(fit.ellipse.center)
+}
