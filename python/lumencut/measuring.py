@@ -27,9 +27,10 @@ def measure(
 ) -> Profile:
     """Measure the lumen of a vessel in sections across it.
 
-    An ellipse, blurred as the scanner blurs, is fitted to the voxels around each section: its position and shape, and
-    the levels of lumen and background. The levels of narrow sections come from wider ones around them. So the
-    diameter has no bias by the blur, as it has at half of the maximum. METHOD.md, "Measuring", has it all.
+    An ellipse, blurred as the scanner blurs, is fitted to the voxels around each section: its position and
+    shape, and the levels of lumen and background. The levels of narrow sections come from wider ones around
+    them. So the diameter has no bias by the blur, as it has at half of the maximum. METHOD.md, "Measuring",
+    has it all.
 
     A lumen diameter is not that of the vessel: thrombus and plaque are not lumen.
 
@@ -38,16 +39,17 @@ def measure(
     volume : Volume, or whatever else :func:`lumencut.render` takes as one
         The angiography, CT or MR; lumen may be brighter or darker than what is around it.
     vessel : Vessel
-        The centerline. It need not be central; :meth:`VesselTree.path` makes one of several vessels that meet. Radii
-        help to find the lumen and are not believed.
+        The centerline. It need not be central; :meth:`VesselTree.path` makes one of several vessels that
+        meet. Radii help to find the lumen and are not believed.
     step : float, default 0.5
         The distance of sections (mm), at most; they lie evenly from the first point to the last.
     fwhm : float, optional
-        The full width at half maximum of the scanner's point spread alone (mm), 0 excluded, at most 20. Averaging
-        over voxels is added to it. Without it, it is estimated where the vessel is wide, or else assumed to be 1.2
-        sides of a voxel; :attr:`Profile.fwhm_source` says which.
+        The full width at half maximum of the scanner's point spread alone (mm), 0 excluded, at most 20.
+        Averaging over voxels is added to it. Without it, it is estimated where the vessel is wide, or else
+        assumed to be 1.2 sides of a voxel; :attr:`Profile.fwhm_source` says which.
     tree : VesselTree, optional
-        The tree that the vessel is of: sections within the lumen of its other vessels get :attr:`Flag.BRANCH`.
+        The tree that the vessel is of: sections within the lumen of its other vessels get
+        :attr:`Flag.BRANCH`.
 
     Returns
     -------
@@ -105,7 +107,7 @@ class CrossSection:
     pixel_spacing: float
 
     def pixel_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return column and row of points (n, 3) (mm, LPS), shape (n, 2); the middle of the first pixel is (0, 0).
+        """Return column and row of points (n, 3) (mm, LPS), shape (n, 2); the first pixel is at (0, 0).
 
         Points beside the plane are projected to it.
         """
@@ -120,10 +122,10 @@ def cross_section(
 ) -> CrossSection:
     """Return the volume in a plane across a vessel, as a square image with the vessel in its middle.
 
-    Planes do not turn about the vessel from one place to the next (rotation-minimising frame, Wang et al. 2008). At its
-    first point the patient's back is at the bottom, or the feet where it runs to the back or front; a vessel that begins
-    towards the head is seen along its way, others against it, so that the patient's left is on the right of an axial
-    section.
+    Planes do not turn about the vessel from one place to the next (rotation-minimising frame, Wang et al.
+    2008). At its first point the patient's back is at the bottom, or the feet where it runs to the back or
+    front; a vessel that begins towards the head is seen along its way, others against it, so that the
+    patient's left is on the right of an axial section.
 
     Parameters
     ----------

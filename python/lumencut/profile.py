@@ -60,8 +60,8 @@ class CArm(NamedTuple):
 class Profile:
     """The lumen of one vessel by its arc length; :func:`lumencut.measure` makes it.
 
-    Arrays have one row for each section, n in all, and cannot be written to. What could not be measured is NaN. A
-    diameter is that of the lumen: thrombus and plaque are not lumen.
+    Arrays have one row for each section, n in all, and cannot be written to. What could not be measured is
+    NaN. A diameter is that of the lumen: thrombus and plaque are not lumen.
     """
 
     def __init__(self, core: _lumencut.Profile) -> None:
@@ -170,19 +170,20 @@ class Profile:
     ) -> Stenosis:
         """Grade the stenosis at a place.
 
-        Diameters are those of circles of the same area. A reference is the median of the sections within 1.5 mm of
-        its place that count; :class:`lumencut.Flag` says which do.
+        Diameters are those of circles of the same area. A reference is the median of the sections within
+        1.5 mm of its place that count; :class:`lumencut.Flag` says which do.
 
         Parameters
         ----------
         at : float
             The place of the stenosis: an arc length on the vessel (mm).
         reference : float or pair of float
-            The place of the normal vessel (mm), for NASCET beyond the stenosis where the walls are parallel; or one
-            place on each side: then the reference lies between both, by their distances. ECST needs none.
+            The place of the normal vessel (mm), for NASCET beyond the stenosis where the walls are
+            parallel; or one place on each side: then the reference lies between both, by their distances.
+            ECST needs none.
         method : {"nascet", "ecst", "area"}, default "nascet"
-            ``"nascet"``: 1 - diameter / reference. ``"ecst"``: 1 - diameter / original. ``"area"``: 1 - area / area
-            of the reference.
+            ``"nascet"``: 1 - diameter / reference. ``"ecst"``: 1 - diameter / original. ``"area"``: 1 -
+            area / area of the reference.
         original : float, optional
             The assumed original diameter at the stenosis (mm); needed for ECST and for nothing else.
         comparison : float, optional
@@ -191,10 +192,10 @@ class Profile:
         Raises
         ------
         MeasuringError
-            For places beyond the vessel or where nothing was measured, a reference that is narrower than the stenosis,
-            two references on one side of it, a missing or needless original diameter; and for NASCET at a
-            near-occlusion, where the reference is below half of the vessel on the other side of the stenosis, or at
-            most 0.87 of ``comparison``.
+            For places beyond the vessel or where nothing was measured, a reference that is narrower than
+            the stenosis, two references on one side of it, a missing or needless original diameter; and for
+            NASCET at a near-occlusion, where the reference is below half of the vessel on the other side of
+            the stenosis, or at most 0.87 of ``comparison``.
         SettingsError
             For another method.
         """
@@ -226,8 +227,9 @@ class Profile:
     def suggested_references(self, at: float) -> tuple[Spot | None, Spot | None]:
         """Return places before and after an arc length (mm) that it could be compared with.
 
-        Each is the nearest one, 3 to 50 mm away, whose walls are parallel over 5 mm and that is about as wide as
-        most of the vessel on its side; None where there is none. These are suggestions: a reader must look.
+        Each is the nearest one, 3 to 50 mm away, whose walls are parallel over 5 mm and that is about as
+        wide as most of the vessel on its side; None where there is none. These are suggestions: a reader
+        must look.
 
         Raises
         ------
@@ -298,8 +300,8 @@ class Profile:
         start, end : float
             Where the stretch begins and ends, arc lengths (mm).
         lao : float, optional
-            The rotation (radians), to the patient's left above 0; the angulation follows from it. Without it the view
-            nearest to that from the front is given.
+            The rotation (radians), to the patient's left above 0; the angulation follows from it. Without
+            it the view nearest to that from the front is given.
 
         Raises
         ------

@@ -25,7 +25,7 @@ class Stenosis:
 
     @property
     def percent(self) -> float:
-        """By how much the vessel is narrower, 0 to 100: in diameter, or in area with the method ``"area"``."""
+        """By how much the vessel is narrower, 0 to 100: in diameter, or in area with ``"area"``."""
         return self._numbers[0]
 
     @property
@@ -67,8 +67,8 @@ class Stenosis:
         Parameters
         ----------
         vessel : {"carotid", "coronary"}
-            Which vessel it is: ``"carotid"`` for the groups of NASCET (50 and 70 %), ``"coronary"`` for those of
-            CAD-RADS 2.0. Lumencut does not know which vessel it is.
+            Which vessel it is: ``"carotid"`` for the groups of NASCET (50 and 70 %), ``"coronary"`` for
+            those of CAD-RADS 2.0. Lumencut does not know which vessel it is.
 
         Raises
         ------

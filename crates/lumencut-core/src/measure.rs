@@ -18,6 +18,7 @@ pub mod place;
 pub mod point_spread;
 pub mod pooled;
 pub mod profile;
+pub mod radii;
 pub mod rays;
 pub mod rough;
 pub mod scale;

@@ -42,6 +42,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::cross_section, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(measuring::measured_radii, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_cr, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_opacity, module)?)?;

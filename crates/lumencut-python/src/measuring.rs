@@ -6,6 +6,7 @@ use lumencut::measure::flags::FLAGS;
 use lumencut::measure::groups::Territory;
 use lumencut::measure::measuring::{self, Request};
 use lumencut::measure::profile::{self, Source};
+use lumencut::measure::radii;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
 use lumencut::settings::Named;
@@ -230,6 +231,33 @@ pub fn cross_section<'py>(
     let normal = section.place.normal.to_array();
     let value = PyArray1::from_vec(py, section.value).reshape([side, side])?;
     Ok((value, PyArray1::from_vec(py, positions).reshape([side, side, 3])?, normal))
+}
+
+/// The radius of one vessel, shape (n,), how many points were measured, and how many were not.
+type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
+
+/// The measured radii of the vessels of a tree, each of points (n, 3) and radii (n,).
+#[pyfunction]
+#[pyo3(signature = (volume, vessels, step, fwhm=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn measured_radii<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    vessels: Vec<VesselArrays<'py>>,
+    step: f64,
+    fwhm: Option<f64>,
+) -> PyResult<Vec<RadiusParts<'py>>> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    let tree = vessels.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
+    let found = interruptible(py, None, |stop| {
+        pool::install(|| radii::measured_radii(&volume, &tree, step, fwhm, stop))?.map_err(to_python)
+    })?;
+    let parts = found.into_iter().map(|radii| {
+        let radius = radii.radius.map(|radius| PyArray1::from_vec(py, radius));
+        (radius, radii.measured, radii.kept)
+    });
+    Ok(parts.collect())
 }
 
 fn pair(spot: Spot) -> (f64, f64) {
