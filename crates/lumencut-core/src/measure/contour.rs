@@ -6,6 +6,7 @@ use super::ellipse::{Boundary, Ellipse};
 use super::place::Place;
 use super::rays::{RAYS, Ray, direction};
 use crate::math::lanes::FAN;
+use crate::math::statistics::median;
 
 /// A ray tells the wall where it is off the ellipse by no more than this share of the way there, or so many mm.
 const FARTHEST: (f64, f64) = (0.5, 0.5);
@@ -13,7 +14,7 @@ const FARTHEST: (f64, f64) = (0.5, 0.5);
 /// The wall at each ray (mm from the centre of the ellipse): where the volume crosses a level along a ray, less what the blurred
 /// ellipse crosses it off its own boundary. Where a ray does not tell, it is that of the ellipse.
 pub fn wall(ellipse: &Ellipse, boundary: &Boundary, rays: &[Ray], level: f64) -> Vec<f64> {
-    (0..RAYS)
+    let walls: Vec<f64> = (0..RAYS)
         .map(|n| {
             let own = ellipse.radius_towards(direction(n));
             let ray = &rays[n];
@@ -24,7 +25,32 @@ pub fn wall(ellipse: &Ellipse, boundary: &Boundary, rays: &[Ray], level: f64) ->
             let most = (FARTHEST.0 * own).max(FARTHEST.1);
             told.filter(|wall| (wall - own).abs() <= most && *wall > 0.0).unwrap_or(own)
         })
+        .collect();
+    quiet(&walls, |n| ellipse.radius_towards(direction(n)))
+}
+
+/// Walls without spikes of one ray or two: the median of five neighbours, in shares of a radius that is known.
+fn quiet(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
+    let shares: Vec<f64> = walls.iter().enumerate().map(|(n, wall)| wall / own(n)).collect();
+    (0..RAYS)
+        .map(|n| {
+            let mut five: [f64; 5] = std::array::from_fn(|m| shares[(n + RAYS + m - 2) % RAYS]);
+            five.sort_unstable_by(f64::total_cmp);
+            five[2] * own(n)
+        })
         .collect()
+}
+
+/// The walls by where rays end alone, without the blur taken into account; None where fewer than half of them do.
+pub fn wall_by_rays(rays: &[Ray]) -> Option<Vec<f64>> {
+    let mut ends: Vec<f64> = rays.iter().filter_map(Ray::end).collect();
+    if ends.len() < RAYS / 2 {
+        return None;
+    }
+    let middle = median(&mut ends)?;
+    // Between the struts of a stent rays leave it.
+    let walls: Vec<f64> = rays.iter().map(|ray| ray.end().unwrap_or(middle).min(1.5 * middle)).collect();
+    Some(quiet(&quiet(&walls, |_| middle), |_| middle))
 }
 
 /// Where the blurred ellipse crosses a level along a ray (mm), looked for around its boundary.

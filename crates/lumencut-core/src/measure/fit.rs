@@ -32,6 +32,9 @@ pub struct Expected {
     pub noise: f64,
 }
 
+/// The centre stays within so many radii of where it began, and the size within these shares of that.
+const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
+
 /// A fitted section.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
@@ -45,8 +48,8 @@ pub struct Fit {
     pub missed: f64,
     /// The standard deviation of the diameter of a circle of the same area (mm).
     pub uncertainty: f64,
-    /// The sum of squares, in variances of the noise.
-    pub cost: f64,
+    /// The share of all directions in which nothing was in the way of the wall.
+    pub free: f64,
 }
 
 impl Fit {
@@ -60,7 +63,7 @@ impl Fit {
         if samples.count < 2 * PARAMETERS {
             return None;
         }
-        let mut work = Work { samples, whitening, expected, kept: samples.weight.clone() };
+        let mut work = Work { samples, whitening, expected, start, kept: samples.weight.clone() };
         let mut at = [0.0; PARAMETERS];
         at[..SHAPE].copy_from_slice(&start.parameters());
         (at[LUMEN], at[BACKGROUND]) = (expected.lumen[0], expected.background[0]);
@@ -92,7 +95,7 @@ impl Fit {
             background: at[BACKGROUND],
             missed,
             uncertainty: deviation(&by)?,
-            cost: minimum.normal.cost,
+            free: 1.0,
         })
     }
 
@@ -107,13 +110,14 @@ struct Work<'a> {
     samples: &'a Samples,
     whitening: Whitening,
     expected: &'a Expected,
+    start: &'a Ellipse,
     /// How much each sample counts.
     kept: Vec<[f32; FAN]>,
 }
 
 impl Work<'_> {
     fn evaluate(&self, at: &[f64; PARAMETERS]) -> Option<Normal<PARAMETERS>> {
-        let ellipse = Ellipse::from_parameters(at)?;
+        let ellipse = Ellipse::from_parameters(at).filter(|ellipse| self.trusts(ellipse))?;
         let levels = [at[LUMEN], at[BACKGROUND]];
         let boundary = Boundary::new(&ellipse, self.whitening);
         let kernel = Sums { samples: self.samples, kept: &self.kept, boundary: &boundary, levels };
@@ -129,6 +133,14 @@ impl Work<'_> {
         normal.expect(3, -at[3], deviation);
         normal.expect(4, -at[4], deviation);
         Some(normal)
+    }
+
+    /// Whether an ellipse is still one of this section.
+    fn trusts(&self, ellipse: &Ellipse) -> bool {
+        let (far, [small, large]) = TRUSTED;
+        let size = ellipse.mean / self.start.mean;
+        ellipse.center.distance(self.start.center) <= far * self.start.semi_axes()[1]
+            && (small..=large).contains(&size)
     }
 
     /// Weighs the samples by how much they miss; gives the root of the mean square of that over those that count.

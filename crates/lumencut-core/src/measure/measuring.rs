@@ -5,8 +5,9 @@ use rayon::prelude::*;
 
 use super::blur::Blur;
 use super::branches::{Lumen, meets};
+use super::ellipse::Ellipse;
 use super::fit::Fit;
-use super::flags::{BRANCH, NO_EDGE};
+use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
 use super::place::{Place, Track};
 use super::point_spread::{SharpEdges, estimated};
@@ -151,10 +152,16 @@ impl Looked {
         let others = Lumen::of_others(request.tree, vessel);
         let section = |n: usize| {
             go_on(stop)?;
-            let Some(fit) = &fits[n] else { return Ok(Section::none()) };
-            let known = Known { ellipse: fit.ellipse, lumen: lumen[n], noise };
-            let mut section = bench.section(&self.places[n], &known);
+            let place = &self.places[n];
+            let rough = self.rough[n].map(|rough| Ellipse::circle(rough.center, rough.radius));
+            let mut section = match fits[n].map(|fit| fit.ellipse).or(rough) {
+                Some(ellipse) => bench.section(place, &Known { ellipse, lumen: lumen[n], noise }),
+                None => Section::none(),
+            };
             section.flags |= self.branch(n, section.fit.as_ref(), &others);
+            if voxels.at(place.origin).is_nan() {
+                section.flags |= OUTSIDE;
+            }
             Ok(section)
         };
         let sections: Vec<Section> =

@@ -29,6 +29,8 @@ const OPEN: f64 = 1.6;
 pub struct Obstacles {
     center: DVec2,
     limit: [f64; RAYS],
+    /// The share of all directions in which nothing is in the way of the wall.
+    pub free: f64,
 }
 
 impl Obstacles {
@@ -37,7 +39,7 @@ impl Obstacles {
         let mut edges: Vec<f64> = rays.iter().filter_map(|ray| ray.edge).collect();
         let middle = median(&mut edges).unwrap_or(f64::INFINITY);
         let own: Vec<f64> = rays.iter().map(|ray| limit(ray, middle, width)).collect();
-        let mut all = Self { center, limit: [f64::INFINITY; RAYS] };
+        let mut all = Self { center, limit: [f64::INFINITY; RAYS], free: 0.0 };
         for (n, &limit) in own.iter().enumerate() {
             if !limit.is_finite() {
                 continue;
@@ -50,6 +52,8 @@ impl Obstacles {
                 *there = there.min(limit);
             }
         }
+        let is_free = |limit: &&f64| **limit > middle + 0.5 * width;
+        all.free = all.limit.iter().filter(is_free).count() as f64 / RAYS as f64;
         all
     }
 

@@ -19,6 +19,12 @@ const SECTIONS: (usize, usize) = (16, 3);
 /// A section tells the point spread from so many times its width on.
 const WIDE: f64 = 3.0;
 
+/// It must be free of other things in this share of all directions, miss at most so many times what others do, and its longer
+/// axis be at most so many times the shorter one.
+const FREE: f64 = 0.95;
+const LEAST_MISSED: f64 = 1.5;
+const ROUND: f64 = 1.35;
+
 /// What is looked for, in the smallest side of a voxel.
 const RANGE: [f64; 2] = [0.4, 5.0];
 
@@ -57,11 +63,12 @@ pub fn estimated(
     stop: Stop,
 ) -> Result<Option<SharpEdges>> {
     let side = bench.rays.voxels.smallest_side;
+    let noise = noise(fits);
     let mut wide: Vec<(f64, usize)> = (0..fits.len())
         .filter_map(|n| {
             let fit = fits[n]?;
             let [short, long] = fit.ellipse.semi_axes();
-            let is_good = fit.missed < 0.25 && long < 1.6 * short && fit.lumen[0] - fit.background > 0.5;
+            let is_good = fit.free > FREE && fit.missed <= LEAST_MISSED * noise && long < ROUND * short;
             (is_good && 2.0 * short > WIDE * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
         })
         .collect();
@@ -73,7 +80,6 @@ pub fn estimated(
     if wide.len() < SECTIONS.1 {
         return Ok(None);
     }
-    let noise = noise(fits);
     let cost = |fwhm: f64, n: usize| {
         let bench = Bench {
             rays: Rays { voxels: bench.rays.voxels, scale: bench.rays.scale },

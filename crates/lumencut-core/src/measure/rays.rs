@@ -29,6 +29,13 @@ pub struct Ray {
     pub is_outside: bool,
 }
 
+impl Ray {
+    /// Where the lumen ends (mm): at its edge, or where it is too bright before.
+    pub fn end(&self) -> Option<f64> {
+        self.edge.or(self.bright_at)
+    }
+}
+
 /// What rays are told.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use super::place::Place;
-use super::rays::{Look, RAYS, Rays, direction};
+use super::rays::{Look, RAYS, Ray, Rays, direction};
 use crate::math::statistics::median;
 
 /// The lumen must be this much of what the whole vessel's is, as a share.
@@ -28,8 +28,8 @@ pub struct Rough {
     pub lumen: f64,
 }
 
-/// What rays are told before anything is known of levels.
-const LOOK: Look = Look { levels: [1.0, 0.0], bright: f64::INFINITY, rise: 0.25, reach: 0.0 };
+/// Above this share of the vessel's lumen there is metal or calcium.
+const BRIGHT: f64 = 1.6;
 
 impl Rough {
     /// About where the lumen is within `search` mm of the vessel's point, up to a radius of `widest` mm; None where there is
@@ -42,7 +42,8 @@ impl Rough {
             if lumen.is_nan() || lumen < LEAST_LUMEN {
                 break;
             }
-            let look = Look { levels: [lumen, 0.0], reach: widest, ..LOOK };
+            let bright = if rays.scale.contrast > 0.0 { BRIGHT.max(1.5 * lumen) } else { f64::INFINITY };
+            let look = Look { levels: [lumen, 0.0], bright, rise: 0.25, reach: widest };
             let (moved, radius) = polygon(&rays.all(place, center, &look))?;
             center += moved;
             found = Some(Self { center, radius, lumen });
@@ -89,13 +90,13 @@ fn level(rays: &Rays, place: &Place, center: DVec2) -> f64 {
 }
 
 /// The middle of the area that rays enclose, and the radius of a circle of the same area.
-fn polygon(rays: &[super::rays::Ray]) -> Option<(DVec2, f64)> {
-    let mut edges: Vec<f64> = rays.iter().filter_map(|ray| ray.edge).collect();
+fn polygon(rays: &[Ray]) -> Option<(DVec2, f64)> {
+    let mut edges: Vec<f64> = rays.iter().filter_map(Ray::end).collect();
     if edges.len() < RAYS / 4 {
         return None;
     }
     let middle = median(&mut edges)?;
-    let length = |n: usize| rays[n].edge.unwrap_or(middle).min(LONGEST_RAY * middle);
+    let length = |n: usize| rays[n].end().unwrap_or(middle).min(LONGEST_RAY * middle);
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
     for n in 0..RAYS {
         let next = (n + 1) % RAYS;

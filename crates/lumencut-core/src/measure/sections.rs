@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::blur::Blur;
-use super::contour::{ellipse_within, irregularity, points, wall};
+use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
 use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::{Expected, Fit};
 use super::flags::{AT_LIMIT, IRREGULAR, METAL, NO_EDGE, RECENTERED};
@@ -39,6 +39,15 @@ pub const LIMIT: f64 = 1.5;
 
 /// Walls that lie off the ellipse by this share are irregular.
 const ROUGH_WALL: f64 = 0.12;
+
+/// The wall must be free in this share of all directions, or else it is not fitted.
+const LEAST_FREE: f64 = 0.35;
+
+/// Below so many times the noise there is no contrast.
+const LEAST_CONTRAST: f64 = 2.0;
+
+/// Where the blur is not taken into account diameters are unsure by this share of its width.
+const UNSURE: f64 = 0.5;
 
 /// The noise before it is known, as a share.
 const FIRST_NOISE: f64 = 0.1;
@@ -121,13 +130,16 @@ impl Bench<'_, '_> {
         places.par_iter().zip(rough).map(fit).collect()
     }
 
-    /// The fit of a section, without what is in its way.
+    /// The fit of a section, without what is in its way; None where too much is, or no ellipse fits.
     pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
         let width = self.blur.width(place);
         let ellipse = &known.ellipse;
         let look = self.look(place, known);
         let rays = self.rays.all(place, ellipse.center, &look);
         let obstacles = Obstacles::new(&rays, ellipse.center, width);
+        if obstacles.free < LEAST_FREE {
+            return None;
+        }
         let [short, long] = ellipse.semi_axes();
         let window = Window {
             center: ellipse.center,
@@ -144,7 +156,8 @@ impl Bench<'_, '_> {
             stretch: stretch(2.0 * ellipse.mean, width),
             noise: known.noise,
         };
-        Fit::new(&samples, whitening, ellipse, &expected)
+        let fit = Fit::new(&samples, whitening, ellipse, &expected)?;
+        Some(Fit { free: obstacles.free, ..fit })
     }
 
     fn look(&self, place: &Place, known: &Known) -> Look {
@@ -163,49 +176,61 @@ impl Bench<'_, '_> {
 
     /// A section measured with what is known of it from all sections.
     pub fn section(&self, place: &Place, known: &Known) -> Section {
-        let Some(fit) = self.fit(place, known) else { return Section::none() };
-        let interpolated = Whitening::new(self.blur.interpolated(place));
-        let boundary = Boundary::new(&fit.ellipse, interpolated);
+        let fitted = self.fit(place, known).map(|fit| self.fitted(place, known, fit));
+        match fitted {
+            Some(section) if section.flags & METAL == 0 => section,
+            _ => self.by_rays(place, known).unwrap_or_else(Section::none),
+        }
+    }
+
+    /// A section with the wall along rays, and what there is to know of it.
+    fn fitted(&self, place: &Place, known: &Known, fit: Fit) -> Section {
+        let (ellipse, width) = (fit.ellipse, self.blur.width(place));
+        let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
         // Where the lumen is narrow its peak is lower than its level.
-        let level = 0.5 * boundary.value(fit.ellipse.center);
-        let share = |level: f64| fit.background + level * (fit.lumen[0] - fit.background);
-        let look = Look {
-            levels: [share(level), share(level)],
-            ..self.look(place, &Known { ellipse: fit.ellipse, ..*known })
-        };
-        let rays = self.rays.all(place, fit.ellipse.center, &look);
-        let width = self.blur.width(place);
-        let own = |n: usize| fit.ellipse.radius_towards(direction(n));
-        let mut flags = flags_of(&rays, own, width);
-        let mut fit = fit;
-        let mut walls = wall(&fit.ellipse, &boundary, &rays, level);
-        if flags & METAL > 0 {
-            // Within a stent the wall is where it begins to be bright.
-            let met: Vec<f64> =
-                rays.iter().zip(&walls).map(|(ray, wall)| ray.bright_at.unwrap_or(*wall)).collect();
-            if let Some(ellipse) = ellipse_within(fit.ellipse.center, &met) {
-                (fit.ellipse, walls) = (ellipse, met);
-            }
-        }
-        if fit.ellipse.equivalent_diameter() < LIMIT * self.fwhm {
-            flags |= AT_LIMIT;
-        }
-        if flags & METAL == 0
-            && fit.ellipse.equivalent_diameter() > 2.0 * width
-            && irregularity(&fit.ellipse, &walls) > ROUGH_WALL
-        {
+        let level = 0.5 * boundary.value(ellipse.center);
+        let half = fit.background + level * (fit.lumen[0] - fit.background);
+        let look = Look { levels: [half; 2], ..self.look(place, &Known { ellipse, ..*known }) };
+        let rays = self.rays.all(place, ellipse.center, &look);
+        let walls = wall(&ellipse, &boundary, &rays, level);
+        let mut flags = flags_of(&rays, |n| ellipse.radius_towards(direction(n)), width);
+        let diameter = ellipse.equivalent_diameter();
+        if diameter > 2.0 * width && irregularity(&ellipse, &walls) > ROUGH_WALL {
             flags |= IRREGULAR;
         }
-        let towards = -fit.ellipse.center;
-        let reach = towards.try_normalize().map_or(f64::INFINITY, |d| fit.ellipse.radius_towards(d));
-        if towards.length() > reach {
-            flags |= RECENTERED;
-        }
-        let contrast = fit.lumen[0] - fit.background;
-        if contrast < 2.0 * known.noise || fit.uncertainty > 0.5 * fit.ellipse.equivalent_diameter() {
+        if fit.lumen[0] - fit.background < LEAST_CONTRAST * known.noise || fit.uncertainty > 0.5 * diameter {
             flags |= NO_EDGE;
         }
-        Section { contour: points(place, fit.ellipse.center, &walls), fit: Some(fit), flags }
+        let contour = points(place, ellipse.center, &walls);
+        Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse) }
+    }
+
+    /// A section whose wall is where rays end, as within a stent.
+    fn by_rays(&self, place: &Place, known: &Known) -> Option<Section> {
+        let width = self.blur.width(place);
+        let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
+        let walls = wall_by_rays(&rays)?;
+        let ellipse = ellipse_within(known.ellipse.center, &walls)?;
+        let flags = flags_of(&rays, |n| walls[n], width);
+        let fit = Fit {
+            ellipse,
+            lumen: known.lumen,
+            background: 0.0,
+            missed: f64::NAN,
+            uncertainty: UNSURE * width,
+            free: 0.0,
+        };
+        let contour = points(place, known.ellipse.center, &walls);
+        Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse) })
+    }
+
+    /// What the place and the size of a lumen say.
+    fn place_flags(&self, ellipse: &Ellipse) -> u32 {
+        let towards = -ellipse.center;
+        let reach = towards.try_normalize().map_or(f64::INFINITY, |d| ellipse.radius_towards(d));
+        let recentered = if towards.length() > reach { RECENTERED } else { 0 };
+        let limit = if ellipse.equivalent_diameter() < LIMIT * self.fwhm { AT_LIMIT } else { 0 };
+        recentered | limit
     }
 }
 
