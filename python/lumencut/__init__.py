@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         FileError,
         FormatError,
         LumencutError,
+        MeasuringError,
         MissingPackageError,
         SeriesError,
         SettingsError,
@@ -37,13 +38,17 @@ if TYPE_CHECKING:
     )
     from lumencut.evaluation import Evaluation, evaluate
     from lumencut.feature_aggregation import FeatureAggregation, cfa
+    from lumencut.flags import Flag
     from lumencut.frame import Frame
     from lumencut.mask_tracing import trace_mask
+    from lumencut.measuring import CrossSection, cross_section, measure
     from lumencut.planar_reformation import cpr
+    from lumencut.profile import Profile
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
     from lumencut.settings import Settings
     from lumencut.slab import Slab
+    from lumencut.stenosis import Stenosis
     from lumencut.straightening import StraightenedVolume, straightened_volume
     from lumencut.threads import get_threads, set_threads
     from lumencut.tracing import Tracer, trace
@@ -71,6 +76,7 @@ _HOME = {
         "FileError",
         "FormatError",
         "LumencutError",
+        "MeasuringError",
         "MissingPackageError",
         "SeriesError",
         "SettingsError",
@@ -81,13 +87,17 @@ _HOME = {
     ),
     "evaluation": ("Evaluation", "evaluate"),
     "feature_aggregation": ("FeatureAggregation", "cfa"),
+    "flags": ("Flag",),
     "frame": ("Frame",),
     "mask_tracing": ("trace_mask",),
+    "measuring": ("CrossSection", "cross_section", "measure"),
     "planar_reformation": ("cpr",),
+    "profile": ("Profile",),
     "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
     "settings": ("Settings",),
     "slab": ("Slab",),
+    "stenosis": ("Stenosis",),
     "straightening": ("StraightenedVolume", "straightened_volume"),
     "threads": ("get_threads", "set_threads"),
     "tracing": ("Tracer", "trace"),
@@ -107,18 +117,22 @@ __all__ = [
     "Camera",
     "CameraError",
     "CenterlineComparison",
+    "CrossSection",
     "Device",
     "DeviceError",
     "DeviceWarning",
     "Evaluation",
     "FeatureAggregation",
     "FileError",
+    "Flag",
     "FormatError",
     "Frame",
     "Gap",
     "LumencutError",
+    "MeasuringError",
     "MissingPackageError",
     "Opacity",
+    "Profile",
     "Reformation",
     "Renderer",
     "SeriesError",
@@ -127,6 +141,7 @@ __all__ = [
     "SettingsError",
     "Slab",
     "SpaceWarning",
+    "Stenosis",
     "StraightenedVolume",
     "Tracer",
     "TracingError",
@@ -142,11 +157,13 @@ __all__ = [
     "compare_centerlines",
     "cpr",
     "cr",
+    "cross_section",
     "devices",
     "evaluate",
     "fitted_turn",
     "get_threads",
     "list_series",
+    "measure",
     "mpcpr",
     "read_centerlines",
     "read_volume",

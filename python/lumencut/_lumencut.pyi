@@ -17,6 +17,7 @@ _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, st
 
 __all__ = [
     "LARGEST_EXTENT",
+    "MEASURING_FLAGS",
     "MILLIMETRES",
     "PAPER",
     "SETTINGS",
@@ -25,9 +26,11 @@ __all__ = [
     "VIEWS",
     "CenterlineFile",
     "Cpr",
+    "Profile",
     "Renderer",
     "Setting",
     "Settings",
+    "Stenosis",
     "Tracer",
     "__version__",
     "better_place",
@@ -40,6 +43,7 @@ __all__ = [
     "check_window",
     "contains",
     "correspondence",
+    "cross_section",
     "devices",
     "fits_nowhere",
     "fitted",
@@ -48,6 +52,8 @@ __all__ = [
     "full_window",
     "levels",
     "make_phantom",
+    "measure",
+    "measured_radii",
     "mip_window",
     "mra_window",
     "panned",
@@ -103,6 +109,7 @@ VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
 # Of centerlines: millimetres per unit, what brings each space to LPS, which extents (mm) pass for vessels.
 MILLIMETRES: dict[Unit, float]
 SIGNS: dict[Coordinates, tuple[float, float, float]]
+MEASURING_FLAGS: list[tuple[str, int]]
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 
@@ -161,6 +168,49 @@ class Tracer:
     ]: ...
 
 @final
+class Profile:
+    def numbers(self) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
+    @property
+    def flags(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def center(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def normal(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def contour(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def levels(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def noise(self) -> float: ...
+    @property
+    def fwhm(self) -> tuple[float, str]: ...
+    def stenosis(
+        self,
+        at: float,
+        method: str,
+        reference: Sequence[float],
+        original: float | None = None,
+        comparison: float | None = None,
+    ) -> Stenosis: ...
+    def narrowest(self) -> tuple[float, float] | None: ...
+    def widest(self) -> tuple[float, float] | None: ...
+    def suggested_references(
+        self, at: float
+    ) -> tuple[tuple[float, float] | None, tuple[float, float] | None]: ...
+    def diameter_at(self, at: float) -> tuple[float, float]: ...
+    def stretch(self, ends: tuple[float, float]) -> tuple[float, float]: ...
+    def direction(self, ends: tuple[float, float]) -> list[float]: ...
+    def angle_between(self, first: tuple[float, float], second: tuple[float, float]) -> float: ...
+    def c_arm(self, ends: tuple[float, float], lao: float | None = None) -> tuple[float, float]: ...
+
+@final
+class Stenosis:
+    def numbers(self) -> tuple[float, float, float, float, float]: ...
+    @property
+    def references(self) -> list[tuple[float, float]]: ...
+    def group(self, vessel: str) -> str: ...
+
+@final
 class Renderer:
     def __new__(cls, vessels: list[_Arrays] | None, device: str) -> Renderer: ...
     @property
@@ -195,6 +245,9 @@ def contains(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.boo
 def correspondence(
     first: npt.NDArray[np.float64], second: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.int64]: ...
+def cross_section(
+    volume: Any, measured: _Arrays, at: float, size: float, pixel_spacing: float
+) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float64], list[float]]: ...
 def devices() -> list[dict[str, Any]]: ...
 def fitted(camera: Any, points: npt.NDArray[np.float64]) -> dict[str, Any]: ...
 def fitted_turn(
@@ -204,6 +257,12 @@ def fits_nowhere(points: npt.NDArray[np.float64], volume: Any) -> bool: ...
 def frame_angles(frames: int, degrees: float) -> list[float]: ...
 def full_window(volume: Any) -> tuple[float, float]: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
+def measure(
+    volume: Any, measured: _Arrays, step: float, fwhm: float | None = None, tree: list[_Arrays] | None = None
+) -> Profile: ...
+def measured_radii(
+    volume: Any, vessels: list[_Arrays], step: float, fwhm: float | None = None
+) -> list[tuple[npt.NDArray[np.float64] | None, int, int]]: ...
 def mip_window(volume: Any) -> tuple[float, float]: ...
 def mra_window(volume: Any) -> tuple[float, float]: ...
 def panned(camera: Any, right: float, up: float) -> dict[str, Any]: ...

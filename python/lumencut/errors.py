@@ -53,6 +53,10 @@ class TracingError(LumencutError, ValueError):
     """Points between which no centerline can be traced: outside the lumen, or with none between them."""
 
 
+class MeasuringError(LumencutError, ValueError):
+    """A vessel whose lumen cannot be measured, or a place on it of which a number would make no sense."""
+
+
 class FormatError(LumencutError, ValueError):
     """A file whose content is not what its format promises, or a format that is not read."""
 

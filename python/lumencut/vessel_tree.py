@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any, SupportsIndex, overload
 
 import numpy as np
@@ -12,7 +12,9 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
 from lumencut._joined import joined
+from lumencut._measured_radii import measured_radii
 from lumencut._values import Value, content_of
+from lumencut._vessel_checks import marks, radii, shares
 from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel_gap import Gap
@@ -53,12 +55,12 @@ class Vessel(Value):
         bridged: npt.ArrayLike | None = None,
     ) -> None:
         self._points = numbers(VesselTreeError, "points of the vessel", points, (-1, 3))
-        self._radius = None if radius is None else _radii(radius, len(self._points))
+        self._radius = None if radius is None else radii(radius, len(self._points))
         if not (name is None or isinstance(name, str)):
             raise VesselTreeError("name of the vessel", f"{type(name).__name__}", "a text or None")
         self._name = name
-        self._confidence = None if confidence is None else _shares(confidence, len(self._points))
-        self._bridged = None if bridged is None else _marks(bridged, len(self._points))
+        self._confidence = None if confidence is None else shares(confidence, len(self._points))
+        self._bridged = None if bridged is None else marks(bridged, len(self._points))
         _lumencut.check_vessel(self._points, self._radius)
 
     @property
@@ -199,6 +201,39 @@ class VesselTree(Value):
         )
         smoothed._space_settled = self._space_settled
         return smoothed
+
+    def measured(self, volume: Any, step: float = 0.5, fwhm: float | None = None) -> VesselTree:
+        """Return the tree with radii measured in a volume, those of circles with the area of the lumen.
+
+        Between sections at most 10 mm apart radii are interpolated, as within junctions. Beyond, points keep
+        their radius; those without one get that of the nearest section. :attr:`notes` says how many they are.
+
+        Parameters
+        ----------
+        volume : Volume, or whatever else :func:`lumencut.render` takes as one
+            The angiography.
+        step : float, default 0.5
+            The distance of sections (mm), at most.
+        fwhm : float, optional
+            As for :func:`lumencut.measure`; where not given, the widest vessel that tells it does so for all.
+
+        Raises
+        ------
+        SettingsError
+            For a step or a width of the point spread that is none.
+        VolumeError
+            For what is no volume.
+        KeyboardInterrupt
+            After Ctrl-C.
+        """
+        found, notes = measured_radii(volume, self._arrays(), step, fwhm)
+        measured = VesselTree(
+            Vessel(vessel.points, radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
+            for vessel, radius in zip(self._vessels, found, strict=True)
+        )
+        measured._space_settled, measured._gaps = self._space_settled, self._gaps
+        measured._notes = (*self._notes, *notes)
+        return measured
 
     def ids(self, *vessels: SupportsIndex | str) -> list[int]:
         """Return the ids of vessels, rising, each once; parameters and errors are those of :meth:`select`."""
@@ -362,28 +397,3 @@ class VesselTree(Value):
 
     def __repr__(self) -> str:
         return f"VesselTree({len(self)} vessels, {self.segment_count} segments)"
-
-
-def _radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
-    if not isinstance(radius, Sequence) and np.ndim(radius) == 0:
-        radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
-    return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))
-
-
-def _shares(confidence: Any, count: int) -> npt.NDArray[np.float64]:
-    shares = numbers(VesselTreeError, "confidence of the vessel", confidence, (count,))
-    if not ((shares >= 0) & (shares <= 1)).all():
-        found = f"{shares.min():g} to {shares.max():g}"
-        raise VesselTreeError("confidence of the vessel", found, "numbers from 0 to 1")
-    return shares
-
-
-def _marks(bridged: Any, count: int) -> npt.NDArray[np.bool_]:
-    marks = np.array(bridged)
-    if marks.dtype != np.bool_ or marks.shape != (count,):
-        found = f"{marks.dtype} of shape {marks.shape}"
-        raise VesselTreeError(
-            "bridged points of the vessel", found, f"True or False for each of {count} points"
-        )
-    marks.flags.writeable = False
-    return marks

@@ -18,19 +18,22 @@ pub enum ErrorKind {
     Device,
     /// A point between which and others no centerline can be traced.
     Tracing,
+    /// A vessel whose lumen cannot be measured, or a place on it where a number makes no sense.
+    Measuring,
     /// The caller asked to stop.
     Interrupted,
 }
 
 impl ErrorKind {
     /// Every kind, for tests that each of them can be met.
-    pub const ALL: [ErrorKind; 7] = [
+    pub const ALL: [ErrorKind; 8] = [
         ErrorKind::Volume,
         ErrorKind::VesselTree,
         ErrorKind::Camera,
         ErrorKind::Settings,
         ErrorKind::Device,
         ErrorKind::Tracing,
+        ErrorKind::Measuring,
         ErrorKind::Interrupted,
     ];
 }

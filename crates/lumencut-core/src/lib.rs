@@ -9,6 +9,7 @@ pub mod error;
 pub mod frame;
 pub mod geometry;
 pub mod math;
+pub mod measure;
 pub mod pipeline;
 pub mod progress;
 pub mod reformations;

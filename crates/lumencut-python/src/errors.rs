@@ -16,6 +16,7 @@ pub fn to_python(error: Error) -> PyErr {
         ErrorKind::Settings => "SettingsError",
         ErrorKind::Device => "DeviceError",
         ErrorKind::Tracing => "TracingError",
+        ErrorKind::Measuring => "MeasuringError",
         ErrorKind::Interrupted => return PyKeyboardInterrupt::new_err(error.to_string()),
     };
     exception(class, &error.subject, &error.found, &error.expected, &error.mend)

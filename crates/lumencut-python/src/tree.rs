@@ -27,7 +27,8 @@ pub fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
     Ok(points.as_array().rows().into_iter().map(|p| DVec3::new(p[0], p[1], p[2])).collect())
 }
 
-fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
+/// The vessel of the core.
+pub fn vessel((points, radius): &VesselArrays) -> PyResult<Vessel> {
     let points = points_of(points)?;
     let radius = radius.as_ref().map(|r| r.as_array().to_vec());
     Vessel::new(points, radius).map_err(to_python)

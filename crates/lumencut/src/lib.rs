@@ -17,14 +17,13 @@ pub mod places;
 mod populations;
 pub mod positions;
 mod samples;
-mod statistics;
 mod text;
 pub mod turn;
 pub mod views;
 pub mod windows;
 
 pub use lumencut_core::{
-    camera, error, frame, geometry, math, pipeline, progress, reformations, scene, settings, stages, stop,
-    trace, vessel_tree, volume, with_voxels,
+    camera, error, frame, geometry, math, measure, pipeline, progress, reformations, scene, settings, stages,
+    stop, trace, vessel_tree, volume, with_voxels,
 };
 pub use lumencut_io as centerlines;

@@ -6,8 +6,8 @@ use glam::DVec3;
 use lumencut_core::volume::Volume;
 
 use crate::places::Place;
-use crate::statistics::median;
 use crate::windows::sample;
+use lumencut_core::math::statistics::median;
 
 /// Points are looked at once for each cube of this side (mm): points that lie closely say the same thing twice.
 const CUBE: f64 = 2.0;

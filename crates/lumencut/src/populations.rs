@@ -3,7 +3,7 @@
 use lumencut_core::volume::Volume;
 use lumencut_core::with_voxels;
 
-use crate::statistics::{median, quantile, two_groups};
+use lumencut_core::math::statistics::{median, quantile, two_groups};
 
 /// The side of the cubes whose largest values tell lumen from tissue (voxels), and how many of them are looked at.
 const SIDE: usize = 4;

@@ -9,8 +9,8 @@ use lumencut_core::volume::Volume;
 use lumencut_core::with_voxels;
 
 use crate::populations::{Looked, Populations, padding, range, without_padding};
-use crate::statistics::{median, quantile};
 use crate::text::rounded;
+use lumencut_core::math::statistics::{median, quantile};
 
 /// How far beyond the wall a window's tissue is looked for, and the radius where it is unknown (mm).
 const BESIDE: f64 = 10.0;

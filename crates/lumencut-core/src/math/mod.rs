@@ -24,6 +24,7 @@ pub mod ray_lines;
 pub mod reduce;
 pub mod sampler;
 pub mod sampling;
+pub mod statistics;
 pub mod thickness;
 pub mod tile;
 pub mod trace;

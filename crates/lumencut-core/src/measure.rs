@@ -1,0 +1,30 @@
+//! The lumen of a vessel measured: cross-sections, diameters with the blur of the scanner taken into account, stenoses,
+//! lengths and angles.
+
+pub mod along;
+pub mod blur;
+pub mod branches;
+pub mod contour;
+pub mod cross_section;
+pub mod ellipse;
+pub mod fit;
+pub mod flags;
+pub mod golden;
+pub mod groups;
+pub mod least_squares;
+pub mod levels;
+pub mod measuring;
+pub mod obstacles;
+pub mod place;
+pub mod point_spread;
+pub mod pooled;
+pub mod profile;
+pub mod radii;
+pub mod rays;
+pub mod rough;
+pub mod scale;
+pub mod sections;
+pub mod slab;
+pub mod stenosis;
+pub mod stretch;
+pub mod suggestions;

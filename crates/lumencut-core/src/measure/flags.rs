@@ -1,0 +1,41 @@
+//! What there is to know of a section beside its numbers.
+
+/// The diameter is below 1.5 times the full width at half maximum of the point spread.
+pub const AT_LIMIT: u32 = 1;
+/// Another vessel begins here, or lumen goes on sideways.
+pub const BRANCH: u32 = 1 << 1;
+/// Something in the wall is brighter than lumen.
+pub const CALCIUM: u32 = 1 << 2;
+/// Something brighter than lumen goes around it, or is brighter than calcium.
+pub const METAL: u32 = 1 << 3;
+/// Another lumen, or bone, is beside the wall.
+pub const NEIGHBOR: u32 = 1 << 4;
+/// The section reaches beyond the volume.
+pub const OUTSIDE: u32 = 1 << 5;
+/// No wall was found.
+pub const NO_EDGE: u32 = 1 << 6;
+/// The vessel's point lies outside of the lumen that was measured.
+pub const RECENTERED: u32 = 1 << 7;
+/// The lumen is far from an ellipse.
+pub const IRREGULAR: u32 = 1 << 8;
+
+/// Every flag with its name.
+pub const FLAGS: [(&str, u32); 9] = [
+    ("AT_LIMIT", AT_LIMIT),
+    ("BRANCH", BRANCH),
+    ("CALCIUM", CALCIUM),
+    ("METAL", METAL),
+    ("NEIGHBOR", NEIGHBOR),
+    ("OUTSIDE", OUTSIDE),
+    ("NO_EDGE", NO_EDGE),
+    ("RECENTERED", RECENTERED),
+    ("IRREGULAR", IRREGULAR),
+];
+
+/// Sections with any of these are left out of what is largest, narrowest or suggested.
+pub const LEFT_OUT: u32 = BRANCH | METAL | OUTSIDE | NO_EDGE;
+
+/// The names of the flags that are set.
+pub fn names_of(flags: u32) -> Vec<&'static str> {
+    FLAGS.iter().filter(|(_, bit)| flags & bit > 0).map(|(name, _)| *name).collect()
+}

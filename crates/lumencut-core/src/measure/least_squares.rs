@@ -1,0 +1,118 @@
+//! Least squares with a few parameters: the method of Levenberg and Marquardt (Marquardt 1963, doi:10.1137/0111030).
+
+/// The sum of squares at some parameters, near which it is a parabola.
+#[derive(Clone, Copy, Debug)]
+pub struct Normal<const N: usize> {
+    /// The sum of squares.
+    pub cost: f64,
+    /// The products of the derivatives by each pair of parameters.
+    pub matrix: [[f64; N]; N],
+    /// The products of the derivatives and of what is missing.
+    pub slope: [f64; N],
+}
+
+impl<const N: usize> Normal<N> {
+    /// No terms yet.
+    pub fn zero() -> Self {
+        Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
+    }
+
+    /// Adds the square of how far a parameter is from what is expected of it, in standard deviations.
+    pub fn expect(&mut self, parameter: usize, missing: f64, deviation: f64) {
+        let weight = 1.0 / (deviation * deviation);
+        self.cost += weight * missing * missing;
+        self.matrix[parameter][parameter] += weight;
+        self.slope[parameter] += weight * missing;
+    }
+}
+
+/// The parameters where the sum of squares is least, and the sum there.
+#[derive(Clone, Copy, Debug)]
+pub struct Minimum<const N: usize> {
+    /// The parameters.
+    pub at: [f64; N],
+    /// The sum there.
+    pub normal: Normal<N>,
+}
+
+/// From `start` down to the least sum of squares, in at most `steps` steps. `evaluate` gives None for parameters that are not
+/// allowed; None comes back where `start` is not.
+pub fn minimum<const N: usize>(
+    start: [f64; N],
+    steps: usize,
+    mut evaluate: impl FnMut(&[f64; N]) -> Option<Normal<N>>,
+) -> Option<Minimum<N>> {
+    /// What the sum must fall by to go on, as a share of itself.
+    const ENOUGH: f64 = 1e-4;
+    let mut best = Minimum { at: start, normal: evaluate(&start)? };
+    let mut damping = 1e-3;
+    for _ in 0..steps {
+        let mut matrix = best.normal.matrix;
+        for n in 0..N {
+            matrix[n][n] *= 1.0 + damping;
+        }
+        let tried = solved(&matrix, &best.normal.slope).and_then(|change| {
+            let at = std::array::from_fn(|n| best.at[n] + change[n]);
+            evaluate(&at).map(|normal| Minimum { at, normal })
+        });
+        match tried {
+            Some(tried) if tried.normal.cost <= best.normal.cost => {
+                let fallen = best.normal.cost - tried.normal.cost;
+                best = tried;
+                damping = (damping * 0.1_f64).max(1e-9);
+                if fallen <= ENOUGH * best.normal.cost {
+                    break;
+                }
+            }
+            _ if damping > 1e6 => break,
+            _ => damping *= 10.0,
+        }
+    }
+    Some(best)
+}
+
+/// The lower triangle whose product with its transpose is a matrix; None where the matrix is not positive definite.
+fn cholesky<const N: usize>(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let mut lower = [[0.0; N]; N];
+    for i in 0..N {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+            let rest = matrix[i][j] - known;
+            lower[i][j] = if i == j {
+                let is_positive = rest > 1e-14 * matrix[i][i].abs();
+                if !is_positive {
+                    return None;
+                }
+                rest.sqrt()
+            } else {
+                rest / lower[j][j]
+            };
+        }
+    }
+    Some(lower)
+}
+
+/// The solution of a symmetric system; None where it has none.
+pub fn solved<const N: usize>(matrix: &[[f64; N]; N], right: &[f64; N]) -> Option<[f64; N]> {
+    let lower = cholesky(matrix)?;
+    let mut solution = *right;
+    for i in 0..N {
+        let known: f64 = (0..i).map(|k| lower[i][k] * solution[k]).sum();
+        solution[i] = (solution[i] - known) / lower[i][i];
+    }
+    for i in (0..N).rev() {
+        let known: f64 = (i + 1..N).map(|k| lower[k][i] * solution[k]).sum();
+        solution[i] = (solution[i] - known) / lower[i][i];
+    }
+    Some(solution)
+}
+
+/// The variance of a combination of parameters whose sum of squares has this matrix.
+pub fn variance<const N: usize>(matrix: &[[f64; N]; N], combination: &[f64; N]) -> Option<f64> {
+    let solution = solved(matrix, combination)?;
+    Some((0..N).map(|n| solution[n] * combination[n]).sum())
+}
+
+#[cfg(test)]
+#[path = "tests/least_squares.rs"]
+mod tests;

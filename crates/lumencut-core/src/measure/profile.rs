@@ -1,0 +1,131 @@
+//! The profile of a vessel: its lumen by arc length.
+
+use glam::DVec3;
+
+use super::contour::inscribed;
+use super::fit::Fit;
+use super::flags::LEFT_OUT;
+use super::place::Place;
+use super::scale::Scale;
+use super::sections::{Section, center};
+
+/// Where the width of the point spread is from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The caller gave it.
+    Given,
+    /// It was estimated on wide stretches of the vessel.
+    Estimated {
+        /// What it was estimated on.
+        on: String,
+    },
+    /// Nothing told it.
+    Assumed {
+        /// From what it was assumed.
+        from: String,
+    },
+}
+
+/// The lumen of a vessel by arc length. What could not be measured is NaN.
+#[derive(Clone, Debug)]
+pub struct Profile {
+    /// Arc length on the vessel (mm).
+    pub arc_length: Vec<f64>,
+    /// The shortest diameter (mm).
+    pub diameter_min: Vec<f64>,
+    /// The longest diameter (mm).
+    pub diameter_max: Vec<f64>,
+    /// The area (mm²).
+    pub area: Vec<f64>,
+    /// The standard deviation of the diameter of a circle of the same area (mm).
+    pub uncertainty: Vec<f64>,
+    /// What there is to know of each section; see [`super::flags`].
+    pub flags: Vec<u32>,
+    /// The middle of the lumen (mm, LPS); the vessel's point where there is none.
+    pub center: Vec<DVec3>,
+    /// The unit vector along the vessel, across which the section lies.
+    pub normal: Vec<DVec3>,
+    /// The points of the wall (mm, LPS), one for each ray.
+    pub contour: Vec<Vec<DVec3>>,
+    /// The radius of the largest ball around the middle within the lumen (mm).
+    pub inscribed_radius: Vec<f64>,
+    /// The level of the lumen and that of its background, in the volume's unit.
+    pub levels: Vec<[f64; 2]>,
+    /// The noise of a voxel, in the volume's unit.
+    pub noise: f64,
+    /// The full width at half maximum of the point spread (mm).
+    pub fwhm: f64,
+    /// Where that is from.
+    pub fwhm_source: Source,
+    /// The points of the vessel's places (mm, LPS).
+    pub on_vessel: Vec<DVec3>,
+}
+
+impl Profile {
+    /// The profile of sections at places; the noise is in the volume's unit.
+    pub fn new(
+        places: &[Place],
+        sections: &[Section],
+        scale: &Scale,
+        noise: f64,
+        fwhm: (f64, Source),
+    ) -> Self {
+        let number = |of: &dyn Fn(&Fit) -> f64| -> Vec<f64> {
+            sections.iter().map(|section| section.fit.as_ref().map_or(f64::NAN, of)).collect()
+        };
+        let middle = |n: usize| sections[n].fit.map_or(places[n].origin, |fit: Fit| center(&places[n], &fit));
+        let arc_length: Vec<f64> = places.iter().map(|place| place.at).collect();
+        let center: Vec<DVec3> = (0..places.len()).map(middle).collect();
+        let contour: Vec<Vec<DVec3>> = sections.iter().map(|section| section.contour.clone()).collect();
+        let axis = |fit: &Fit, n: usize| 2.0 * fit.ellipse.semi_axes()[n];
+        Self {
+            diameter_min: number(&|fit| axis(fit, 0)),
+            diameter_max: number(&|fit| axis(fit, 1)),
+            area: number(&|fit| fit.ellipse.area()),
+            uncertainty: number(&|fit| fit.uncertainty),
+            flags: sections.iter().map(|section| section.flags).collect(),
+            normal: places.iter().map(|place| place.normal).collect(),
+            inscribed_radius: inscribed(&arc_length, &center, &contour),
+            levels: sections
+                .iter()
+                .map(|section| {
+                    section.fit.map_or([f64::NAN; 2], |fit| {
+                        [fit.lumen[0], fit.background].map(|share| scale.value(share))
+                    })
+                })
+                .collect(),
+            on_vessel: places.iter().map(|place| place.origin).collect(),
+            noise,
+            fwhm: fwhm.0,
+            fwhm_source: fwhm.1,
+            arc_length,
+            center,
+            contour,
+        }
+    }
+
+    /// How many sections there are.
+    pub fn len(&self) -> usize {
+        self.arc_length.len()
+    }
+
+    /// Whether there are none, which never is.
+    pub fn is_empty(&self) -> bool {
+        self.arc_length.is_empty()
+    }
+
+    /// The diameter of a circle of the same area (mm).
+    pub fn diameter_equivalent(&self) -> Vec<f64> {
+        self.area.iter().map(|area| 2.0 * (area / std::f64::consts::PI).sqrt()).collect()
+    }
+
+    /// The mean of the shortest and the longest diameter (mm).
+    pub fn diameter_mean(&self) -> Vec<f64> {
+        self.diameter_min.iter().zip(&self.diameter_max).map(|(a, b)| f64::midpoint(*a, *b)).collect()
+    }
+
+    /// Whether a section counts for what is largest, narrowest or suggested.
+    pub fn counts(&self, n: usize) -> bool {
+        self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
+    }
+}

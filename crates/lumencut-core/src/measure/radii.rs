@@ -1,0 +1,102 @@
+//! Measured radii for the points of a tree.
+
+use super::flags::{LEFT_OUT, METAL};
+use super::measuring::{Request, measure};
+use super::profile::{Profile, Source};
+use crate::error::{ErrorKind, Result};
+use crate::stop::Stop;
+use crate::vessel_tree::Vessel;
+use crate::volume::Volume;
+
+/// Between measured sections no farther apart than this (mm) radii are interpolated.
+const GAP: f64 = 10.0;
+
+/// The radii of one vessel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Radii {
+    /// A radius for each point (mm); None where nothing was measured and none was known.
+    pub radius: Option<Vec<f64>>,
+    /// How many points have the radius of a section that was measured, or of two that it lies between.
+    pub measured: usize,
+    /// How many points kept the radius that they had, or were given that of the nearest measured section.
+    pub kept: usize,
+}
+
+/// The measured radii of all vessels of a tree. The widest vessels come first: where the point spread is not given, the first
+/// that tells it tells it for all.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for a step or a point spread that is none, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
+/// keeps its radii.
+pub fn measured_radii(
+    volume: &Volume,
+    tree: &[Vessel],
+    step: f64,
+    fwhm: Option<f64>,
+    stop: Stop,
+) -> Result<Vec<Radii>> {
+    let mut order: Vec<usize> = (0..tree.len()).collect();
+    let widest = |n: usize| tree[n].radius().map_or(0.0, |radii| radii.iter().copied().fold(0.0, f64::max));
+    order.sort_by(|a, b| widest(*b).total_cmp(&widest(*a)).then(a.cmp(b)));
+    let mut known = fwhm;
+    let mut all: Vec<Option<Radii>> = vec![None; tree.len()];
+    for n in order {
+        let request = Request { step, fwhm: known, tree, stop };
+        all[n] = Some(match measure(volume, &tree[n], &request) {
+            Ok(profile) => {
+                if let Source::Estimated { .. } = profile.fwhm_source {
+                    known = Some(profile.fwhm);
+                }
+                of_profile(&tree[n], &profile)
+            }
+            Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
+                let kept = tree[n].points().len();
+                Radii { radius: tree[n].radius().map(<[f64]>::to_vec), measured: 0, kept }
+            }
+            Err(error) => return Err(error),
+        });
+    }
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// The radii at the points of a vessel, of circles with the measured areas.
+fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
+    // The wall within a stent was measured, if less surely.
+    let is_told = |n: &usize| profile.flags[*n] & (LEFT_OUT & !METAL) == 0 && profile.area[*n].is_finite();
+    let told: Vec<(f64, f64)> = (0..profile.len())
+        .filter(is_told)
+        .map(|n| (profile.arc_length[n], (profile.area[n] / std::f64::consts::PI).sqrt()))
+        .collect();
+    let (mut measured, mut kept) = (0, 0);
+    let mut radius = Vec::with_capacity(vessel.points().len());
+    for (n, at) in vessel.arc_length().iter().enumerate() {
+        let here = between(&told, *at);
+        measured += usize::from(here.is_some());
+        kept += usize::from(here.is_none());
+        radius.push(here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest(&told, *at)));
+    }
+    Radii { radius: radius.into_iter().collect(), measured, kept }
+}
+
+/// The radius at an arc length between two sections that are not far apart.
+fn between(told: &[(f64, f64)], at: f64) -> Option<f64> {
+    let after = told.partition_point(|(there, _)| *there < at);
+    let next = told.get(after);
+    if let Some((there, radius)) = next
+        && *there - at <= 1e-9
+    {
+        return Some(*radius);
+    }
+    let (before, next) = (told.get(after.checked_sub(1)?)?, next?);
+    let apart = next.0 - before.0;
+    (apart <= GAP).then(|| before.1 + (next.1 - before.1) * (at - before.0) / apart)
+}
+
+fn nearest(told: &[(f64, f64)], at: f64) -> Option<f64> {
+    let away = |one: &&(f64, f64)| (one.0 - at).abs();
+    told.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(_, radius)| *radius)
+}
+
+#[cfg(test)]
+#[path = "tests/radii.rs"]
+mod tests;

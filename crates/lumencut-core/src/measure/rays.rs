@@ -1,0 +1,175 @@
+//! The lumen along rays across a vessel: where it ends, and what is in the way.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use super::place::Place;
+use super::scale::Scale;
+use crate::trace::voxels::Voxels;
+
+/// The rays of a section, each the point of a contour.
+pub const RAYS: usize = 64;
+
+/// Samples along a ray lie so many of the smallest sides of a voxel apart.
+const SAMPLE: f64 = 0.4;
+
+/// What a ray meets.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Where the lumen ends (mm from where the ray begins), where it does.
+    pub edge: Option<f64>,
+    /// From here on (mm) something else is met: a neighbour, calcium, metal. Infinite where nothing is.
+    pub limit: f64,
+    /// Where it is too bright for a lumen (mm), where it is.
+    pub bright_at: Option<f64>,
+    /// The largest share within a millimetre of that; 0 where nothing is too bright.
+    pub brightest: f64,
+    /// Where that begins and ends to be nearer to its brightest share than to the lumen's (mm); equal where nothing is.
+    pub rim: [f64; 2],
+    /// Where the ray leaves the volume (mm), where it does.
+    pub outside_at: Option<f64>,
+}
+
+impl Ray {
+    /// Where the lumen ends (mm): at its edge, or where it is too bright before.
+    pub fn end(&self) -> Option<f64> {
+        self.edge.or(self.bright_at)
+    }
+}
+
+/// What rays are told.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// The lumen's level and that of its surroundings, as shares.
+    pub levels: [f64; 2],
+    /// Above this share there is no lumen.
+    pub bright: f64,
+    /// By so much values rise again where a neighbour begins, as a share.
+    pub rise: f64,
+    /// How far an edge is looked for (mm).
+    pub reach: f64,
+    /// How far beyond the edge something else is looked for (mm).
+    pub beyond: f64,
+}
+
+/// The direction of a ray in the plane.
+pub fn direction(ray: usize) -> DVec2 {
+    DVec2::from_angle(TAU * ray as f64 / RAYS as f64)
+}
+
+/// The volume as shares along lines.
+pub struct Rays<'a, 'v> {
+    /// The volume.
+    pub voxels: &'a Voxels<'v>,
+    /// What lumen looks like.
+    pub scale: Scale,
+}
+
+impl Rays<'_, '_> {
+    /// The share at a point of a plane; NaN outside the volume.
+    pub fn at(&self, place: &Place, point: DVec2) -> f64 {
+        self.scale.share(f64::from(self.voxels.at(place.point(point))))
+    }
+
+    /// The distance of samples along rays (mm).
+    pub fn step(&self) -> f64 {
+        SAMPLE * self.voxels.smallest_side
+    }
+
+    /// What a ray meets.
+    pub fn ray(&self, place: &Place, center: DVec2, direction: DVec2, look: &Look) -> Ray {
+        let mut samples = Samples::new(self, place, center, direction);
+        let half = f64::midpoint(look.levels[0], look.levels[1]);
+        let mut ray = Ray {
+            edge: None,
+            limit: f64::INFINITY,
+            bright_at: None,
+            brightest: 0.0,
+            rim: [0.0; 2],
+            outside_at: None,
+        };
+        let (mut lowest, mut valley, mut before) = (f64::INFINITY, 0, f64::NAN);
+        for n in 0.. {
+            let here = n as f64 * self.step();
+            if here > ray.edge.map_or(look.reach, |edge| edge + look.beyond) {
+                break;
+            }
+            let value = samples.at(n);
+            if value.is_nan() {
+                ray.outside_at = Some(here);
+                break;
+            }
+            // Noise does not reach that far twice in a row.
+            if value > look.bright && samples.at(n + 1) > look.bright {
+                ray.bright_at = Some(here);
+                let last = n + (1.0 / self.step()).ceil() as usize;
+                ray.brightest = (n..=last).map(|m| samples.at(m)).fold(value, f64::max);
+                ray.rim = rim(&mut samples, n, f64::midpoint(look.levels[0], ray.brightest));
+                ray.limit = if ray.edge.is_some() { valley as f64 * self.step() } else { here };
+                break;
+            }
+            if ray.edge.is_none() && value < half {
+                let share = if n > 0 { (value - half) / (value - before) } else { 0.0 };
+                ray.edge = Some((here - share.clamp(0.0, 1.0) * self.step()).max(0.0));
+            }
+            if ray.edge.is_some() {
+                if value < lowest {
+                    (lowest, valley) = (value, n);
+                } else if value > lowest + look.rise {
+                    ray.limit = valley as f64 * self.step();
+                    break;
+                }
+            }
+            before = value;
+        }
+        ray
+    }
+
+    /// What all rays of a section meet.
+    pub fn all(&self, place: &Place, center: DVec2, look: &Look) -> Vec<Ray> {
+        (0..RAYS).map(|n| self.ray(place, center, direction(n), look)).collect()
+    }
+}
+
+/// From where to where a ray is above a level (mm), from one of its samples on.
+fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
+    /// It is followed so many samples far.
+    const FAR: usize = 24;
+    let mut crossing = |from: usize, rises: bool| {
+        let is_beyond = |value: f64| (value > level) == rises;
+        let n = (from..from + FAR).find(|n| is_beyond(samples.at(*n))).unwrap_or(from + FAR);
+        let [before, here] = [n.saturating_sub(1), n].map(|m| samples.at(m));
+        let share = if is_beyond(before) { 1.0 } else { (level - before) / (here - before) };
+        (n, (n as f64 - 1.0 + share.clamp(0.0, 1.0)) * samples.rays.step())
+    };
+    let (inner, begins) = crossing(first, true);
+    [begins.max(0.0), crossing(inner, false).1]
+}
+
+/// How many samples of a ray are taken at a time.
+const TOGETHER: usize = 16;
+
+/// The samples of a ray as shares, taken where they are first needed; NaN outside the volume.
+struct Samples<'a, 'v> {
+    rays: &'a Rays<'a, 'v>,
+    start: DVec3,
+    stride: DVec3,
+    values: Vec<f32>,
+}
+
+impl<'a, 'v> Samples<'a, 'v> {
+    fn new(rays: &'a Rays<'a, 'v>, place: &Place, center: DVec2, direction: DVec2) -> Self {
+        let index = &rays.voxels.index_from_world;
+        let start = index.transform_point3(place.point(center));
+        let stride = index.transform_vector3(place.point(direction) - place.origin) * rays.step();
+        Self { rays, start, stride, values: Vec::with_capacity(2 * TOGETHER) }
+    }
+
+    fn at(&mut self, n: usize) -> f64 {
+        while n >= self.values.len() {
+            self.rays.voxels.along(self.start, self.stride, TOGETHER, &mut self.values);
+        }
+        self.rays.scale.share(f64::from(self.values[n]))
+    }
+}

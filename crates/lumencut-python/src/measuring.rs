@@ -1,0 +1,273 @@
+//! Vessels measured: without the GIL, and stopped by Ctrl-C.
+
+use glam::DVec3;
+use lumencut::measure::cross_section::CrossSection;
+use lumencut::measure::flags::FLAGS;
+use lumencut::measure::groups::Territory;
+use lumencut::measure::measuring::{self, Request};
+use lumencut::measure::profile::{self, Source};
+use lumencut::measure::radii;
+use lumencut::measure::stenosis::{self, Compared, Method};
+use lumencut::measure::suggestions::Spot;
+use lumencut::settings::Named;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+use crate::pool;
+use crate::renderer::interruptible;
+use crate::tree::{VesselArrays, vessel as vessel_of};
+use crate::volume::VolumeArgument;
+
+/// The flags of sections, for `lumencut.Flag`.
+pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("MEASURING_FLAGS", FLAGS.to_vec())
+}
+
+/// The lumen of one vessel by arc length.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct Profile(pub profile::Profile);
+
+/// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree.
+#[pyfunction]
+#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn measure<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    measured: VesselArrays<'py>,
+    step: f64,
+    fwhm: Option<f64>,
+    tree: Option<Vec<VesselArrays<'py>>>,
+) -> PyResult<Profile> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
+    let vessel = vessel_of(&measured)?;
+    interruptible(py, None, |stop| {
+        let request = Request { step, fwhm, tree: &others, stop };
+        pool::install(|| measuring::measure(&volume, &vessel, &request))?.map_err(to_python)
+    })
+    .map(Profile)
+}
+
+#[pymethods]
+impl Profile {
+    /// Numbers by name, each of shape (n,).
+    fn numbers<'py>(&self, py: Python<'py>) -> Vec<(&'static str, Bound<'py, PyArray1<f64>>)> {
+        let profile = &self.0;
+        let array = |values: &[f64]| PyArray1::from_slice(py, values);
+        vec![
+            ("arc_length", array(&profile.arc_length)),
+            ("diameter_min", array(&profile.diameter_min)),
+            ("diameter_max", array(&profile.diameter_max)),
+            ("diameter_mean", array(&profile.diameter_mean())),
+            ("diameter_equivalent", array(&profile.diameter_equivalent())),
+            ("area", array(&profile.area)),
+            ("uncertainty", array(&profile.uncertainty)),
+            ("inscribed_radius", array(&profile.inscribed_radius)),
+        ]
+    }
+
+    /// Bits of flags, shape (n,).
+    #[getter]
+    fn flags<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
+        PyArray1::from_slice(py, &self.0.flags)
+    }
+
+    /// The middle of the lumen (mm, LPS), shape (n, 3).
+    #[getter]
+    fn center<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        points(py, &self.0.center)
+    }
+
+    /// Unit vectors along the vessel, shape (n, 3).
+    #[getter]
+    fn normal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        points(py, &self.0.normal)
+    }
+
+    /// The points of the wall (mm, LPS), shape (n, rays, 3); NaN where there is none.
+    #[getter]
+    fn contour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let rays = self.0.contour.iter().map(Vec::len).max().unwrap_or(0);
+        let none = [DVec3::NAN];
+        let of = |contour: &'_ Vec<DVec3>| -> Vec<f64> {
+            let points = if contour.is_empty() { none.repeat(rays) } else { contour.clone() };
+            points.iter().flat_map(DVec3::to_array).collect()
+        };
+        let flat: Vec<f64> = self.0.contour.iter().flat_map(of).collect();
+        PyArray1::from_vec(py, flat).reshape([self.0.contour.len(), rays, 3])
+    }
+
+    /// Levels of lumen and background in the volume's unit, shape (n, 2).
+    #[getter]
+    fn levels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let flat = self.0.levels.iter().flatten().copied().collect();
+        PyArray1::from_vec(py, flat).reshape([self.0.levels.len(), 2])
+    }
+
+    /// The noise of a voxel in the volume's unit.
+    #[getter]
+    fn noise(&self) -> f64 {
+        self.0.noise
+    }
+
+    /// The stenosis at an arc length (mm) by a method, beside references (arc lengths, mm), the assumed original diameter and
+    /// that of a vessel to compare with (mm).
+    #[pyo3(signature = (at, method, reference, original=None, comparison=None))]
+    fn stenosis(
+        &self,
+        at: f64,
+        method: &str,
+        reference: Vec<f64>,
+        original: Option<f64>,
+        comparison: Option<f64>,
+    ) -> PyResult<Stenosis> {
+        let compared = Compared { reference, original, comparison };
+        let graded = Method::named("method of the stenosis", method)
+            .and_then(|method| self.0.stenosis(at, method, &compared));
+        graded.map(Stenosis).map_err(to_python)
+    }
+
+    /// The narrowest place: arc length and diameter (mm).
+    fn narrowest(&self) -> Option<(f64, f64)> {
+        self.0.narrowest().map(pair)
+    }
+
+    /// The place of the longest diameter: arc length and diameter (mm).
+    fn widest(&self) -> Option<(f64, f64)> {
+        self.0.widest().map(pair)
+    }
+
+    /// Places before and after an arc length (mm) to compare it with: arc length and diameter (mm) of each.
+    fn suggested_references(&self, at: f64) -> PyResult<[Option<(f64, f64)>; 2]> {
+        let spots = self.0.suggested_references(at).map_err(to_python)?;
+        Ok(spots.map(|spot| spot.map(pair)))
+    }
+
+    /// The diameter at an arc length (mm), and its standard deviation (mm).
+    fn diameter_at(&self, at: f64) -> PyResult<(f64, f64)> {
+        self.0.diameter_at(at).map_err(to_python)
+    }
+
+    /// The length between two arc lengths (mm): along the vessel, and straight.
+    fn stretch(&self, ends: [f64; 2]) -> PyResult<(f64, f64)> {
+        self.0.stretch(ends).map(|stretch| (stretch.length, stretch.straight)).map_err(to_python)
+    }
+
+    /// The direction of a stretch between two arc lengths (mm).
+    fn direction(&self, ends: [f64; 2]) -> PyResult<[f64; 3]> {
+        self.0.direction(ends).map(|direction| direction.to_array()).map_err(to_python)
+    }
+
+    /// The angle between two stretches (radians).
+    fn angle_between(&self, first: [f64; 2], second: [f64; 2]) -> PyResult<f64> {
+        self.0.angle_between(first, second).map_err(to_python)
+    }
+
+    /// Rotation (LAO) and angulation (cranial) of a C-arm that sees a stretch in its whole length (radians).
+    #[pyo3(signature = (ends, lao=None))]
+    fn c_arm(&self, ends: [f64; 2], lao: Option<f64>) -> PyResult<(f64, f64)> {
+        self.0.c_arm(ends, lao).map(|arm| (arm.lao, arm.cranial)).map_err(to_python)
+    }
+
+    /// The full width at half maximum of the point spread (mm), and where it is from.
+    #[getter]
+    fn fwhm(&self) -> (f64, String) {
+        let source = match &self.0.fwhm_source {
+            Source::Given => "given".to_owned(),
+            Source::Estimated { on } => format!("estimated on {on}"),
+            Source::Assumed { from } => format!("assumed: {from}"),
+        };
+        (self.0.fwhm, source)
+    }
+}
+
+/// A graded stenosis.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct Stenosis(stenosis::Stenosis);
+
+#[pymethods]
+impl Stenosis {
+    /// Percent, place, diameter, uncertainty and reference (mm).
+    fn numbers(&self) -> (f64, f64, f64, f64, f64) {
+        let graded = &self.0;
+        (graded.percent, graded.at, graded.diameter, graded.uncertainty, graded.reference)
+    }
+
+    /// Arc length and diameter of each reference (mm).
+    #[getter]
+    fn references(&self) -> Vec<(f64, f64)> {
+        self.0.references.iter().map(|[at, diameter]| (*at, *diameter)).collect()
+    }
+
+    /// The group of the field and its source.
+    fn group(&self, vessel: &str) -> PyResult<String> {
+        let group =
+            Territory::named("vessel of the group", vessel).and_then(|territory| self.0.group(territory));
+        group.map_err(to_python)
+    }
+}
+
+/// Values (H, W), places (H, W, 3) and the normal of a section.
+type SectionParts<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, [f64; 3]);
+
+/// A section of a vessel, its points (n, 3), at an arc length: values (H, W), places (H, W, 3), and its normal.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn cross_section<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    measured: VesselArrays<'py>,
+    at: f64,
+    size: f64,
+    pixel_spacing: f64,
+) -> PyResult<SectionParts<'py>> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    let vessel = vessel_of(&measured)?;
+    let section =
+        py.detach(|| CrossSection::new(&volume, &vessel, at, size, pixel_spacing)).map_err(to_python)?;
+    let side = section.pixels;
+    let positions: Vec<f64> = section.positions().iter().flat_map(DVec3::to_array).collect();
+    let normal = section.place.normal.to_array();
+    let value = PyArray1::from_vec(py, section.value).reshape([side, side])?;
+    Ok((value, PyArray1::from_vec(py, positions).reshape([side, side, 3])?, normal))
+}
+
+/// The radius of one vessel, shape (n,), how many points were measured, and how many were not.
+type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
+
+/// The measured radii of the vessels of a tree, each of points (n, 3) and radii (n,).
+#[pyfunction]
+#[pyo3(signature = (volume, vessels, step, fwhm=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn measured_radii<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    vessels: Vec<VesselArrays<'py>>,
+    step: f64,
+    fwhm: Option<f64>,
+) -> PyResult<Vec<RadiusParts<'py>>> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    let tree = vessels.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
+    let found = interruptible(py, None, |stop| {
+        pool::install(|| radii::measured_radii(&volume, &tree, step, fwhm, stop))?.map_err(to_python)
+    })?;
+    let parts = found.into_iter().map(|radii| {
+        let radius = radii.radius.map(|radius| PyArray1::from_vec(py, radius));
+        (radius, radii.measured, radii.kept)
+    });
+    Ok(parts.collect())
+}
+
+fn pair(spot: Spot) -> (f64, f64) {
+    (spot.at, spot.diameter)
+}
+
+fn points<'py>(py: Python<'py>, points: &[DVec3]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let flat = points.iter().flat_map(DVec3::to_array).collect();
+    PyArray1::from_vec(py, flat).reshape([points.len(), 3])
+}

@@ -1,0 +1,34 @@
+"""Measured radii of the vessels of a tree, and what is to be said of them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import number
+from lumencut._wording import counted
+from lumencut.errors import SettingsError
+from lumencut.volume_files.memory import as_volume
+
+_Floats = npt.NDArray[np.float64]
+
+
+def measured_radii(
+    volume: Any, vessels: list[tuple[_Floats, _Floats | None]], step: float, fwhm: float | None
+) -> tuple[list[_Floats | None], list[str]]:
+    """Return the radii of each vessel, and a sentence for each vessel that was not measured as a whole."""
+    found = _lumencut.measured_radii(
+        as_volume(volume),
+        vessels,
+        number(SettingsError, "step", step),
+        None if fwhm is None else number(SettingsError, "fwhm", fwhm),
+    )
+    notes = [
+        f"vessel {n}: the radius of {counted(kept, 'point')} of {kept + measured} was not measured"
+        for n, (_, measured, kept) in enumerate(found)
+        if kept
+    ]
+    return [radius for radius, _, _ in found], notes

@@ -1,0 +1,40 @@
+"""What is known of the points of a vessel, one value for each, or an error that names it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut._checks import numbers
+from lumencut.errors import VesselTreeError
+
+
+def radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
+    """Return radii (mm), the same one for all points where one is given."""
+    if not isinstance(radius, Sequence) and np.ndim(radius) == 0:
+        radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
+    return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))
+
+
+def shares(confidence: Any, count: int) -> npt.NDArray[np.float64]:
+    """Return shares, 0 to 1."""
+    shares = numbers(VesselTreeError, "confidence of the vessel", confidence, (count,))
+    if not ((shares >= 0) & (shares <= 1)).all():
+        found = f"{shares.min():g} to {shares.max():g}"
+        raise VesselTreeError("confidence of the vessel", found, "numbers from 0 to 1")
+    return shares
+
+
+def marks(bridged: Any, count: int) -> npt.NDArray[np.bool_]:
+    """Return marks, True or False."""
+    marks = np.array(bridged)
+    if marks.dtype != np.bool_ or marks.shape != (count,):
+        found = f"{marks.dtype} of shape {marks.shape}"
+        raise VesselTreeError(
+            "bridged points of the vessel", found, f"True or False for each of {count} points"
+        )
+    marks.flags.writeable = False
+    return marks

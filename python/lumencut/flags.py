@@ -1,0 +1,32 @@
+"""What there is to know of a measured section beside its numbers."""
+
+from __future__ import annotations
+
+from enum import IntFlag
+
+
+class Flag(IntFlag):
+    """What there is to know of a section; sections keep their numbers whatever is set.
+
+    Sections with `BRANCH`, `METAL`, `OUTSIDE` or `NO_EDGE` are left out of what is narrowest, widest or
+    suggested, and of references.
+    """
+
+    #: The diameter is below 1.5 times the width (FWHM) of the point spread.
+    AT_LIMIT = 1
+    #: The section lies within a junction, or lumen goes on sideways.
+    BRANCH = 2
+    #: Something in the wall is brighter than lumen; it is no lumen, and what it touches is not fitted.
+    CALCIUM = 4
+    #: Something brighter than lumen goes all around it, or is far brighter: a stent, or metal.
+    METAL = 8
+    #: Another lumen or bone is beside the wall.
+    NEIGHBOR = 16
+    #: The section reaches beyond the volume.
+    OUTSIDE = 32
+    #: No wall was found; numbers are NaN, or too unsure to be used.
+    NO_EDGE = 64
+    #: The vessel's point lies outside of the lumen, whose middle was found beside it.
+    RECENTERED = 128
+    #: The wall is far from an ellipse.
+    IRREGULAR = 256

@@ -1,0 +1,169 @@
+"""The lumen of a vessel measured, and cross-sections of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import number
+from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
+from lumencut.profile import Profile
+from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.volume import Volume
+from lumencut.volume_files.memory import as_volume
+
+
+def measure(
+    volume: Volume | Any,
+    vessel: Vessel,
+    step: float = 0.5,
+    fwhm: float | None = None,
+    *,
+    tree: VesselTree | None = None,
+) -> Profile:
+    """Measure the lumen of a vessel in sections across it.
+
+    An ellipse, blurred as the scanner blurs, is fitted to the voxels around each section: its position and
+    shape, and the levels of lumen and background. The levels of narrow sections come from wider ones around
+    them. So the diameter has no bias by the blur, as it has at half of the maximum. METHOD.md, "Measuring",
+    has it all.
+
+    A lumen diameter is not that of the vessel: thrombus and plaque are not lumen.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography, CT or MR; lumen may be brighter or darker than what is around it.
+    vessel : Vessel
+        The centerline. It need not be central; :meth:`VesselTree.path` makes one of several vessels that
+        meet. Radii help to find the lumen and are not believed.
+    step : float, default 0.5
+        The distance of sections (mm), at most; they lie evenly from the first point to the last.
+    fwhm : float, optional
+        The full width at half maximum of the scanner's point spread alone (mm), 0 excluded, at most 20.
+        Averaging over voxels is added to it. Without it, it is estimated where the vessel is wide, or else
+        assumed to be 1.2 sides of a voxel; :attr:`Profile.fwhm_source` says which.
+    tree : VesselTree, optional
+        The tree that the vessel is of: sections within the lumen of its other vessels get
+        :attr:`Flag.BRANCH`.
+
+    Returns
+    -------
+    Profile
+        Diameters, area, uncertainty, flags and contours by arc length.
+
+    Raises
+    ------
+    MeasuringError
+        For a vessel outside the volume, or without a lumen around it.
+    SettingsError
+        For a step or a width of the point spread that is none.
+    VesselTreeError
+        For another kind of vessel or tree, or a vessel without length.
+    VolumeError
+        For what is no volume.
+    KeyboardInterrupt
+        After Ctrl-C.
+    """
+    _check_vessel(vessel)
+    if not isinstance(tree, (VesselTree, type(None))):
+        raise VesselTreeError("tree of the vessel", type(tree).__name__, "a VesselTree or None")
+    core = _lumencut.measure(
+        as_volume(volume),
+        (vessel.points, vessel.radius),
+        number(SettingsError, "step", step),
+        None if fwhm is None else number(SettingsError, "fwhm", fwhm),
+        None if tree is None else [(one.points, one.radius) for one in tree],
+    )
+    return Profile(core)
+
+
+@dataclass(frozen=True)
+class CrossSection:
+    """The volume in a plane across a vessel; :func:`cross_section` makes it.
+
+    Parameters
+    ----------
+    value : numpy.ndarray, shape (H, W), float32
+        The volume, trilinear; NaN outside.
+    position : numpy.ndarray, shape (H, W, 3)
+        The place of each pixel (mm, LPS).
+    normal : numpy.ndarray, shape (3,)
+        The unit vector along the vessel.
+    arc_length : float
+        The place on the vessel (mm).
+    pixel_spacing : float
+        The side of a pixel (mm).
+    """
+
+    value: npt.NDArray[np.float32]
+    position: npt.NDArray[np.float64]
+    normal: npt.NDArray[np.float64]
+    arc_length: float
+    pixel_spacing: float
+
+    def pixel_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return column and row of points (n, 3) (mm, LPS), shape (n, 2); the first pixel is at (0, 0).
+
+        Points beside the plane are projected to it.
+        """
+        away = np.asarray(points, dtype=np.float64).reshape(-1, 3) - self.position[0, 0]
+        last = (self.position[0, -1] - self.position[0, 0], self.position[-1, 0] - self.position[0, 0])
+        steps = [axis / max(len(self.value) - 1, 1) for axis in last]
+        return np.stack([away @ axis / max(axis @ axis, 1e-12) for axis in steps], axis=1)
+
+
+def cross_section(
+    volume: Volume | Any, vessel: Vessel, at: float, size: float = 30.0, pixel_spacing: float | None = None
+) -> CrossSection:
+    """Return the volume in a plane across a vessel, as a square image with the vessel in its middle.
+
+    Planes do not turn about the vessel from one place to the next (rotation-minimising frame, Wang et al.
+    2008). At its first point the patient's back is at the bottom, or the feet where it runs to the back or
+    front; a vessel that begins towards the head is seen along its way, others against it, so that the
+    patient's left is on the right of an axial section.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography.
+    vessel : Vessel
+        The centerline; its directions are smoothed over 1 mm.
+    at : float
+        The place: an arc length on the vessel (mm).
+    size : float, default 30
+        The side of the image (mm).
+    pixel_spacing : float, optional
+        The side of a pixel (mm); half of the smallest side of a voxel where not given.
+
+    Raises
+    ------
+    MeasuringError
+        For a place beyond the vessel.
+    SettingsError
+        For a size or pixels that are none.
+    VesselTreeError
+        For another kind of vessel, or one without length.
+    VolumeError
+        For what is no volume.
+    """
+    _check_vessel(vessel)
+    grid = as_volume(volume)
+    place = number(MeasuringError, "place on the vessel", at)
+    spacing = number(
+        SettingsError, "pixel_spacing", grid.spacing.min() / 2 if pixel_spacing is None else pixel_spacing
+    )
+    side = number(SettingsError, "size of the cross-section", size)
+    value, position, normal = _lumencut.cross_section(
+        grid, (vessel.points, vessel.radius), place, side, spacing
+    )
+    return CrossSection(value, position, np.array(normal), place, spacing)
+
+
+def _check_vessel(vessel: Vessel) -> None:
+    if not isinstance(vessel, Vessel):
+        raise VesselTreeError("vessel to measure", type(vessel).__name__, "a Vessel")

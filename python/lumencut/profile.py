@@ -1,0 +1,323 @@
+"""The lumen of a vessel by its arc length."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import choice, number, numbers
+from lumencut.errors import MeasuringError, SettingsError
+from lumencut.stenosis import METHODS, Method, Stenosis
+
+_Floats = npt.NDArray[np.float64]
+
+
+class Spot(NamedTuple):
+    """A place on a vessel: its arc length and the diameter there, both in mm."""
+
+    arc_length: float
+    diameter: float
+
+
+class Stretch(NamedTuple):
+    """The length of a stretch of a vessel (mm): along it, and straight from end to end."""
+
+    length: float
+    straight: float
+
+    @property
+    def tortuosity(self) -> float:
+        """The length along the vessel in straight distances: 1 for a straight stretch."""
+        return self.length / self.straight if self.straight > 0 else math.inf
+
+
+class Angle(float):
+    """An angle in radians, with its degrees."""
+
+    @property
+    def degrees(self) -> float:
+        """The angle in degrees."""
+        return math.degrees(self)
+
+
+class CArm(NamedTuple):
+    """How a C-arm is turned (radians): LAO and cranial above 0, RAO and caudal below."""
+
+    lao: Angle
+    cranial: Angle
+
+    def __str__(self) -> str:
+        """The angles as they stand on a C-arm."""
+        side, tilt = ("LAO" if self.lao >= 0 else "RAO", "CRAN" if self.cranial >= 0 else "CAUD")
+        return f"{side} {abs(self.lao.degrees):.0f}° {tilt} {abs(self.cranial.degrees):.0f}°"
+
+
+class Profile:
+    """The lumen of one vessel by its arc length; :func:`lumencut.measure` makes it.
+
+    Arrays have one row for each section, n in all, and cannot be written to. What could not be measured is
+    NaN. A diameter is that of the lumen: thrombus and plaque are not lumen.
+    """
+
+    def __init__(self, core: _lumencut.Profile) -> None:
+        self._core = core
+        self._numbers = {name: _locked(values) for name, values in core.numbers()}
+        self._flags = core.flags
+        self._flags.flags.writeable = False
+        self._center, self._normal = _locked(core.center), _locked(core.normal)
+        self._contour, self._levels = _locked(core.contour), _locked(core.levels)
+
+    def __len__(self) -> int:
+        return len(self.arc_length)
+
+    def __repr__(self) -> str:
+        length = self.arc_length[-1]
+        return f"Profile({len(self)} sections, {length:.1f} mm, FWHM {self.fwhm:.2f} mm {self.fwhm_source})"
+
+    @property
+    def arc_length(self) -> _Floats:
+        """Arc length on the vessel from its first point, shape (n,), mm."""
+        return self._numbers["arc_length"]
+
+    @property
+    def diameter_min(self) -> _Floats:
+        """The shortest diameter: the shorter axis of the ellipse, shape (n,), mm."""
+        return self._numbers["diameter_min"]
+
+    @property
+    def diameter_max(self) -> _Floats:
+        """The longest diameter: the longer axis of the ellipse, shape (n,), mm."""
+        return self._numbers["diameter_max"]
+
+    @property
+    def diameter_mean(self) -> _Floats:
+        """The mean of the shortest and the longest diameter, shape (n,), mm."""
+        return self._numbers["diameter_mean"]
+
+    @property
+    def diameter_equivalent(self) -> _Floats:
+        """The diameter of a circle of the same area, shape (n,), mm."""
+        return self._numbers["diameter_equivalent"]
+
+    @property
+    def area(self) -> _Floats:
+        """The area of the lumen, shape (n,), mm²."""
+        return self._numbers["area"]
+
+    @property
+    def uncertainty(self) -> _Floats:
+        """The standard deviation of :attr:`diameter_equivalent` from noise and fit, shape (n,), mm."""
+        return self._numbers["uncertainty"]
+
+    @property
+    def inscribed_radius(self) -> _Floats:
+        """The radius of the largest ball around the middle that lies within the lumen, shape (n,), mm."""
+        return self._numbers["inscribed_radius"]
+
+    @property
+    def flags(self) -> npt.NDArray[np.uint32]:
+        """What there is to know of each section, bits of :class:`lumencut.Flag`, shape (n,)."""
+        return self._flags
+
+    @property
+    def center(self) -> _Floats:
+        """The middle of the lumen, shape (n, 3), mm, LPS; the vessel's point where no lumen was found."""
+        return self._center
+
+    @property
+    def normal(self) -> _Floats:
+        """Unit vectors along the vessel, across which the sections lie, shape (n, 3), LPS."""
+        return self._normal
+
+    @property
+    def contour(self) -> _Floats:
+        """The wall along 64 rays of each section, shape (n, 64, 3), mm, LPS."""
+        return self._contour
+
+    @property
+    def levels(self) -> _Floats:
+        """The levels of lumen and background that were fitted, shape (n, 2), in the unit of the volume."""
+        return self._levels
+
+    @property
+    def noise(self) -> float:
+        """The standard deviation of a voxel around the fit, in the unit of the volume."""
+        return self._core.noise
+
+    @property
+    def fwhm(self) -> float:
+        """The full width at half maximum of the point spread that was reckoned with (mm)."""
+        return self._core.fwhm[0]
+
+    @property
+    def fwhm_source(self) -> str:
+        """How that was found: ``"given"``, ``"estimated on …"`` or ``"assumed: …"``."""
+        return self._core.fwhm[1]
+
+    def stenosis(
+        self,
+        at: float,
+        reference: float | Iterable[float] | None = None,
+        method: Method = "nascet",
+        original: float | None = None,
+        *,
+        comparison: float | None = None,
+    ) -> Stenosis:
+        """Grade the stenosis at a place.
+
+        Diameters are those of circles of the same area. A reference is the median of the sections within
+        1.5 mm of its place that count; :class:`lumencut.Flag` says which do.
+
+        Parameters
+        ----------
+        at : float
+            The place of the stenosis: an arc length on the vessel (mm).
+        reference : float or pair of float
+            The place of the normal vessel (mm), for NASCET beyond the stenosis where the walls are
+            parallel; or one place on each side: then the reference lies between both, by their distances.
+            ECST needs none.
+        method : {"nascet", "ecst", "area"}, default "nascet"
+            ``"nascet"``: 1 - diameter / reference. ``"ecst"``: 1 - diameter / original. ``"area"``: 1 -
+            area / area of the reference.
+        original : float, optional
+            The assumed original diameter at the stenosis (mm); needed for ECST and for nothing else.
+        comparison : float, optional
+            The diameter of a vessel like the normal one (mm), such as that of the other side of the body.
+
+        Raises
+        ------
+        MeasuringError
+            For places beyond the vessel or where nothing was measured, a reference that is narrower than
+            the stenosis, two references on one side of it, a missing or needless original diameter; and for
+            NASCET at a near-occlusion, where the reference is below half of the vessel on the other side of
+            the stenosis, or at most 0.87 of ``comparison``.
+        SettingsError
+            For another method.
+        """
+        choice(SettingsError, "method of the stenosis", method, METHODS)
+        if method != "ecst" and original is not None:
+            raise MeasuringError(
+                "original diameter of the stenosis", f"{original!r} with the method {method!r}", "'ecst'"
+            )
+        places = [] if reference is None else np.atleast_1d(np.asarray(reference, dtype=object)).tolist()
+        graded = self._core.stenosis(
+            number(MeasuringError, "place of the stenosis", at),
+            method,
+            [number(MeasuringError, "reference of the stenosis", place) for place in places],
+            None if original is None else number(MeasuringError, "original diameter", original),
+            None if comparison is None else number(MeasuringError, "comparison", comparison),
+        )
+        return Stenosis(graded, method)
+
+    def narrowest(self) -> Spot | None:
+        """Return where the vessel is narrowest, of the sections that count: a suggestion, not a finding."""
+        found = self._core.narrowest()
+        return None if found is None else Spot(*found)
+
+    def widest(self) -> Spot | None:
+        """Return the place of the longest diameter of all sections that count, and that diameter."""
+        found = self._core.widest()
+        return None if found is None else Spot(*found)
+
+    def suggested_references(self, at: float) -> tuple[Spot | None, Spot | None]:
+        """Return places before and after an arc length (mm) that it could be compared with.
+
+        Each is the nearest one, 3 to 50 mm away, whose walls are parallel over 5 mm and that is about as
+        wide as most of the vessel on its side; None where there is none. These are suggestions: a reader
+        must look.
+
+        Raises
+        ------
+        MeasuringError
+            For a place beyond the vessel.
+        """
+        before, after = self._core.suggested_references(number(MeasuringError, "place on the vessel", at))
+        return (
+            None if before is None else Spot(*before),
+            None if after is None else Spot(*after),
+        )
+
+    def diameter_at(self, at: float) -> tuple[float, float]:
+        """Return the diameter at an arc length, between sections, and its standard deviation (mm).
+
+        Raises
+        ------
+        MeasuringError
+            For a place beyond the vessel, or where nothing was measured.
+        """
+        return self._core.diameter_at(number(MeasuringError, "place on the vessel", at))
+
+    def stretch(self, start: float, end: float) -> Stretch:
+        """Return the length from one arc length to another (mm): along the vessel, and straight.
+
+        Raises
+        ------
+        MeasuringError
+            For places beyond the vessel, or one place twice.
+        """
+        return Stretch(*self._core.stretch(_ends((start, end))))
+
+    def direction(self, start: float, end: float) -> _Floats:
+        """Return the unit vector of the line that fits the middles of a stretch best, shape (3,), LPS.
+
+        Raises
+        ------
+        MeasuringError
+            As for :meth:`stretch`.
+        """
+        return np.array(self._core.direction(_ends((start, end))))
+
+    def angle_between(self, first: tuple[float, float], second: tuple[float, float]) -> Angle:
+        """Return the angle between two stretches, 0 where the second goes on as the first does.
+
+        Parameters
+        ----------
+        first, second : pair of float
+            Where each begins and ends, arc lengths (mm); such as neck and sac of an aneurysm.
+
+        Returns
+        -------
+        Angle
+            In radians; its property ``degrees`` gives degrees.
+
+        Raises
+        ------
+        MeasuringError
+            As for :meth:`stretch`.
+        """
+        return Angle(self._core.angle_between(_ends(first), _ends(second)))
+
+    def c_arm(self, start: float, end: float, lao: float | None = None) -> CArm:
+        """Return how a C-arm is turned that shows a stretch in its whole length, in the plane of the image.
+
+        Parameters
+        ----------
+        start, end : float
+            Where the stretch begins and ends, arc lengths (mm).
+        lao : float, optional
+            The rotation (radians), to the patient's left above 0; the angulation follows from it. Without
+            it the view nearest to that from the front is given.
+
+        Raises
+        ------
+        MeasuringError
+            As for :meth:`stretch`, and for a rotation at which no angulation shows the stretch.
+        """
+        turned = None if lao is None else number(MeasuringError, "rotation of the C-arm", lao)
+        found = self._core.c_arm(_ends((start, end)), turned)
+        return CArm(Angle(found[0]), Angle(found[1]))
+
+
+def _ends(ends: tuple[float, float]) -> tuple[float, float]:
+    start, end = numbers(MeasuringError, "ends of the stretch", ends, (2,)).tolist()
+    return start, end
+
+
+def _locked(array: _Floats) -> _Floats:
+    array.flags.writeable = False
+    return array

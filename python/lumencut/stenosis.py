@@ -1,0 +1,95 @@
+"""A stenosis, graded by the rules of the field."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from lumencut import _lumencut
+
+Method: TypeAlias = Literal["nascet", "ecst", "area"]
+
+#: How a stenosis can be graded.
+METHODS: tuple[Method, ...] = ("nascet", "ecst", "area")
+
+
+class Stenosis:
+    """A stenosis at a place that the caller named; :meth:`Profile.stenosis` makes it.
+
+    Lumencut is not a medical device: a percentage is a number, not a diagnosis.
+    """
+
+    def __init__(self, graded: _lumencut.Stenosis, method: Method) -> None:
+        self._graded = graded
+        self._method = method
+        self._numbers = graded.numbers()
+
+    @property
+    def percent(self) -> float:
+        """By how much the vessel is narrower, 0 to 100: in diameter, or in area with ``"area"``."""
+        return self._numbers[0]
+
+    @property
+    def at(self) -> float:
+        """The place of the stenosis: an arc length on the vessel (mm)."""
+        return self._numbers[1]
+
+    @property
+    def diameter(self) -> float:
+        """The diameter there, of a circle of the same area (mm)."""
+        return self._numbers[2]
+
+    @property
+    def uncertainty(self) -> float:
+        """The standard deviation of the diameter (mm)."""
+        return self._numbers[3]
+
+    @property
+    def reference(self) -> float:
+        """The diameter that it is compared with (mm); with ``"ecst"`` the assumed original one.
+
+        Of two references it lies between both, by their distances from the stenosis.
+        """
+        return self._numbers[4]
+
+    @property
+    def references(self) -> tuple[tuple[float, float], ...]:
+        """The places of the references: arc length and diameter of each (mm)."""
+        return tuple(self._graded.references)
+
+    @property
+    def method(self) -> Method:
+        """How it is graded: ``"nascet"``, ``"ecst"`` or ``"area"``."""
+        return self._method
+
+    def group(self, vessel: Literal["carotid", "coronary"]) -> str:
+        """Return the group of the field that the percentage falls into, with its source.
+
+        Parameters
+        ----------
+        vessel : {"carotid", "coronary"}
+            Which vessel it is: ``"carotid"`` for the groups of NASCET (50 and 70 %), ``"coronary"`` for
+            those of CAD-RADS 2.0. Lumencut does not know which vessel it is.
+
+        Raises
+        ------
+        SettingsError
+            For another vessel.
+        MeasuringError
+            For a stenosis that was not graded by ``"nascet"``.
+        """
+        return self._graded.group(vessel)
+
+    def __str__(self) -> str:
+        """One line with method, mm and both diameters."""
+        what = "of the area" if self.method == "area" else "of the diameter"
+        against = "assumed original" if self.method == "ecst" else "reference"
+        places = ", ".join(f"{at:.1f} mm" for at, _ in self.references)
+        where = f" at {places}" if places and self.method != "ecst" else ""
+        return (
+            f"{self.percent:.0f} % {what} ({self.method.upper() if self.method != 'area' else 'area'}): "
+            f"{self.diameter:.2f} ± {self.uncertainty:.2f} mm at {self.at:.1f} mm, "
+            f"{against} {self.reference:.2f} mm{where}"
+        )
+
+    def __repr__(self) -> str:
+        return f"Stenosis({self})"
