@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from lumencut.planar_reformation import cpr
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
+    from lumencut.seed_tracing import trace_from
     from lumencut.settings import Settings
     from lumencut.slab import Slab
     from lumencut.straightening import StraightenedVolume, straightened_volume
@@ -86,6 +87,7 @@ _HOME = {
     "planar_reformation": ("cpr",),
     "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
+    "seed_tracing": ("trace_from",),
     "settings": ("Settings",),
     "slab": ("Slab",),
     "straightening": ("StraightenedVolume", "straightened_volume"),
@@ -155,6 +157,7 @@ __all__ = [
     "set_threads",
     "straightened_volume",
     "trace",
+    "trace_from",
     "trace_mask",
     "turntable",
     "write_centerlines",

@@ -59,6 +59,7 @@ __all__ = [
     "set_threads",
     "smoothed",
     "threads",
+    "trace_from",
     "trace_mask",
     "whole_window",
     "window_from_data",
@@ -221,6 +222,12 @@ def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float
 def set_threads(count: int) -> None: ...
 def smoothed(vessels: list[_Arrays], radii: float) -> list[npt.NDArray[np.float64]]: ...
 def threads() -> int: ...
+def trace_from(
+    volume: Any,
+    seed: tuple[float, float, float],
+    smallest_radius: float,
+    told: Callable[[int, int], object] | None = None,
+) -> list[_BranchArrays]: ...
 def trace_mask(
     volume: Any,
     labels: list[int] | None,

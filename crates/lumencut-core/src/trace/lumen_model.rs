@@ -55,7 +55,7 @@ impl LumenModel {
     pub fn membership(&self, value: f32) -> f32 {
         let (contrast, value) = (self.contrast(), f64::from(value));
         let (empty, full) = (self.tissue + 0.2 * contrast, self.tissue + 0.75 * contrast);
-        let above = self.high + (0.35 * contrast).max(3.0 * self.noise);
+        let above = self.brightest();
         let far_above = self.high + (0.9 * contrast).max(6.0 * self.noise);
         let share = if value >= above {
             1.0 - ABOVE_IS_NOT * ((value - above) / (far_above - above)).min(1.0)
@@ -64,6 +64,11 @@ impl LumenModel {
         };
         // What is no number is no lumen.
         if share.is_finite() { share as f32 } else { 0.0 }
+    }
+
+    /// The brightest value that lumen has for sure; bone, stents and calcium may lie above.
+    pub fn brightest(&self) -> f64 {
+        self.high + (0.35 * self.contrast()).max(3.0 * self.noise)
     }
 
     /// Whether a median of lumen lies within what the model already takes for lumen.

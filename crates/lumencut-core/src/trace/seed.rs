@@ -1,0 +1,144 @@
+//! Centerlines of all branches that one seed reaches.
+
+use glam::{DAffine3, DVec3};
+
+use super::flood::Flood;
+use super::lumen_model::{LumenModel, Surroundings, at};
+use super::mask::{self, TracedMask};
+use super::mask_vessels::MaskVessel;
+use super::refine::{Centerline, refined};
+use super::region::{Region, Strictness};
+use super::seed_branches::{Branches, Search};
+use super::seed_ways::Ways;
+use super::voxels::Voxels;
+use crate::error::{Error, ErrorKind, Result};
+use crate::progress::Progress;
+use crate::stop::Stop;
+use crate::volume::{self, Volume};
+
+/// The most voxels that a flood may have.
+const MOST_VOXELS: usize = 30_000_000;
+
+/// What is traced, and how.
+pub struct Request<'a> {
+    /// A point in the lumen (mm, LPS).
+    pub seed: DVec3,
+    /// Branches end where they are narrower from there on (mm).
+    pub smallest_radius: f64,
+    /// Asked whether to stop.
+    pub stop: Stop<'a>,
+    /// Told how far the work is.
+    pub progress: Option<&'a Progress>,
+}
+
+/// Why a branch is doubtful.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// Its lumen is hardly seen.
+    Unseen,
+}
+
+impl Doubt {
+    /// The doubt in words.
+    pub fn words(self) -> &'static str {
+        "hardly seen"
+    }
+}
+
+/// A branch that a seed reaches.
+#[derive(Clone, Debug)]
+pub struct SeedBranch {
+    /// Its points, radii and confidence.
+    pub line: Centerline,
+    /// Why it is doubtful; none where it is not.
+    pub doubt: Option<Doubt>,
+}
+
+/// The branches that a seed reaches.
+pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>> {
+    let voxels = &Voxels::new(volume);
+    let timer = web_time::Instant::now();
+    let (model, start) = lumen_at(voxels, request.seed)?;
+    let flood = Flood::from(voxels, &model, start, MOST_VOXELS, request.stop)?;
+    let Some(flood) = flood else {
+        return Err(Error::new(ErrorKind::Tracing, "seed", "too much", "less"));
+    };
+    eprintln!("flood {} {:?} {model:?}", flood.count(), timer.elapsed());
+    let branches = branches(voxels, &model, &flood, request)?;
+    eprintln!("branches {} {:?} leaks {}", branches.kept.len(), timer.elapsed(), branches.leaks.len());
+    let mut l = branches.leaks.clone();
+    l.sort_by_key(|l| std::cmp::Reverse(l.1));
+    for (p, n) in l.iter().take(12) {
+        eprintln!("   {p:.1} {n}");
+    }
+    let traced = traced(voxels, &model, &flood, &branches, request)?;
+    eprintln!("traced {:?}", timer.elapsed());
+    let branch = |vessel: MaskVessel| {
+        let confidence = vec![1.0; vessel.points.len()];
+        let line = Centerline { points: vessel.points, radius: vessel.radius, confidence };
+        SeedBranch { line, doubt: None }
+    };
+    Ok(traced.vessels.into_iter().map(branch).collect())
+}
+
+/// The model of the lumen around the seed, and the voxel of the seed.
+fn lumen_at(voxels: &Voxels, seed: DVec3) -> Result<(LumenModel, [i32; 3])> {
+    let Some(start) = voxels.voxel_at(seed).filter(|_| seed.is_finite()) else {
+        let found = format!("{}, outside the volume", at(seed));
+        return Err(Error::new(ErrorKind::Tracing, "seed", found, "a point within the volume"));
+    };
+    let model = Surroundings::of(voxels, &[seed]).model(voxels, &[seed])?;
+    Ok((model, start))
+}
+
+fn branches(voxels: &Voxels, model: &LumenModel, flood: &Flood, request: &Request) -> Result<Branches> {
+    let mut region = Region::new(voxels.size, *model, Vec::new(), Strictness::Lumen);
+    let ways = Ways::through(flood, voxels, &mut region, request.stop)?;
+    drop(region);
+    let smallest_radius = request.smallest_radius;
+    Search { voxels, model, flood, ways: &ways, smallest_radius, stop: request.stop }.branches(&|_| ())
+}
+
+/// The centerlines of the voxels of the branches.
+fn traced(
+    voxels: &Voxels,
+    model: &LumenModel,
+    flood: &Flood,
+    branches: &Branches,
+    request: &Request,
+) -> Result<TracedMask> {
+    let (mut low, mut high) = ([i32::MAX; 3], [0; 3]);
+    for &number in &branches.kept {
+        let voxel = flood.voxel(number);
+        for a in 0..3 {
+            low[a] = low[a].min(voxel[a] - 1);
+            high[a] = high[a].max(voxel[a] + 1);
+        }
+    }
+    let size: [usize; 3] = std::array::from_fn(|a| (high[a] - low[a] + 1).max(0) as usize);
+    let strides = [1, size[0], size[0] * size[1]];
+    let mut cells = vec![0_u8; size.iter().product()];
+    for &number in &branches.kept {
+        let voxel = flood.voxel(number);
+        let place: usize = (0..3).map(|a| (voxel[a] - low[a]) as usize * strides[a]).sum();
+        cells[place] = 1;
+    }
+    let shift = DAffine3::from_translation(DVec3::from_array(low.map(f64::from)));
+    let mask = Volume::new(volume::Voxels::U8(&cells), size, strides, voxels.world_from_index * shift)?;
+    let refine = |points: &[DVec3]| {
+        let line = refined(voxels, model, points, request.stop)?;
+        Ok((line.points, line.radius))
+    };
+    mask::trace_mask(
+        &mask,
+        &mask::Request {
+            labels: None,
+            parent_radii: 2.0,
+            step: 0.5,
+            bridge: 0.0,
+            refine: Some(&refine),
+            stop: request.stop,
+            progress: None,
+        },
+    )
+}
