@@ -2,24 +2,42 @@
 
 use glam::DVec3;
 
+use super::cross_section::Probe;
 use super::flood::Flood;
+use super::junctions::nearest;
 use super::lumen_model::LumenModel;
 use super::refine::{Centerline, refined};
 use super::seed_ways::{NONE, Ways};
-use super::tube::sound;
+use super::tube::{Sections, Usual};
 use super::voxels::Voxels;
 use crate::error::Result;
 use crate::stop::Stop;
 
-/// A branch holds the voxels within so many of its radii, and at least so many voxels beyond its wall.
-const HELD: f64 = 1.25;
-const BEYOND: f64 = 1.0;
+/// What lies within so many radii of a branch, or so many voxels beyond its wall, is no other branch.
+const NEAR: f64 = 1.25;
+const BESIDE: f64 = 1.0;
+
+/// So far beyond its wall a branch has voxels: its lumen ends between their centres (voxels).
+const BEYOND: f64 = 0.5;
+
+/// Of a way so much is looked at in one go (mm).
+const STRETCH: f64 = 80.0;
+
+/// A line that is so many times as long as the way that it was made of, and so much longer (mm), has gone astray.
+const ASTRAY: f64 = 1.25;
+const ASTRAY_LENGTH: f64 = 3.0;
 
 /// What is shorter beyond the branch that it leaves is a bump of its wall (mm).
 const SHORTEST: f64 = 3.0;
 
 /// How far back into the branch that it leaves a new one is looked at (mm).
 const LEAD: f64 = 4.0;
+
+/// The number of the seed's voxel.
+const SEED: u32 = 0;
+
+/// With how many rays a cross-section is looked at.
+const RAYS: usize = 24;
 
 /// What became of a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +46,8 @@ enum Voxel {
     Free,
     /// It lies in a branch.
     Kept,
+    /// It lies at the wall of a branch, or beside it.
+    Near,
     /// It lies in a bump of a wall.
     Bump,
     /// It lies behind a place where the flood is no tube.
@@ -78,56 +98,83 @@ impl Search<'_, '_> {
 
     /// Follows the way to a voxel from where it leaves what is known, as far as it is a tube.
     fn follow(&self, state: &mut [Voxel], tip: u32, leaks: &mut Vec<(DVec3, usize)>) -> Result<()> {
+        while state[tip as usize] == Voxel::Free {
+            let way = self.way_to(state, tip);
+            let points: Vec<DVec3> = way.iter().map(|n| self.center(*n)).collect();
+            if length(&points) < SHORTEST {
+                for number in way {
+                    state[number as usize] = Voxel::Bump;
+                }
+            } else if !self.go_on(state, &way, &points)? {
+                // What begins at the seed itself may be a tube on another way.
+                let first = if way[0] == SEED { way[within(&points, STRETCH) - 1] } else { way[0] };
+                leaks.push((self.center(first), self.drop_behind(state, first)));
+            }
+        }
+        Ok(())
+    }
+
+    /// The voxels on the way to one, from the first that lies in no branch.
+    fn way_to(&self, state: &[Voxel], tip: u32) -> Vec<u32> {
         let mut way = vec![tip];
-        while let Some(next) = self.before(way[way.len() - 1]).filter(|n| state[*n as usize] != Voxel::Kept) {
+        while let Some(next) = self.before(way[way.len() - 1]).filter(|n| !is_known(state[*n as usize])) {
             way.push(next);
         }
         way.reverse();
-        let points: Vec<DVec3> = way.iter().map(|n| self.center(*n)).collect();
-        if length(&points) < SHORTEST {
-            for number in way {
-                state[number as usize] = Voxel::Bump;
-            }
-            return Ok(());
-        }
-        let whole = [self.lead(way[0]), points.clone()].concat();
+        way
+    }
+
+    /// Keeps a way as far as it is a tube, and tells whether any of it is.
+    fn go_on(&self, state: &mut [Voxel], way: &[u32], points: &[DVec3]) -> Result<bool> {
+        let lead = self.lead(way[0]);
+        let count = within(points, STRETCH);
+        let whole = [&lead, &points[..count]].concat();
         let line = refined(self.voxels, self.model, &whole, self.stop)?;
-        let is_known = |place: DVec3| {
+        let is_inside = |place: DVec3| {
             let number = self.voxels.voxel_at(place).and_then(|voxel| self.flood.number_at(voxel));
-            number.is_some_and(|number| state[number as usize] == Voxel::Kept)
+            number.is_some_and(|number| is_known(state[number as usize]))
         };
-        let from = line.points.iter().position(|point| !is_known(*point)).unwrap_or(line.points.len());
-        let end = sound(&line, from, self.smallest_radius);
-        let behind = match end {
-            Some(end) => {
-                self.keep(state, &line, end);
-                // What follows the end of the tube.
-                let nearest = points
-                    .iter()
-                    .enumerate()
-                    .min_by(|a, b| {
-                        let distance = |p: &DVec3| p.distance_squared(line.points[end]);
-                        distance(a.1).total_cmp(&distance(b.1))
-                    })
-                    .map_or(0, |(n, _)| n);
-                for &number in &way[..=nearest] {
-                    state[number as usize] = Voxel::Kept;
-                }
-                way[nearest + 1..].iter().copied().find(|n| state[*n as usize] != Voxel::Kept)
-            }
-            None => Some(way[0]),
-        };
-        if let Some(first) = behind {
-            let mut count = 0;
-            self.ways.behind(first, |number| {
-                if state[number as usize] != Voxel::Kept {
-                    state[number as usize] = Voxel::Dropped;
-                    count += 1;
-                }
-            });
-            leaks.push((self.center(first), count));
+        let from = line.points.iter().position(|point| !is_inside(*point)).unwrap_or(0);
+        if from == 0 && !lead.is_empty() {
+            return Ok(false);
         }
-        Ok(())
+        let probe = Probe { voxels: self.voxels, model: self.model, rays: RAYS };
+        let usual = Usual { value: self.model.low, contrast: self.model.contrast() };
+        if std::env::var("DBG").is_ok() {
+            eprintln!("way of {} from {:.1} to {:.1}", way.len(), points[0], points[points.len() - 1]);
+        }
+        let Some(end) = Sections::along(&probe, &line).sound(from, self.smallest_radius, &usual) else {
+            return Ok(false);
+        };
+        let last = nearest(&points[..count], line.points[end]);
+        if length(&line.points[from..=end]) > ASTRAY * length(&points[..=last]) + ASTRAY_LENGTH {
+            return Ok(false);
+        }
+        self.keep(state, &line, end);
+        // The way itself joins what the balls leave open, back to the branch that it leaves.
+        let mut here = Some(way[last]);
+        let mut is_new = true;
+        while let Some(number) = here.filter(|n| is_new || state[*n as usize] != Voxel::Kept) {
+            is_new &= number != way[0];
+            state[number as usize] = Voxel::Kept;
+            here = self.before(number);
+        }
+        Ok(true)
+    }
+
+    /// Drops what lies behind a voxel, and tells how many voxels that are.
+    fn drop_behind(&self, state: &mut [Voxel], first: u32) -> usize {
+        let mut count = 0;
+        self.ways.behind(first, |number| {
+            if !is_known(state[number as usize]) {
+                state[number as usize] = Voxel::Dropped;
+                count += 1;
+            }
+        });
+        if std::env::var("DBG").is_ok() {
+            eprintln!("   dropped {count} at {:.1}", self.center(first));
+        }
+        count
     }
 
     /// Keeps what lies within a branch up to its point `end`.
@@ -140,8 +187,16 @@ impl Search<'_, '_> {
                 continue;
             }
             last = Some(*point);
-            let held = (HELD * radius).max(radius + BEYOND * side);
-            self.flood.within(self.voxels, *point, held, |number| state[number as usize] = Voxel::Kept);
+            let inside = radius + BEYOND * side;
+            self.flood.within(self.voxels, *point, (NEAR * radius).max(radius + BESIDE * side), |number| {
+                let state = &mut state[number as usize];
+                let is_inside = self.center(number).distance_squared(*point) <= inside * inside;
+                if is_inside {
+                    *state = Voxel::Kept;
+                } else if *state != Voxel::Kept {
+                    *state = Voxel::Near;
+                }
+            });
         }
     }
 
@@ -165,6 +220,20 @@ impl Search<'_, '_> {
     fn center(&self, number: u32) -> DVec3 {
         self.voxels.center(self.flood.voxel(number))
     }
+}
+
+fn is_known(voxel: Voxel) -> bool {
+    matches!(voxel, Voxel::Kept | Voxel::Near)
+}
+
+/// How many points lie within a length (mm) from the first one along their line.
+fn within(points: &[DVec3], length: f64) -> usize {
+    let mut walked = 0.0;
+    let is_beyond = |n: &usize| {
+        walked += points[*n].distance(points[n - 1]);
+        walked > length
+    };
+    (1..points.len()).find(is_beyond).unwrap_or(points.len())
 }
 
 fn length(points: &[DVec3]) -> f64 {

@@ -1,6 +1,7 @@
 //! Whether a line is that of a tube, and how far.
 
-use super::path::arc_lengths;
+use super::cross_section::{CrossSection, Probe};
+use super::path::{arc_lengths, directions, frames};
 use super::refine::Centerline;
 
 /// From this confidence on a point lies in a tube.
@@ -18,29 +19,116 @@ const HIDDEN_RADII: f64 = 2.0;
 const SHORTEST: f64 = 3.0;
 const SHORTEST_RADII: f64 = 2.0;
 
-/// The last point of the tube that a line begins with at point `from`; none where that is no tube.
-pub fn sound(line: &Centerline, from: usize, smallest_radius: f64) -> Option<usize> {
-    let lengths = arc_lengths(&line.points);
-    let count = lengths.len();
-    let (mut end, mut next) = (None, from);
-    while next < count {
-        let Some(first) = (next..count).find(|n| line.confidence[*n] >= SEEN) else { break };
-        let behind = (first..count).find(|n| line.confidence[*n] < SEEN).unwrap_or(count);
-        let last = behind - 1;
-        let before = end.unwrap_or(from);
-        let widest = line.radius[before].max(line.radius[first]);
-        if lengths[first] - lengths[before] > HIDDEN.max(HIDDEN_RADII * widest) {
-            break;
+/// The lumen of a tube changes by no more than this part of the contrast from one stretch to the next.
+const LIKE: f64 = 0.25;
+
+/// A stretch whose walls are brighter than the lumen over more than this share, as in bone, goes on from one before it: with
+/// a radius that differs by no more than this factor, and after no more than so much (mm).
+const BRIGHT: f64 = 0.5;
+const STEADY: f64 = 1.5;
+const GOES_ON: f64 = 2.0;
+
+/// What is seen along a line.
+pub struct Sections {
+    lengths: Vec<f64>,
+    radius: Vec<f64>,
+    trust: Vec<f64>,
+    value: Vec<f64>,
+    bright: Vec<f64>,
+}
+
+impl Sections {
+    /// The cross-sections at the points of a line.
+    pub fn along(probe: &Probe, line: &Centerline) -> Self {
+        let across = frames(&line.points, &directions(&line.points, 1.5));
+        let look = |n: usize| {
+            let guess = Some(line.radius[n]).filter(|radius| *radius > 0.0);
+            probe.look(line.points[n], across[n], guess)
+        };
+        let sections: Vec<Option<CrossSection>> = (0..line.points.len()).map(look).collect();
+        let of = |value: fn(&CrossSection) -> f64| -> Vec<f64> {
+            sections.iter().map(|section| section.as_ref().map_or(0.0, value)).collect()
+        };
+        Self {
+            lengths: arc_lengths(&line.points),
+            radius: line.radius.clone(),
+            trust: line.confidence.clone(),
+            value: of(|section| section.value),
+            bright: of(|section| section.bright),
         }
-        let median = median(&line.radius[first..=last]);
-        if lengths[last] - lengths[first] >= LEAST_LENGTH.max(LEAST_RADII * median) {
-            end = Some(last);
-        }
-        next = behind;
     }
-    let end = (from..=end?).rev().find(|n| line.radius[*n] >= smallest_radius)?;
-    let outside = lengths[end] - lengths[from];
-    (outside >= SHORTEST.max(SHORTEST_RADII * median(&line.radius[from..=end]))).then_some(end)
+
+    /// The last point of the tube that the line begins with at point `from`; none where that is no tube.
+    pub fn sound(&self, from: usize, smallest_radius: f64, usual: &Usual) -> Option<usize> {
+        let debug = std::env::var("DBG").is_ok() && self.lengths[self.lengths.len() - 1] > 15.0;
+        let count = self.lengths.len();
+        // What comes before is known to be lumen.
+        let mut before = self.stretch(0, from.max(1) - 1).filter(|_| from > 0);
+        let (mut end, mut next) = (None, from);
+        if debug { eprintln!("line of {:.1} from {:.1} before {before:?}", self.lengths[count - 1], self.lengths[from.min(count - 1)]); }
+        while let Some(stretch) = (next < count).then(|| self.stretch(next, count - 1)).flatten() {
+            next = stretch.last + 1;
+            let begins = before.as_ref().map_or(self.lengths[from], |before| self.lengths[before.last]);
+            let hidden = self.lengths[stretch.first] - begins.max(self.lengths[from.min(count-1)]);
+            let widest = before.as_ref().map_or(0.0, |before| before.radius).max(stretch.radius);
+            let length = self.lengths[stretch.last] - self.lengths[stretch.first];
+            if debug { eprintln!("   {stretch:?} hidden {hidden:.1} length {length:.1} of r {:.1}", LEAST_RADII*stretch.radius); }
+            if hidden > HIDDEN.max(HIDDEN_RADII * widest) {
+                break;
+            }
+            if stretch.goes_on(before.as_ref(), length, hidden, usual) {
+                end = Some(stretch.last);
+                before = Some(stretch);
+            }
+        }
+        let end = (from..=end?).rev().find(|n| self.radius[*n] >= smallest_radius)?;
+        let outside = self.lengths[end] - self.lengths[from];
+        (outside >= SHORTEST.max(SHORTEST_RADII * median(&self.radius[from..=end]))).then_some(end)
+    }
+
+    /// The next stretch between two points that is seen.
+    fn stretch(&self, from: usize, to: usize) -> Option<Stretch> {
+        let first = (from..=to).find(|n| self.trust[*n] >= SEEN)?;
+        let last = (first..=to).find(|n| self.trust[*n] < SEEN).unwrap_or(to + 1) - 1;
+        let part = first..=last;
+        Some(Stretch {
+            first,
+            last,
+            radius: median(&self.radius[part.clone()]),
+            value: median(&self.value[part.clone()]),
+            bright: median(&self.bright[part]),
+        })
+    }
+}
+
+/// A stretch of a line along which it is seen to be a tube.
+#[derive(Debug)]
+struct Stretch {
+    first: usize,
+    last: usize,
+    radius: f64,
+    value: f64,
+    bright: f64,
+}
+
+impl Stretch {
+    /// Whether this is a tube that goes on from the stretch before, where there is one.
+    fn goes_on(&self, before: Option<&Self>, length: f64, hidden: f64, usual: &Usual) -> bool {
+        let value = before.map_or(usual.value, |before| before.value);
+        let is_like = (self.value - value).abs() <= LIKE * usual.contrast;
+        let is_steady = before.is_some_and(|before| (self.radius / before.radius).ln().abs() <= STEADY.ln());
+        let is_long = length >= LEAST_LENGTH.max(LEAST_RADII * self.radius);
+        let is_short_gap = is_steady && hidden <= GOES_ON;
+        is_like && (is_long || (is_steady && length >= LEAST_LENGTH)) && (self.bright <= BRIGHT || is_short_gap)
+    }
+}
+
+/// What is usual for the lumen.
+pub struct Usual {
+    /// Its value.
+    pub value: f64,
+    /// How far that is from the tissue around it.
+    pub contrast: f64,
 }
 
 fn median(values: &[f64]) -> f64 {
