@@ -93,10 +93,10 @@ fn lumen_at(voxels: &Voxels, seed: DVec3) -> Result<(LumenModel, [i32; 3])> {
 
 fn branches(voxels: &Voxels, model: &LumenModel, flood: &Flood, request: &Request) -> Result<Branches> {
     let mut region = Region::new(voxels.size, *model, Vec::new(), Strictness::Lumen);
-    let ways = Ways::through(flood, voxels, &mut region, request.stop)?;
+    let mut ways = Ways::new(flood, voxels, &mut region);
     drop(region);
     let smallest_radius = request.smallest_radius;
-    Search { voxels, model, flood, ways: &ways, smallest_radius, stop: request.stop }.branches(&|_| ())
+    Search { voxels, model, flood, smallest_radius, stop: request.stop }.branches(&mut ways, &|_| ())
 }
 
 /// The centerlines of the voxels of the branches.

@@ -33,6 +33,18 @@ const SHORTEST: f64 = 3.0;
 /// How far back into the branch that it leaves a new one is looked at (mm).
 const LEAD: f64 = 4.0;
 
+/// Before a way is looked at closely, at least this share of the voxels on its first stretch (mm) has about the values of
+/// those before: they differ by no more than this part of the contrast.
+const ALIKE: f64 = 0.6;
+const FIRST: f64 = 6.0;
+const LIKE: f64 = 0.3;
+
+/// A leak is closed so far around where it begins (voxels).
+const NECK: f64 = 1.1;
+
+/// What lies behind leaks is looked at so many times.
+const ROUNDS: usize = 3;
+
 /// The number of the seed's voxel.
 const SEED: u32 = 0;
 
@@ -52,6 +64,8 @@ enum Voxel {
     Bump,
     /// It lies behind a place where the flood is no tube.
     Dropped,
+    /// It lies where such a place begins.
+    Leak,
 }
 
 /// What the search has found.
@@ -70,8 +84,6 @@ pub struct Search<'a, 'v> {
     pub model: &'a LumenModel,
     /// The voxels that may be lumen.
     pub flood: &'a Flood,
-    /// The ways through them.
-    pub ways: &'a Ways,
     /// A branch ends where it is narrower from there on (mm).
     pub smallest_radius: f64,
     /// Asked whether to stop.
@@ -79,54 +91,65 @@ pub struct Search<'a, 'v> {
 }
 
 impl Search<'_, '_> {
-    /// The branches, the farthest first. `told` hears how many voxels are done.
+    /// The branches. `told` hears now and then that voxels are done.
+    ///
+    /// Ways that were found first may lead through bone into a vessel that others reach too. So what lies behind a leak is
+    /// looked at again from all that is known by then, until nothing more is found.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Interrupted`].
-    pub fn branches(&self, told: &dyn Fn(usize)) -> Result<Branches> {
+    pub fn branches(&self, ways: &mut Ways, told: &dyn Fn(usize)) -> Result<Branches> {
         let mut state = vec![Voxel::Free; self.flood.count()];
         let mut leaks = Vec::new();
-        for &tip in self.ways.order.iter().rev() {
-            told(1);
-            if state[tip as usize] == Voxel::Free {
-                self.follow(&mut state, tip, &mut leaks)?;
+        let mut kept = vec![SEED];
+        for round in 0..ROUNDS {
+            let is_open = |number: u32| matches!(state[number as usize], Voxel::Free | Voxel::Near | Voxel::Bump);
+            ways.find(self.flood, self.voxels, &kept, &is_open, self.stop)?;
+            for &tip in ways.order.iter().rev() {
+                if round == 0 { told(1); }
+                if state[tip as usize] == Voxel::Free {
+                    self.follow(ways, &mut state, tip, &mut leaks)?;
+                }
             }
+            let known = kept.len();
+            kept = (0..state.len() as u32).filter(|n| state[*n as usize] == Voxel::Kept).collect();
+            if kept.len() == known || kept.is_empty() {
+                break;
+            }
+            for voxel in &mut state {
+                if *voxel == Voxel::Dropped {
+                    *voxel = Voxel::Free;
+                }
+            }
+            if std::env::var("DBG").is_ok() { eprintln!("ROUND {round} kept {}", kept.len()); }
         }
-        let kept = (0..state.len() as u32).filter(|n| state[*n as usize] == Voxel::Kept).collect();
         Ok(Branches { kept, leaks })
     }
 
     /// Follows the way to a voxel from where it leaves what is known, as far as it is a tube.
-    fn follow(&self, state: &mut [Voxel], tip: u32, leaks: &mut Vec<(DVec3, usize)>) -> Result<()> {
+    fn follow(&self, ways: &Ways, state: &mut [Voxel], tip: u32, leaks: &mut Vec<(DVec3, usize)>) -> Result<()> {
         while state[tip as usize] == Voxel::Free {
-            let way = self.way_to(state, tip);
+            let way = way_to(ways, state, tip);
             let points: Vec<DVec3> = way.iter().map(|n| self.center(*n)).collect();
             if length(&points) < SHORTEST {
                 for number in way {
                     state[number as usize] = Voxel::Bump;
                 }
-            } else if !self.go_on(state, &way, &points)? {
+            } else if !self.go_on(ways, state, &way, &points)? {
                 // What begins at the seed itself may be a tube on another way.
                 let first = if way[0] == SEED { way[within(&points, STRETCH) - 1] } else { way[0] };
-                leaks.push((self.center(first), self.drop_behind(state, first)));
+                leaks.push((self.center(first), self.drop_behind(ways, state, first)));
             }
         }
         Ok(())
     }
 
-    /// The voxels on the way to one, from the first that lies in no branch.
-    fn way_to(&self, state: &[Voxel], tip: u32) -> Vec<u32> {
-        let mut way = vec![tip];
-        while let Some(next) = self.before(way[way.len() - 1]).filter(|n| !is_known(state[*n as usize])) {
-            way.push(next);
-        }
-        way.reverse();
-        way
-    }
-
     /// Keeps a way as far as it is a tube, and tells whether any of it is.
-    fn go_on(&self, state: &mut [Voxel], way: &[u32], points: &[DVec3]) -> Result<bool> {
-        let lead = self.lead(way[0]);
+    fn go_on(&self, ways: &Ways, state: &mut [Voxel], way: &[u32], points: &[DVec3]) -> Result<bool> {
+        let lead = self.lead(ways, way[0]);
+        if !lead.is_empty() && !self.looks_like(&lead, &points[..within(points, FIRST)]) {
+            return Ok(false);
+        }
         let count = within(points, STRETCH);
         let whole = [&lead, &points[..count]].concat();
         let line = refined(self.voxels, self.model, &whole, self.stop)?;
@@ -143,13 +166,15 @@ impl Search<'_, '_> {
         if std::env::var("DBG").is_ok() {
             eprintln!("way of {} from {:.1} to {:.1}", way.len(), points[0], points[points.len() - 1]);
         }
-        let Some(end) = Sections::along(&probe, &line).sound(from, self.smallest_radius, &usual) else {
+        let is_faithful = |end: usize| {
+            let way = length(&points[..=nearest(&points[..count], line.points[end])]);
+            length(&line.points[from..=end]) <= ASTRAY * way + ASTRAY_LENGTH
+        };
+        let sections = Sections::along(&probe, &line);
+        let Some(end) = sections.sound(from, self.smallest_radius, &usual, &is_faithful) else {
             return Ok(false);
         };
         let last = nearest(&points[..count], line.points[end]);
-        if length(&line.points[from..=end]) > ASTRAY * length(&points[..=last]) + ASTRAY_LENGTH {
-            return Ok(false);
-        }
         self.keep(state, &line, end);
         // The way itself joins what the balls leave open, back to the branch that it leaves.
         let mut here = Some(way[last]);
@@ -157,18 +182,34 @@ impl Search<'_, '_> {
         while let Some(number) = here.filter(|n| is_new || state[*n as usize] != Voxel::Kept) {
             is_new &= number != way[0];
             state[number as usize] = Voxel::Kept;
-            here = self.before(number);
+            here = before(ways, number);
         }
         Ok(true)
     }
 
+    /// Whether most voxels of a way have about the values that those before it have.
+    fn looks_like(&self, lead: &[DVec3], points: &[DVec3]) -> bool {
+        let mut known: Vec<f32> = lead.iter().map(|place| self.voxels.at(*place)).collect();
+        known.sort_unstable_by(f32::total_cmp);
+        let level = known[known.len() / 2];
+        let most = (LIKE * self.model.contrast()).max(3.0 * self.model.noise) as f32;
+        let alike = points.iter().filter(|place| (self.voxels.at(**place) - level).abs() <= most).count();
+        alike as f64 >= ALIKE * points.len() as f64
+    }
+
     /// Drops what lies behind a voxel, and tells how many voxels that are.
-    fn drop_behind(&self, state: &mut [Voxel], first: u32) -> usize {
+    fn drop_behind(&self, ways: &Ways, state: &mut [Voxel], first: u32) -> usize {
         let mut count = 0;
-        self.ways.behind(first, |number| {
+        ways.behind(first, |number| {
             if !is_known(state[number as usize]) {
                 state[number as usize] = Voxel::Dropped;
                 count += 1;
+            }
+        });
+        self.flood.within(self.voxels, self.center(first), NECK * self.voxels.smallest_side, |number| {
+            let voxel = &mut state[number as usize];
+            if !is_known(*voxel) {
+                *voxel = Voxel::Leak;
             }
         });
         if std::env::var("DBG").is_ok() {
@@ -201,10 +242,10 @@ impl Search<'_, '_> {
     }
 
     /// The last places before a voxel on its way, in the order of the way.
-    fn lead(&self, from: u32) -> Vec<DVec3> {
+    fn lead(&self, ways: &Ways, from: u32) -> Vec<DVec3> {
         let mut points = Vec::new();
         let (mut here, mut walked) = (from, 0.0);
-        while let Some(next) = self.before(here).filter(|_| walked < LEAD) {
+        while let Some(next) = before(ways, here).filter(|_| walked < LEAD) {
             walked += self.center(here).distance(self.center(next));
             points.push(self.center(next));
             here = next;
@@ -213,13 +254,24 @@ impl Search<'_, '_> {
         points
     }
 
-    fn before(&self, number: u32) -> Option<u32> {
-        Some(self.ways.parent[number as usize]).filter(|parent| *parent != NONE)
-    }
-
     fn center(&self, number: u32) -> DVec3 {
         self.voxels.center(self.flood.voxel(number))
     }
+}
+
+/// The voxels on the way to one, from the first that lies in no branch.
+fn way_to(ways: &Ways, state: &[Voxel], tip: u32) -> Vec<u32> {
+    let mut way = vec![tip];
+    while let Some(next) = before(ways, way[way.len() - 1]).filter(|n| !is_known(state[*n as usize])) {
+        way.push(next);
+    }
+    way.reverse();
+    way
+}
+
+/// The voxel before another one on its way.
+fn before(ways: &Ways, number: u32) -> Option<u32> {
+    Some(ways.parent[number as usize]).filter(|parent| *parent != NONE)
 }
 
 fn is_known(voxel: Voxel) -> bool {

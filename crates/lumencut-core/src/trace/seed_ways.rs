@@ -17,8 +17,10 @@ const BETWEEN_STOPS: usize = 1 << 14;
 /// No voxel: before the seed, or behind the last one.
 pub const NONE: u32 = u32::MAX;
 
-/// The cheapest ways as a tree of voxels whose root is the seed.
+/// The cheapest ways as trees of voxels, whose roots are known to be lumen.
 pub struct Ways {
+    /// What a millimetre costs at each voxel.
+    cost: Vec<f32>,
     /// The voxel before each on its way.
     pub parent: Vec<u32>,
     /// The voxels that a way leads to, the nearest first.
@@ -28,32 +30,47 @@ pub struct Ways {
 }
 
 impl Ways {
-    /// The ways through a flood, cheap in the middle of lumen and dear at walls.
+    /// The voxels of a flood without any way; ways are cheap in the middle of lumen and dear at walls.
+    pub fn new(flood: &Flood, voxels: &Voxels, region: &mut Region) -> Self {
+        let table = costs();
+        let cost_of = |number: u32| {
+            let (block, inside) = flood.block_of(number);
+            let code = region.costs_of(voxels, block)[inside];
+            if code == FORBIDDEN { f32::INFINITY } else { table[usize::from(code)] }
+        };
+        let count = flood.count();
+        Self {
+            cost: (0..count as u32).map(cost_of).collect(),
+            parent: vec![NONE; count],
+            order: Vec::new(),
+            first_child: vec![NONE; count],
+            next_child: vec![NONE; count],
+        }
+    }
+
+    /// Finds the cheapest ways from any of some voxels, over those that are open. What comes before the first ones stays.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Interrupted`].
-    pub fn through(flood: &Flood, voxels: &Voxels, region: &mut Region, stop: Stop) -> Result<Self> {
-        let count = flood.count();
-        let mut cost = vec![f32::INFINITY; count];
-        let table = costs();
-        for number in 0..count as u32 {
-            let (block, inside) = flood.block_of(number);
-            let code = region.costs_of(voxels, block)[inside];
-            cost[number as usize] = if code == FORBIDDEN { f32::INFINITY } else { table[usize::from(code)] };
+    pub fn find(
+        &mut self,
+        flood: &Flood,
+        voxels: &Voxels,
+        from: &[u32],
+        is_open: &dyn Fn(u32) -> bool,
+        stop: Stop,
+    ) -> Result<()> {
+        let way = self.settled(flood, voxels, from, is_open, stop)?;
+        self.order.clear();
+        self.order.extend((0..way.len() as u32).filter(|n| (f32::MIN_POSITIVE..f32::INFINITY).contains(&way[*n as usize])));
+        self.order.sort_unstable_by(|a, b| way[*a as usize].total_cmp(&way[*b as usize]).then(a.cmp(b)));
+        self.first_child.fill(NONE);
+        for &number in self.order.iter().rev() {
+            let before = self.parent[number as usize] as usize;
+            self.next_child[number as usize] = self.first_child[before];
+            self.first_child[before] = number;
         }
-        let (way, parent) = settled(flood, voxels, &cost, stop)?;
-        drop(cost);
-        let mut order: Vec<u32> = (0..count as u32).filter(|n| way[*n as usize].is_finite()).collect();
-        order.sort_unstable_by(|a, b| way[*a as usize].total_cmp(&way[*b as usize]).then(a.cmp(b)));
-        let (mut first_child, mut next_child) = (vec![NONE; count], vec![NONE; count]);
-        for &number in order.iter().rev() {
-            let before = parent[number as usize];
-            if before != NONE {
-                next_child[number as usize] = first_child[before as usize];
-                first_child[before as usize] = number;
-            }
-        }
-        Ok(Self { parent, order, first_child, next_child })
+        Ok(())
     }
 
     /// Tells of each voxel whose way leads over `from`, and of that voxel itself.
@@ -68,46 +85,54 @@ impl Ways {
             }
         }
     }
-}
 
-/// Dijkstra's algorithm with buckets: the cheapest way to each voxel, and the voxel before it.
-fn settled(flood: &Flood, voxels: &Voxels, cost: &[f32], stop: Stop) -> Result<(Vec<f32>, Vec<u32>)> {
-    let steps = steps(voxels);
-    let mut way = vec![f32::INFINITY; cost.len()];
-    let mut parent = vec![NONE; cost.len()];
-    let mut buckets: Vec<Vec<(u32, f32)>> = vec![vec![(0, 0.0)]];
-    way[0] = 0.0;
-    let (mut first, mut count) = (0, 0);
-    while first < buckets.len() {
-        let Some((number, known)) = buckets[first].pop() else {
-            buckets[first] = Vec::new();
-            first += 1;
-            continue;
-        };
-        if way[number as usize] < known {
-            continue;
+    /// Dijkstra's algorithm with buckets: the length of the cheapest way to each voxel, and the voxel before it.
+    fn settled(
+        &mut self,
+        flood: &Flood,
+        voxels: &Voxels,
+        from: &[u32],
+        is_open: &dyn Fn(u32) -> bool,
+        stop: Stop,
+    ) -> Result<Vec<f32>> {
+        let steps = steps(voxels);
+        let mut way = vec![f32::INFINITY; self.cost.len()];
+        for number in from {
+            way[*number as usize] = 0.0;
         }
-        if count % BETWEEN_STOPS == 0 {
-            go_on(stop)?;
-        }
-        count += 1;
-        let [i, j, k] = flood.voxel(number);
-        let here = cost[number as usize];
-        for ([di, dj, dk], length) in &steps {
-            let Some(next) = flood.number_at([i + di, j + dj, k + dk]) else { continue };
-            let longer = known + 0.5 * (here + cost[next as usize]) * length;
-            if longer < way[next as usize] {
-                way[next as usize] = longer;
-                parent[next as usize] = number;
-                let bucket = (longer / BUCKET) as usize;
-                if bucket >= buckets.len() {
-                    buckets.resize_with(bucket + 1, Vec::new);
+        let mut buckets: Vec<Vec<(u32, f32)>> = vec![from.iter().map(|number| (*number, 0.0)).collect()];
+        let (mut first, mut count) = (0, 0);
+        while first < buckets.len() {
+            let Some((number, known)) = buckets[first].pop() else {
+                buckets[first] = Vec::new();
+                first += 1;
+                continue;
+            };
+            if way[number as usize] < known {
+                continue;
+            }
+            if count % BETWEEN_STOPS == 0 {
+                go_on(stop)?;
+            }
+            count += 1;
+            let [i, j, k] = flood.voxel(number);
+            let here = self.cost[number as usize];
+            for ([di, dj, dk], length) in &steps {
+                let Some(next) = flood.number_at([i + di, j + dj, k + dk]) else { continue };
+                let longer = known + 0.5 * (here + self.cost[next as usize]) * length;
+                if longer < way[next as usize] && is_open(next) {
+                    way[next as usize] = longer;
+                    self.parent[next as usize] = number;
+                    let bucket = (longer / BUCKET) as usize;
+                    if bucket >= buckets.len() {
+                        buckets.resize_with(bucket + 1, Vec::new);
+                    }
+                    buckets[bucket].push((next, longer));
                 }
-                buckets[bucket].push((next, longer));
             }
         }
+        Ok(way)
     }
-    Ok((way, parent))
 }
 
 /// The steps to the 26 neighbours, and their lengths in the world (mm).

@@ -28,6 +28,12 @@ const BRIGHT: f64 = 0.5;
 const STEADY: f64 = 1.5;
 const GOES_ON: f64 = 2.0;
 
+/// A stretch that goes on with about the radius before and a value this near to it (part of the contrast) may be short.
+const SAME: f64 = 0.1;
+
+/// With so many points before it a point is compared.
+const BEFORE: usize = 8;
+
 /// What is seen along a line.
 pub struct Sections {
     lengths: Vec<f64>,
@@ -59,7 +65,13 @@ impl Sections {
     }
 
     /// The last point of the tube that the line begins with at point `from`; none where that is no tube.
-    pub fn sound(&self, from: usize, smallest_radius: f64, usual: &Usual) -> Option<usize> {
+    pub fn sound(
+        &self,
+        from: usize,
+        smallest_radius: f64,
+        usual: &Usual,
+        is_faithful: &dyn Fn(usize) -> bool,
+    ) -> Option<usize> {
         let debug = std::env::var("DBG").is_ok() && self.lengths[self.lengths.len() - 1] > 15.0;
         let count = self.lengths.len();
         // What comes before is known to be lumen.
@@ -76,7 +88,7 @@ impl Sections {
             if hidden > HIDDEN.max(HIDDEN_RADII * widest) {
                 break;
             }
-            if stretch.goes_on(before.as_ref(), length, hidden, usual) {
+            if stretch.goes_on(before.as_ref(), length, hidden, usual) && is_faithful(stretch.last) {
                 end = Some(stretch.last);
                 before = Some(stretch);
             }
@@ -86,10 +98,16 @@ impl Sections {
         (outside >= SHORTEST.max(SHORTEST_RADII * median(&self.radius[from..=end]))).then_some(end)
     }
 
+    /// Whether the tube, seen from point `first` on, is suddenly wider at point `n`, as where it opens into something else.
+    fn widens(&self, first: usize, n: usize) -> bool {
+        let near = first.max(n.saturating_sub(BEFORE));
+        self.radius[n] > STEADY * median(&self.radius[near..n])
+    }
+
     /// The next stretch between two points that is seen.
     fn stretch(&self, from: usize, to: usize) -> Option<Stretch> {
         let first = (from..=to).find(|n| self.trust[*n] >= SEEN)?;
-        let last = (first..=to).find(|n| self.trust[*n] < SEEN).unwrap_or(to + 1) - 1;
+        let last = (first + 1..=to).find(|n| self.trust[*n] < SEEN || self.widens(first, *n)).unwrap_or(to + 1) - 1;
         let part = first..=last;
         Some(Stretch {
             first,
@@ -115,11 +133,11 @@ impl Stretch {
     /// Whether this is a tube that goes on from the stretch before, where there is one.
     fn goes_on(&self, before: Option<&Self>, length: f64, hidden: f64, usual: &Usual) -> bool {
         let value = before.map_or(usual.value, |before| before.value);
-        let is_like = (self.value - value).abs() <= LIKE * usual.contrast;
+        let unlike = (self.value - value).abs() / usual.contrast;
         let is_steady = before.is_some_and(|before| (self.radius / before.radius).ln().abs() <= STEADY.ln());
         let is_long = length >= LEAST_LENGTH.max(LEAST_RADII * self.radius);
-        let is_short_gap = is_steady && hidden <= GOES_ON;
-        is_like && (is_long || (is_steady && length >= LEAST_LENGTH)) && (self.bright <= BRIGHT || is_short_gap)
+        let goes_on = is_steady && (unlike <= SAME || length >= LEAST_LENGTH);
+        unlike <= LIKE && (is_long || goes_on) && (self.bright <= BRIGHT || (is_steady && hidden <= GOES_ON))
     }
 }
 
