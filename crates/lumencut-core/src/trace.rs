@@ -25,6 +25,7 @@ pub mod region;
 pub mod runs;
 pub mod seed;
 pub mod seed_branches;
+pub mod seed_tree;
 pub mod seed_ways;
 pub mod simple_point;
 pub mod thinning;

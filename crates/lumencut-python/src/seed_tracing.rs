@@ -3,6 +3,7 @@
 use glam::DVec3;
 use lumencut::progress::Progress;
 use lumencut::trace::seed;
+use lumencut::trace::seed_tree::{Doubt, SeedBranch};
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
@@ -38,10 +39,10 @@ pub fn trace_from<'py>(
     if let Some(watched) = watched {
         watched.tell(py, SHARES)?;
     }
-    let arrays = |branch: seed::SeedBranch| {
+    let arrays = |branch: SeedBranch| {
         let line = branch.line;
         let points = Array2::from_shape_fn((line.points.len(), 3), |(n, axis)| line.points[n][axis]);
-        let doubt = branch.doubt.map_or("", seed::Doubt::words);
+        let doubt = branch.doubt.map_or("", Doubt::words);
         let [radius, confidence] = [line.radius, line.confidence].map(|v| PyArray1::from_vec(py, v));
         (PyArray2::from_owned_array(py, points), radius, confidence, doubt)
     };

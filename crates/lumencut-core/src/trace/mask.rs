@@ -24,8 +24,8 @@ use crate::volume::Volume;
 /// The most cells in the box around the lumen: their numbers have 32 bits.
 const MOST_CELLS: usize = u32::MAX as usize;
 
-/// Makes of the points of a centerline (mm, LPS) better ones, with the radius at each (mm).
-pub type Refine<'a> = &'a (dyn Fn(&[DVec3]) -> Result<(Vec<DVec3>, Vec<f64>)> + Sync);
+/// Makes of the points of a centerline (mm, LPS) better ones, with the radius at each (mm); nothing where it cannot.
+pub type Refine<'a> = &'a (dyn Fn(&[DVec3]) -> Result<Option<(Vec<DVec3>, Vec<f64>)>> + Sync);
 
 /// What is traced, and how.
 pub struct Request<'a> {
@@ -203,10 +203,11 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) ->
             points.reverse();
         }
         let points = resampled(&points, request.step);
-        let (points, radius) = match request.refine {
-            Some(refine) => refined(&points, is_free, refine)?,
-            None => (points.clone(), radii(&points, is_free, lumen)),
-        };
+        let better = request.refine.map_or(Ok(None), |refine| refined(&points, is_free, refine))?;
+        let (points, radius) = better.unwrap_or_else(|| {
+            let radius = radii(&points, is_free, lumen);
+            (points, radius)
+        });
         let nodes = [pair[0].node, pair[1].node];
         made.push(MaskVessel { points, radius, nodes, is_free, label: 0, is_bridge: false });
     }
@@ -214,8 +215,12 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) ->
 }
 
 /// A vessel as `refine` sees it, with those ends where they were that are not free.
-fn refined(points: &[DVec3], is_free: [bool; 2], refine: Refine) -> Result<(Vec<DVec3>, Vec<f64>)> {
-    let (mut moved, radius) = refine(points)?;
+fn refined(
+    points: &[DVec3],
+    is_free: [bool; 2],
+    refine: Refine,
+) -> Result<Option<(Vec<DVec3>, Vec<f64>)>> {
+    let Some((mut moved, radius)) = refine(points)? else { return Ok(None) };
     let ends = [points[0], points[points.len() - 1]];
     let ways = ways(&moved);
     let (last, whole) = (moved.len() - 1, ways[ways.len() - 1]);
@@ -225,7 +230,7 @@ fn refined(points: &[DVec3], is_free: [bool; 2], refine: Refine) -> Result<(Vec<
         bring_back(&mut moved, &ways, end, delta, (JOINED * radius[place]).min(whole / 2.0));
         moved[place] = ends[end];
     }
-    Ok((moved, radius))
+    Ok(Some((moved, radius)))
 }
 
 /// Moves an end of a line, and what is within `length` (mm) of it part of the way.

@@ -6,7 +6,13 @@ use super::flood::Flood;
 use super::lumen_model::{LumenModel, Surroundings, at};
 use super::mask::{self, TracedMask};
 use super::mask_vessels::MaskVessel;
+use super::cross_section::Probe;
+use super::junctions::nearest;
 use super::refine::{Centerline, refined};
+use super::path::arc_lengths;
+use super::seed_tree::{self, SeedBranch, SeenVessel};
+use super::tube::{Sections, Usual};
+use rayon::prelude::*;
 use super::region::{Region, Strictness};
 use super::seed_branches::{Branches, Search};
 use super::seed_ways::Ways;
@@ -19,6 +25,14 @@ use crate::volume::{self, Volume};
 /// The most voxels that a flood may have.
 const MOST_VOXELS: usize = 30_000_000;
 
+/// With how many rays a cross-section is looked at.
+const RAYS: usize = 24;
+
+/// A line may move by so much from the middle of the flood (mm), or by so many radii, and be so many times as long.
+const STRAYED: f64 = 1.5;
+const STRAYED_RADII: f64 = 0.5;
+const ASTRAY: f64 = 1.25;
+
 /// What is traced, and how.
 pub struct Request<'a> {
     /// A point in the lumen (mm, LPS).
@@ -29,29 +43,6 @@ pub struct Request<'a> {
     pub stop: Stop<'a>,
     /// Told how far the work is.
     pub progress: Option<&'a Progress>,
-}
-
-/// Why a branch is doubtful.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Doubt {
-    /// Its lumen is hardly seen.
-    Unseen,
-}
-
-impl Doubt {
-    /// The doubt in words.
-    pub fn words(self) -> &'static str {
-        "hardly seen"
-    }
-}
-
-/// A branch that a seed reaches.
-#[derive(Clone, Debug)]
-pub struct SeedBranch {
-    /// Its points, radii and confidence.
-    pub line: Centerline,
-    /// Why it is doubtful; none where it is not.
-    pub doubt: Option<Doubt>,
 }
 
 /// The branches that a seed reaches.
@@ -73,12 +64,15 @@ pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>>
     }
     let traced = traced(voxels, &model, &flood, &branches, request)?;
     eprintln!("traced {:?}", timer.elapsed());
-    let branch = |vessel: MaskVessel| {
-        let confidence = vec![1.0; vessel.points.len()];
-        let line = Centerline { points: vessel.points, radius: vessel.radius, confidence };
-        SeedBranch { line, doubt: None }
+    let usual = Usual { value: model.low, contrast: model.contrast() };
+    let probe = Probe { voxels, model: &model, rays: RAYS };
+    let seen = |vessel: MaskVessel| {
+        let line = Centerline { points: vessel.points, radius: vessel.radius, confidence: Vec::new() };
+        let confidence = Sections::along(&probe, &line).confidence(&usual);
+        let vessel = MaskVessel { points: line.points, radius: line.radius, ..vessel };
+        SeenVessel { vessel, confidence }
     };
-    Ok(traced.vessels.into_iter().map(branch).collect())
+    Ok(seed_tree::branches(traced.vessels.into_par_iter().map(seen).collect(), request.seed))
 }
 
 /// The model of the lumen around the seed, and the voxel of the seed.
@@ -127,7 +121,12 @@ fn traced(
     let mask = Volume::new(volume::Voxels::U8(&cells), size, strides, voxels.world_from_index * shift)?;
     let refine = |points: &[DVec3]| {
         let line = refined(voxels, model, points, request.stop)?;
-        Ok((line.points, line.radius))
+        let strays = line.points.iter().zip(&line.radius).any(|(point, radius)| {
+            let far = STRAYED.max(STRAYED_RADII * radius);
+            point.distance(points[nearest(points, *point)]) > far
+        });
+        let is_faithful = !strays && length(&line.points) <= ASTRAY * length(points) + STRAYED;
+        Ok(is_faithful.then_some((line.points, line.radius)))
     };
     mask::trace_mask(
         &mask,
@@ -141,4 +140,8 @@ fn traced(
             progress: None,
         },
     )
+}
+
+fn length(points: &[DVec3]) -> f64 {
+    arc_lengths(points).last().copied().unwrap_or(0.0)
 }

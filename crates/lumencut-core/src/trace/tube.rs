@@ -28,6 +28,9 @@ const BRIGHT: f64 = 0.5;
 const STEADY: f64 = 1.5;
 const GOES_ON: f64 = 2.0;
 
+/// How sure a place is at most whose walls are bright.
+const BRIGHT_TRUST: f64 = 0.5;
+
 /// A stretch that goes on with about the radius before and a value this near to it (part of the contrast) may be short.
 const SAME: f64 = 0.1;
 
@@ -58,10 +61,21 @@ impl Sections {
         Self {
             lengths: arc_lengths(&line.points),
             radius: line.radius.clone(),
-            trust: line.confidence.clone(),
+            trust: of(|section| section.trust),
             value: of(|section| section.value),
             bright: of(|section| section.bright),
         }
+    }
+
+    /// How sure the line is at each of its points, 0 to 1: how well the lumen is seen, and how near its value is to what is
+    /// usual.
+    pub fn confidence(&self, usual: &Usual) -> Vec<f64> {
+        let sure = |n: usize| {
+            let unlike = (self.value[n] - usual.value).abs() / (2.0 * LIKE * usual.contrast);
+            let walls = if self.bright[n] > BRIGHT { BRIGHT_TRUST } else { 1.0 };
+            self.trust[n] * walls * (1.0 - unlike * unlike).max(0.0)
+        };
+        (0..self.trust.len()).map(sure).collect()
     }
 
     /// The last point of the tube that the line begins with at point `from`; none where that is no tube.
