@@ -48,6 +48,10 @@ const ROUNDS: usize = 3;
 /// The number of the seed's voxel.
 const SEED: u32 = 0;
 
+/// A line is that of a branch where at least this share of it lies in no other one: others run back into the lumen that
+/// their way ran along.
+const NEW: f64 = 0.7;
+
 /// With how many rays a cross-section is looked at.
 const RAYS: usize = 24;
 
@@ -168,13 +172,18 @@ impl Search<'_, '_> {
         }
         let is_faithful = |end: usize| {
             let way = length(&points[..=nearest(&points[..count], line.points[end])]);
-            length(&line.points[from..=end]) <= ASTRAY * way + ASTRAY_LENGTH
+            let new = line.points[from..=end].iter().filter(|point| !is_inside(**point)).count();
+            let is_new = new as f64 >= NEW * (end + 1 - from) as f64;
+            is_new && length(&line.points[from..=end]) <= ASTRAY * way + ASTRAY_LENGTH
         };
         let sections = Sections::along(&probe, &line);
         let Some(end) = sections.sound(from, self.smallest_radius, &usual, &is_faithful) else {
             return Ok(false);
         };
         let last = nearest(&points[..count], line.points[end]);
+        if std::env::var("DBG").is_ok() {
+            eprintln!("   KEPT {from}..{end} from {:.1} to {:.1}", line.points[from], line.points[end]);
+        }
         self.keep(state, &line, end);
         // The way itself joins what the balls leave open, back to the branch that it leaves.
         let mut here = Some(way[last]);

@@ -55,8 +55,16 @@ pub struct SeenVessel {
 }
 
 impl SeenVessel {
-    fn is_seen(&self) -> bool {
-        self.confidence.iter().sum::<f64>() >= DOUBTFUL * self.confidence.len() as f64
+    /// Whether the vessel is seen well, but for what lies within other lumens at its ends, which are so wide (mm).
+    fn is_seen(&self, widths: [f64; 2]) -> bool {
+        let points = &self.vessel.points;
+        let last = points.len() - 1;
+        let is_outside = |n: &usize| {
+            points[*n].distance(points[0]) >= widths[0] && points[*n].distance(points[last]) >= widths[1]
+        };
+        let outside: Vec<f64> = (0..=last).filter(is_outside).map(|n| self.confidence[n]).collect();
+        let all = if outside.is_empty() { &self.confidence } else { &outside };
+        all.iter().sum::<f64>() >= DOUBTFUL * all.len() as f64
     }
 
     /// Whether the vessel may lie within the lumens of those that it joins.
@@ -73,11 +81,12 @@ impl SeenVessel {
 
 /// The branches that the seed reaches, the doubtful ones last. Vessels that meet nothing else are joined.
 pub fn branches(vessels: Vec<SeenVessel>, seed: DVec3) -> Vec<SeedBranch> {
-    let is_sure = sure(&vessels, seed);
+    let is_seen = seen(&vessels);
+    let is_sure = sure(&vessels, &is_seen, seed);
     let mut doubtful = Vec::new();
     let mut lines = Vec::new();
-    for (vessel, is_sure) in vessels.into_iter().zip(is_sure) {
-        let doubt = if vessel.is_seen() { Doubt::Behind } else { Doubt::Unseen };
+    for ((vessel, is_seen), is_sure) in vessels.into_iter().zip(is_seen).zip(is_sure) {
+        let doubt = if is_seen { Doubt::Behind } else { Doubt::Unseen };
         let SeenVessel { vessel, confidence } = vessel;
         let length = vessel.length();
         let line = Centerline { points: vessel.points, radius: vessel.radius, confidence };
@@ -91,10 +100,31 @@ pub fn branches(vessels: Vec<SeenVessel>, seed: DVec3) -> Vec<SeedBranch> {
     sure.chain(doubtful).collect()
 }
 
+/// Which vessels are seen well outside the lumens of those that they meet.
+fn seen(vessels: &[SeenVessel]) -> Vec<bool> {
+    let mut width: HashMap<usize, [f64; 2]> = HashMap::new();
+    let ends = |vessel: &MaskVessel| [(vessel.nodes[0], 0), (vessel.nodes[1], vessel.radius.len() - 1)];
+    // The two largest radii at each node: a vessel is not measured by its own.
+    for SeenVessel { vessel, .. } in vessels {
+        for (node, end) in ends(vessel) {
+            let [first, second] = width.entry(node).or_default();
+            let radius = vessel.radius[end];
+            (*first, *second) = if radius > *first { (radius, *first) } else { (*first, second.max(radius)) };
+        }
+    }
+    let beside = |vessel: &MaskVessel| {
+        ends(vessel).map(|(node, end)| {
+            let [first, second] = width[&node];
+            if vessel.radius[end] < first { first } else { second }
+        })
+    };
+    vessels.iter().map(|seen| seen.is_seen(beside(&seen.vessel))).collect()
+}
+
 /// Which vessels are sure.
-fn sure(vessels: &[SeenVessel], seed: DVec3) -> Vec<bool> {
+fn sure(vessels: &[SeenVessel], is_seen: &[bool], seed: DVec3) -> Vec<bool> {
     let nearest = (0..vessels.len())
-        .filter(|n| vessels[*n].is_seen())
+        .filter(|n| is_seen[*n])
         .min_by(|a, b| vessels[*a].distance(seed).total_cmp(&vessels[*b].distance(seed)));
     let Some(root) = nearest else { return vec![true; vessels.len()] };
     let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
@@ -119,7 +149,7 @@ fn sure(vessels: &[SeenVessel], seed: DVec3) -> Vec<bool> {
         for &number in &at_node[&node] {
             let [a, b] = vessels[number].vessel.nodes;
             let other = if a == node { b } else { a };
-            if vessels[number].is_seen() {
+            if is_seen[number] {
                 is_sure[number] = true;
                 nodes.push_front((other, None));
             } else if vessels[number].is_within() {
@@ -127,12 +157,13 @@ fn sure(vessels: &[SeenVessel], seed: DVec3) -> Vec<bool> {
             }
         }
     }
-    without_loose_ends(vessels, &at_node, is_sure)
+    without_loose_ends(vessels, is_seen, &at_node, is_sure)
 }
 
 /// Those that are sure without vessels within others that lead to nothing.
 fn without_loose_ends(
     vessels: &[SeenVessel],
+    is_seen: &[bool],
     at_node: &HashMap<usize, Vec<usize>>,
     mut is_sure: Vec<bool>,
 ) -> Vec<bool> {
@@ -140,7 +171,7 @@ fn without_loose_ends(
         vessels[number].vessel.nodes.iter().any(|node| at_node[node].iter().filter(|n| is_sure[**n]).count() == 1)
     };
     while let Some(loose) = (0..vessels.len())
-        .find(|n| is_sure[*n] && !vessels[*n].is_seen() && ends_alone(&is_sure, *n))
+        .find(|n| is_sure[*n] && !is_seen[*n] && ends_alone(&is_sure, *n))
     {
         is_sure[loose] = false;
     }
