@@ -33,6 +33,12 @@ const STRAYED: f64 = 1.5;
 const STRAYED_RADII: f64 = 0.5;
 const ASTRAY: f64 = 1.25;
 
+/// A vessel has more voxels.
+const LEAST_VOXELS: usize = 10;
+
+/// How long the steps of the work take for each voxel of the flood in comparison: ways, branches, centerlines.
+const COSTS: [usize; 3] = [1, 12, 3];
+
 /// What is traced, and how.
 pub struct Request<'a> {
     /// A point in the lumen (mm, LPS).
@@ -45,25 +51,45 @@ pub struct Request<'a> {
     pub progress: Option<&'a Progress>,
 }
 
-/// The branches that a seed reaches.
+/// The branches that a seed reaches, the doubtful ones last.
+///
+/// # Errors
+/// [`ErrorKind::Tracing`] for a seed outside the volume or in no lumen, where its lumen fills too much of the volume, and
+/// where no tube is to be seen around it; [`ErrorKind::Interrupted`].
 pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>> {
     let voxels = &Voxels::new(volume);
-    let timer = web_time::Instant::now();
     let (model, start) = lumen_at(voxels, request.seed)?;
-    let flood = Flood::from(voxels, &model, start, MOST_VOXELS, request.stop)?;
-    let Some(flood) = flood else {
-        return Err(Error::new(ErrorKind::Tracing, "seed", "too much", "less"));
+    let Some(flood) = Flood::from(voxels, &model, start, MOST_VOXELS, request.stop)? else {
+        return Err(floods(request.seed, &model));
     };
-    eprintln!("flood {} {:?} {model:?}", flood.count(), timer.elapsed());
-    let branches = branches(voxels, &model, &flood, request)?;
-    eprintln!("branches {} {:?} leaks {}", branches.kept.len(), timer.elapsed(), branches.leaks.len());
-    let mut l = branches.leaks.clone();
-    l.sort_by_key(|l| std::cmp::Reverse(l.1));
-    for (p, n) in l.iter().take(12) {
-        eprintln!("   {p:.1} {n}");
+    let begin = |stage: usize| {
+        if let Some(progress) = request.progress {
+            progress.begin_stage(COSTS[stage]);
+        }
+    };
+    if let Some(progress) = request.progress {
+        progress.expect_views(1);
+        progress.begin_view(COSTS.into_iter(), flood.count());
     }
+    begin(0);
+    let mut region = Region::new(voxels.size, model, Vec::new(), Strictness::Lumen);
+    let mut ways = Ways::new(&flood, voxels, &mut region);
+    drop(region);
+    begin(1);
+    let told = |count: usize| {
+        if let Some(progress) = request.progress {
+            progress.begin_pixels(count);
+        }
+    };
+    let smallest_radius = request.smallest_radius;
+    let search = Search { voxels, model: &model, flood: &flood, smallest_radius, stop: request.stop };
+    let branches = search.branches(&mut ways, &told)?;
+    drop(ways);
+    if branches.kept.len() < LEAST_VOXELS {
+        return Err(no_tube(request, &model, flood.count()));
+    }
+    begin(2);
     let traced = traced(voxels, &model, &flood, &branches, request)?;
-    eprintln!("traced {:?}", timer.elapsed());
     let usual = Usual { value: model.low, contrast: model.contrast() };
     let probe = Probe { voxels, model: &model, rays: RAYS };
     let seen = |vessel: MaskVessel| {
@@ -72,7 +98,29 @@ pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>>
         let vessel = MaskVessel { points: line.points, radius: line.radius, ..vessel };
         SeenVessel { vessel, confidence }
     };
-    Ok(seed_tree::branches(traced.vessels.into_par_iter().map(seen).collect(), request.seed))
+    let branches = seed_tree::branches(traced.vessels.into_par_iter().map(seen).collect(), request.seed);
+    if let Some(progress) = request.progress {
+        progress.end_view();
+    }
+    Ok(branches)
+}
+
+/// The error for a seed whose lumen fills too much of the volume.
+fn floods(seed: DVec3, model: &LumenModel) -> Error {
+    let [least, most] = [model.tissue + 0.5 * model.contrast(), model.brightest()];
+    let found = format!("more than {MOST_VOXELS} voxels from {least:.0} to {most:.0} that are joined with it");
+    let expected = format!("vessels, brighter than the tissue around them, which has up to {:.0}", model.tissue);
+    let error = Error::new(ErrorKind::Tracing, format!("seed {}", at(seed)), found, expected);
+    error.mend("put the seed into the middle of a vessel with contrast medium")
+}
+
+/// The error for a seed around which nothing is a vessel.
+fn no_tube(request: &Request, model: &LumenModel, count: usize) -> Error {
+    let value = model.low;
+    let found = format!("{count} voxels like the {value:.0} there, which are nowhere a tube");
+    let expected = format!("a vessel with a radius of {} mm or more", request.smallest_radius);
+    let error = Error::new(ErrorKind::Tracing, format!("seed {}", at(request.seed)), found, expected);
+    error.mend("put the seed into the middle of a vessel, or trace between two points along it")
 }
 
 /// The model of the lumen around the seed, and the voxel of the seed.
@@ -83,14 +131,6 @@ fn lumen_at(voxels: &Voxels, seed: DVec3) -> Result<(LumenModel, [i32; 3])> {
     };
     let model = Surroundings::of(voxels, &[seed]).model(voxels, &[seed])?;
     Ok((model, start))
-}
-
-fn branches(voxels: &Voxels, model: &LumenModel, flood: &Flood, request: &Request) -> Result<Branches> {
-    let mut region = Region::new(voxels.size, *model, Vec::new(), Strictness::Lumen);
-    let mut ways = Ways::new(flood, voxels, &mut region);
-    drop(region);
-    let smallest_radius = request.smallest_radius;
-    Search { voxels, model, flood, smallest_radius, stop: request.stop }.branches(&mut ways, &|_| ())
 }
 
 /// The centerlines of the voxels of the branches.

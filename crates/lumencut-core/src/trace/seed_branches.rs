@@ -52,6 +52,10 @@ const SEED: u32 = 0;
 /// their way ran along.
 const NEW: f64 = 0.7;
 
+/// A branch has voxels up to so many times its median radius along so many points before.
+const WIDER: f64 = 1.25;
+const BEFORE: usize = 30;
+
 /// With how many rays a cross-section is looked at.
 const RAYS: usize = 24;
 
@@ -110,7 +114,7 @@ impl Search<'_, '_> {
             let is_open = |number: u32| matches!(state[number as usize], Voxel::Free | Voxel::Near | Voxel::Bump);
             ways.find(self.flood, self.voxels, &kept, &is_open, self.stop)?;
             for &tip in ways.order.iter().rev() {
-                if round == 0 { told(1); }
+                told(usize::from(round == 0));
                 if state[tip as usize] == Voxel::Free {
                     self.follow(ways, &mut state, tip, &mut leaks)?;
                 }
@@ -237,7 +241,9 @@ impl Search<'_, '_> {
                 continue;
             }
             last = Some(*point);
-            let inside = radius + BEYOND * side;
+            // Where the lumen opens into something else, the line still tells the radius of both.
+            let usual = median(&line.radius[n.saturating_sub(BEFORE)..=n]);
+            let inside = radius.min(WIDER * usual) + BEYOND * side;
             self.flood.within(self.voxels, *point, (NEAR * radius).max(radius + BESIDE * side), |number| {
                 let state = &mut state[number as usize];
                 let is_inside = self.center(number).distance_squared(*point) <= inside * inside;
@@ -281,6 +287,12 @@ fn way_to(ways: &Ways, state: &[Voxel], tip: u32) -> Vec<u32> {
 /// The voxel before another one on its way.
 fn before(ways: &Ways, number: u32) -> Option<u32> {
     Some(ways.parent[number as usize]).filter(|parent| *parent != NONE)
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    sorted[sorted.len() / 2]
 }
 
 fn is_known(voxel: Voxel) -> bool {

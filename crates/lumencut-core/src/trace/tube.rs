@@ -29,7 +29,7 @@ const STEADY: f64 = 1.5;
 const GOES_ON: f64 = 2.0;
 
 /// How sure a place is at most whose walls are bright.
-const BRIGHT_TRUST: f64 = 0.5;
+const BRIGHT_TRUST: f64 = 0.3;
 
 /// A stretch that goes on with about the radius before and a value this near to it (part of the contrast) may be short.
 const SAME: f64 = 0.1;
