@@ -13,6 +13,7 @@ _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 _WrittenArrays = tuple[
     npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None, npt.NDArray[np.float64] | None
 ]
+_BranchArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], str]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [

@@ -10,7 +10,6 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import number, numbers
-from lumencut._wording import counted
 from lumencut.errors import SettingsError, TracingError
 from lumencut.vessel_tree import Vessel, VesselTree
 from lumencut.volume import Volume
@@ -29,8 +28,8 @@ def trace_from(
     The values around the seed tell what lumen looks like. All voxels with such values that are joined with
     the seed are followed from their farthest ends back, and kept as far as cross-sections of the grey values
     show a tube that goes on: bone, organs and veins that touch the lumen are left out where they begin. What
-    is kept is thinned to lines as :func:`lumencut.trace_mask` does, so cycles stay, and the lines are moved to
-    the middle of the lumen as those of :func:`lumencut.trace` are. METHOD.md, "Tracing from a seed".
+    is kept is thinned to lines as :func:`lumencut.trace_mask` does, so cycles stay, and the lines are moved
+    to the middle of the lumen as those of :func:`lumencut.trace` are. METHOD.md, "Tracing from a seed".
 
     Parameters
     ----------
@@ -73,6 +72,7 @@ def trace_from(
     tree._doubtful = tuple(vessel for vessel, doubt in branches if doubt)
     doubts = Counter(doubt for _, doubt in branches if doubt)
     tree._notes = tuple(
-        f"{counted(count, 'branch')} doubtful: {doubt}" for doubt, count in doubts.most_common()
+        f"{count} {'branch' if count == 1 else 'branches'} doubtful: {doubt}"
+        for doubt, count in doubts.most_common()
     )
     return tree

@@ -317,7 +317,7 @@ class VesselTree(Value):
 
     @property
     def doubtful(self) -> VesselTree:
-        """The branches that :func:`lumencut.trace_from` is not sure of: for other trees without any vessel."""
+        """The branches that :func:`lumencut.trace_from` is not sure of; none in other trees."""
         tree = VesselTree.__new__(VesselTree)
         tree._vessels = self._doubtful
         tree._space_settled = self._space_settled

@@ -86,7 +86,7 @@ fn a_refinement_moves_the_lines_and_measures_radii() {
     let volume = bar(&mut voxels);
     let shifted = |points: &[DVec3]| {
         let moved = points.iter().map(|point| *point + DVec3::new(0.0, 0.3, 0.0)).collect();
-        Ok((moved, vec![1.25; points.len()]))
+        Ok(Some((moved, vec![1.25; points.len()])))
     };
     let plain = trace_mask(&volume, &request(&|| false)).unwrap_or_else(|error| panic!("{error}"));
     let refined = Request { refine: Some(&shifted), ..request(&|| false) };

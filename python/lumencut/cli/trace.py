@@ -98,8 +98,8 @@ def trace(
     The points need not be central. All --point are one vessel; files of --points may hold several, which join
     where they meet. Points are at most 0.5 mm apart in the result, with the radius of the lumen and with how
     sure each point is. With --seed they are those of all branches that one point reaches, the doubtful ones
-    left out and counted. With --mask they are those of a mask of the lumen, or of labels of a label map; VOLUME
-    is not needed then, and must have its grid.
+    left out and counted. With --mask they are those of a mask of the lumen, or of labels of a label map;
+    VOLUME is not needed then, and must have its grid.
 
     \b
     lumencut trace ct.nii.gz --point 12,-30,85 --point 8,-41,-20 -o aorta.vtp --preview aorta.png
@@ -167,7 +167,9 @@ def _check_points(chosen: dict[str, Any]) -> None:
     """Refuse points that are no vessel."""
     given = [name for name in ("point", "index", "points") if chosen[name]]
     if not given:
-        raise click.UsageError("found no points; expected --point, --index or --points along a vessel, or --seed")
+        raise click.UsageError(
+            "found no points; expected --point, --index or --points along a vessel, or --seed"
+        )
     if {"point", "index"} <= set(given):
         raise click.UsageError(
             "found --point and --index; expected one of them, whose order is that of the vessel"

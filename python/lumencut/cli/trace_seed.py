@@ -1,4 +1,4 @@
-"""``--seed``: centerlines of all branches that one point reaches, for ``lumencut trace`` and ``lumencut render``."""
+"""``--seed`` of ``lumencut trace`` and ``lumencut render``: all branches that one point reaches."""
 
 from __future__ import annotations
 
@@ -80,7 +80,9 @@ def traced_from_seed(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
         return tree
     length = sum(vessel.length for vessel in tree.doubtful)
     kept = "kept" if chosen["doubtful"] else "left out; --doubtful keeps them"
-    say(f"doubtful: {len(tree.doubtful)} of {len(tree) + len(tree.doubtful)} branches, {length:.0f} mm, {kept}")
+    say(
+        f"doubtful: {len(tree.doubtful)} of {len(tree) + len(tree.doubtful)} branches, {length:.0f} mm, {kept}"
+    )
     return VesselTree([*tree, *tree.doubtful]) if chosen["doubtful"] else tree
 
 

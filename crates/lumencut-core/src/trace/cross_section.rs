@@ -104,7 +104,14 @@ impl Probe<'_, '_> {
 
     /// The distance to the wall along a ray, and whether that is brighter than the lumen: where the value is half way
     /// between the lumen here and what lies outside, be that darker or brighter.
-    fn wall(&self, center: DVec3, direction: DVec3, lumen: f64, step: f64, reach: f64) -> Option<(f64, bool)> {
+    fn wall(
+        &self,
+        center: DVec3,
+        direction: DVec3,
+        lumen: f64,
+        step: f64,
+        reach: f64,
+    ) -> Option<(f64, bool)> {
         let start = self.voxels.index_from_world.transform_point3(center);
         let stride = self.voxels.index_from_world.transform_vector3(direction) * step;
         let mut ray = Ray { voxels: self.voxels, start, stride, values: Vec::with_capacity(64) };

@@ -54,7 +54,7 @@ impl Flood {
         let blocks = voxels.size.map(|n| n.div_ceil(SIDE));
         let table = vec![NO_BLOCK; blocks.iter().product()];
         let mut flood = Self { size: voxels.size, blocks, table, known: Vec::new(), places: Vec::new() };
-        let bounds = [model.tissue + WALL * model.contrast(), model.brightest()].map(|bound| bound as f32);
+        let bounds = bounds(model).map(|bound| bound as f32);
         flood.reach(voxels, bounds, seed, true);
         let mut next = 0;
         while next < flood.places.len() {
@@ -110,10 +110,10 @@ impl Flood {
             for j in first[1]..first[1] + count[1] {
                 for i in first[0]..first[0] + count[0] {
                     let voxel = [i, j, k];
-                    if let Some(number) = self.number_at(voxel) {
-                        if voxels.center(voxel).distance_squared(center) <= radius * radius {
-                            found(number);
-                        }
+                    let is_inside =
+                        |_: &u32| voxels.center(voxel).distance_squared(center) <= radius * radius;
+                    if let Some(number) = self.number_at(voxel).filter(is_inside) {
+                        found(number);
                     }
                 }
             }
@@ -160,4 +160,9 @@ impl Flood {
         let block = ((k / SIDE) * self.blocks[1] + j / SIDE) * self.blocks[0] + i / SIDE;
         Some((block, ((k % SIDE) * SIDE + j % SIDE) * SIDE + i % SIDE))
     }
+}
+
+/// The smallest and the largest value of lumen.
+pub fn bounds(model: &LumenModel) -> [f64; 2] {
+    [model.tissue + WALL * model.contrast(), model.brightest()]
 }

@@ -95,7 +95,12 @@ pub struct Surroundings {
 impl Surroundings {
     /// What surrounds the clicks.
     pub fn of(voxels: &Voxels, clicks: &[DVec3]) -> Self {
-        let samples = samples_around(voxels, clicks);
+        Self::within(voxels, clicks, SURROUNDINGS)
+    }
+
+    /// What lies up to `reach` (mm) around the clicks.
+    pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
+        let samples = samples_around(voxels, clicks, reach);
         let dark = samples.partition_point(|value| f64::from(*value) < HOUNSFIELD_LIMIT);
         let is_hounsfield = dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64;
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
@@ -201,11 +206,11 @@ impl Surroundings {
     }
 }
 
-/// Values of voxels within a box around the clicks, rising.
-fn samples_around(voxels: &Voxels, clicks: &[DVec3]) -> Vec<f32> {
+/// Values of voxels within a box around the clicks, rising; it reaches so far (mm).
+fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
     let (mut first, mut last) = (voxels.size.map(|n| n as i32 - 1), [0; 3]);
     for click in clicks {
-        let (low, count) = voxels.around(*click, SURROUNDINGS);
+        let (low, count) = voxels.around(*click, reach);
         for a in 0..3 {
             first[a] = first[a].min(low[a]);
             last[a] = last[a].max(low[a] + count[a] - 1);

@@ -215,11 +215,7 @@ fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) ->
 }
 
 /// A vessel as `refine` sees it, with those ends where they were that are not free.
-fn refined(
-    points: &[DVec3],
-    is_free: [bool; 2],
-    refine: Refine,
-) -> Result<Option<(Vec<DVec3>, Vec<f64>)>> {
+fn refined(points: &[DVec3], is_free: [bool; 2], refine: Refine) -> Result<Option<(Vec<DVec3>, Vec<f64>)>> {
     let Some((mut moved, radius)) = refine(points)? else { return Ok(None) };
     let ends = [points[0], points[points.len() - 1]];
     let ways = ways(&moved);

@@ -2,25 +2,25 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::flood::Flood;
+use super::cross_section::Probe;
+use super::flood::{Flood, bounds};
+use super::junctions::nearest;
 use super::lumen_model::{LumenModel, Surroundings, at};
 use super::mask::{self, TracedMask};
 use super::mask_vessels::MaskVessel;
-use super::cross_section::Probe;
-use super::junctions::nearest;
-use super::refine::{Centerline, refined};
 use super::path::arc_lengths;
-use super::seed_tree::{self, SeedBranch, SeenVessel};
-use super::tube::{Sections, Usual};
-use rayon::prelude::*;
+use super::refine::{Centerline, refined};
 use super::region::{Region, Strictness};
-use super::seed_branches::{Branches, Search};
+use super::seed_branches::Search;
+use super::seed_tree::{self, SeedBranch, SeenVessel};
 use super::seed_ways::Ways;
+use super::tube::{Sections, Usual};
 use super::voxels::Voxels;
 use crate::error::{Error, ErrorKind, Result};
 use crate::progress::Progress;
 use crate::stop::Stop;
 use crate::volume::{self, Volume};
+use rayon::prelude::*;
 
 /// The most voxels that a flood may have.
 const MOST_VOXELS: usize = 30_000_000;
@@ -32,6 +32,9 @@ const RAYS: usize = 24;
 const STRAYED: f64 = 1.5;
 const STRAYED_RADII: f64 = 0.5;
 const ASTRAY: f64 = 1.25;
+
+/// How far around the seed the tissue is looked at (mm): the widest vessel must not fill it.
+const SURROUNDINGS: f64 = 80.0;
 
 /// A vessel has more voxels.
 const LEAST_VOXELS: usize = 10;
@@ -83,14 +86,14 @@ pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>>
     };
     let smallest_radius = request.smallest_radius;
     let search = Search { voxels, model: &model, flood: &flood, smallest_radius, stop: request.stop };
-    let branches = search.branches(&mut ways, &told)?;
+    let kept = search.branches(&mut ways, &told)?;
     drop(ways);
-    if branches.kept.len() < LEAST_VOXELS {
+    if kept.len() < LEAST_VOXELS {
         return Err(no_tube(request, &model, flood.count()));
     }
     begin(2);
-    let traced = traced(voxels, &model, &flood, &branches, request)?;
-    let usual = Usual { value: model.low, contrast: model.contrast() };
+    let traced = traced(voxels, &model, &flood, &kept, request)?;
+    let usual = Usual::of(&model);
     let probe = Probe { voxels, model: &model, rays: RAYS };
     let seen = |vessel: MaskVessel| {
         let line = Centerline { points: vessel.points, radius: vessel.radius, confidence: Vec::new() };
@@ -107,9 +110,11 @@ pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>>
 
 /// The error for a seed whose lumen fills too much of the volume.
 fn floods(seed: DVec3, model: &LumenModel) -> Error {
-    let [least, most] = [model.tissue + 0.5 * model.contrast(), model.brightest()];
-    let found = format!("more than {MOST_VOXELS} voxels from {least:.0} to {most:.0} that are joined with it");
-    let expected = format!("vessels, brighter than the tissue around them, which has up to {:.0}", model.tissue);
+    let [least, most] = bounds(model);
+    let found =
+        format!("more than {MOST_VOXELS} voxels from {least:.0} to {most:.0} that are joined with it");
+    let expected =
+        format!("vessels, brighter than the tissue around them, which has up to {:.0}", model.tissue);
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", at(seed)), found, expected);
     error.mend("put the seed into the middle of a vessel with contrast medium")
 }
@@ -129,7 +134,7 @@ fn lumen_at(voxels: &Voxels, seed: DVec3) -> Result<(LumenModel, [i32; 3])> {
         let found = format!("{}, outside the volume", at(seed));
         return Err(Error::new(ErrorKind::Tracing, "seed", found, "a point within the volume"));
     };
-    let model = Surroundings::of(voxels, &[seed]).model(voxels, &[seed])?;
+    let model = Surroundings::within(voxels, &[seed], SURROUNDINGS).model(voxels, &[seed])?;
     Ok((model, start))
 }
 
@@ -138,11 +143,11 @@ fn traced(
     voxels: &Voxels,
     model: &LumenModel,
     flood: &Flood,
-    branches: &Branches,
+    kept: &[u32],
     request: &Request,
 ) -> Result<TracedMask> {
     let (mut low, mut high) = ([i32::MAX; 3], [0; 3]);
-    for &number in &branches.kept {
+    for &number in kept {
         let voxel = flood.voxel(number);
         for a in 0..3 {
             low[a] = low[a].min(voxel[a] - 1);
@@ -152,7 +157,7 @@ fn traced(
     let size: [usize; 3] = std::array::from_fn(|a| (high[a] - low[a] + 1).max(0) as usize);
     let strides = [1, size[0], size[0] * size[1]];
     let mut cells = vec![0_u8; size.iter().product()];
-    for &number in &branches.kept {
+    for &number in kept {
         let voxel = flood.voxel(number);
         let place: usize = (0..3).map(|a| (voxel[a] - low[a]) as usize * strides[a]).sum();
         cells[place] = 1;

@@ -76,14 +76,6 @@ enum Voxel {
     Leak,
 }
 
-/// What the search has found.
-pub struct Branches {
-    /// The numbers of the voxels in branches, rising.
-    pub kept: Vec<u32>,
-    /// Where the flood goes on but is no tube, and how many voxels lie behind.
-    pub leaks: Vec<(DVec3, usize)>,
-}
-
 /// The search of branches.
 pub struct Search<'a, 'v> {
     /// The volume.
@@ -99,24 +91,24 @@ pub struct Search<'a, 'v> {
 }
 
 impl Search<'_, '_> {
-    /// The branches. `told` hears now and then that voxels are done.
+    /// The numbers of the voxels in branches, rising. `told` hears of each voxel that is done.
     ///
     /// Ways that were found first may lead through bone into a vessel that others reach too. So what lies behind a leak is
     /// looked at again from all that is known by then, until nothing more is found.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Interrupted`].
-    pub fn branches(&self, ways: &mut Ways, told: &dyn Fn(usize)) -> Result<Branches> {
+    pub fn branches(&self, ways: &mut Ways, told: &dyn Fn(usize)) -> Result<Vec<u32>> {
         let mut state = vec![Voxel::Free; self.flood.count()];
-        let mut leaks = Vec::new();
         let mut kept = vec![SEED];
         for round in 0..ROUNDS {
-            let is_open = |number: u32| matches!(state[number as usize], Voxel::Free | Voxel::Near | Voxel::Bump);
+            let is_open =
+                |number: u32| matches!(state[number as usize], Voxel::Free | Voxel::Near | Voxel::Bump);
             ways.find(self.flood, self.voxels, &kept, &is_open, self.stop)?;
             for &tip in ways.order.iter().rev() {
                 told(usize::from(round == 0));
                 if state[tip as usize] == Voxel::Free {
-                    self.follow(ways, &mut state, tip, &mut leaks)?;
+                    self.follow(ways, &mut state, tip)?;
                 }
             }
             let known = kept.len();
@@ -129,13 +121,12 @@ impl Search<'_, '_> {
                     *voxel = Voxel::Free;
                 }
             }
-            if std::env::var("DBG").is_ok() { eprintln!("ROUND {round} kept {}", kept.len()); }
         }
-        Ok(Branches { kept, leaks })
+        Ok(kept)
     }
 
     /// Follows the way to a voxel from where it leaves what is known, as far as it is a tube.
-    fn follow(&self, ways: &Ways, state: &mut [Voxel], tip: u32, leaks: &mut Vec<(DVec3, usize)>) -> Result<()> {
+    fn follow(&self, ways: &Ways, state: &mut [Voxel], tip: u32) -> Result<()> {
         while state[tip as usize] == Voxel::Free {
             let way = way_to(ways, state, tip);
             let points: Vec<DVec3> = way.iter().map(|n| self.center(*n)).collect();
@@ -146,7 +137,7 @@ impl Search<'_, '_> {
             } else if !self.go_on(ways, state, &way, &points)? {
                 // What begins at the seed itself may be a tube on another way.
                 let first = if way[0] == SEED { way[within(&points, STRETCH) - 1] } else { way[0] };
-                leaks.push((self.center(first), self.drop_behind(ways, state, first)));
+                self.drop_behind(ways, state, first);
             }
         }
         Ok(())
@@ -170,10 +161,7 @@ impl Search<'_, '_> {
             return Ok(false);
         }
         let probe = Probe { voxels: self.voxels, model: self.model, rays: RAYS };
-        let usual = Usual { value: self.model.low, contrast: self.model.contrast() };
-        if std::env::var("DBG").is_ok() {
-            eprintln!("way of {} from {:.1} to {:.1}", way.len(), points[0], points[points.len() - 1]);
-        }
+        let usual = Usual::of(self.model);
         let is_faithful = |end: usize| {
             let way = length(&points[..=nearest(&points[..count], line.points[end])]);
             let new = line.points[from..=end].iter().filter(|point| !is_inside(**point)).count();
@@ -185,9 +173,6 @@ impl Search<'_, '_> {
             return Ok(false);
         };
         let last = nearest(&points[..count], line.points[end]);
-        if std::env::var("DBG").is_ok() {
-            eprintln!("   KEPT {from}..{end} from {:.1} to {:.1}", line.points[from], line.points[end]);
-        }
         self.keep(state, &line, end);
         // The way itself joins what the balls leave open, back to the branch that it leaves.
         let mut here = Some(way[last]);
@@ -205,18 +190,16 @@ impl Search<'_, '_> {
         let mut known: Vec<f32> = lead.iter().map(|place| self.voxels.at(*place)).collect();
         known.sort_unstable_by(f32::total_cmp);
         let level = known[known.len() / 2];
-        let most = (LIKE * self.model.contrast()).max(3.0 * self.model.noise) as f32;
+        let most = (LIKE * Usual::of(self.model).contrast).max(3.0 * self.model.noise) as f32;
         let alike = points.iter().filter(|place| (self.voxels.at(**place) - level).abs() <= most).count();
         alike as f64 >= ALIKE * points.len() as f64
     }
 
-    /// Drops what lies behind a voxel, and tells how many voxels that are.
-    fn drop_behind(&self, ways: &Ways, state: &mut [Voxel], first: u32) -> usize {
-        let mut count = 0;
+    /// Drops what lies behind a voxel, and closes the leak there.
+    fn drop_behind(&self, ways: &Ways, state: &mut [Voxel], first: u32) {
         ways.behind(first, |number| {
             if !is_known(state[number as usize]) {
                 state[number as usize] = Voxel::Dropped;
-                count += 1;
             }
         });
         self.flood.within(self.voxels, self.center(first), NECK * self.voxels.smallest_side, |number| {
@@ -225,10 +208,6 @@ impl Search<'_, '_> {
                 *voxel = Voxel::Leak;
             }
         });
-        if std::env::var("DBG").is_ok() {
-            eprintln!("   dropped {count} at {:.1}", self.center(first));
-        }
-        count
     }
 
     /// Keeps what lies within a branch up to its point `end`.

@@ -31,7 +31,9 @@ impl Doubt {
     /// The doubt in words.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Unseen => "its cross-sections are hardly those of a vessel, or its values are not those of the lumen",
+            Self::Unseen => {
+                "its cross-sections are hardly those of a vessel, or its values are not those of the lumen"
+            }
             Self::Behind => "only doubtful branches lead to it",
         }
     }
@@ -168,10 +170,14 @@ fn without_loose_ends(
     mut is_sure: Vec<bool>,
 ) -> Vec<bool> {
     let ends_alone = |is_sure: &[bool], number: usize| {
-        vessels[number].vessel.nodes.iter().any(|node| at_node[node].iter().filter(|n| is_sure[**n]).count() == 1)
+        vessels[number]
+            .vessel
+            .nodes
+            .iter()
+            .any(|node| at_node[node].iter().filter(|n| is_sure[**n]).count() == 1)
     };
-    while let Some(loose) = (0..vessels.len())
-        .find(|n| is_sure[*n] && !is_seen[*n] && ends_alone(&is_sure, *n))
+    while let Some(loose) =
+        (0..vessels.len()).find(|n| is_sure[*n] && !is_seen[*n] && ends_alone(&is_sure, *n))
     {
         is_sure[loose] = false;
     }

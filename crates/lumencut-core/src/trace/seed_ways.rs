@@ -62,7 +62,9 @@ impl Ways {
     ) -> Result<()> {
         let way = self.settled(flood, voxels, from, is_open, stop)?;
         self.order.clear();
-        self.order.extend((0..way.len() as u32).filter(|n| (f32::MIN_POSITIVE..f32::INFINITY).contains(&way[*n as usize])));
+        self.order.extend(
+            (0..way.len() as u32).filter(|n| (f32::MIN_POSITIVE..f32::INFINITY).contains(&way[*n as usize])),
+        );
         self.order.sort_unstable_by(|a, b| way[*a as usize].total_cmp(&way[*b as usize]).then(a.cmp(b)));
         self.first_child.fill(NONE);
         for &number in self.order.iter().rev() {

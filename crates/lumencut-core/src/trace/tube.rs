@@ -1,6 +1,7 @@
 //! Whether a line is that of a tube, and how far.
 
 use super::cross_section::{CrossSection, Probe};
+use super::lumen_model::LumenModel;
 use super::path::{arc_lengths, directions, frames};
 use super::refine::Centerline;
 
@@ -86,19 +87,16 @@ impl Sections {
         usual: &Usual,
         is_faithful: &dyn Fn(usize) -> bool,
     ) -> Option<usize> {
-        let debug = std::env::var("DBG").is_ok() && self.lengths[self.lengths.len() - 1] > 15.0;
         let count = self.lengths.len();
         // What comes before is known to be lumen.
         let mut before = self.stretch(0, from.max(1) - 1).filter(|_| from > 0);
         let (mut end, mut next) = (None, from);
-        if debug { eprintln!("line of {:.1} from {:.1} before {before:?}", self.lengths[count - 1], self.lengths[from.min(count - 1)]); }
         while let Some(stretch) = (next < count).then(|| self.stretch(next, count - 1)).flatten() {
             next = stretch.last + 1;
             let begins = before.as_ref().map_or(self.lengths[from], |before| self.lengths[before.last]);
-            let hidden = self.lengths[stretch.first] - begins.max(self.lengths[from.min(count-1)]);
+            let hidden = self.lengths[stretch.first] - begins.max(self.lengths[from.min(count - 1)]);
             let widest = before.as_ref().map_or(0.0, |before| before.radius).max(stretch.radius);
             let length = self.lengths[stretch.last] - self.lengths[stretch.first];
-            if debug { eprintln!("   {stretch:?} hidden {hidden:.1} length {length:.1} of r {:.1}", LEAST_RADII*stretch.radius); }
             if hidden > HIDDEN.max(HIDDEN_RADII * widest) {
                 break;
             }
@@ -121,7 +119,8 @@ impl Sections {
     /// The next stretch between two points that is seen.
     fn stretch(&self, from: usize, to: usize) -> Option<Stretch> {
         let first = (from..=to).find(|n| self.trust[*n] >= SEEN)?;
-        let last = (first + 1..=to).find(|n| self.trust[*n] < SEEN || self.widens(first, *n)).unwrap_or(to + 1) - 1;
+        let last =
+            (first + 1..=to).find(|n| self.trust[*n] < SEEN || self.widens(first, *n)).unwrap_or(to + 1) - 1;
         let part = first..=last;
         Some(Stretch {
             first,
@@ -161,6 +160,13 @@ pub struct Usual {
     pub value: f64,
     /// How far that is from the tissue around it.
     pub contrast: f64,
+}
+
+impl Usual {
+    /// What is usual for the lumen of a model.
+    pub fn of(model: &LumenModel) -> Self {
+        Self { value: model.low, contrast: model.contrast() }
+    }
 }
 
 fn median(values: &[f64]) -> f64 {
