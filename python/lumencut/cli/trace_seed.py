@@ -81,7 +81,7 @@ def traced_from_seed(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     length = sum(vessel.length for vessel in tree.doubtful)
     kept = "kept" if chosen["doubtful"] else "left out; --doubtful keeps them"
     say(
-        f"doubtful: {len(tree.doubtful)} of {len(tree) + len(tree.doubtful)} branches, {length:.0f} mm, {kept}"
+        f"doubtful: {len(tree.doubtful)} branches of {length:.0f} mm beside {len(tree)} that are sure; {kept}"
     )
     return VesselTree([*tree, *tree.doubtful]) if chosen["doubtful"] else tree
 

@@ -105,7 +105,9 @@ impl Sections {
                 before = Some(stretch);
             }
         }
-        let end = (from..=end?).rev().find(|n| self.radius[*n] >= smallest_radius)?;
+        let is_wide =
+            |n: &usize| median(&self.radius[from.max(n.saturating_sub(BEFORE))..=*n]) >= smallest_radius;
+        let end = (from..=end?).rev().find(is_wide)?;
         let outside = self.lengths[end] - self.lengths[from];
         (outside >= SHORTEST.max(SHORTEST_RADII * median(&self.radius[from..=end]))).then_some(end)
     }
