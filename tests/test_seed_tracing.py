@@ -75,13 +75,6 @@ def test_the_result_does_not_depend_on_the_number_of_threads(fork, spot):
     assert trees[0] == trees[1]
 
 
-def test_branches_end_where_they_are_narrower_than_asked_for(fork):
-    wide = trace_from(fork.volume, (0, 0, -20), smallest_radius=4.5)
-    assert wide.points[:, 2].max() < 8
-    everything = trace_from(fork.volume, (0, 0, -20), smallest_radius=0)
-    assert everything.points[:, 2].max() > 28
-
-
 def test_a_tree_from_elsewhere_has_no_doubtful_branches(fork):
     assert len(fork.tree.doubtful) == 0
     assert isinstance(fork.tree.doubtful, VesselTree)
@@ -114,9 +107,9 @@ def test_a_seed_in_bone_and_one_in_air_are_told_what_they_hit():
 
 
 def test_a_body_that_is_no_tube_is_an_error_that_says_so():
-    scene = Scene((60, 60, 60), (1.0,) * 3)
+    scene = Scene((40, 40, 40), (1.0,) * 3)
     scene.values[:] = FAT
-    scene.paint(np.zeros((1, 3)), 18.0, LUMEN)
+    scene.paint(np.zeros((1, 3)), 7.0, LUMEN)
     with pytest.raises(TracingError, match="nowhere a tube"):
         trace_from(scene.volume(1), (0, 0, 0))
 

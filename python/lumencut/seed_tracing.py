@@ -38,8 +38,8 @@ def trace_from(
     seed : array_like, shape (3,)
         A point in the lumen (mm, LPS). It need not be central.
     smallest_radius : float, default 1.0
-        Branches end where they are narrower from there on (mm). Lumen less than about two voxels wide is not
-        found.
+        Branches end about where they are narrower from there on (mm); some go on beyond. Lumen less than
+        about two voxels wide is not found.
     progress : callable, optional
         Called now and then with how much is done and how much there is to do.
 
