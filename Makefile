@@ -49,6 +49,7 @@ bench: develop tools ## Measure this machine, VTK beside it; prints tables, keep
 	$(BIN)/python benches/measure.py
 	$(BIN)/python benches/trace.py
 	$(BIN)/python benches/trace_mask.py
+	$(BIN)/python benches/trace_from.py
 
 bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--quick for slow ones.
 	cargo bench --locked --package lumencut-gpu --bench stages -- $(QUICK)

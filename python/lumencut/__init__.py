@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from lumencut.profile import Profile
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
+    from lumencut.seed_tracing import trace_from
     from lumencut.settings import Settings
     from lumencut.slab import Slab
     from lumencut.stenosis import Stenosis
@@ -95,6 +96,7 @@ _HOME = {
     "profile": ("Profile",),
     "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
+    "seed_tracing": ("trace_from",),
     "settings": ("Settings",),
     "slab": ("Slab",),
     "stenosis": ("Stenosis",),
@@ -172,6 +174,7 @@ __all__ = [
     "set_threads",
     "straightened_volume",
     "trace",
+    "trace_from",
     "trace_mask",
     "turntable",
     "write_centerlines",

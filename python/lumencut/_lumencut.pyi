@@ -13,6 +13,7 @@ _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 _WrittenArrays = tuple[
     npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None, npt.NDArray[np.float64] | None
 ]
+_BranchArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], str]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
@@ -65,6 +66,7 @@ __all__ = [
     "set_threads",
     "smoothed",
     "threads",
+    "trace_from",
     "trace_mask",
     "whole_window",
     "window_from_data",
@@ -280,6 +282,12 @@ def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float
 def set_threads(count: int) -> None: ...
 def smoothed(vessels: list[_Arrays], radii: float) -> list[npt.NDArray[np.float64]]: ...
 def threads() -> int: ...
+def trace_from(
+    volume: Any,
+    seed: tuple[float, float, float],
+    smallest_radius: float,
+    told: Callable[[int, int], object] | None = None,
+) -> list[_BranchArrays]: ...
 def trace_mask(
     mask: Any,
     volume: Any | None,

@@ -142,6 +142,7 @@ class VesselTree(Value):
     _space_settled = False
     _gaps: tuple[Gap, ...] = ()
     _notes: tuple[str, ...] = ()
+    _doubtful: tuple[Vessel, ...] = ()
 
     def __init__(self, vessels: Iterable[Vessel]) -> None:
         try:
@@ -346,8 +347,16 @@ class VesselTree(Value):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What there is to know of how the tree was traced from a mask, a sentence each."""
+        """What there is to know of how the tree was traced from a mask or a seed, a sentence each."""
         return self._notes
+
+    @property
+    def doubtful(self) -> VesselTree:
+        """The branches that :func:`lumencut.trace_from` is not sure of; none in other trees."""
+        tree = VesselTree.__new__(VesselTree)
+        tree._vessels = self._doubtful
+        tree._space_settled = self._space_settled
+        return tree
 
     @property
     def bounds(self) -> npt.NDArray[np.float64]:
@@ -358,7 +367,7 @@ class VesselTree(Value):
     @property
     def points(self) -> npt.NDArray[np.float64]:
         """The points of all vessels, one vessel after the other, shape (n, 3), mm, LPS."""
-        return np.concatenate([vessel.points for vessel in self._vessels])
+        return np.concatenate([np.empty((0, 3)), *(vessel.points for vessel in self._vessels)])
 
     @property
     def segment_count(self) -> int:

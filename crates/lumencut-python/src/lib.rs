@@ -14,6 +14,7 @@ mod placement;
 mod pool;
 mod ranges;
 mod renderer;
+mod seed_tracing;
 mod settings;
 mod tracing;
 mod tree;
@@ -70,6 +71,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::correspondence, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::trace_mask, module)?)?;
+    module.add_function(wrap_pyfunction!(seed_tracing::trace_from, module)?)?;
     module.add_function(wrap_pyfunction!(phantom::make_phantom, module)?)?;
     module.add_function(wrap_pyfunction!(write_centerlines::write_centerlines, module)?)?;
     module.add_function(wrap_pyfunction!(pool::set_threads, module)?)?;

@@ -1,4 +1,4 @@
-"""``lumencut trace``: centerlines from points along vessels, or from a mask."""
+"""``lumencut trace``: centerlines from points along vessels, from one seed, or from a mask."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from lumencut.cli.parameters import VECTOR
 from lumencut.cli.report import bar, busy, detail, say, verbose_option
 from lumencut.cli.scene import volume_of
 from lumencut.cli.trace_mask import WITH_MASK, mask_options, traced_from_mask
+from lumencut.cli.trace_seed import check_seed, has_seed, seed_options, traced_from_seed
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     Points = npt.NDArray[np.float64]
 
 
-@click.command(short_help="Trace centerlines from points along vessels, or from a mask.")
+@click.command(short_help="Trace centerlines from points, from one seed, or from a mask.")
 @click.argument("volume", type=FILE, required=False)
 @click.option(
     "--point",
@@ -61,12 +62,13 @@ if TYPE_CHECKING:
     metavar="MM",
     help="How far around a stopper is forbidden.",
 )
-@click.option("--ras", is_flag=True, help="Points and stoppers of this command line are in RAS, not LPS.")
+@click.option("--ras", is_flag=True, help="Points, seed and stoppers given here are in RAS, not LPS.")
 @click.option(
     "--bridge",
     is_flag=True,
     help="Go on where no lumen is to be seen, as in an occlusion; marked as not sure.",
 )
+@seed_options
 @mask_options
 @click.option(
     "-o",
@@ -91,15 +93,17 @@ def trace(
     device: Literal["auto", "cpu", "gpu"],
     **chosen: Any,
 ) -> None:
-    """Trace the centerlines of vessels in VOLUME from two or more points along each, or those of a mask.
+    """Trace centerlines in VOLUME from points along vessels, from one seed, or those of a mask.
 
     The points need not be central. All --point are one vessel; files of --points may hold several, which join
     where they meet. Points are at most 0.5 mm apart in the result, with the radius of the lumen and with how
-    sure each point is. With --mask they are those of a mask of the lumen, or of labels of a label map; VOLUME
-    is not needed then, and must have its grid.
+    sure each point is. With --seed they are those of all branches that one point reaches, the doubtful ones
+    left out and counted. With --mask they are those of a mask of the lumen, or of labels of a label map;
+    VOLUME is not needed then, and must have its grid.
 
     \b
     lumencut trace ct.nii.gz --point 12,-30,85 --point 8,-41,-20 -o aorta.vtp --preview aorta.png
+    lumencut trace ct.nii.gz --seed 12,-30,85 -o tree.vtp --preview tree.png
     lumencut trace --mask total.nii.gz --label 52=aorta --label 65 -o lines.vtp
     lumencut trace dicom/ --points vessels.mrk.json --stopper 20,-35,40 -o lines.vtp
     """  # noqa: D301 - click needs the control character itself
@@ -107,6 +111,8 @@ def trace(
     voxels = None if volume is None else volume_of(volume, chosen)
     if voxels is None or chosen["mask"] is not None:
         tree = traced_from_mask(chosen, voxels)
+    elif has_seed(chosen):
+        tree = traced_from_seed(chosen, voxels)
     else:
         tree = _traced(voxels, chosen, bridge=bridge)
     from lumencut.centerline_writers import write_centerlines
@@ -120,22 +126,26 @@ def trace(
         _render(voxels, tree, preview, device)
 
 
-#: The options of clicks, which do nothing with a mask.
-_WITH_POINTS = ("point", "index", "points", "stopper", "ras", "bridge")
+#: The options of clicks, which do nothing with a seed or a mask, but `ras`.
+_WITH_POINTS = ("point", "index", "points", "stopper", "bridge")
+_WITH_SEED = ("seed", "seed_index", "smallest_radius", "doubtful")
 
 
 def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict[str, Any]) -> None:
     """Refuse what a user cannot mean before any voxel is read."""
     has_mask = chosen["mask"] is not None
-    for name in _WITH_POINTS if has_mask else WITH_MASK:
+    for name in (*_WITH_POINTS, *_WITH_SEED, "ras") if has_mask else WITH_MASK:
         if chosen[name]:
             where = "with" if has_mask else "without"
             raise click.UsageError(f"--{name.replace('_', '-')} {where} --mask does nothing; leave it out")
+    check_seed(chosen)
     if volume is None and not has_mask:
         raise click.UsageError("found no VOLUME; expected one, or --mask")
     if volume is None and preview is not None:
         raise click.UsageError("--preview without VOLUME: a mask alone has no picture")
-    if not has_mask:
+    if has_seed(chosen):
+        _check_alone(chosen)
+    elif not has_mask:
         _check_points(chosen)
     volumes = [] if volume is None else [volume]
     check_reading({"coordinates": None, "unit": None, **chosen}, volumes, has_centerlines=True)
@@ -144,11 +154,22 @@ def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict
         options.check_picture(preview)
 
 
+def _check_alone(chosen: dict[str, Any]) -> None:
+    """Refuse what does nothing beside a seed."""
+    for name in _WITH_POINTS:
+        if chosen[name]:
+            raise click.UsageError(f"--{name} with --seed does nothing; leave one of them out")
+    if chosen["ras"] and chosen["seed"] is None:
+        raise click.UsageError("--ras with --seed-index does nothing; leave it out")
+
+
 def _check_points(chosen: dict[str, Any]) -> None:
     """Refuse points that are no vessel."""
     given = [name for name in ("point", "index", "points") if chosen[name]]
     if not given:
-        raise click.UsageError("found no points; expected --point, --index or --points along a vessel")
+        raise click.UsageError(
+            "found no points; expected --point, --index or --points along a vessel, or --seed"
+        )
     if {"point", "index"} <= set(given):
         raise click.UsageError(
             "found --point and --index; expected one of them, whose order is that of the vessel"

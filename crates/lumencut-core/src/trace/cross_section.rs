@@ -30,6 +30,10 @@ pub struct CrossSection {
     pub radius: f64,
     /// How well it was seen, 0 to 1.
     pub trust: f64,
+    /// The median of the values in its middle.
+    pub value: f64,
+    /// The share of the walls seen that are brighter than the lumen, as bone and stents are.
+    pub bright: f64,
 }
 
 /// What a cross-section is looked at with.
@@ -49,11 +53,13 @@ impl Probe<'_, '_> {
         let step = self.step(guess);
         let lumen = self.local_lumen(center, across, guess)?;
         let reach = guess.map_or(WIDEST, |radius| (2.5 * radius + 2.0).min(WIDEST));
-        let mut wall = Vec::with_capacity(self.rays);
+        let (mut wall, mut bright) = (Vec::with_capacity(self.rays), 0);
         for n in 0..self.rays {
             let (sin, cos) = (TAU * n as f64 / self.rays as f64).sin_cos();
-            if let Some(length) = self.wall(center, across[0] * cos + across[1] * sin, lumen, step, reach) {
+            let direction = across[0] * cos + across[1] * sin;
+            if let Some((length, is_bright)) = self.wall(center, direction, lumen, step, reach) {
                 wall.push([length * cos, length * sin]);
+                bright += usize::from(is_bright);
             }
         }
         let seen = wall.len() as f64 / self.rays as f64;
@@ -69,6 +75,8 @@ impl Probe<'_, '_> {
             center: center + across[0] * x + across[1] * y,
             radius: circle.radius,
             trust,
+            value: lumen,
+            bright: bright as f64 / wall.len() as f64,
         })
     }
 
@@ -94,9 +102,16 @@ impl Probe<'_, '_> {
         is_lumen.then_some(f64::from(median))
     }
 
-    /// The distance to the wall along a ray: where the value is half way between the lumen here and what lies outside,
-    /// be that darker or brighter.
-    fn wall(&self, center: DVec3, direction: DVec3, lumen: f64, step: f64, reach: f64) -> Option<f64> {
+    /// The distance to the wall along a ray, and whether that is brighter than the lumen: where the value is half way
+    /// between the lumen here and what lies outside, be that darker or brighter.
+    fn wall(
+        &self,
+        center: DVec3,
+        direction: DVec3,
+        lumen: f64,
+        step: f64,
+        reach: f64,
+    ) -> Option<(f64, bool)> {
         let start = self.voxels.index_from_world.transform_point3(center);
         let stride = self.voxels.index_from_world.transform_vector3(direction) * step;
         let mut ray = Ray { voxels: self.voxels, start, stride, values: Vec::with_capacity(64) };
@@ -124,7 +139,7 @@ impl Probe<'_, '_> {
         let (inside, outside) = (ray.value(n), ray.value(n + 1));
         let share =
             if outside == inside { 0.5 } else { ((half - inside) / (outside - inside)).clamp(0.0, 1.0) };
-        share.is_finite().then_some((n as f64 + share) * step)
+        share.is_finite().then_some(((n as f64 + share) * step, !is_dark))
     }
 }
 

@@ -55,8 +55,7 @@ impl LumenModel {
     pub fn membership(&self, value: f32) -> f32 {
         let (contrast, value) = (self.contrast(), f64::from(value));
         let (empty, full) = (self.tissue + 0.2 * contrast, self.tissue + 0.75 * contrast);
-        let above = self.high + (0.35 * contrast).max(3.0 * self.noise);
-        let far_above = self.far_above();
+        let (above, far_above) = (self.brightest(), self.far_above());
         let share = if value >= above {
             1.0 - ABOVE_IS_NOT * ((value - above) / (far_above - above)).min(1.0)
         } else {
@@ -79,6 +78,11 @@ impl LumenModel {
     /// The standard deviation that noise gives the membership of values between tissue and lumen.
     pub fn noise_of_membership(&self) -> f64 {
         self.noise / (0.55 * self.contrast())
+    }
+
+    /// The brightest value that lumen has for sure; bone, stents and calcium may lie above.
+    pub fn brightest(&self) -> f64 {
+        self.high + (0.35 * self.contrast()).max(3.0 * self.noise)
     }
 
     /// Whether a median of lumen lies within what the model already takes for lumen.
@@ -105,7 +109,12 @@ pub struct Surroundings {
 impl Surroundings {
     /// What surrounds the clicks.
     pub fn of(voxels: &Voxels, clicks: &[DVec3]) -> Self {
-        let samples = samples_around(voxels, clicks);
+        Self::within(voxels, clicks, SURROUNDINGS)
+    }
+
+    /// What lies up to `reach` (mm) around the clicks.
+    pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
+        let samples = samples_around(voxels, clicks, reach);
         let dark = samples.partition_point(|value| f64::from(*value) < HOUNSFIELD_LIMIT);
         let is_hounsfield = dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64;
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
@@ -211,11 +220,11 @@ impl Surroundings {
     }
 }
 
-/// Values of voxels within a box around the clicks, rising.
-fn samples_around(voxels: &Voxels, clicks: &[DVec3]) -> Vec<f32> {
+/// Values of voxels within a box around the clicks, rising; it reaches so far (mm).
+fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
     let (mut first, mut last) = (voxels.size.map(|n| n as i32 - 1), [0; 3]);
     for click in clicks {
-        let (low, count) = voxels.around(*click, SURROUNDINGS);
+        let (low, count) = voxels.around(*click, reach);
         for a in 0..3 {
             first[a] = first[a].min(low[a]);
             last[a] = last[a].max(low[a] + count[a] - 1);
