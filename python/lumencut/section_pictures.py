@@ -1,0 +1,167 @@
+"""Pictures of the sections across a vessel with the contour of the lumen, alone and side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.annotation import bar_length_for
+from lumencut.contact_sheet import Picture, contact_sheet
+from lumencut.lettering import Sheet
+from lumencut.measuring import cross_section
+from lumencut.profile import Profile
+from lumencut.profile_sections import counts, flag_words, nearest
+from lumencut.vessel_tree import Vessel
+from lumencut.volume import Volume
+from lumencut.window import Window
+
+#: The side of a picture of a section (pixels).
+SIDE = 260
+
+#: Contours of sections that count, and of others.
+_COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
+
+#: Contours are drawn so many times as large and made smaller: their edges are smooth.
+_FINER = 3
+
+#: A picture is this many times as wide as the lumen, and within these (mm).
+_ROOM, _SIZES = 2.5, (12.0, 120.0)
+
+
+def fitting_size(profile: Profile) -> float:
+    """Return the side (mm) of pictures in which nearly all sections of a vessel that count have room."""
+    wide = profile.diameter_max[counts(profile)]
+    if not len(wide):
+        wide = profile.diameter_max[np.isfinite(profile.diameter_max)]
+    if not len(wide):
+        return 30.0
+    return float(np.clip(np.ceil(_ROOM * np.quantile(wide, 0.9)), *_SIZES))
+
+
+def section_picture(
+    volume: Volume,
+    vessel: Vessel,
+    profile: Profile,
+    number: int,
+    size: float,
+    window: Window,
+    *,
+    has_contour: bool = True,
+) -> Picture:
+    """Return one section (H, W, 4): the volume across the vessel, the contour, numbers with units, a scale.
+
+    The contour is cyan where the section counts for what is narrowest or widest, and orange where flags leave
+    it out. Without it there are no numbers either.
+    """
+    origin, across = profile.center[number], _axes(volume, vessel, profile, number)
+    spacing = size / (SIDE - 1)
+    steps = (np.arange(SIDE) - (SIDE - 1) / 2) * spacing
+    places = origin + steps[:, None, None] * across[1] + steps[None, :, None] * across[0]
+    picture = _grey(volume.sample(places.reshape(-1, 3)).reshape(SIDE, SIDE), window)
+    if not has_contour:
+        return _with_scale(Sheet(picture), spacing)
+    contour = (profile.contour[number] - origin) @ across.T / spacing + (SIDE - 1) / 2
+    if np.isfinite(contour).all():
+        color = _COUNTED if counts(profile)[number] else _LEFT_OUT
+        picture = _with_line(picture, contour, color)
+    return _labelled(picture, profile, number, spacing)
+
+
+def sections_sheet(
+    volume: Volume,
+    window: Window,
+    rows: Sequence[tuple[str, Vessel, Profile, Sequence[float]]],
+    progress: Callable[[int, int], object] = lambda done, total: None,
+) -> Picture:
+    """Return sections of vessels side by side, each below the name of its vessel and its arc length.
+
+    A row has the name, the vessel, its profile, and the places (mm); sections of one vessel have one scale.
+    """
+    pictures, titles = [], []
+    total = sum(len(places) for *_, places in rows)
+    for name, vessel, profile, places in rows:
+        size = fitting_size(profile)
+        for number in _numbers(profile, places):
+            pictures.append(section_picture(volume, vessel, profile, number, size, window))
+            titles.append(f"{name}, {profile.arc_length[number]:.1f} mm")
+            progress(len(pictures), total)
+    return contact_sheet(pictures, titles)
+
+
+def even_places(profile: Profile, count: int) -> list[float]:
+    """Return places evenly along a vessel, from its first section to its last (mm)."""
+    wanted = np.linspace(0, len(profile) - 1, min(count, len(profile)))
+    return [float(profile.arc_length[number]) for number in np.unique(wanted.round().astype(int))]
+
+
+def _numbers(profile: Profile, places: Sequence[float]) -> list[int]:
+    """The sections nearest to places, each once, along the vessel."""
+    return sorted({nearest(profile, place) for place in places})
+
+
+def _axes(volume: Volume, vessel: Vessel, profile: Profile, number: int) -> npt.NDArray[np.float64]:
+    """The unit vectors to the right and downwards in the plane that was measured, shape (2, 3).
+
+    They are turned about the vessel as those of `cross_section`, whose plane is that of the vessel as it is
+    given.
+    """
+    corners = cross_section(volume, vessel, float(profile.arc_length[number]), 4.0, 1.0).position
+    normal = profile.normal[number]
+    right, down = (end - corners[0, 0] for end in (corners[0, -1], corners[-1, 0]))
+    right = right - (right @ normal) * normal
+    right /= np.linalg.norm(right)
+    lower = np.cross(normal, right)
+    return np.stack([right, lower if lower @ down > 0 else -lower])
+
+
+def _grey(value: npt.NDArray[np.float32], window: Window) -> Picture:
+    """Values in a window; outside of the volume it is black."""
+    share = (np.nan_to_num(value, nan=-np.inf) - window.level) / window.width + 0.5
+    grey = (np.clip(share, 0, 1) * 255).round().astype(np.uint8)
+    return np.stack([grey, grey, grey, np.full_like(grey, 255)], axis=-1)
+
+
+def _with_line(picture: Picture, points: npt.NDArray[np.float64], color: tuple[int, ...]) -> Picture:
+    """A picture with a closed line through points (column and row)."""
+    from PIL import Image, ImageDraw
+
+    height, width = picture.shape[:2]
+    finer = Image.new("L", (width * _FINER, height * _FINER), 0)
+    path = [tuple(point) for point in (points + 0.5) * _FINER - 0.5]
+    ImageDraw.Draw(finer).line([*path, *path[:2]], fill=255, width=_FINER + 1, joint="curve")
+    drawn = np.asarray(finer.resize((width, height), Image.Resampling.BOX), np.float64)[..., None] / 255
+    return (picture * (1 - drawn) + np.array(color) * drawn).round().astype(np.uint8)
+
+
+def _labelled(picture: Picture, profile: Profile, number: int, spacing: float) -> Picture:
+    """A section with its numbers in the upper left corner and a scale in the lower one."""
+    sheet = Sheet(picture)
+    short, long = profile.diameter_min[number], profile.diameter_max[number]
+    lines = ["no lumen found"]
+    if np.isfinite(profile.area[number]):
+        lines = [f"{profile.diameter_equivalent[number]:.2f} mm ({short:.2f} to {long:.2f})"]
+    words = ", ".join(flag_words(int(profile.flags[number])))
+    lines += _wrapped(sheet, words)
+    for n, line in enumerate(lines):
+        sheet.write(line, (sheet.margin, sheet.margin + n * sheet.line_height))
+    return _with_scale(sheet, spacing)
+
+
+def _with_scale(sheet: Sheet, spacing: float) -> Picture:
+    length = bar_length_for(sheet.size[0] * spacing)
+    sheet.bar(round(length / spacing), sheet.size[1] - sheet.margin, f"{length:.10g} mm")
+    return sheet.pixels()
+
+
+def _wrapped(sheet: Sheet, words: str) -> list[str]:
+    """Words that are separated by commas in lines that fit a sheet."""
+    lines: list[str] = []
+    for word in words.split(", ") if words else []:
+        longer = f"{lines[-1]}, {word}" if lines else word
+        if lines and sheet.box(longer, (sheet.margin, 0))[2] <= sheet.size[0] - sheet.margin:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
