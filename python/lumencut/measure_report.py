@@ -25,8 +25,9 @@ from lumencut.section_pictures import fitting_size, section_picture
 from lumencut.volume import Volume
 from lumencut.window import Window
 
-#: How much of the surroundings the CPR shows: so many diameters, and within these (mm).
-_ROOM, _WIDTHS = 3.0, (16.0, 90.0)
+#: The width of the CPR: that of the pictures of sections, of a short vessel less, down to this share of it;
+#: at most so many lengths; and within these (mm).
+_LEAST, _TALLEST, _WIDTHS = 0.6, 0.4, (12.0, 90.0)
 
 #: The most rows of pixels of the CPR.
 _LONGEST = 1600
@@ -41,8 +42,9 @@ table { border-collapse: collapse; } th, td { padding: .15em .8em .15em 0; text-
 th { border-bottom: 1px solid #999; font-weight: normal; color: #555; vertical-align: bottom; }
 th:first-child, td:first-child, td.words, th.words { text-align: left; }
 figure { display: inline-block; margin: 0 1em .6em 0; break-inside: avoid; } img { max-width: 100%; }
-figcaption { font-size: 12px; color: #333; } .small { font-size: 12px; color: #444; }
-@media print { body { margin: 0; font-size: 12px; } }
+figcaption { font-size: 12px; color: #333; }
+.pair { width: 31%; } .small { font-size: 12px; color: #444; }
+@media print { body { margin: 0; font-size: 11px; } .plot img { max-height: 95mm; } }
 """
 
 _EXPLAINED = (
@@ -107,7 +109,7 @@ def _page(
         parts.append(f'<p class="stenosis">{escape(str(one.stenosis))}</p>')
     if one.group is not None:
         parts.append(f"<p>Group of the field: {escape(one.group)}</p>")
-    parts += [_figure(_plot(renderer, one), "Straightened CPR and diameter along the vessel")]
+    parts += [_figure(_plot(renderer, one), "Straightened CPR and diameter along the vessel", "plot")]
     parts += ["<h2>Places</h2>", _places(one)]
     parts += ["<h2>Sections</h2>", _sections(volume, one, window)]
     parts += [f"<p>{_EXPLAINED}</p>", f'<p class="small">{escape(_told(one, settings))}</p>', "</section>"]
@@ -117,7 +119,9 @@ def _page(
 def _plot(renderer: Renderer, one: MeasuredVessel) -> bytes:
     """The profile below the straightened vessel, which runs from left to right, as PNG."""
     profile, length = one.profile, float(one.profile.arc_length[-1])
-    width = float(np.clip(_ROOM * fitting_size(profile) / 2.5, *_WIDTHS))
+    size = fitting_size(profile)
+    # Of a short vessel less of its surroundings, so that it is not drawn flat.
+    width = float(np.clip(max(_LEAST * size, min(size, _TALLEST * length)), *_WIDTHS))
     spacing = max(0.25, length / _LONGEST)
     made = cpr_of(renderer, one.vessel, "straightened", width=width, pixel_spacing=spacing)
     figure = figure_of([("", profile, one.marks)], np.rot90(made.image))
@@ -129,13 +133,13 @@ def _plot(renderer: Renderer, one: MeasuredVessel) -> bytes:
 
 def _places(one: MeasuredVessel) -> str:
     """The numbers of marked places and of the widest one as a table."""
-    rows = [_row(one, str(mark).partition(":")[0], mark.arc_length) for mark in one.marks]
+    rows = [_row(one, mark.title, mark.arc_length) for mark in one.marks]
     widest = one.profile.widest()
     if widest is not None:
         rows.append(_row(one, "longest diameter", widest.arc_length))
     if not rows:
         return "<p>No section counts: see the flags.</p>"
-    head = ("arc length (mm)", "diameter ± (mm)", "shortest (mm)", "longest (mm)", "area (mm²)")
+    head = ("arc length (mm)", "diameter ± 1 SD (mm)", "shortest (mm)", "longest (mm)", "area (mm²)")
     names = "".join(f"<th>{name}</th>" for name in head)
     return (
         f'<table><tr><th>place</th>{names}<th class="words">flags</th></tr>\n' + "\n".join(rows) + "</table>"
@@ -167,7 +171,7 @@ def _sections(volume: Volume, one: MeasuredVessel, window: Window) -> str:
             section_picture(volume, one.vessel, one.profile, number, size, window, has_contour=has_contour)
             for has_contour in (True, False)
         ]
-        figures.append(_figure(picture_as_png(_beside(pair)), _caption(mark)))
+        figures.append(_figure(picture_as_png(_beside(pair)), _caption(mark), "pair"))
     return "\n".join(figures)
 
 
@@ -176,16 +180,14 @@ def _beside(pair: Sequence[Picture]) -> Picture:
 
 
 def _caption(mark: Mark) -> str:
-    return (
-        f"{str(mark).partition(':')[0]}, section at {mark.arc_length:.1f} mm: with the contour, and without"
-    )
+    return f"{mark.title} at {mark.arc_length:.1f} mm: with the contour, and without"
 
 
-def _figure(png: bytes, caption: str) -> str:
+def _figure(png: bytes, caption: str, kind: str) -> str:
     encoded = base64.b64encode(png).decode("ascii")
     words = escape(caption)
     return (
-        f'<figure><img src="data:image/png;base64,{encoded}" alt="{words}">'
+        f'<figure class="{kind}"><img src="data:image/png;base64,{encoded}" alt="{words}">'
         f"<figcaption>{words}</figcaption></figure>"
     )
 

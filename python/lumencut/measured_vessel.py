@@ -100,12 +100,10 @@ class MeasuredVessel:
     @property
     def told(self) -> list[str]:
         """What there is to say of it, in lines: each percentage with its method, its references and mm."""
-        lines = []
-        if self.stenosis is not None:
-            lines.append(str(self.stenosis))
-        if self.group is not None:
-            lines.append(f"group of the field: {self.group}")
-        return lines + [str(mark) for mark in self.marks]
+        if self.stenosis is None:
+            return [str(mark) for mark in self.marks]
+        group = [] if self.group is None else [f"group of the field: {self.group}"]
+        return [str(self.stenosis), *group]
 
     def record(self) -> dict[str, Any]:
         """Return it as what JSON can hold."""

@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 _DEVIATIONS, _DPI = 2, 150
 
 #: The size of a plot, where its axes lie in it from left to right (shares), and its other edges (inches).
-_WIDTH, _HEIGHT = 11.0, 4.0
-_SIDES, _BELOW, _ABOVE = (0.07, 0.66), 0.55, 0.5
+_WIDTH, _HEIGHT = 10.0, 3.8
+_SIDES, _BELOW, _ABOVE = (0.075, 0.65), 0.55, 0.55
 
 #: The shortest and the tallest strip, and what is above and below it (inches).
-_STRIP_HEIGHT, _STRIP_MARGINS = (0.9, 3.2), 0.2
+_STRIP_HEIGHT, _STRIP_MARGINS = (0.9, 2.6), 0.15
 
 _LINE, _LEFT_OUT, _MARKS = "#1f4e9c", "#9a9a9a", "#c8102e"
 _FLAGS = dict(
@@ -122,19 +122,22 @@ def figure_of(
 
     with style.context("default"):
         above = 0.0 if strip is None else _strip_height(strip)
-        height = len(profiles) * _HEIGHT + above
+        # Below a strip there is no title.
+        each = _HEIGHT if strip is None else _HEIGHT - _ABOVE + 0.1
+        height = len(profiles) * each + above
         figure = Figure(figsize=(_WIDTH, height))
         left, right = _SIDES
         for number, (title, sections, marks) in enumerate(profiles):
-            bottom = height - above - (number + 1) * _HEIGHT + _BELOW
+            bottom = (len(profiles) - number - 1) * each + _BELOW
             tall = _HEIGHT - _BELOW - _ABOVE
             axes = figure.add_axes((left, bottom / height, right - left, tall / height))
             draw(axes, sections, marks)
-            axes.set_title(title, loc="left", fontsize=10, parse_math=False)
+            if strip is None:
+                axes.set_title(title, loc="left", fontsize=10, parse_math=False)
         if strip is not None:
             _, sections, marks = profiles[0]
             tall = above - _STRIP_MARGINS
-            place = (left, 1 - (tall + 0.1) / height, right - left, tall / height)
+            place = (left, 1 - (tall + 0.08) / height, right - left, tall / height)
             _draw_strip(figure.add_axes(place), strip, sections, marks)
         return figure
 
@@ -231,4 +234,4 @@ def _draw_strip(axes: Axes, strip: npt.NDArray[np.uint8], sections: Sections, ma
     natural = (_SIDES[1] - _SIDES[0]) * _WIDTH * strip.shape[0] / strip.shape[1]
     drawn = _strip_height(strip) - _STRIP_MARGINS
     same = abs(drawn / natural - 1) < 0.01
-    axes.set_ylabel("across (mm)" if same else f"across (mm),\n{drawn / natural:.2g} times as tall")
+    axes.set_ylabel("across (mm)" if same else f"across (mm),\nheight × {drawn / natural:.2g}")

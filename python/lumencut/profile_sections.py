@@ -116,10 +116,14 @@ class Mark:
     diameter: float
     is_suggestion: bool
 
+    @property
+    def title(self) -> str:
+        """What it is, and whether it is but a suggestion."""
+        return f"{self.name} (suggestion)" if self.is_suggestion else self.name
+
     def __str__(self) -> str:
         """The place in words, with its diameter."""
-        name = f"{self.name} (suggestion)" if self.is_suggestion else self.name
-        return f"{name}: {self.diameter:.2f} mm at {self.arc_length:.1f} mm"
+        return f"{self.title}: {self.diameter:.2f} mm at {self.arc_length:.1f} mm"
 
 
 def counts(sections: Sections) -> npt.NDArray[np.bool_]:

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from lumencut.annotation import bar_length_for
 from lumencut.contact_sheet import Picture, contact_sheet
 from lumencut.lettering import Sheet
+from lumencut.measured_vessel import MeasuredVessel
 from lumencut.measuring import cross_section
 from lumencut.profile import Profile
 from lumencut.profile_sections import counts, flag_words, nearest
@@ -48,12 +49,13 @@ def section_picture(
     size: float,
     window: Window,
     *,
+    words: str = "",
     has_contour: bool = True,
 ) -> Picture:
     """Return one section (H, W, 4): the volume across the vessel, the contour, numbers with units, a scale.
 
     The contour is cyan where the section counts for what is narrowest or widest, and orange where flags leave
-    it out. Without it there are no numbers either.
+    it out. Without it there are no numbers either. `words` stand above the numbers.
     """
     origin, across = profile.center[number], _axes(volume, vessel, profile, number)
     spacing = size / (SIDE - 1)
@@ -66,39 +68,48 @@ def section_picture(
     if np.isfinite(contour).all():
         color = _COUNTED if counts(profile)[number] else _LEFT_OUT
         picture = _with_line(picture, contour, color)
-    return _labelled(picture, profile, number, spacing)
+    return _labelled(picture, profile, number, words, spacing)
 
 
 def sections_sheet(
     volume: Volume,
     window: Window,
-    rows: Sequence[tuple[str, Vessel, Profile, Sequence[float]]],
+    measured: Sequence[MeasuredVessel],
+    count: int,
     progress: Callable[[int, int], object] = lambda done, total: None,
 ) -> Picture:
-    """Return sections of vessels side by side, each below the name of its vessel and its arc length.
+    """Return sections side by side, each below the name of its vessel and its arc length.
 
-    A row has the name, the vessel, its profile, and the places (mm); sections of one vessel have one scale.
+    Of each vessel `count` sections from its first to its last and those of its marks are shown, to one scale.
+    Each vessel begins a line.
     """
-    pictures, titles = [], []
-    total = sum(len(places) for *_, places in rows)
-    for name, vessel, profile, places in rows:
-        size = fitting_size(profile)
-        for number in _numbers(profile, places):
-            pictures.append(section_picture(volume, vessel, profile, number, size, window))
-            titles.append(f"{name}, {profile.arc_length[number]:.1f} mm")
-            progress(len(pictures), total)
-    return contact_sheet(pictures, titles)
+    pictures: list[Picture] = []
+    titles, starts = [], []
+    for done, one in enumerate(measured, 1):
+        size, marked = fitting_size(one.profile), _marked(one)
+        starts.append(len(pictures))
+        for number in sorted({*_even(one.profile, count), *marked}):
+            words = marked.get(number, "")
+            pictures.append(
+                section_picture(volume, one.vessel, one.profile, number, size, window, words=words)
+            )
+            titles.append(f"{one.name}, at {one.profile.arc_length[number]:.1f} mm")
+        progress(done, len(measured))
+    return contact_sheet(pictures, titles, starts)
 
 
-def even_places(profile: Profile, count: int) -> list[float]:
-    """Return places evenly along a vessel, from its first section to its last (mm)."""
+def _even(profile: Profile, count: int) -> list[int]:
+    """Sections evenly along a vessel, from its first to its last."""
     wanted = np.linspace(0, len(profile) - 1, min(count, len(profile)))
-    return [float(profile.arc_length[number]) for number in np.unique(wanted.round().astype(int))]
+    return [int(number) for number in np.unique(wanted.round())]
 
 
-def _numbers(profile: Profile, places: Sequence[float]) -> list[int]:
-    """The sections nearest to places, each once, along the vessel."""
-    return sorted({nearest(profile, place) for place in places})
+def _marked(one: MeasuredVessel) -> dict[int, str]:
+    """The sections nearest to marked places, and what is marked there."""
+    found: dict[int, list[str]] = {}
+    for mark in one.marks:
+        found.setdefault(nearest(one.profile, mark.arc_length), []).append(mark.title)
+    return {number: ", ".join(titles) for number, titles in found.items()}
 
 
 def _axes(volume: Volume, vessel: Vessel, profile: Profile, number: int) -> npt.NDArray[np.float64]:
@@ -135,15 +146,16 @@ def _with_line(picture: Picture, points: npt.NDArray[np.float64], color: tuple[i
     return (picture * (1 - drawn) + np.array(color) * drawn).round().astype(np.uint8)
 
 
-def _labelled(picture: Picture, profile: Profile, number: int, spacing: float) -> Picture:
+def _labelled(picture: Picture, profile: Profile, number: int, words: str, spacing: float) -> Picture:
     """A section with its numbers in the upper left corner and a scale in the lower one."""
     sheet = Sheet(picture)
     short, long = profile.diameter_min[number], profile.diameter_max[number]
-    lines = ["no lumen found"]
-    if np.isfinite(profile.area[number]):
-        lines = [f"{profile.diameter_equivalent[number]:.2f} mm ({short:.2f} to {long:.2f})"]
-    words = ", ".join(flag_words(int(profile.flags[number])))
-    lines += _wrapped(sheet, words)
+    lines = _wrapped(sheet, words)
+    if not np.isfinite(profile.area[number]):
+        lines.append("no lumen found")
+    else:
+        lines += [f"{profile.diameter_equivalent[number]:.2f} mm ({short:.2f} to {long:.2f})"]
+    lines += _wrapped(sheet, ", ".join(flag_words(int(profile.flags[number]))))
     for n, line in enumerate(lines):
         sheet.write(line, (sheet.margin, sheet.margin + n * sheet.line_height))
     return _with_scale(sheet, spacing)

@@ -19,6 +19,7 @@ from lumencut.errors import MeasuringError
 
 if TYPE_CHECKING:
     from lumencut.measured_vessel import Marked, MeasuredVessel
+    from lumencut.profile import Profile
     from lumencut.vessel_tree import Vessel, VesselTree
     from lumencut.volume import Volume
 
@@ -120,10 +121,16 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
         raise click.UsageError(f"--at is a place on one vessel; found {len(vessels)}; {mend}")
     measured = _measured(voxels, tree, vessels, chosen)
     for one in measured:
-        say(f"{one.name}: {one.profile!r}")
+        say(f"{one.name}: {_described(one.profile)}")
         for line in one.told:
             say(f"  {line}")
     write_outputs(voxels, tree, measured, output, chosen)
+
+
+def _described(profile: Profile) -> str:
+    """How a vessel was measured, in words."""
+    length = f"{len(profile)} sections over {profile.arc_length[-1]:.1f} mm"
+    return f"{length}, FWHM {profile.fwhm:.2f} mm {profile.fwhm_source}"
 
 
 def _check_places(chosen: dict[str, Any]) -> None:

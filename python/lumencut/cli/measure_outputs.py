@@ -122,26 +122,19 @@ def _write_plot(path: Path, measured: Sequence[MeasuredVessel]) -> None:
 
 
 def _title(one: MeasuredVessel) -> str:
-    return one.name if one.stenosis is None else f"{one.name}\n{one.stenosis}"
+    name = f"vessel {one.name}, {one.profile.arc_length[-1]:.1f} mm"
+    return name if one.stenosis is None else f"{name}\n{one.stenosis}"
 
 
 def _write_sheet(path: Path, voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel]) -> None:
     from lumencut.frame import save_picture
-    from lumencut.section_pictures import even_places, sections_sheet
+    from lumencut.section_pictures import sections_sheet
     from lumencut.window import Window
 
     count = min(_SECTIONS, max(_LEAST, _IN_ALL // len(measured)))
-    rows = [
-        (
-            one.name,
-            one.vessel,
-            one.profile,
-            [*even_places(one.profile, count), *(mark.arc_length for mark in one.marks)],
-        )
-        for one in measured
-    ]
-    with bar("sections", "section") as told:
-        save_picture(sections_sheet(voxels, Window.from_data(voxels, tree), rows, told), path)
+    with bar("sections", "vessel") as told:
+        window = Window.from_data(voxels, tree)
+        save_picture(sections_sheet(voxels, window, measured, count, told), path)
     say(str(path))
 
 
