@@ -44,7 +44,9 @@ class Grid:
         along = [(np.arange(n * parts) - (parts - 1) / 2) / parts for n in self.size]
         k, j, i = np.meshgrid(along[2], along[1], along[0], indexing="ij")
         affine = self.affine
-        return np.stack([affine[a, 0] * i + affine[a, 1] * j + affine[a, 2] * k + affine[a, 3] for a in range(3)])
+        return np.stack(
+            [affine[a, 0] * i + affine[a, 1] * j + affine[a, 2] * k + affine[a, 3] for a in range(3)]
+        )
 
     def volume(self, values: Floats, seed: int, noise: float) -> Volume:
         """The means over the voxels with noise."""
@@ -60,7 +62,9 @@ def blurred(values: Floats, steps: tuple[float, ...], fwhm: float) -> Floats:
     for axis, step in enumerate(steps):
         margin = int(np.ceil(5 * sigma / step))
         bell = np.exp(-0.5 * (np.arange(-margin, margin + 1) * step / sigma) ** 2)
-        padded = np.pad(values, [(margin, margin) if a == axis else (0, 0) for a in range(values.ndim)], "edge")
+        padded = np.pad(
+            values, [(margin, margin) if a == axis else (0, 0) for a in range(values.ndim)], "edge"
+        )
         count = padded.shape[axis]
         spectrum = np.fft.rfft(padded, axis=axis)
         shape = [-1 if a == axis else 1 for a in range(values.ndim)]
@@ -132,7 +136,9 @@ def round_tube(diameter: float, **more: object) -> Tube:
     return Tube((diameter, diameter), **more)  # type: ignore[arg-type]
 
 
-def narrowed(percent: float, at: float = 0.0, length: float = 12.0, diameter: float = 5.0) -> tuple[Volume, Vessel]:
+def narrowed(
+    percent: float, at: float = 0.0, length: float = 12.0, diameter: float = 5.0
+) -> tuple[Volume, Vessel]:
     """A vessel along z of 60 mm with a stenosis in its middle, 0.4 mm voxels; places count from its first point."""
     grid = Grid.even((0.4, 0.4, 0.4), (diameter + 8, diameter + 8, 66.0))
     x, y, z = grid.points(PARTS)

@@ -71,7 +71,7 @@ fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
     let is_open = ray.edge.is_none_or(|edge| edge > OPEN * middle + 0.5 * width);
     match ray.bright_at {
         Some(at) if ray.edge.is_none() => (at - BRIGHT_MARGIN * width).max(0.0),
-        None if is_open && !ray.is_outside => 0.7 * middle,
+        None if is_open && ray.outside_at.is_none() => 0.7 * middle,
         _ => ray.limit,
     }
 }
@@ -87,7 +87,7 @@ pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     let neighbors = count(&|n, ray| ray.edge.is_some() && ray.limit < wall(n) + beside);
     let open = count(&|n, ray| {
         let reached = ray.edge.unwrap_or(ray.limit.min(1e9));
-        ray.bright_at.is_none() && !ray.is_outside && reached > OPEN * wall(n) + 0.5 * width
+        ray.bright_at.is_none() && ray.outside_at.is_none() && reached > OPEN * wall(n) + 0.5 * width
     });
     let mut flags = 0;
     if bright >= LEAST_RAYS {
@@ -99,7 +99,7 @@ pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     if open >= LEAST_RAYS {
         flags |= BRANCH;
     }
-    if rays.iter().any(|ray| ray.is_outside) {
+    if count(&|n, ray| ray.outside_at.is_some_and(|at| at < wall(n) + width)) > 0 {
         flags |= OUTSIDE;
     }
     flags

@@ -25,8 +25,8 @@ pub struct Ray {
     pub bright_at: Option<f64>,
     /// The largest share within a millimetre of that; 0 where nothing is too bright.
     pub brightest: f64,
-    /// Whether the ray leaves the volume.
-    pub is_outside: bool,
+    /// Where the ray leaves the volume (mm), where it does.
+    pub outside_at: Option<f64>,
 }
 
 impl Ray {
@@ -78,15 +78,15 @@ impl Rays<'_, '_> {
         let mut samples = Samples::new(self, place, center, direction);
         let half = f64::midpoint(look.levels[0], look.levels[1]);
         let mut ray =
-            Ray { edge: None, limit: f64::INFINITY, bright_at: None, brightest: 0.0, is_outside: false };
+            Ray { edge: None, limit: f64::INFINITY, bright_at: None, brightest: 0.0, outside_at: None };
         let (mut lowest, mut valley, mut before) = (f64::INFINITY, 0, f64::NAN);
         for n in 0..=(look.reach / self.step()).ceil() as usize {
             let value = samples.at(n);
+            let here = n as f64 * self.step();
             if value.is_nan() {
-                ray.is_outside = true;
+                ray.outside_at = Some(here);
                 break;
             }
-            let here = n as f64 * self.step();
             // Noise does not reach that far twice in a row.
             if value > look.bright && samples.at(n + 1) > look.bright {
                 ray.bright_at = Some(here);

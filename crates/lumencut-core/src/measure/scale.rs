@@ -19,8 +19,12 @@ const REACH: f64 = 30.0;
 /// The wall is the first place where values change by this share of what they change by anywhere.
 const STEEP: f64 = 0.4;
 
-/// What lies outside of the wall is looked for within so many voxels of it.
-const BEYOND: f64 = 3.0;
+/// What lies outside of the wall is looked for so far beyond it (mm).
+const BEYOND: f64 = 1.5;
+
+/// A rim is at most so wide (mm), and beyond it values are below that of the lumen by this share of what they are above it.
+const RIM: f64 = 4.0;
+const RIM_SHARE: f64 = 0.1;
 
 /// Values of a volume as shares: 0 outside of the vessel, 1 in its lumen.
 #[derive(Clone, Copy, Debug)]
@@ -74,15 +78,20 @@ impl Scale {
         while wall + 1 < slopes.len() && slopes[wall + 1].abs() > slopes[wall].abs() {
             wall += 1;
         }
-        let last = rings.len().min(wall + 2 + (2.0 * BEYOND) as usize);
-        let beyond = rings[wall + 1..last].iter().copied();
+        let within = |mm: f64| wall + 1..rings.len().min(wall + 2 + (mm / step).ceil() as usize);
+        let lowest = |mm: f64| rings[within(mm)].iter().copied().fold(f64::MAX, f64::min);
+        let highest = rings[within(BEYOND)].iter().copied().fold(f64::MIN, f64::max);
+        // What is brighter than the lumen around it is a rim, such as a stent, where it is darker beyond.
+        let is_rim = slopes[wall] > 0.0 && lowest(RIM) < lumen - RIM_SHARE * (highest - lumen);
         let outside = if slopes[wall] < 0.0 {
-            beyond.fold(f64::MAX, f64::min)
+            lowest(BEYOND)
+        } else if is_rim {
+            lowest(RIM)
         } else {
-            beyond.fold(f64::MIN, f64::max)
+            highest
         };
         let contrast = lumen - outside;
-        let is_one = contrast.is_finite() && steepest > 0.0 && contrast * slopes[wall] < 0.0;
+        let is_one = contrast.is_finite() && (is_rim || contrast * slopes[wall] < 0.0);
         if is_one { Ok(Self { outside, contrast }) } else { Err(none()) }
     }
 }

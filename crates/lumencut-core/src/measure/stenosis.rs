@@ -28,6 +28,9 @@ pub const NARROWED_BESIDE: f64 = 0.87;
 /// The other side of a stenosis: from so far on to so far away from it (mm).
 const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
 
+/// An arc length so far beyond an end is that end (mm).
+const ROUNDING: f64 = 1e-6;
+
 /// How a stenosis is graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
@@ -160,7 +163,8 @@ impl Profile {
     /// [`ErrorKind::Measuring`].
     pub fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
-        if (0.0..=length).contains(&at) {
+        // Lengths of the same line differ by rounding.
+        if at >= -ROUNDING && at <= length + ROUNDING {
             return Ok(());
         }
         Err(measuring(subject, format!("{at} mm"), &format!("an arc length from 0 to {length:.3} mm")))
