@@ -1,6 +1,7 @@
 """How truly and how fast lumens are measured, on vessels of known width and blur: a Markdown table.
 
-``python benches/measure.py`` needs the installed package. Beside each narrow vessel stands what half of the maximum gives.
+``python benches/measure.py`` needs the installed package. Beside each narrow vessel stands what half of
+the maximum gives.
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ class Grid:
 
 
 def blurred(values: Floats, steps: tuple[float, ...], fwhm: float) -> Floats:
-    """Values on a grid of these steps (mm), blurred by a Gaussian along each axis; the grid goes on as at its ends."""
+    """Values on a grid of these steps (mm), blurred along each axis; the grid goes on as at its ends."""
     sigma = fwhm / np.sqrt(8 * np.log(2))
     for axis, step in enumerate(steps):
         margin = int(np.ceil(5 * sigma / step))
@@ -139,7 +139,7 @@ def round_tube(diameter: float, **more: object) -> Tube:
 def narrowed(
     percent: float, at: float = 0.0, length: float = 12.0, diameter: float = 5.0
 ) -> tuple[Volume, Vessel]:
-    """A vessel along z of 60 mm with a stenosis in its middle, 0.4 mm voxels; places count from its first point."""
+    """A vessel of 60 mm along z with a stenosis in its middle, in voxels of 0.4 mm."""
     grid = Grid.even((0.4, 0.4, 0.4), (diameter + 8, diameter + 8, 66.0))
     x, y, z = grid.points(PARTS)
     away = np.minimum(np.abs(z - at) / (length / 2), 1)

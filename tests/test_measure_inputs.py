@@ -56,7 +56,7 @@ def test_a_vessel_outside_the_volume(volume):
 @pytest.mark.parametrize("noise", [0.0, 26.0])
 def test_a_vessel_without_contrast(noise):
     even = round_tube(4.0, levels=(50.0, 50.0)).volume(GRID, noise=noise)
-    with pytest.raises(MeasuringError, match="lumen of the vessel: found .* expected a lumen"):
+    with pytest.raises(MeasuringError, match=r"lumen of the vessel: found .* expected a lumen"):
         lumencut.measure(even, TUBE.vessel(20), fwhm=FWHM)
 
 

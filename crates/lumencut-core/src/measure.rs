@@ -1,6 +1,7 @@
 //! The lumen of a vessel measured: cross-sections, diameters with the blur of the scanner taken into account, stenoses,
 //! lengths and angles.
 
+pub mod along;
 pub mod blur;
 pub mod branches;
 pub mod contour;

@@ -6,6 +6,7 @@ use std::collections::HashSet;
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::measure::measuring::{Request, measure};
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode, Window};
 use lumencut_core::trace::tracer::{Clicks, Tracer};
@@ -78,6 +79,18 @@ fn tracing_errors() -> Vec<Error> {
     ]
 }
 
+/// A vessel in a volume of one value, and one outside it.
+fn measuring_errors() -> Vec<Error> {
+    let voxels = [0i16; 1000];
+    let volume = Volume::new(Voxels::I16(&voxels), [10; 3], [1, 10, 100], DAffine3::IDENTITY).unwrap();
+    let measured = |shift: f64| {
+        let points = [0.0, 9.0].map(|z| DVec3::new(5.0 + shift, 5.0, z)).to_vec();
+        let request = Request { step: 1.0, fwhm: None, tree: &[], stop: &|| false };
+        measure(&volume, &Vessel::new(points, None).unwrap(), &request).unwrap_err()
+    };
+    vec![measured(0.0), measured(50.0)]
+}
+
 fn settings_errors() -> Vec<Error> {
     let wrong = |change: fn(&mut Settings)| {
         let mut settings = Settings::default();
@@ -110,11 +123,14 @@ fn settings_errors() -> Vec<Error> {
     ]
 }
 
+fn input_errors() -> Vec<Error> {
+    let of_scenes = [vessel_errors(), camera_errors(), volume_errors(), settings_errors()];
+    [of_scenes.concat(), tracing_errors(), measuring_errors()].concat()
+}
+
 #[test]
 fn errors_name_what_was_found_and_what_was_expected() {
-    let all =
-        [vessel_errors(), camera_errors(), volume_errors(), settings_errors(), tracing_errors()].concat();
-    for error in &all {
+    for error in &input_errors() {
         let line = error.to_string();
         assert!(line.contains("found ") && line.contains("expected ") && !line.contains('\n'), "{line}");
         assert!(!error.subject.is_empty() && !error.found.is_empty() && !error.expected.is_empty(), "{line}");
@@ -130,8 +146,7 @@ fn every_kind_of_error_can_be_met() {
     let camera = front([9, 9], 1.0);
     let stopped =
         render(&Scene::default().with_tree(scene), &camera, &Settings::default(), &|| true).unwrap_err();
-    let input = [vessel_errors(), camera_errors(), volume_errors(), settings_errors(), tracing_errors()];
-    let all = [input.concat(), vec![stopped]].concat();
+    let all = [input_errors(), vec![stopped]].concat();
     let met: HashSet<_> = all.iter().map(|e| e.kind).collect();
     assert_eq!(met, ErrorKind::ALL.into_iter().filter(|kind| !OF_THE_GPU.contains(kind)).collect());
 }

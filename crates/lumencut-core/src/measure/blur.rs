@@ -51,6 +51,14 @@ impl Blur {
         fwhm_of(self.of_voxels(place).determinant().sqrt())
     }
 
+    /// The variance along the vessel of what the voxels around the plane of a section show (mm²); they are weighted by how near
+    /// they lie, up to so far (mm).
+    pub fn along(&self, place: &Place, thickness: f64) -> f64 {
+        let voxel = place.normal.dot(self.voxel * place.normal) * AVERAGING;
+        // The variance of a triangle.
+        self.point_spread + voxel + thickness * thickness / 6.0
+    }
+
     fn in_plane(&self, place: &Place, share: f64) -> DMat2 {
         let [u, v] = place.axes;
         let along = |a: DVec3, b: DVec3| a.dot(self.voxel * b) * share;

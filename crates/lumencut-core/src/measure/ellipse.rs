@@ -68,6 +68,12 @@ impl Ellipse {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
 
+    /// The same ellipse, so many times as wide.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
+    }
+
     fn matrix(&self) -> DMat2 {
         let DVec2 { x, y } = self.stretch;
         DMat2::from_cols(DVec2::new(self.mean + x, y), DVec2::new(y, self.mean - x))
@@ -125,8 +131,7 @@ impl Boundary {
     /// The boundary of an ellipse under a blur.
     pub fn new(ellipse: &Ellipse, Whitening(whitening): Whitening) -> Self {
         let matrix = ellipse.matrix();
-        let longest = [DVec2::X, DVec2::Y].map(|d| (whitening * matrix * d).length());
-        let needed = TAU * longest[0].hypot(longest[1]).max(1e-9) / NODE_DISTANCE;
+        let needed = TAU * longest(whitening * matrix).max(1e-9) / NODE_DISTANCE;
         let count = (needed.ceil() as usize).clamp(FEWEST_NODES, MOST_NODES);
         let share = 1.0 / count as f64;
         let scale = whitening.determinant() * share;
@@ -189,6 +194,14 @@ impl Boundary {
     pub fn value(&self, place: DVec2) -> f64 {
         f64::from(self.blurred(&[place.x as f32; FAN], &[place.y as f32; FAN]).value[0])
     }
+}
+
+/// By how much a matrix makes vectors longer, at most: its larger singular value.
+fn longest(matrix: DMat2) -> f64 {
+    let (x, y) = (matrix.x_axis, matrix.y_axis);
+    let half = 0.5 * (x.length_squared() + y.length_squared());
+    let difference = 0.5 * (x.length_squared() - y.length_squared());
+    (half + difference.hypot(x.dot(y))).sqrt()
 }
 
 /// exp(x) of a number up to 0, to two millionths: a power of two by its bits, and a polynomial.

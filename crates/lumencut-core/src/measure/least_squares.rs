@@ -43,7 +43,7 @@ pub fn minimum<const N: usize>(
     mut evaluate: impl FnMut(&[f64; N]) -> Option<Normal<N>>,
 ) -> Option<Minimum<N>> {
     /// What the sum must fall by to go on, as a share of itself.
-    const ENOUGH: f64 = 1e-5;
+    const ENOUGH: f64 = 1e-4;
     let mut best = Minimum { at: start, normal: evaluate(&start)? };
     let mut damping = 1e-3;
     for _ in 0..steps {

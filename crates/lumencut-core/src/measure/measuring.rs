@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::along::sharpen;
 use super::blur::Blur;
 use super::branches::{Lumen, meets};
 use super::ellipse::Ellipse;
@@ -15,7 +16,8 @@ use super::profile::{Profile, Source};
 use super::rays::Rays;
 use super::rough::Rough;
 use super::scale::Scale;
-use super::sections::{Bench, Known, Section, center, noise};
+use super::sections::{Bench, Known, LEAST_CONTRAST, Section, center, noise};
+use super::slab::thickness;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::statistics::median;
 use crate::settings::Limits;
@@ -148,6 +150,9 @@ impl Looked {
         let bench = bench(voxels, self.scale, fwhm.0);
         let fits = bench.first_fits(&self.places, &self.rough, stop)?;
         let noise = noise(&fits);
+        if LEAST_CONTRAST * noise > 1.0 {
+            return Err(no_lumen(&self.scale));
+        }
         let lumen = lumen_levels(&bench, &self.places, &fits, stop)?;
         let others = Lumen::of_others(request.tree, vessel);
         let section = |n: usize| {
@@ -164,11 +169,15 @@ impl Looked {
             }
             Ok(section)
         };
-        let sections: Vec<Section> =
+        let mut sections: Vec<Section> =
             (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
         if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
             return Err(no_lumen(&self.scale));
         }
+        let at: Vec<f64> = self.places.iter().map(|place| place.at).collect();
+        let variance: Vec<f64> =
+            self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
+        sharpen(&mut sections, &at, &variance);
         let noise = noise * self.scale.contrast.abs();
         Ok(Profile::new(&self.places, &sections, &self.scale, noise, fwhm))
     }

@@ -25,6 +25,8 @@ pub struct Ray {
     pub bright_at: Option<f64>,
     /// The largest share within a millimetre of that; 0 where nothing is too bright.
     pub brightest: f64,
+    /// Where that begins and ends to be nearer to its brightest share than to the lumen's (mm); equal where nothing is.
+    pub rim: [f64; 2],
     /// Where the ray leaves the volume (mm), where it does.
     pub outside_at: Option<f64>,
 }
@@ -45,8 +47,10 @@ pub struct Look {
     pub bright: f64,
     /// By so much values rise again where a neighbour begins, as a share.
     pub rise: f64,
-    /// How far is looked (mm).
+    /// How far an edge is looked for (mm).
     pub reach: f64,
+    /// How far beyond the edge something else is looked for (mm).
+    pub beyond: f64,
 }
 
 /// The direction of a ray in the plane.
@@ -77,12 +81,21 @@ impl Rays<'_, '_> {
     pub fn ray(&self, place: &Place, center: DVec2, direction: DVec2, look: &Look) -> Ray {
         let mut samples = Samples::new(self, place, center, direction);
         let half = f64::midpoint(look.levels[0], look.levels[1]);
-        let mut ray =
-            Ray { edge: None, limit: f64::INFINITY, bright_at: None, brightest: 0.0, outside_at: None };
+        let mut ray = Ray {
+            edge: None,
+            limit: f64::INFINITY,
+            bright_at: None,
+            brightest: 0.0,
+            rim: [0.0; 2],
+            outside_at: None,
+        };
         let (mut lowest, mut valley, mut before) = (f64::INFINITY, 0, f64::NAN);
-        for n in 0..=(look.reach / self.step()).ceil() as usize {
-            let value = samples.at(n);
+        for n in 0.. {
             let here = n as f64 * self.step();
+            if here > ray.edge.map_or(look.reach, |edge| edge + look.beyond) {
+                break;
+            }
+            let value = samples.at(n);
             if value.is_nan() {
                 ray.outside_at = Some(here);
                 break;
@@ -92,6 +105,7 @@ impl Rays<'_, '_> {
                 ray.bright_at = Some(here);
                 let last = n + (1.0 / self.step()).ceil() as usize;
                 ray.brightest = (n..=last).map(|m| samples.at(m)).fold(value, f64::max);
+                ray.rim = rim(&mut samples, n, f64::midpoint(look.levels[0], ray.brightest));
                 ray.limit = if ray.edge.is_some() { valley as f64 * self.step() } else { here };
                 break;
             }
@@ -116,6 +130,21 @@ impl Rays<'_, '_> {
     pub fn all(&self, place: &Place, center: DVec2, look: &Look) -> Vec<Ray> {
         (0..RAYS).map(|n| self.ray(place, center, direction(n), look)).collect()
     }
+}
+
+/// From where to where a ray is above a level (mm), from one of its samples on.
+fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
+    /// It is followed so many samples far.
+    const FAR: usize = 24;
+    let mut crossing = |from: usize, rises: bool| {
+        let is_beyond = |value: f64| (value > level) == rises;
+        let n = (from..from + FAR).find(|n| is_beyond(samples.at(*n))).unwrap_or(from + FAR);
+        let [before, here] = [n.saturating_sub(1), n].map(|m| samples.at(m));
+        let share = if is_beyond(before) { 1.0 } else { (level - before) / (here - before) };
+        (n, (n as f64 - 1.0 + share.clamp(0.0, 1.0)) * samples.rays.step())
+    };
+    let (inner, begins) = crossing(first, true);
+    [begins.max(0.0), crossing(inner, false).1]
 }
 
 /// How many samples of a ray are taken at a time.

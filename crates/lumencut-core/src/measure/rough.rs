@@ -43,7 +43,7 @@ impl Rough {
                 break;
             }
             let bright = if rays.scale.contrast > 0.0 { BRIGHT.max(1.5 * lumen) } else { f64::INFINITY };
-            let look = Look { levels: [lumen, 0.0], bright, rise: 0.25, reach: widest };
+            let look = Look { levels: [lumen, 0.0], bright, rise: 0.25, reach: widest, beyond: 0.0 };
             let (moved, radius) = polygon(&rays.all(place, center, &look))?;
             center += moved;
             found = Some(Self { center, radius, lumen });

@@ -44,7 +44,7 @@ const ROUGH_WALL: f64 = 0.12;
 const LEAST_FREE: f64 = 0.35;
 
 /// Below so many times the noise there is no contrast.
-const LEAST_CONTRAST: f64 = 2.0;
+pub const LEAST_CONTRAST: f64 = 2.0;
 
 /// Where the blur is not taken into account diameters are unsure by this share of its width.
 const UNSURE: f64 = 0.5;
@@ -88,6 +88,17 @@ impl Section {
     /// A section without lumen.
     pub fn none() -> Self {
         Self { fit: None, contour: Vec::new(), flags: NO_EDGE }
+    }
+
+    /// Makes the lumen so many times as wide.
+    pub fn scale(&mut self, by: f64) {
+        let middle = self.contour.iter().sum::<DVec3>() / self.contour.len().max(1) as f64;
+        for point in &mut self.contour {
+            *point = middle + (*point - middle) * by;
+        }
+        if let Some(fit) = &mut self.fit {
+            fit.ellipse = fit.ellipse.scaled(by);
+        }
     }
 }
 
@@ -170,7 +181,8 @@ impl Bench<'_, '_> {
             // What is darker than a dark lumen is no calcium.
             bright: if is_bright_lumen { bright } else { f64::INFINITY },
             rise: RISE.0.max(RISE.1 * noise),
-            reach: known.ellipse.semi_axes()[1] * 1.2 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
+            reach: known.ellipse.semi_axes()[1] * 2.0 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
+            beyond: RAY_BEYOND.0 + RAY_BEYOND.1 * width,
         }
     }
 
@@ -209,9 +221,12 @@ impl Bench<'_, '_> {
     fn by_rays(&self, place: &Place, known: &Known) -> Option<Section> {
         let width = self.blur.width(place);
         let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
-        let walls = wall_by_rays(&rays)?;
+        let walls = wall_by_rays(&rays, width)?;
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
-        let flags = flags_of(&rays, |n| walls[n], width);
+        let mut flags = flags_of(&rays, |n| walls[n], width);
+        if known.lumen[0] < LEAST_CONTRAST * known.noise {
+            flags |= NO_EDGE;
+        }
         let fit = Fit {
             ellipse,
             lumen: known.lumen,

@@ -96,7 +96,7 @@ impl Samples {
 }
 
 /// How far from the plane voxels count (mm): as far as interpolation reaches.
-fn thickness(voxels: &Voxels, place: &Place) -> f64 {
+pub fn thickness(voxels: &Voxels, place: &Place) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }

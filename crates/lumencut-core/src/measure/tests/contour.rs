@@ -28,7 +28,14 @@ fn rays_that_see_the_blurred_ellipse_tell_its_own_wall() {
                 let value = boundary.value(ellipse.center + direction(n) * middle);
                 if value > level { low = middle } else { high = middle }
             }
-            Ray { edge: Some(low), limit: f64::INFINITY, bright_at: None, brightest: 0.0, outside_at: None }
+            Ray {
+                edge: Some(low),
+                limit: f64::INFINITY,
+                bright_at: None,
+                brightest: 0.0,
+                rim: [0.0; 2],
+                outside_at: None,
+            }
         })
         .collect();
     for (n, wall) in wall(&ellipse, &boundary, &rays, level).iter().enumerate() {
