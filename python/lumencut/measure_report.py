@@ -12,16 +12,15 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut.annotation import window_words
-from lumencut.contact_sheet import Picture
 from lumencut.flags import Flag
 from lumencut.frame import picture_as_png
 from lumencut.measured_vessel import MeasuredVessel
 from lumencut.planar_reformation import cpr_of
 from lumencut.profile_files import NOTICE
 from lumencut.profile_plot import figure_of
-from lumencut.profile_sections import Mark, counts, flag_words, nearest, word_of
+from lumencut.profile_sections import counts, flag_words, nearest, word_of
 from lumencut.renderer import Renderer
-from lumencut.section_pictures import fitting_size, section_picture
+from lumencut.section_pictures import SectionView, fitting_size
 from lumencut.volume import Volume
 from lumencut.window import Window
 
@@ -29,12 +28,13 @@ from lumencut.window import Window
 #: at most so many lengths; and within these (mm).
 _LEAST, _TALLEST, _WIDTHS = 0.6, 0.4, (12.0, 90.0)
 
-#: The most rows of pixels of the CPR.
-_LONGEST = 1600
+#: The most rows of pixels of the CPR, and the side of the picture of a section.
+_LONGEST, _SIDE = 1600, 200
 
 _STYLE = """
 body { font: 14px/1.45 sans-serif; color: #111; background: #fff; max-width: 1000px; margin: 1em auto; }
 section { break-after: page; border-bottom: 1px solid #999; padding-bottom: 1em; margin-bottom: 2em; }
+section p { margin: .4em 0; }
 section:last-of-type { break-after: auto; }
 h1 { font-size: 20px; margin: 0 0 .2em; } h2 { font-size: 15px; margin: 1em 0 .3em; }
 .notice { font-weight: bold; } .stenosis { font-size: 16px; font-weight: bold; }
@@ -44,7 +44,9 @@ th:first-child, td:first-child, td.words, th.words { text-align: left; }
 figure { display: inline-block; margin: 0 1em .6em 0; break-inside: avoid; } img { max-width: 100%; }
 figcaption { font-size: 12px; color: #333; }
 .pair { width: 31%; } .small { font-size: 12px; color: #444; }
-@media print { body { margin: 0; font-size: 11px; } .plot img { max-height: 95mm; } }
+@page { size: A4; margin: 12mm; }
+@media print { body { margin: 0; font-size: 11px; } .plot img { max-height: 100mm; } }
+@media print { section { border: 0; margin: 0; padding: 0; } }
 """
 
 _EXPLAINED = (
@@ -84,10 +86,11 @@ def report(
     MissingPackageError
         Without matplotlib.
     """
-    window = Window.from_data(volume, renderer.tree)
+    view = SectionView(volume, Window.from_data(volume, renderer.tree), _SIDE)
+    told = {**settings, "window": window_words(view.window)}
     pages = []
     for number, one in enumerate(measured, 1):
-        pages.append(_page(renderer, volume, one, {**settings, "window": window_words(window)}, window))
+        pages.append(_page(renderer, view, one, told))
         progress(number, len(measured))
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
@@ -96,9 +99,7 @@ def report(
     )
 
 
-def _page(
-    renderer: Renderer, volume: Volume, one: MeasuredVessel, settings: Mapping[str, str], window: Window
-) -> str:
+def _page(renderer: Renderer, view: SectionView, one: MeasuredVessel, settings: Mapping[str, str]) -> str:
     length = float(one.profile.arc_length[-1])
     parts = [
         "<section>",
@@ -111,7 +112,7 @@ def _page(
         parts.append(f"<p>Group of the field: {escape(one.group)}</p>")
     parts += [_figure(_plot(renderer, one), "Straightened CPR and diameter along the vessel", "plot")]
     parts += ["<h2>Places</h2>", _places(one)]
-    parts += ["<h2>Sections</h2>", _sections(volume, one, window)]
+    parts += ["<h2>Sections at these places, with the contour and without</h2>", _sections(view, one)]
     parts += [f"<p>{_EXPLAINED}</p>", f'<p class="small">{escape(_told(one, settings))}</p>', "</section>"]
     return "\n".join(parts)
 
@@ -161,26 +162,15 @@ def _row(one: MeasuredVessel, name: str, at: float) -> str:
     return f'<tr><td>{escape(name)}</td>{cells}<td class="words">{words}</td></tr>'
 
 
-def _sections(volume: Volume, one: MeasuredVessel, window: Window) -> str:
+def _sections(view: SectionView, one: MeasuredVessel) -> str:
     """Pictures of the sections at marked places, each with its contour and without."""
-    size = fitting_size(one.profile)
     figures = []
     for mark in one.marks:
         number = nearest(one.profile, mark.arc_length)
-        pair = [
-            section_picture(volume, one.vessel, one.profile, number, size, window, has_contour=has_contour)
-            for has_contour in (True, False)
-        ]
-        figures.append(_figure(picture_as_png(_beside(pair)), _caption(mark), "pair"))
+        pair = [view.picture(one, number, has_contour=has_contour) for has_contour in (True, False)]
+        caption = f"{mark.title} at {mark.arc_length:.1f} mm"
+        figures.append(_figure(picture_as_png(np.concatenate(pair, axis=1)), caption, "pair"))
     return "\n".join(figures)
-
-
-def _beside(pair: Sequence[Picture]) -> Picture:
-    return np.concatenate(pair, axis=1)
-
-
-def _caption(mark: Mark) -> str:
-    return f"{mark.title} at {mark.arc_length:.1f} mm: with the contour, and without"
 
 
 def _figure(png: bytes, caption: str, kind: str) -> str:

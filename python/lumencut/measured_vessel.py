@@ -101,7 +101,7 @@ class MeasuredVessel:
     def told(self) -> list[str]:
         """What there is to say of it, in lines: each percentage with its method, its references and mm."""
         if self.stenosis is None:
-            return [str(mark) for mark in self.marks]
+            return [str(mark) for mark in self.marks] or ["no section counts: see the flags"]
         group = [] if self.group is None else [f"group of the field: {self.group}"]
         return [str(self.stenosis), *group]
 

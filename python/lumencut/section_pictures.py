@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -14,12 +15,8 @@ from lumencut.measured_vessel import MeasuredVessel
 from lumencut.measuring import cross_section
 from lumencut.profile import Profile
 from lumencut.profile_sections import counts, flag_words, nearest
-from lumencut.vessel_tree import Vessel
 from lumencut.volume import Volume
 from lumencut.window import Window
-
-#: The side of a picture of a section (pixels).
-SIDE = 260
 
 #: Contours of sections that count, and of others.
 _COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
@@ -41,39 +38,64 @@ def fitting_size(profile: Profile) -> float:
     return float(np.clip(np.ceil(_ROOM * np.quantile(wide, 0.9)), *_SIZES))
 
 
-def section_picture(
-    volume: Volume,
-    vessel: Vessel,
-    profile: Profile,
-    number: int,
-    size: float,
-    window: Window,
-    *,
-    words: str = "",
-    has_contour: bool = True,
-) -> Picture:
-    """Return one section (H, W, 4): the volume across the vessel, the contour, numbers with units, a scale.
+@dataclass(frozen=True, eq=False)
+class SectionView:
+    """How sections are shown.
 
-    The contour is cyan where the section counts for what is narrowest or widest, and orange where flags leave
-    it out. Without it there are no numbers either. `words` stand above the numbers.
+    Attributes
+    ----------
+    volume : Volume
+        What is shown.
+    window : Window
+        How bright it is.
+    side : int
+        The side of a picture (pixels).
     """
-    origin, across = profile.center[number], _axes(volume, vessel, profile, number)
-    spacing = size / (SIDE - 1)
-    steps = (np.arange(SIDE) - (SIDE - 1) / 2) * spacing
-    places = origin + steps[:, None, None] * across[1] + steps[None, :, None] * across[0]
-    picture = _grey(volume.sample(places.reshape(-1, 3)).reshape(SIDE, SIDE), window)
-    if not has_contour:
-        return _with_scale(Sheet(picture), spacing)
-    contour = (profile.contour[number] - origin) @ across.T / spacing + (SIDE - 1) / 2
-    if np.isfinite(contour).all():
-        color = _COUNTED if counts(profile)[number] else _LEFT_OUT
-        picture = _with_line(picture, contour, color)
-    return _labelled(picture, profile, number, words, spacing)
+
+    volume: Volume
+    window: Window
+    side: int = 260
+
+    def picture(
+        self, one: MeasuredVessel, number: int, words: str = "", *, has_contour: bool = True
+    ) -> Picture:
+        """Return one section (H, W, 4): the volume across the vessel, contour, numbers with units, a scale.
+
+        The contour is cyan where the section counts for what is narrowest or widest, and orange where flags
+        leave it out. Without it there are neither words nor numbers. `words` stand above the numbers.
+        """
+        profile, spacing = one.profile, fitting_size(one.profile) / (self.side - 1)
+        origin, across = profile.center[number], self._axes(one, number)
+        steps = (np.arange(self.side) - (self.side - 1) / 2) * spacing
+        places = origin + steps[:, None, None] * across[1] + steps[None, :, None] * across[0]
+        value = self.volume.sample(places.reshape(-1, 3)).reshape(self.side, self.side)
+        picture = _grey(value, self.window)
+        if not has_contour:
+            return _with_scale(Sheet(picture), spacing)
+        contour = (profile.contour[number] - origin) @ across.T / spacing + (self.side - 1) / 2
+        if np.isfinite(contour).all():
+            color = _COUNTED if counts(profile)[number] else _LEFT_OUT
+            picture = _with_line(picture, contour, color)
+        return _labelled(picture, profile, number, words, spacing)
+
+    def _axes(self, one: MeasuredVessel, number: int) -> npt.NDArray[np.float64]:
+        """The unit vectors to the right and downwards in the plane that was measured, shape (2, 3).
+
+        They are turned about the vessel as those of `cross_section`, whose plane is that of the vessel as it
+        is given.
+        """
+        at = float(one.profile.arc_length[number])
+        corners = cross_section(self.volume, one.vessel, at, 4.0, 1.0).position
+        normal = one.profile.normal[number]
+        right, down = (end - corners[0, 0] for end in (corners[0, -1], corners[-1, 0]))
+        right = right - (right @ normal) * normal
+        right /= np.linalg.norm(right)
+        lower = np.cross(normal, right)
+        return np.stack([right, lower if lower @ down > 0 else -lower])
 
 
 def sections_sheet(
-    volume: Volume,
-    window: Window,
+    view: SectionView,
     measured: Sequence[MeasuredVessel],
     count: int,
     progress: Callable[[int, int], object] = lambda done, total: None,
@@ -86,13 +108,10 @@ def sections_sheet(
     pictures: list[Picture] = []
     titles, starts = [], []
     for done, one in enumerate(measured, 1):
-        size, marked = fitting_size(one.profile), _marked(one)
+        marked = _marked(one)
         starts.append(len(pictures))
         for number in sorted({*_even(one.profile, count), *marked}):
-            words = marked.get(number, "")
-            pictures.append(
-                section_picture(volume, one.vessel, one.profile, number, size, window, words=words)
-            )
+            pictures.append(view.picture(one, number, marked.get(number, "")))
             titles.append(f"{one.name}, at {one.profile.arc_length[number]:.1f} mm")
         progress(done, len(measured))
     return contact_sheet(pictures, titles, starts)
@@ -110,21 +129,6 @@ def _marked(one: MeasuredVessel) -> dict[int, str]:
     for mark in one.marks:
         found.setdefault(nearest(one.profile, mark.arc_length), []).append(mark.title)
     return {number: ", ".join(titles) for number, titles in found.items()}
-
-
-def _axes(volume: Volume, vessel: Vessel, profile: Profile, number: int) -> npt.NDArray[np.float64]:
-    """The unit vectors to the right and downwards in the plane that was measured, shape (2, 3).
-
-    They are turned about the vessel as those of `cross_section`, whose plane is that of the vessel as it is
-    given.
-    """
-    corners = cross_section(volume, vessel, float(profile.arc_length[number]), 4.0, 1.0).position
-    normal = profile.normal[number]
-    right, down = (end - corners[0, 0] for end in (corners[0, -1], corners[-1, 0]))
-    right = right - (right @ normal) * normal
-    right /= np.linalg.norm(right)
-    lower = np.cross(normal, right)
-    return np.stack([right, lower if lower @ down > 0 else -lower])
 
 
 def _grey(value: npt.NDArray[np.float32], window: Window) -> Picture:

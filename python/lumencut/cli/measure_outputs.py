@@ -128,13 +128,13 @@ def _title(one: MeasuredVessel) -> str:
 
 def _write_sheet(path: Path, voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel]) -> None:
     from lumencut.frame import save_picture
-    from lumencut.section_pictures import sections_sheet
+    from lumencut.section_pictures import SectionView, sections_sheet
     from lumencut.window import Window
 
     count = min(_SECTIONS, max(_LEAST, _IN_ALL // len(measured)))
     with bar("sections", "vessel") as told:
-        window = Window.from_data(voxels, tree)
-        save_picture(sections_sheet(voxels, window, measured, count, told), path)
+        view = SectionView(voxels, Window.from_data(voxels, tree))
+        save_picture(sections_sheet(view, measured, count, told), path)
     say(str(path))
 
 
