@@ -210,6 +210,9 @@ impl Stenosis {
     }
 }
 
+/// Values (H, W), places (H, W, 3) and the normal of a section.
+type SectionParts<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, [f64; 3]);
+
 /// A section of a vessel, its points (n, 3), at an arc length: values (H, W), places (H, W, 3), and its normal.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
@@ -220,7 +223,7 @@ pub fn cross_section<'py>(
     at: f64,
     size: f64,
     pixel_spacing: f64,
-) -> PyResult<(Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, [f64; 3])> {
+) -> PyResult<SectionParts<'py>> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let vessel = vessel_of(&measured)?;

@@ -209,12 +209,13 @@ fn longest(matrix: DMat2) -> f64 {
 fn exponential(x: f32) -> f32 {
     /// From here on the last bit of a float counts ones.
     const ONES: f32 = 12_582_912.0;
+    const LN_2: f32 = std::f32::consts::LN_2;
     let power = if x > -80.0 { x } else { -80.0 } * std::f32::consts::LOG2_E;
     let rounded = power + ONES;
     let f = power - (rounded - ONES);
     // The Taylor series of 2^f, |f| ≤ 1/2.
     let tail = 0.009_618_13 + f * 0.001_333_36;
-    let part = 1.0 + f * (0.693_147_2 + f * (0.240_226_5 + f * (0.055_504_11 + f * tail)));
+    let part = 1.0 + f * (LN_2 + f * (0.240_226_5 + f * (0.055_504_11 + f * tail)));
     // 2 to the whole part: its bits moved to where a float keeps its exponent.
     part * f32::from_bits(rounded.to_bits().wrapping_add(127) << 23)
 }

@@ -4,6 +4,7 @@ use super::ellipse::{Boundary, Ellipse, SHAPE, Whitening};
 use super::least_squares::{Minimum, Normal, minimum, variance};
 use super::slab::Samples;
 use crate::math::lanes::{FAN, Isa, Kernel, dispatch};
+use crate::math::statistics::median;
 
 /// The parameters of a fit: those of the ellipse, the level of the lumen and that of its background.
 const PARAMETERS: usize = SHAPE + 2;
@@ -30,6 +31,8 @@ pub struct Expected {
     pub stretch: f64,
     /// The noise of a voxel, as a share.
     pub noise: f64,
+    /// Whether that is a guess: samples are then weighed by what they miss by and large.
+    pub is_guessed: bool,
 }
 
 /// The centre stays within so many radii of where it began, and the size within these shares of that.
@@ -135,6 +138,19 @@ impl Work<'_> {
         Some(normal)
     }
 
+    /// What samples miss by and large, as the standard deviation of a normal distribution with their median.
+    fn typical(&self, missing: &[[f32; FAN]]) -> Option<f64> {
+        let weights = self.samples.weight.iter().flatten();
+        let mut all: Vec<f64> = missing
+            .iter()
+            .flatten()
+            .zip(weights)
+            .filter(|(_, weight)| **weight > 0.0)
+            .map(|(missing, _)| f64::from(missing.abs()))
+            .collect();
+        median(&mut all).map(|middle| 1.4826 * middle)
+    }
+
     /// Whether an ellipse is still one of this section.
     fn trusts(&self, ellipse: &Ellipse) -> bool {
         let (far, [small, large]) = TRUSTED;
@@ -148,7 +164,9 @@ impl Work<'_> {
         let boundary = Boundary::new(&Ellipse::from_parameters(at)?, self.whitening);
         let levels = [at[LUMEN] as f32, at[BACKGROUND] as f32];
         let missing = dispatch(Isa::widest(), Missing { samples: self.samples, boundary: &boundary, levels });
-        let scale = (TUKEY * self.expected.noise) as f32;
+        let Expected { noise, is_guessed, .. } = *self.expected;
+        let scale = TUKEY * if is_guessed { noise.max(self.typical(&missing)?) } else { noise };
+        let scale = scale as f32;
         let (mut squares, mut all, mut count) = (0.0, 0.0, 0usize);
         for (n, missing) in missing.iter().enumerate() {
             for l in 0..FAN {

@@ -160,7 +160,9 @@ impl Looked {
             let place = &self.places[n];
             let rough = self.rough[n].map(|rough| Ellipse::circle(rough.center, rough.radius));
             let mut section = match fits[n].map(|fit| fit.ellipse).or(rough) {
-                Some(ellipse) => bench.section(place, &Known { ellipse, lumen: lumen[n], noise }),
+                Some(ellipse) => {
+                    bench.section(place, &Known { ellipse, lumen: lumen[n], noise: Some(noise) })
+                }
                 None => Section::none(),
             };
             section.flags |= self.branch(n, section.fit.as_ref(), &others);

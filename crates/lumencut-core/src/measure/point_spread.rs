@@ -87,7 +87,7 @@ pub fn estimated(
             fwhm,
         };
         let fit = fits[n]?;
-        let known = Known { ellipse: fit.ellipse, lumen: [fit.lumen[0], 0.5], noise };
+        let known = Known { ellipse: fit.ellipse, lumen: [fit.lumen[0], 0.5], noise: Some(noise) };
         bench.fit(&places[n], &known).map(|fit| fit.missed)
     };
     let found: Vec<Result<Option<f64>>> = wide

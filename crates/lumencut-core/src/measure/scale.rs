@@ -91,9 +91,17 @@ impl Scale {
             highest
         };
         let contrast = lumen - outside;
-        let is_one = contrast.is_finite() && (is_rim || contrast * slopes[wall] < 0.0);
+        let is_one =
+            contrast.abs() >= scatter(voxels, places, lumen) && (is_rim || contrast * slopes[wall] < 0.0);
         if is_one { Ok(Self { outside, contrast }) } else { Err(none()) }
     }
+}
+
+/// How far the values on a vessel lie from its lumen by and large, as the standard deviation of a normal distribution.
+fn scatter(voxels: &Voxels, places: &[Place], lumen: f64) -> f64 {
+    let values = places.iter().map(|place| f64::from(voxels.at(place.origin)));
+    let mut off: Vec<f64> = values.filter(|value| value.is_finite()).map(|v| (v - lumen).abs()).collect();
+    1.4826 * median(&mut off).unwrap_or(f64::INFINITY)
 }
 
 /// The median at each distance from the vessel, of all places and directions, as far as there are values.

@@ -69,8 +69,14 @@ pub struct Known {
     pub ellipse: Ellipse,
     /// The level of the lumen and its standard deviation, as shares.
     pub lumen: Level,
-    /// The noise of a voxel, as a share.
-    pub noise: f64,
+    /// The noise of a voxel, as a share, where it is known.
+    pub noise: Option<f64>,
+}
+
+impl Known {
+    fn noise(&self) -> f64 {
+        self.noise.unwrap_or(FIRST_NOISE)
+    }
 }
 
 /// A section as it was measured.
@@ -134,7 +140,7 @@ impl Bench<'_, '_> {
             let known = Known {
                 ellipse: Ellipse::circle(rough.center, rough.radius),
                 lumen: [rough.lumen.max(0.8), 0.5],
-                noise: FIRST_NOISE,
+                noise: None,
             };
             Ok(self.fit(place, &known))
         };
@@ -165,7 +171,8 @@ impl Bench<'_, '_> {
             lumen: known.lumen,
             background: [0.0, 0.5],
             stretch: stretch(2.0 * ellipse.mean, width),
-            noise: known.noise,
+            noise: known.noise(),
+            is_guessed: known.noise.is_none(),
         };
         let fit = Fit::new(&samples, whitening, ellipse, &expected)?;
         Some(Fit { free: obstacles.free, ..fit })
@@ -173,7 +180,7 @@ impl Bench<'_, '_> {
 
     fn look(&self, place: &Place, known: &Known) -> Look {
         let width = self.blur.width(place);
-        let noise = known.noise;
+        let noise = known.noise();
         let is_bright_lumen = self.rays.scale.contrast > 0.0;
         let bright = known.lumen[0].max(0.5) + BRIGHT.0.max(BRIGHT.1 * noise);
         Look {
@@ -210,7 +217,8 @@ impl Bench<'_, '_> {
         if diameter > 2.0 * width && irregularity(&ellipse, &walls) > ROUGH_WALL {
             flags |= IRREGULAR;
         }
-        if fit.lumen[0] - fit.background < LEAST_CONTRAST * known.noise || fit.uncertainty > 0.5 * diameter {
+        if fit.lumen[0] - fit.background < LEAST_CONTRAST * known.noise() || fit.uncertainty > 0.5 * diameter
+        {
             flags |= NO_EDGE;
         }
         let contour = points(place, ellipse.center, &walls);
@@ -224,7 +232,7 @@ impl Bench<'_, '_> {
         let walls = wall_by_rays(&rays, width)?;
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);
-        if known.lumen[0] < LEAST_CONTRAST * known.noise {
+        if known.lumen[0] < LEAST_CONTRAST * known.noise() {
             flags |= NO_EDGE;
         }
         let fit = Fit {

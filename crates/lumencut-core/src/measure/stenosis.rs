@@ -5,8 +5,8 @@
 //!   doi:10.1016/S0140-6736(97)09292-1).
 //! * Area: 1 - narrowest / normal area.
 //!
-//! Behind a near-occlusion the distal vessel is narrowed itself and NASCET's percentage makes no sense (Fox 2005,
-//! doi:10.1002/ana.20388).
+//! Behind a near-occlusion the distal vessel is narrowed itself and NASCET's percentage makes no sense (Fox et al. 2005,
+//! AJNR 26:2086).
 
 use std::f64::consts::PI;
 
