@@ -175,6 +175,16 @@ def test_a_place_is_on_one_vessel(branches, tmp_path):
     assert "--at is a place on one vessel; found 3; choose one by --vessel or --path" in result.stderr
 
 
+def test_lines_in_another_space_are_refused_with_what_mends_it(files, tmp_path):
+    vessel, far = read_centerlines(files[1])[0], 2 * read_volume(files[0]).corners.max(axis=0)
+    points = np.add(vessel.points, [*far[:2], 0])
+    write_centerlines(VesselTree([Vessel(points)]), tmp_path / "lines.vtp")
+    result = run(files[0], tmp_path / "lines.vtp", "-o", tmp_path / "p.csv")
+    assert result.exit_code == 1
+    assert "inside the volume" in result.stderr
+    assert not (tmp_path / "p.csv").exists()
+
+
 def test_a_vessel_that_cannot_be_measured_is_named_and_the_others_are_measured(files, tmp_path):
     volume = read_volume(files[0])
     outside = np.add(volume.corners.max(axis=0), [[50, 0, 0], [80, 0, 0]])

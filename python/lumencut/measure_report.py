@@ -110,19 +110,22 @@ def _page(renderer: Renderer, view: SectionView, one: MeasuredVessel, settings: 
         parts.append(f'<p class="stenosis">{escape(str(one.stenosis))}</p>')
     if one.group is not None:
         parts.append(f"<p>Group of the field: {escape(one.group)}</p>")
-    parts += [_figure(_plot(renderer, one), "Straightened CPR and diameter along the vessel", "plot")]
+    parts += [_figure(_plot(renderer, view, one), "Straightened CPR and diameter along the vessel", "plot")]
     parts += ["<h2>Places</h2>", _places(one)]
-    parts += ["<h2>Sections at these places, with the contour and without</h2>", _sections(view, one)]
+    if one.marks:
+        parts += ["<h2>Sections at these places, with the contour and without</h2>", _sections(view, one)]
     parts += [f"<p>{_EXPLAINED}</p>", f'<p class="small">{escape(_told(one, settings))}</p>', "</section>"]
     return "\n".join(parts)
 
 
-def _plot(renderer: Renderer, one: MeasuredVessel) -> bytes:
+def _plot(renderer: Renderer, view: SectionView, one: MeasuredVessel) -> bytes:
     """The profile below the straightened vessel, which runs from left to right, as PNG."""
     profile, length = one.profile, float(one.profile.arc_length[-1])
     size = fitting_size(profile)
     # Of a short vessel less of its surroundings, so that it is not drawn flat.
     width = float(np.clip(max(_LEAST * size, min(size, _TALLEST * length)), *_WIDTHS))
+    # No CPR is wider than the volume.
+    width = min(width, float(np.linalg.norm(np.ptp(view.volume.corners, axis=0))) / 2)
     spacing = max(0.25, length / _LONGEST)
     made = cpr_of(renderer, one.vessel, "straightened", width=width, pixel_spacing=spacing)
     figure = figure_of([("", profile, one.marks)], np.rot90(made.image))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -124,7 +125,7 @@ def _graded(stenosis: Stenosis | None, group: str | None) -> dict[str, Any] | No
         "method": stenosis.method,
         "at_mm": stenosis.at,
         "diameter_mm": stenosis.diameter,
-        "uncertainty_mm": stenosis.uncertainty,
+        "uncertainty_mm": stenosis.uncertainty if math.isfinite(stenosis.uncertainty) else None,
         "reference_mm": stenosis.reference,
         "references": [
             {"arc_length_mm": at, "diameter_mm": diameter} for at, diameter in stenosis.references

@@ -55,7 +55,7 @@ def record(sections: Sections) -> dict[str, Any]:
     return {
         "fwhm_mm": sections.fwhm,
         "fwhm_source": sections.fwhm_source,
-        "noise": sections.noise,
+        "noise": sections.noise if np.isfinite(sections.noise) else None,
         "length_mm": float(sections.arc_length[-1]),
         "longest_diameter": None
         if widest is None

@@ -112,7 +112,7 @@ def sections_sheet(
         starts.append(len(pictures))
         for number in sorted({*_even(one.profile, count), *marked}):
             pictures.append(view.picture(one, number, marked.get(number, "")))
-            titles.append(f"{one.name}, at {one.profile.arc_length[number]:.1f} mm")
+            titles.append(f"vessel {one.name}, at {one.profile.arc_length[number]:.1f} mm")
         progress(done, len(measured))
     return contact_sheet(pictures, titles, starts)
 

@@ -115,6 +115,9 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     voxels, tree = read_files(files, chosen)
     if voxels is None or tree is None:
         raise click.UsageError("lumencut measure needs VOLUME and CENTERLINES")
+    from lumencut.placement import check_meeting
+
+    check_meeting(voxels, tree)
     vessels = named_vessels(tree, chosen)
     if chosen["at"] is not None and len(vessels) > 1:
         mend = "choose one by --vessel or --path"
