@@ -46,6 +46,7 @@ bench: develop tools ## Measure this machine, VTK beside it; prints tables, keep
 	$(BIN)/python benches/another_tree.py
 	$(BIN)/python benches/context_vs_vtk.py
 	$(BIN)/python benches/cpr_vs_vtk.py
+	$(BIN)/python benches/measure.py
 	$(BIN)/python benches/trace.py
 	$(BIN)/python benches/trace_mask.py
 

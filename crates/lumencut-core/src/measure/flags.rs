@@ -34,3 +34,8 @@ pub const FLAGS: [(&str, u32); 9] = [
 
 /// Sections with any of these are left out of what is largest, narrowest or suggested.
 pub const LEFT_OUT: u32 = BRANCH | METAL | OUTSIDE | NO_EDGE;
+
+/// The names of the flags that are set.
+pub fn names_of(flags: u32) -> Vec<&'static str> {
+    FLAGS.iter().filter(|(_, bit)| flags & bit > 0).map(|(name, _)| *name).collect()
+}

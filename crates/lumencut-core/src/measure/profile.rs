@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::contour::inscribed;
 use super::fit::Fit;
-use super::flags::{FLAGS, LEFT_OUT};
+use super::flags::LEFT_OUT;
 use super::place::Place;
 use super::scale::Scale;
 use super::sections::{Section, center};
@@ -128,9 +128,4 @@ impl Profile {
     pub fn counts(&self, n: usize) -> bool {
         self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
     }
-}
-
-/// The names of the flags that are set.
-pub fn names_of(flags: u32) -> Vec<&'static str> {
-    FLAGS.iter().filter(|(_, bit)| flags & bit > 0).map(|(name, _)| *name).collect()
 }
