@@ -52,6 +52,7 @@ figcaption { font-size: 12px; color: #333; }
 _EXPLAINED = (
     "Diameters are those of the lumen: thrombus and plaque are not lumen, so that an aneurysm may be wider. "
     "Diameter means that of a circle of the same area; ± is one standard deviation from noise and fit. "
+    "A stenosis is compared with the median within 1.5 mm of each reference. "
     "Suggested places are no findings: a reader must look at them. In the pictures the contour is cyan where "
     "a section counts for what is narrowest or widest, and orange where its flags leave it out."
 )

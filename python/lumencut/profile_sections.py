@@ -184,6 +184,9 @@ def marks(sections: Sections, at: float | None = None, references: Sequence[floa
         Mark("reference", place, sections.diameter_at(place)[0], is_suggestion=False) for place in references
     ]
     if found and not references:
-        suggested = sections.suggested_references(found[0].arc_length)
-        found += [Mark("reference", *spot, is_suggestion=True) for spot in suggested if spot is not None]
+        spots = [spot for spot in sections.suggested_references(found[0].arc_length) if spot is not None]
+        # The diameter there, as of the others; references of a stenosis are medians around their place.
+        found += [
+            Mark("reference", place, sections.diameter_at(place)[0], is_suggestion=True) for place, _ in spots
+        ]
     return found
