@@ -12,6 +12,7 @@ from PIL import Image
 
 import lumencut
 from lumencut import Flag, FormatError, MissingPackageError, Profile, Window, measure, phantom
+from lumencut.contact_sheet import contact_sheet
 from lumencut.measured_vessel import Marked, MeasuredVessel, profiles_of
 from lumencut.profile_files import csv_text, json_text
 from lumencut.profile_plot import figure_of, write
@@ -214,11 +215,24 @@ def test_sections_that_do_not_count_have_another_colour(branched):
     assert len(near(picture, ORANGE)) > len(near(picture, CYAN))
 
 
-def test_each_vessel_begins_a_line_of_the_sheet(narrow, marked):
+def test_a_sheet_begins_lines_where_it_is_told():
+    pictures = [np.full((40, 60, 4), (10 * n, 200, 0, 255), np.uint8) for n in range(1, 11)]
+    titles = [f"picture {n}" for n in range(1, 11)]
+    for starts, is_first in (((), False), ((0, 5), True)):
+        sheet = contact_sheet(pictures, titles, starts)
+        first, sixth = (
+            np.argwhere((sheet == (10 * n, 200, 0, 255)).all(axis=-1)).min(axis=0) for n in (1, 6)
+        )
+        assert (first[1] == sixth[1]) == is_first
+        assert sixth[0] > first[0]
+
+
+def test_the_sheet_shows_marked_places_and_tells_its_progress(narrow, marked):
     view = SectionView(narrow.volume, Window(level=200, width=800))
     told = []
-    one = sections_sheet(view, [marked], 3)
-    two = sections_sheet(view, [marked, marked], 3, lambda *step: told.append(step))
+    bare = MeasuredVessel("0", marked.vessel, marked.profile, (), None, None)
+    few = sections_sheet(view, [bare, bare], 3, lambda *step: told.append(step))
+    more = sections_sheet(view, [marked, marked], 3)
     assert told == [(1, 2), (2, 2)]
-    assert two.shape[0] >= 2 * (one.shape[0] // 2)
-    assert near(two, CYAN)[:, 1].max() > one.shape[0] // 2
+    # Beside the first, the middle and the last section those at 10 and 50 mm; each has its contour.
+    assert len(near(more, CYAN)) > 1.3 * len(near(few, CYAN))
