@@ -343,7 +343,7 @@ def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "command", ["", "render", "turntable", "trace", "evaluate", "info", "settings", "demo"]
+    "command", ["", "render", "turntable", "trace", "measure", "evaluate", "info", "settings", "demo"]
 )
 def test_help_imports_nothing_heavy(command):
     code = (

@@ -43,6 +43,7 @@ HEAVY = {
     "click",
     "gdcm",
     "itk",
+    "matplotlib",
     "nibabel",
     "nrrd",
     "openjpeg",

@@ -65,6 +65,11 @@ def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
         move(folder / "whole.part", place)
 
 
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a text that appears only once it is whole."""
+    replace_whole(checked_path(path, WRITABLE), lambda whole: whole.write_text(text, "utf-8", newline="\n"))
+
+
 @contextmanager
 def private_folder(subject: Path, home: Path) -> Iterator[Path]:
     """Make a hidden folder in ``home`` that only this user can enter, and leave none behind.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -21,13 +21,15 @@ _GAP = 8
 _GROUND = (48, 48, 48, 255)
 
 
-def contact_sheet(pictures: Sequence[Picture], titles: Sequence[str]) -> Picture:
+def contact_sheet(
+    pictures: Sequence[Picture], titles: Sequence[str], starts: Collection[int] = ()
+) -> Picture:
     """Return pictures (H, W, 4) as one, each below its title, in lines from the upper left.
 
-    Of a long title the part before the last comma is cut.
+    Of a long title the part before the last comma is cut. Pictures whose numbers are `starts` begin a line.
     """
     panels = [_titled(picture, title) for picture, title in zip(pictures, titles, strict=True)]
-    lines = _lines(panels)
+    lines = _lines(panels, starts)
     width = max(sum(panel.shape[1] + _GAP for panel in line) for line in lines) + _GAP
     height = sum(max(panel.shape[0] for panel in line) + _GAP for line in lines) + _GAP
     sheet = np.full((height, width, 4), _GROUND, np.uint8)
@@ -58,15 +60,15 @@ def _titled(picture: Picture, title: str) -> Picture:
     return panel
 
 
-def _lines(panels: Sequence[Picture]) -> list[list[Picture]]:
+def _lines(panels: Sequence[Picture], starts: Collection[int]) -> list[list[Picture]]:
     """The panels in lines no wider than makes the sheet about as wide as 1.5 times its height."""
     area = sum((panel.shape[0] + _GAP) * (panel.shape[1] + _GAP) for panel in panels)
     widest = max(math.sqrt(1.5 * area), max(panel.shape[1] for panel in panels) + 2 * _GAP)
     lines: list[list[Picture]] = []
     taken = math.inf
-    for panel in panels:
+    for number, panel in enumerate(panels):
         taken += panel.shape[1] + _GAP
-        if taken > widest:
+        if taken > widest or number in starts:
             lines.append([])
             taken = panel.shape[1] + 2 * _GAP
         lines[-1].append(panel)

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
 from lumencut.errors import MeasuringError, SettingsError
+from lumencut.profile_outputs import ProfileOutputs
 from lumencut.stenosis import METHODS, Method, Stenosis
 
 _Floats = npt.NDArray[np.float64]
@@ -57,7 +58,7 @@ class CArm(NamedTuple):
         return f"{side} {abs(self.lao.degrees):.0f}° {tilt} {abs(self.cranial.degrees):.0f}°"
 
 
-class Profile:
+class Profile(ProfileOutputs):
     """The lumen of one vessel by its arc length; :func:`lumencut.measure` makes it.
 
     Arrays have one row for each section, n in all, and cannot be written to. What could not be measured is

@@ -14,6 +14,7 @@ from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
 from lumencut.cli.evaluate import evaluate
 from lumencut.cli.info import info
+from lumencut.cli.measure import measure
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
 from lumencut.cli.trace import trace
@@ -53,5 +54,5 @@ def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
 
 
-for _command in (render, turntable, compare_methods, cpr, evaluate, info, trace, settings, demo):
+for _command in (render, turntable, compare_methods, cpr, evaluate, info, trace, measure, settings, demo):
     main.add_command(_command)

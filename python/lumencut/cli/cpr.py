@@ -14,13 +14,12 @@ from lumencut.cli.parameters import VECTOR
 from lumencut.cli.report import busy, detail, say, timings, verbose_option, warn
 from lumencut.cli.scene import read_files, scene_from, warn_of_window
 from lumencut.cli.settings import look_options, settings_from
-from lumencut.cli.vessels import ids_of, shown_ids
-from lumencut.errors import VesselTreeError
+from lumencut.cli.vessels import path_option, titled_vessels
 
 if TYPE_CHECKING:
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer
-    from lumencut.vessel_tree import Vessel, VesselTree
+    from lumencut.vessel_tree import Vessel
     from lumencut.volume import Volume
 
 #: The names of ``lumencut.planar_reformation.MODES``, here so that ``--help`` need not import numpy.
@@ -49,12 +48,7 @@ _COARSEST = 0.25
     "straightened: along its length. Distances are true in the last two.",
 )
 @options.shown_vessel_options
-@click.option(
-    "--path",
-    metavar="NAME|ID,...",
-    multiple=True,
-    help="Show several vessels that meet as one, in this order, such as 0,2,5; may be repeated.",
-)
+@path_option
 @click.option(
     "--angle",
     type=float,
@@ -117,7 +111,7 @@ def cpr(output: Path, volume_out: Path | None, annotate: bool, **chosen: Any) ->
     voxels, tree = read_files(files, chosen)
     if voxels is None or tree is None:
         raise click.UsageError("lumencut cpr needs VOLUME and CENTERLINES")
-    vessels = _vessels(tree, chosen)
+    vessels = titled_vessels(tree, chosen)
     _check_count(vessels, output, volume_out)
 
     from lumencut.renderer import Renderer
@@ -154,29 +148,6 @@ def _check_count(vessels: list[tuple[str, Vessel]], output: Path, volume_out: Pa
     if one is not None:
         mend = "choose one by --vessel or --path"
         raise click.UsageError(f"{one} holds one vessel; found {len(vessels)}; {mend}")
-
-
-def _vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
-    """What is shown, with its title: single vessels, and paths through several."""
-    ids = [] if chosen["path"] and not chosen["vessel"] else shown_ids(tree, chosen)
-    found = [(_title(str(n), tree[n]), tree[n]) for n in ids]
-    for words in chosen["path"]:
-        vessel = tree.path([_one(tree, word) for word in words.split(",")])
-        found.append((_title(words, vessel), vessel))
-    return found
-
-
-def _one(tree: VesselTree, word: str) -> int:
-    """The one vessel that a word of --path stands for."""
-    ids = ids_of(tree, (word.strip(),))
-    if len(ids) > 1:
-        raise VesselTreeError("--path", f"{len(ids)} vessels named {word!r}", "one vessel", "give its id")
-    return ids[0]
-
-
-def _title(number: str, vessel: Vessel) -> str:
-    name = "" if vessel.name is None else f" {vessel.name}"
-    return f"{number}{name}, {vessel.length:.0f} mm"
 
 
 def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[str, Any]) -> Reformation:

@@ -137,7 +137,7 @@ def _check_outputs(scene: SceneFiles, csv: Path | None, markdown: Path | None, p
 
 def _write(found: Evaluation, csv: Path | None, markdown: Path | None, pictures: Path | None) -> None:
     """Write what was asked for, or print the table."""
-    from lumencut.evaluation.result import write_text
+    from lumencut._files import write_text
 
     told = f"{', '.join(found.settings)} in {len(found.cameras)} views"
     if csv is not None:

@@ -41,6 +41,24 @@ class Parts(_Type):
         return numbers
 
 
+class Places(_Type):
+    """One place on a vessel, or two: arc lengths in mm."""
+
+    name = "MM[,MM]"
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[float, ...]:
+        """Return the one or two arc lengths."""
+        if not isinstance(value, str):
+            return tuple(value)
+        try:
+            places = tuple(float(part) for part in value.split(","))
+        except ValueError:
+            places = ()
+        if not 1 <= len(places) <= 2 or not all(math.isfinite(place) for place in places):
+            self.fail(f"{value!r} is not of the form {self.name}, such as 12.5 or 3,40", param, ctx)
+        return places
+
+
 class WindowOption(Parts):
     """A window as its width and level, in this order, or by its name."""
 
@@ -142,6 +160,7 @@ class Transfer(_Type):
 
 VECTOR = Parts("X,Y,Z", ",", float)
 SIZE = Parts("WIDTHxHEIGHT", "x", int)
+PLACES = Places()
 WINDOW = WindowOption(WINDOW_NAMES)
 RGB = Color("RRGGBB", (3,))
 RGBA = Color("RRGGBB[AA]", (3, 4))

@@ -4,10 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import click
+
 from lumencut.errors import VesselTreeError
 
 if TYPE_CHECKING:
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.vessel_tree import Vessel, VesselTree
+
+#: Several vessels as one.
+path_option = click.option(
+    "--path",
+    metavar="NAME|ID,...",
+    multiple=True,
+    help="Show several vessels that meet as one, in this order, such as 0,2,5; may be repeated.",
+)
 
 
 def chosen_of(tree: VesselTree, chosen: dict[str, Any]) -> tuple[VesselTree, VesselTree]:
@@ -34,3 +44,30 @@ def ids_of(tree: VesselTree, words: tuple[str, ...]) -> list[int]:
         for word in words
         for index in tree.ids(int(word) if word.isdecimal() and word not in tree else word)
     ]
+
+
+def named_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
+    """Return what --vessel, --exclude and --path choose, with ids: vessels, then paths through several."""
+    ids = [] if chosen["path"] and not chosen["vessel"] else shown_ids(tree, chosen)
+    found = [(str(n), tree[n]) for n in ids]
+    return found + [
+        (words, tree.path([_one(tree, word) for word in words.split(",")])) for words in chosen["path"]
+    ]
+
+
+def titled_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
+    """Return what options choose, each with its ids, its name and its length as a title."""
+    return [(_title(number, vessel), vessel) for number, vessel in named_vessels(tree, chosen)]
+
+
+def _one(tree: VesselTree, word: str) -> int:
+    """The one vessel that a word of --path stands for."""
+    ids = ids_of(tree, (word.strip(),))
+    if len(ids) > 1:
+        raise VesselTreeError("--path", f"{len(ids)} vessels named {word!r}", "one vessel", "give its id")
+    return ids[0]
+
+
+def _title(number: str, vessel: Vessel) -> str:
+    name = "" if vessel.name is None else f" {vessel.name}"
+    return f"{number}{name}, {vessel.length:.0f} mm"

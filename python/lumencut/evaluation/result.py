@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lumencut._files import WRITABLE, checked_path, replace_whole
+from lumencut._files import WRITABLE, checked_path, write_text
 from lumencut.camera import Camera
 from lumencut.errors import FileError, VolumeError
 from lumencut.evaluation.methods import METHODS
@@ -118,11 +118,6 @@ class Evaluation:
             METHODS[name].picture(self._renderer, camera, settings).save(place / f"{name}.png")
             paths.append(place / f"{name}.png")
         return paths
-
-
-def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text that appears only once it is whole."""
-    replace_whole(checked_path(path, WRITABLE), lambda whole: whole.write_text(text, "utf-8", newline="\n"))
 
 
 def _told(value: str | float | int | None) -> str:

@@ -1,0 +1,184 @@
+"""``lumencut measure``: the lumen of vessels by arc length, as a table, a plot, sections and a report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options
+from lumencut.cli.measure_outputs import check_outputs, write_outputs
+from lumencut.cli.mistakes import check_files, check_reading
+from lumencut.cli.parameters import PLACES
+from lumencut.cli.report import bar, say, verbose_option, warn
+from lumencut.cli.scene import read_files, scene_from
+from lumencut.cli.vessels import named_vessels, path_option
+from lumencut.errors import MeasuringError
+
+if TYPE_CHECKING:
+    from lumencut.measured_vessel import Marked, MeasuredVessel
+    from lumencut.profile import Profile
+    from lumencut.vessel_tree import Vessel, VesselTree
+    from lumencut.volume import Volume
+
+#: The names of `lumencut.stenosis.METHODS` and `lumencut.measured_vessel.GROUPS`, here so that `--help`
+#: need not import numpy.
+METHODS, GROUPS = ("nascet", "ecst", "area"), ("carotid", "coronary")
+
+#: What speaks of a place on one vessel.
+_OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
+
+
+@click.command(short_help="Measure the lumen of vessels.")
+@click.argument("volume", type=options.FILE)
+@click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
+@click.option(
+    "-o",
+    "--output",
+    type=options.FILE,
+    multiple=True,
+    required=True,
+    help="The sections as a table (.csv) or for programs (.json); may be repeated.",
+)
+@options.shown_vessel_options
+@path_option
+@click.option(
+    "--step",
+    type=click.FloatRange(min=0, min_open=True),
+    default=0.5,
+    show_default=True,
+    metavar="MM",
+    help="The distance of sections (mm), at most.",
+)
+@click.option(
+    "--fwhm",
+    type=click.FloatRange(min=0, min_open=True, max=20),
+    metavar="MM",
+    help="The full width at half maximum of the scanner's point spread (mm); default: estimated where the "
+    "vessel is wide, else assumed, and said which.",
+)
+@click.option("--at", type=float, metavar="MM", help="The place of a stenosis: its arc length on the vessel.")
+@click.option(
+    "--reference",
+    type=PLACES,
+    metavar=PLACES.name,
+    help="The place of the normal vessel (mm of arc length), for NASCET beyond the stenosis; or one on each "
+    "side.",
+)
+@click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    help="How the stenosis is graded: by the diameter of the reference (nascet, the default), by --original "
+    "(ecst), or by the area of the reference.",
+)
+@click.option(
+    "--original", type=float, metavar="MM", help="The assumed original diameter at the stenosis, for ecst."
+)
+@click.option(
+    "--comparison",
+    type=float,
+    metavar="MM",
+    help="The diameter of a vessel like the normal one, such as that of the other side: a much narrower "
+    "reference is a near-occlusion.",
+)
+@click.option(
+    "--group",
+    type=click.Choice(GROUPS),
+    help="Which vessel it is, to name the group of the field that the stenosis falls into.",
+)
+@click.option("--plot", type=options.FILE, help="Draw diameters by arc length (.png or .svg).")
+@click.option(
+    "--sections", type=options.FILE, help="Sections with their contours side by side, as a picture."
+)
+@click.option("--report", type=options.FILE, help="A page for each vessel with all of it (.html).")
+@options.reading_options
+@verbose_option
+def measure(output: tuple[Path, ...], **chosen: Any) -> None:
+    """Measure the lumen of the vessels of CENTERLINES in VOLUME, in sections across them.
+
+    All vessels are measured unless --vessel, --exclude or --path choose among them. Nothing is called a
+    stenosis unless --at marks it; the narrowest place and references are suggestions to look at. A lumen
+    is not the vessel: thrombus and plaque are not lumen. --plot and --report need matplotlib.
+
+    \b
+    lumencut measure ct.nii.gz centerlines.vtp -o profile.csv --plot profile.png
+    lumencut measure ct.nii.gz centerlines.vtp -o LAD.json --vessel LAD --sections LAD.png --report LAD.html
+    lumencut measure ct.nii.gz lines.vtp -o ica.csv --path CCA,ICA --at 41 --reference 70 --group carotid
+    """  # noqa: D301 - click needs the control character itself
+    _check_places(chosen)
+    check_outputs(output, chosen)
+    files = scene_from(chosen)
+    check_files(files.volume, files.centerlines)
+    check_reading(chosen, [chosen["volume"]], has_centerlines=True)
+    voxels, tree = read_files(files, chosen)
+    if voxels is None or tree is None:
+        raise click.UsageError("lumencut measure needs VOLUME and CENTERLINES")
+    from lumencut.placement import check_meeting
+
+    check_meeting(voxels, tree)
+    vessels = named_vessels(tree, chosen)
+    if chosen["at"] is not None and len(vessels) > 1:
+        mend = "choose one by --vessel or --path"
+        raise click.UsageError(f"--at is a place on one vessel; found {len(vessels)}; {mend}")
+    measured = _measured(voxels, tree, vessels, chosen)
+    for one in measured:
+        say(f"{one.name}: {_described(one.profile)}")
+        for line in one.told:
+            say(f"  {line}")
+    write_outputs(voxels, tree, measured, output, chosen)
+
+
+def _described(profile: Profile) -> str:
+    """How a vessel was measured, in words."""
+    length = f"{len(profile)} sections over {profile.arc_length[-1]:.1f} mm"
+    return f"{length}, FWHM {profile.fwhm:.2f} mm {profile.fwhm_source}"
+
+
+def _check_places(chosen: dict[str, Any]) -> None:
+    """Refuse what speaks of a stenosis where no place is marked, and what its method has no use for."""
+    if chosen["at"] is None:
+        for name in _OF_A_PLACE:
+            if chosen[name] is not None:
+                raise click.UsageError(f"--{name} without --at does nothing; mark the place of the stenosis")
+        return
+    is_graded = chosen["reference"] is not None or chosen["method"] == "ecst"
+    for name in _OF_A_PLACE[1:]:
+        if chosen[name] is not None and not is_graded:
+            mend = "give --reference, or --method ecst with --original"
+            raise click.UsageError(f"--{name} grades nothing without a reference; {mend}")
+
+
+def _measured(
+    voxels: Volume, tree: VesselTree, vessels: Sequence[tuple[str, Vessel]], chosen: dict[str, Any]
+) -> list[MeasuredVessel]:
+    """The vessels that can be measured, with a warning of each other one; the error where there is none."""
+    from lumencut.measured_vessel import MeasuredVessel
+    from lumencut.measuring import measure as library
+
+    found, marked = [], _marked(chosen)
+    with bar("measuring", "vessel") as told:
+        for number, (ids, vessel) in enumerate(vessels, 1):
+            try:
+                profile = library(voxels, vessel, chosen["step"], chosen["fwhm"], tree=tree)
+                found.append(MeasuredVessel.of(ids, vessel, profile, marked))
+            except MeasuringError as error:
+                if number == len(vessels) and not found:
+                    raise
+                warn(f"vessel {ids} is not measured: {error}")
+            told(number, len(vessels))
+    return found
+
+
+def _marked(chosen: dict[str, Any]) -> Marked:
+    from lumencut.measured_vessel import Marked
+
+    return Marked(
+        chosen["at"],
+        chosen["reference"] or (),
+        chosen["method"] or "nascet",
+        chosen["original"],
+        chosen["comparison"],
+        chosen["group"],
+    )

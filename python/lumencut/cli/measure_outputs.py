@@ -1,0 +1,161 @@
+"""What ``lumencut measure`` writes beside its words: tables, JSON, plots, sections and reports."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options
+from lumencut.cli.report import bar, busy, say
+
+if TYPE_CHECKING:
+    from lumencut.measured_vessel import MeasuredVessel
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+#: The endings of each output.
+_ENDINGS = {
+    "output": (".csv", ".json"),
+    "plot": (".png", ".svg"),
+    "report": (".html", ".htm"),
+}
+
+#: Sections of a sheet: at most so many of a vessel, and so many in all unless there are more vessels.
+_SECTIONS, _IN_ALL, _LEAST = 20, 240, 4
+
+#: The most vessels of a plot: each takes 4 inches of its height.
+_PLOTTED = 40
+
+#: What a report states of what was asked for, with the unit.
+_ASKED = {
+    "step": " mm",
+    "fwhm": " mm",
+    "at": " mm",
+    "reference": " mm",
+    "method": "",
+    "original": " mm",
+    "comparison": " mm",
+    "group": "",
+}
+
+
+def check_outputs(output: Sequence[Path], chosen: dict[str, Any]) -> None:
+    """Refuse files that could not be written, before any is read."""
+    named = [("output", path) for path in output]
+    named += [(name, chosen[name]) for name in ("plot", "report") if chosen[name] is not None]
+    for name, path in named:
+        if path.suffix.lower() not in _ENDINGS[name]:
+            found = f"{path}: found the ending {path.suffix!r}"
+            raise click.UsageError(f"{found}; expected {' or '.join(_ENDINGS[name])}")
+        options.check_folder(path)
+    if chosen["sections"] is not None:
+        _check_sheet(chosen["sections"])
+    if chosen["device"] != "auto" and chosen["report"] is None:
+        raise click.UsageError("--device does nothing without --report: the CPU measures; leave it out")
+    _check_twice([path for _, path in named] + [chosen["sections"]])
+    if chosen["plot"] is not None or chosen["report"] is not None:
+        from lumencut.profile_plot import check_matplotlib
+
+        check_matplotlib()
+
+
+def write_outputs(
+    voxels: Volume,
+    tree: VesselTree,
+    measured: Sequence[MeasuredVessel],
+    output: Sequence[Path],
+    chosen: dict[str, Any],
+) -> None:
+    """Write what was asked for, and say it."""
+    for path in output:
+        _write_profiles(path, measured, chosen)
+    if chosen["plot"] is not None:
+        _write_plot(chosen["plot"], measured)
+    if chosen["sections"] is not None:
+        _write_sheet(chosen["sections"], voxels, tree, measured)
+    if chosen["report"] is not None:
+        _write_report(chosen["report"], voxels, tree, measured, chosen)
+
+
+def _check_sheet(path: Path) -> None:
+    if path.suffix.lower() == ".npz":
+        raise click.UsageError(f"{path}: found the ending '.npz'; expected a picture format such as .png")
+    options.check_picture(path)
+
+
+def _check_twice(paths: Sequence[Path | None]) -> None:
+    """Refuse two outputs in one file."""
+    places = [path.resolve() for path in paths if path is not None]
+    twice = next((place for place in places if places.count(place) > 1), None)
+    if twice is not None:
+        raise click.UsageError(f"{twice} would be written twice; give each output another name")
+
+
+def _write_profiles(path: Path, measured: Sequence[MeasuredVessel], chosen: dict[str, Any]) -> None:
+    from lumencut._files import write_text
+    from lumencut.measured_vessel import profiles_of
+    from lumencut.profile_files import csv_text, json_text
+
+    if path.suffix.lower() == ".csv":
+        text = csv_text(profiles_of(measured))
+    else:
+        asked = {f"{name}{'_mm' if unit else ''}": chosen[name] for name, unit in _ASKED.items()}
+        text = json_text({"settings": asked, "vessels": [one.record() for one in measured]})
+    write_text(path, text)
+    count = "1 vessel" if len(measured) == 1 else f"{len(measured)} vessels"
+    say(f"{path}: {count}, {sum(len(one.profile) for one in measured)} sections")
+
+
+def _write_plot(path: Path, measured: Sequence[MeasuredVessel]) -> None:
+    if len(measured) > _PLOTTED:
+        mend = "choose by --vessel"
+        raise click.UsageError(f"{path} holds {_PLOTTED} vessels at most; found {len(measured)}; {mend}")
+    from lumencut.profile_plot import figure_of, write
+
+    with busy(f"writing {path.name}"):
+        rows = [(_title(one), one.profile, one.marks) for one in measured]
+        write(figure_of(rows), path)
+    say(str(path))
+
+
+def _title(one: MeasuredVessel) -> str:
+    name = f"vessel {one.name}, {one.profile.arc_length[-1]:.1f} mm"
+    return name if one.stenosis is None else f"{name}\n{one.stenosis}"
+
+
+def _write_sheet(path: Path, voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel]) -> None:
+    from lumencut.frame import save_picture
+    from lumencut.section_pictures import SectionView, sections_sheet
+    from lumencut.window import Window
+
+    count = min(_SECTIONS, max(_LEAST, _IN_ALL // len(measured)))
+    with bar("sections", "vessel") as told:
+        view = SectionView(voxels, Window.from_data(voxels, tree))
+        save_picture(sections_sheet(view, measured, count, told), path)
+    say(str(path))
+
+
+def _write_report(
+    path: Path,
+    voxels: Volume,
+    tree: VesselTree,
+    measured: Sequence[MeasuredVessel],
+    chosen: dict[str, Any],
+) -> None:
+    from lumencut._files import write_text
+    from lumencut.measure_report import report
+    from lumencut.renderer import Renderer
+
+    asked = {
+        name: f"{_words(chosen[name])}{unit}" for name, unit in _ASKED.items() if chosen[name] is not None
+    }
+    with bar("report", "page") as told:
+        write_text(path, report(Renderer(voxels, tree, chosen["device"]), voxels, measured, asked, told))
+    say(str(path))
+
+
+def _words(value: Any) -> str:
+    return " and ".join(f"{place:g}" for place in value) if isinstance(value, tuple) else str(value)

@@ -1,0 +1,183 @@
+"""Pictures of the sections across a vessel with the contour of the lumen, alone and side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.annotation import bar_length_for
+from lumencut.contact_sheet import Picture, contact_sheet
+from lumencut.lettering import Sheet
+from lumencut.measured_vessel import MeasuredVessel
+from lumencut.measuring import cross_section
+from lumencut.profile import Profile
+from lumencut.profile_sections import counts, flag_words, nearest
+from lumencut.volume import Volume
+from lumencut.window import Window
+
+#: Contours of sections that count, and of others.
+_COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
+
+#: Contours are drawn so many times as large and made smaller: their edges are smooth.
+_FINER = 3
+
+#: A picture is this many times as wide as the lumen, and within these (mm).
+_ROOM, _SIZES = 2.5, (12.0, 120.0)
+
+
+def fitting_size(profile: Profile) -> float:
+    """Return the side (mm) of pictures in which nearly all sections of a vessel that count have room."""
+    wide = profile.diameter_max[counts(profile)]
+    if not len(wide):
+        wide = profile.diameter_max[np.isfinite(profile.diameter_max)]
+    if not len(wide):
+        return 30.0
+    return float(np.clip(np.ceil(_ROOM * np.quantile(wide, 0.9)), *_SIZES))
+
+
+@dataclass(frozen=True, eq=False)
+class SectionView:
+    """How sections are shown.
+
+    Attributes
+    ----------
+    volume : Volume
+        What is shown.
+    window : Window
+        How bright it is.
+    side : int
+        The side of a picture (pixels).
+    """
+
+    volume: Volume
+    window: Window
+    side: int = 260
+
+    def picture(
+        self, one: MeasuredVessel, number: int, words: str = "", *, has_contour: bool = True
+    ) -> Picture:
+        """Return one section (H, W, 4): the volume across the vessel, contour, numbers with units, a scale.
+
+        The contour is cyan where the section counts for what is narrowest or widest, and orange where flags
+        leave it out. Without it there are neither words nor numbers. `words` stand above the numbers.
+        """
+        profile, spacing = one.profile, fitting_size(one.profile) / (self.side - 1)
+        origin, across = profile.center[number], self._axes(one, number)
+        steps = (np.arange(self.side) - (self.side - 1) / 2) * spacing
+        places = origin + steps[:, None, None] * across[1] + steps[None, :, None] * across[0]
+        value = self.volume.sample(places.reshape(-1, 3)).reshape(self.side, self.side)
+        picture = _grey(value, self.window)
+        if not has_contour:
+            return _with_scale(Sheet(picture), spacing)
+        contour = (profile.contour[number] - origin) @ across.T / spacing + (self.side - 1) / 2
+        if np.isfinite(contour).all():
+            color = _COUNTED if counts(profile)[number] else _LEFT_OUT
+            picture = _with_line(picture, contour, color)
+        return _labelled(picture, profile, number, words, spacing)
+
+    def _axes(self, one: MeasuredVessel, number: int) -> npt.NDArray[np.float64]:
+        """The unit vectors to the right and downwards in the plane that was measured, shape (2, 3).
+
+        They are turned about the vessel as those of `cross_section`, whose plane is that of the vessel as it
+        is given.
+        """
+        at = float(one.profile.arc_length[number])
+        corners = cross_section(self.volume, one.vessel, at, 4.0, 1.0).position
+        normal = one.profile.normal[number]
+        right, down = (end - corners[0, 0] for end in (corners[0, -1], corners[-1, 0]))
+        right = right - (right @ normal) * normal
+        right /= np.linalg.norm(right)
+        lower = np.cross(normal, right)
+        return np.stack([right, lower if lower @ down > 0 else -lower])
+
+
+def sections_sheet(
+    view: SectionView,
+    measured: Sequence[MeasuredVessel],
+    count: int,
+    progress: Callable[[int, int], object] = lambda done, total: None,
+) -> Picture:
+    """Return sections side by side, each below the name of its vessel and its arc length.
+
+    Of each vessel `count` sections from its first to its last and those of its marks are shown, to one scale.
+    Each vessel begins a line.
+    """
+    pictures: list[Picture] = []
+    titles, starts = [], []
+    for done, one in enumerate(measured, 1):
+        marked = _marked(one)
+        starts.append(len(pictures))
+        for number in sorted({*_even(one.profile, count), *marked}):
+            pictures.append(view.picture(one, number, marked.get(number, "")))
+            titles.append(f"vessel {one.name}, at {one.profile.arc_length[number]:.1f} mm")
+        progress(done, len(measured))
+    return contact_sheet(pictures, titles, starts)
+
+
+def _even(profile: Profile, count: int) -> list[int]:
+    """Sections evenly along a vessel, from its first to its last."""
+    wanted = np.linspace(0, len(profile) - 1, min(count, len(profile)))
+    return [int(number) for number in np.unique(wanted.round())]
+
+
+def _marked(one: MeasuredVessel) -> dict[int, str]:
+    """The sections nearest to marked places, and what is marked there."""
+    found: dict[int, list[str]] = {}
+    for mark in one.marks:
+        found.setdefault(nearest(one.profile, mark.arc_length), []).append(mark.title)
+    return {number: ", ".join(titles) for number, titles in found.items()}
+
+
+def _grey(value: npt.NDArray[np.float32], window: Window) -> Picture:
+    """Values in a window; outside of the volume it is black."""
+    share = (np.nan_to_num(value, nan=-np.inf) - window.level) / window.width + 0.5
+    grey = (np.clip(share, 0, 1) * 255).round().astype(np.uint8)
+    return np.stack([grey, grey, grey, np.full_like(grey, 255)], axis=-1)
+
+
+def _with_line(picture: Picture, points: npt.NDArray[np.float64], color: tuple[int, ...]) -> Picture:
+    """A picture with a closed line through points (column and row)."""
+    from PIL import Image, ImageDraw
+
+    height, width = picture.shape[:2]
+    finer = Image.new("L", (width * _FINER, height * _FINER), 0)
+    path = [tuple(point) for point in (points + 0.5) * _FINER - 0.5]
+    ImageDraw.Draw(finer).line([*path, *path[:2]], fill=255, width=_FINER + 1, joint="curve")
+    drawn = np.asarray(finer.resize((width, height), Image.Resampling.BOX), np.float64)[..., None] / 255
+    return (picture * (1 - drawn) + np.array(color) * drawn).round().astype(np.uint8)
+
+
+def _labelled(picture: Picture, profile: Profile, number: int, words: str, spacing: float) -> Picture:
+    """A section with its numbers in the upper left corner and a scale in the lower one."""
+    sheet = Sheet(picture)
+    short, long = profile.diameter_min[number], profile.diameter_max[number]
+    lines = _wrapped(sheet, words)
+    if not np.isfinite(profile.area[number]):
+        lines.append("no lumen found")
+    else:
+        lines += [f"{profile.diameter_equivalent[number]:.2f} mm ({short:.2f} to {long:.2f})"]
+    lines += _wrapped(sheet, ", ".join(flag_words(int(profile.flags[number]))))
+    for n, line in enumerate(lines):
+        sheet.write(line, (sheet.margin, sheet.margin + n * sheet.line_height))
+    return _with_scale(sheet, spacing)
+
+
+def _with_scale(sheet: Sheet, spacing: float) -> Picture:
+    length = bar_length_for(sheet.size[0] * spacing)
+    sheet.bar(round(length / spacing), sheet.size[1] - sheet.margin, f"{length:.10g} mm")
+    return sheet.pixels()
+
+
+def _wrapped(sheet: Sheet, words: str) -> list[str]:
+    """Words that are separated by commas in lines that fit a sheet."""
+    lines: list[str] = []
+    for word in words.split(", ") if words else []:
+        longer = f"{lines[-1]}, {word}" if lines else word
+        if lines and sheet.box(longer, (sheet.margin, 0))[2] <= sheet.size[0] - sheet.margin:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines

@@ -1,0 +1,71 @@
+"""Reports of measured vessels: whole pages that need nothing beside themselves."""
+
+import re
+
+import numpy as np
+import pytest
+
+import lumencut
+from lumencut import Renderer, VesselTree, measure, phantom
+from lumencut.measure_report import report
+from lumencut.measured_vessel import Marked, MeasuredVessel
+from report_reading import Page
+
+
+@pytest.fixture(scope="module")
+def page() -> Page:
+    """Two pages: a marked stenosis, and the same vessel by an odd name with suggestions alone."""
+    scene = phantom.stenosis(60)
+    vessel = scene.tree[0]
+    profile = measure(scene.volume, vessel)
+    measured = [
+        MeasuredVessel.of("0", vessel, profile, Marked(30.0, (10.0, 50.0), group="carotid")),
+        MeasuredVessel.of("1", vessel.named("<script>LAD & 'co'"), profile, Marked()),
+    ]
+    renderer = Renderer(scene.volume, VesselTree([vessel]), "cpu")
+    told = []
+    text = report(renderer, scene.volume, measured, {"step": "0.5 mm"}, lambda *step: told.append(step))
+    assert told == [(1, 2), (2, 2)]
+    return Page(text)
+
+
+def test_nothing_is_fetched_and_nothing_runs(page):
+    assert page.links
+    assert all(link.startswith("data:image/png;base64,") for link in page.links)
+    assert set(page.tags) & {"script", "link", "iframe", "object", "base", "form"} == set()
+    assert not re.search(r"https?:|//|@import|url\(", re.sub('base64,[^"]*', "", page.source))
+
+
+def test_pictures_are_whole_and_show_something(page):
+    # On each page the plot with the CPR, and sections at the marked place and two references.
+    pictures = page.pictures()
+    assert len(pictures) == 2 * 4
+    for picture in pictures:
+        assert np.asarray(picture.convert("L")).std() > 10
+
+
+def test_each_page_says_what_it_is_of_and_what_it_is_not(page):
+    assert page.count("section") == 2
+    assert page.text.count("Lumencut is not a medical device.") == 2
+    assert page.text.count(f"Measured by Lumencut {lumencut.__version__}") == 2
+    assert page.text.count("thrombus and plaque are not lumen") == 2
+    assert page.text.count("Settings: step 0.5 mm; window W ") == 2
+    assert page.text.count("FWHM of the point spread ") == 2
+    assert "Vessel 1 <script>LAD & 'co', 60.0 mm" in page.text
+
+
+def test_no_percentage_without_method_references_and_mm(page):
+    lines = [line for line in page.words if "%" in line]
+    graded = r"\d+ % of the diameter \(NASCET\): [\d.]+ ± [\d.]+ mm at 30\.0 mm, reference [\d.]+ mm at .* mm"
+    group = r"Group of the field: 50 to 69 % \(groups of NASCET, .*\)"
+    assert len(lines) == 2
+    assert re.fullmatch(graded, lines[0])
+    assert re.fullmatch(group, lines[1])
+
+
+def test_every_number_of_the_table_has_its_unit(page):
+    heads = ["arc length (mm)", "diameter ± 1 SD (mm)", "shortest (mm)", "longest (mm)", "area (mm²)"]
+    for head in heads:
+        assert page.text.count(head) == 2
+    assert page.text.count("narrowest place (suggestion)") == 2
+    assert page.text.count("marked place") == 2
