@@ -1,6 +1,8 @@
 //! Measured radii for the points of a tree.
 
-use super::flags::{LEFT_OUT, METAL};
+use std::f64::consts::PI;
+
+use super::flags::{LEFT_OUT, METAL, RECENTERED};
 use super::measuring::{Request, measure};
 use super::profile::{Profile, Source};
 use crate::error::{ErrorKind, Result};
@@ -10,6 +12,9 @@ use crate::volume::Volume;
 
 /// Between measured sections no farther apart than this (mm) radii are interpolated.
 const GAP: f64 = 10.0;
+
+/// A section whose diameter is unsure by this share of it or more tells none.
+const UNSURE: f64 = 0.25;
 
 /// The radii of one vessel.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,11 +66,15 @@ pub fn measured_radii(
 
 /// The radii at the points of a vessel, of circles with the measured areas.
 fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
-    // The wall within a stent was measured, if less surely.
-    let is_told = |n: &usize| profile.flags[*n] & (LEFT_OUT & !METAL) == 0 && profile.area[*n].is_finite();
+    // The wall within a stent was measured, if less surely. A lumen beside the line may be that of another vessel.
+    let left_out = (LEFT_OUT & !METAL) | RECENTERED;
+    let is_told = |n: &usize| {
+        let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
+        profile.flags[*n] & left_out == 0 && profile.uncertainty[*n] < UNSURE * diameter
+    };
     let told: Vec<(f64, f64)> = (0..profile.len())
         .filter(is_told)
-        .map(|n| (profile.arc_length[n], (profile.area[n] / std::f64::consts::PI).sqrt()))
+        .map(|n| (profile.arc_length[n], (profile.area[n] / PI).sqrt()))
         .collect();
     let (mut measured, mut kept) = (0, 0);
     let mut radius = Vec::with_capacity(vessel.points().len());

@@ -101,7 +101,11 @@ pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>>
         let vessel = MaskVessel { points: line.points, radius: line.radius, ..vessel };
         SeenVessel { vessel, confidence }
     };
-    let branches = seed_tree::branches(traced.vessels.into_par_iter().map(seen).collect(), request.seed);
+    let vessels = seed_tree::wide_enough(traced.vessels, smallest_radius);
+    if vessels.is_empty() {
+        return Err(no_tube(request, &model, flood.count()));
+    }
+    let branches = seed_tree::branches(vessels.into_par_iter().map(seen).collect(), request.seed);
     if let Some(progress) = request.progress {
         progress.end_view();
     }

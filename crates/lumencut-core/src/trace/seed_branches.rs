@@ -8,7 +8,7 @@ use super::junctions::nearest;
 use super::lumen_model::LumenModel;
 use super::refine::{Centerline, refined};
 use super::seed_ways::{NONE, Ways};
-use super::tube::{Sections, Usual};
+use super::tube::{Sections, Usual, median};
 use super::voxels::Voxels;
 use crate::error::Result;
 use crate::stop::Stop;
@@ -266,12 +266,6 @@ fn way_to(ways: &Ways, state: &[Voxel], tip: u32) -> Vec<u32> {
 /// The voxel before another one on its way.
 fn before(ways: &Ways, number: u32) -> Option<u32> {
     Some(ways.parent[number as usize]).filter(|parent| *parent != NONE)
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
-    sorted[sorted.len() / 2]
 }
 
 fn is_known(voxel: Voxel) -> bool {

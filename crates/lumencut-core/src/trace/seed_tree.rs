@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::mask_vessels::MaskVessel;
 use super::refine::Centerline;
+use super::tube::median;
 
 /// A vessel whose mean confidence is below this is doubtful.
 const DOUBTFUL: f64 = 0.3;
@@ -100,6 +101,30 @@ pub fn branches(vessels: Vec<SeenVessel>, seed: DVec3) -> Vec<SeedBranch> {
     }
     let sure = joined(lines).into_iter().map(|line| SeedBranch { line, doubt: None });
     sure.chain(doubtful).collect()
+}
+
+/// The vessels without those at the ends of the tree that are narrower than `least` (mm) on the whole: the median of their
+/// radii over the half that leads away.
+pub fn wide_enough(mut vessels: Vec<MaskVessel>, least: f64) -> Vec<MaskVessel> {
+    loop {
+        let mut ends: HashMap<usize, usize> = HashMap::new();
+        for node in vessels.iter().flat_map(|vessel| vessel.nodes) {
+            *ends.entry(node).or_default() += 1;
+        }
+        let is_narrow = |vessel: &MaskVessel| {
+            let free = vessel.nodes.map(|node| ends[&node] == 1);
+            let half = vessel.radius.len() / 2;
+            let outer = match free {
+                [false, false] => return false,
+                [true, true] => &vessel.radius[..],
+                [true, false] => &vessel.radius[..=half],
+                [false, true] => &vessel.radius[half..],
+            };
+            median(outer) < least
+        };
+        let Some(narrow) = vessels.iter().position(is_narrow) else { return vessels };
+        vessels.remove(narrow);
+    }
 }
 
 /// Which vessels are seen well outside the lumens of those that they meet.

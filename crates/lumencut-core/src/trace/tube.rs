@@ -172,7 +172,8 @@ impl Usual {
     }
 }
 
-fn median(values: &[f64]) -> f64 {
+/// The median of some values, of which there is one at least.
+pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     sorted[sorted.len() / 2]
