@@ -120,6 +120,14 @@ def test_a_smallest_radius_below_zero_is_refused(fork, value):
         trace_from(fork.volume, (0, 0, -20), smallest_radius=value)
 
 
+def test_branches_narrower_than_the_smallest_radius_are_left_out(fork):
+    widths = [np.median(vessel.radius) for vessel in fork.tree]
+    least = (max(widths) + sorted(widths)[-2]) / 2
+    tree = trace_from(fork.volume, (0, 0, -20), smallest_radius=least)
+    assert len(tree) == 1
+    assert np.median(tree[0].radius) == pytest.approx(max(widths), abs=0.3)
+
+
 @pytest.fixture(scope="module")
 def file(fork, tmp_path_factory):
     return write_volume_of(fork.volume, tmp_path_factory.mktemp("ct") / "ct.nii.gz")

@@ -120,7 +120,7 @@ def trace(
     with busy(f"writing {output.name}"):
         write_centerlines(tree, output)
     for vessel in tree:
-        detail(f"{vessel!r}, radius {_mean(vessel.radius):.2f} mm, confidence {_mean(vessel.confidence):.2f}")
+        detail(f"{vessel!r}{_mean('radius', vessel.radius, ' mm')}{_mean('confidence', vessel.confidence)}")
     say(f"{output}: {tree!r}, {sum(vessel.length for vessel in tree):.1f} mm")
     if preview is not None and voxels is not None:
         _render(voxels, tree, preview, device)
@@ -225,8 +225,9 @@ def _in_lps(points: tuple[tuple[float, ...], ...], chosen: dict[str, Any]) -> Po
     return np.array(points, dtype=np.float64).reshape(-1, 3) * signs
 
 
-def _mean(numbers: Points | None) -> float:
-    return float("nan") if numbers is None else float(numbers.mean())
+def _mean(name: str, numbers: Points | None, unit: str = "") -> str:
+    """The mean of what is known of each point of a vessel, in words."""
+    return "" if numbers is None else f", {name} {float(numbers.mean()):.2f}{unit}"
 
 
 def _render(voxels: Volume, tree: VesselTree, path: Path, device: Literal["auto", "cpu", "gpu"]) -> None:
