@@ -11,7 +11,8 @@ from lumencut import Renderer, render
 from lumencut.centerlines import inspect_centerlines, read_centerlines
 from lumencut.errors import FormatError, SettingsError, SpaceWarning
 from lumencut.placement import check_space
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 
 POINTS = np.array([[10.0, 20.0, 0.0], [11.0, 21.0, 5.0], [12.0, 22.0, 9.0]])

@@ -56,8 +56,9 @@ if TYPE_CHECKING:
     from lumencut.transfer import TransferFunction
     from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
+    from lumencut.vessel import Vessel
     from lumencut.vessel_gap import Gap
-    from lumencut.vessel_tree import Vessel, VesselTree
+    from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
     from lumencut.volume_files import SeriesReport, list_series, read_volume
     from lumencut.window import Opacity, Window
@@ -107,7 +108,8 @@ _HOME = {
     "tree_reformations": ("cr", "mpcpr"),
     "turntables": ("fitted_turn", "save_animation", "turntable"),
     "vessel_gap": ("Gap",),
-    "vessel_tree": ("Vessel", "VesselTree"),
+    "vessel": ("Vessel",),
+    "vessel_tree": ("VesselTree",),
     "volume": ("Volume",),
     "volume_files": ("SeriesReport", "list_series", "read_volume"),
     "window": ("Opacity", "Window"),

@@ -15,7 +15,8 @@ from lumencut import _lumencut
 from lumencut._checks import integers, number, numbers
 from lumencut._values import Value, content_of
 from lumencut.errors import CameraError
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 
 #: The six views of the body: direction from the viewer into the scene, and up (LPS).

@@ -17,7 +17,8 @@ from lumencut import _lumencut
 from lumencut._checks import number
 from lumencut.centerline_paths import CenterlinePaths
 from lumencut.errors import SettingsError, VesselTreeError
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 
 #: Errors nearer to the start of the reference do not count as the first one (mm).
 _FREE_START = 5.0

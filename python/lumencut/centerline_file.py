@@ -25,7 +25,8 @@ from lumencut.placement import (
     fits_nowhere,
     placement,
 )
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 from lumencut.vtk_lines import file_of, is_poly_data

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.vessel_tree import Vessel
+from lumencut.vessel import Vessel
 
 #: Points nearer than this are one (mm).
 _SAME = 1e-3

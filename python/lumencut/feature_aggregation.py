@@ -21,7 +21,8 @@ from lumencut.planar_reformation import check_vessel, cpr_of
 from lumencut.reformation import Reformation
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 
 FEATURES = ("max", "mean", "min")
 

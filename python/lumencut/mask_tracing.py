@@ -11,8 +11,9 @@ from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut._wording import counted
 from lumencut.errors import SettingsError, VolumeError
+from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 

@@ -11,7 +11,7 @@ from lumencut.profile import Profile
 from lumencut.profile_files import record
 from lumencut.profile_sections import Mark, marks
 from lumencut.stenosis import METHODS, Method, Stenosis
-from lumencut.vessel_tree import Vessel
+from lumencut.vessel import Vessel
 
 #: The vessels whose stenoses have groups.
 GROUPS: tuple[Literal["carotid", "coronary"], ...] = ("carotid", "coronary")

@@ -12,7 +12,8 @@ from lumencut import _lumencut
 from lumencut._checks import number
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.profile import Profile
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 

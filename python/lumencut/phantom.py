@@ -22,7 +22,8 @@ import numpy.typing as npt
 
 from lumencut._lumencut import make_phantom
 from lumencut.errors import SettingsError
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 
 __all__ = [

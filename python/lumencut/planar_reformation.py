@@ -15,7 +15,8 @@ from lumencut.reformation import Reformation, radians
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.slab import Slab
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 
 Mode: TypeAlias = Literal["projected", "stretched", "straightened"]

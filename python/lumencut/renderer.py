@@ -16,7 +16,8 @@ from lumencut.frame import IMAGES, Frame
 from lumencut.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
 from lumencut.scene_windows import SceneWindows
 from lumencut.settings import Settings
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.window import Window
 

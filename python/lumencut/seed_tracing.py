@@ -11,7 +11,8 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import number, numbers
 from lumencut.errors import SettingsError, TracingError
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 

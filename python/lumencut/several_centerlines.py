@@ -10,7 +10,8 @@ from typing import Any
 from lumencut.centerline_file import CenterlineFile, CenterlineReport
 from lumencut.errors import FormatError
 from lumencut.placement import Coordinates, Unit
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume_files.memory import as_volume
 from lumencut.vtk_lines import is_poly_data
 

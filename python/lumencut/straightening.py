@@ -14,7 +14,8 @@ from lumencut.errors import CameraError
 from lumencut.planar_reformation import check_vessel, cpr_of, one_angle
 from lumencut.reformation import Reformation
 from lumencut.renderer import Renderer
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_writers import write_volume
 

@@ -12,7 +12,8 @@ from lumencut import _lumencut
 from lumencut._checks import flag, number, numbers
 from lumencut._wording import counted
 from lumencut.errors import TracingError
-from lumencut.vessel_tree import Vessel, VesselTree
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 

@@ -19,7 +19,7 @@ from lumencut.cli.vessels import path_option, titled_vessels
 if TYPE_CHECKING:
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer
-    from lumencut.vessel_tree import Vessel
+    from lumencut.vessel import Vessel
     from lumencut.volume import Volume
 
 #: The names of ``lumencut.planar_reformation.MODES``, here so that ``--help`` need not import numpy.

@@ -20,7 +20,8 @@ from lumencut.errors import MeasuringError
 if TYPE_CHECKING:
     from lumencut.measured_vessel import Marked, MeasuredVessel
     from lumencut.profile import Profile
-    from lumencut.vessel_tree import Vessel, VesselTree
+    from lumencut.vessel import Vessel
+    from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
 #: The names of `lumencut.stenosis.METHODS` and `lumencut.measured_vessel.GROUPS`, here so that `--help`

@@ -9,7 +9,8 @@ import click
 from lumencut.errors import VesselTreeError
 
 if TYPE_CHECKING:
-    from lumencut.vessel_tree import Vessel, VesselTree
+    from lumencut.vessel import Vessel
+    from lumencut.vessel_tree import VesselTree
 
 #: Several vessels as one.
 path_option = click.option(

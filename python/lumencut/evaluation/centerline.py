@@ -11,7 +11,8 @@ import numpy.typing as npt
 from lumencut.evaluation.ragged import parts, ragged
 
 if TYPE_CHECKING:
-    from lumencut.vessel_tree import Vessel, VesselTree
+    from lumencut.vessel import Vessel
+    from lumencut.vessel_tree import VesselTree
 
 #: Points nearer than this to the one before them repeat it; shorter projections have no direction (mm).
 COLLINEAR = 1e-3
