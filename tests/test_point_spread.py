@@ -1,4 +1,4 @@
-"""The point spread is that of the scan: sharp walls do not pass for blurred ones, and all vessels of a tree share it."""
+"""The point spread is that of the scan: all vessels of a tree share it, and no sharp wall passes for blurred."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def test_all_vessels_of_a_tree_are_measured_with_one_point_spread():
     # Side by side: each of them is moved by whole voxels.
     left, right = (np.roll(tube.volume(grid).array, by, axis=2) for tube, by in ((wide, -12), (narrow, 14)))
     volume = Volume(np.where(x < 1.6, left, right), world_from_index=grid.affine)
-    lines = (Vessel(LINE.points - [4.8, 0, 0], 3.0), Vessel(LINE.points + [5.6, 0, 0], 1.5))
+    lines = (Vessel(LINE.points - [4.8, 0, 0], 3.0), Vessel(LINE.points - [-5.6, 0, 0], 1.5))
     tree = VesselTree(lines)
     first, second = (measure(volume, line, tree=tree) for line in lines)
     assert first.fwhm == second.fwhm == pytest.approx(0.8, rel=0.1)
