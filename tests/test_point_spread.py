@@ -1,4 +1,4 @@
-"""The point spread is that of the scan: all vessels of a tree share it, and no sharp wall passes for blurred."""
+"""The point spread is that of the scan: a tree shares it, and no sharp wall passes for a blurred one."""
 
 import numpy as np
 import pytest
