@@ -46,8 +46,9 @@ def measure(
         The distance of sections (mm), at most; they lie evenly from the first point to the last.
     fwhm : float, optional
         The full width at half maximum of the scanner's point spread alone (mm), 0 excluded, at most 20.
-        Averaging over voxels is added to it. Without it, it is estimated where the vessel is wide, or else
-        assumed to be 1.2 sides of a voxel; :attr:`Profile.fwhm_source` says which.
+        Averaging over voxels is added to it. Without it, it is estimated where the vessel is wide, of a tree
+        on its widest vessels and then the same for all of them, or else assumed to be 1.2 sides of a voxel;
+        :attr:`Profile.fwhm_source` says which, and why.
     tree : VesselTree, optional
         The tree that the vessel is of: sections within the lumen of its other vessels get
         :attr:`Flag.BRANCH`.

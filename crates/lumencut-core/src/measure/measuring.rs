@@ -11,7 +11,7 @@ use super::fit::Fit;
 use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
 use super::place::{Place, Track};
-use super::point_spread::{SharpEdges, estimated};
+use super::point_spread::{NARROW, Told, estimated};
 use super::profile::{Profile, Source};
 use super::rays::Rays;
 use super::rough::Rough;
@@ -40,8 +40,8 @@ const WIDEST: f64 = 45.0;
 /// Directions of a vessel are smoothed over half of its radius, from so much to so much (mm).
 const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
-/// At most so many other vessels of a tree are asked for the point spread.
-const MOST_ASKED: usize = 3;
+/// At most so many vessels of a tree, the widest ones, are asked for the point spread.
+const MOST_ASKED: usize = 8;
 
 /// How a vessel is measured.
 pub struct Request<'a> {
@@ -77,7 +77,7 @@ fn check(fwhm: Option<f64>) -> Result<()> {
     Err(Error::new(ErrorKind::Settings, "fwhm", format!("{fwhm} mm"), "a width above 0 mm, or none"))
 }
 
-/// The point spread: as it is given, as this vessel tells it, or as the widest of its tree do.
+/// The point spread: as it is given, as the widest vessels of the tree tell it, or as a vessel that is not in the tree does.
 fn point_spread(
     voxels: &Voxels,
     looked: &Looked,
@@ -87,27 +87,50 @@ fn point_spread(
     if let Some(fwhm) = request.fwhm {
         return Ok((fwhm, Source::Given));
     }
-    if let Some(found) = looked.point_spread(voxels, request.stop)? {
-        return Ok((found.fwhm, Source::Estimated { on: found.on() }));
+    let (found, source) = of_tree(voxels, request)?;
+    if matches!(source, Source::Estimated { .. }) || request.tree.contains(vessel) {
+        return Ok((found, source));
     }
-    let own = known_radius(vessel).unwrap_or(0.0);
-    let mut others: Vec<(f64, usize)> = (0..request.tree.len())
-        .filter_map(|n| {
-            known_radius(&request.tree[n]).filter(|radius| *radius > own).map(|radius| (radius, n))
-        })
-        .collect();
-    others.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    for (_, n) in others.into_iter().take(MOST_ASKED) {
+    Ok(match looked.point_spread(voxels, request.stop)? {
+        Told::Width(found) => (found.fwhm, Source::Estimated { on: found.on() }),
+        Told::Nothing(reason) => default(voxels, reason),
+    })
+}
+
+/// The point spread of a scan (FWHM, mm), as it is given or as the widest vessels of the tree tell it: the same for all of its
+/// vessels.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for a width that is none, [`ErrorKind::Interrupted`].
+pub fn point_spread_of(volume: &Volume, request: &Request) -> Result<f64> {
+    check(request.fwhm)?;
+    request.fwhm.map_or_else(|| of_tree(&Voxels::new(volume), request).map(|(fwhm, _)| fwhm), Ok)
+}
+
+fn of_tree(voxels: &Voxels, request: &Request) -> Result<(f64, Source)> {
+    let radius = |n: &usize| known_radius(&request.tree[*n]).unwrap_or(0.0);
+    let mut order: Vec<usize> = (0..request.tree.len()).collect();
+    order.sort_by(|a, b| radius(b).total_cmp(&radius(a)).then(a.cmp(b)));
+    let mut why = NARROW;
+    for n in order.into_iter().take(MOST_ASKED) {
         go_on(request.stop)?;
         // A vessel that cannot be measured tells nothing.
         let Ok(wide) = Looked::new(voxels, &request.tree[n], request) else { continue };
-        if let Some(found) = wide.point_spread(voxels, request.stop)? {
-            let on = format!("{} of vessel {n} of the tree", found.on());
-            return Ok((found.fwhm, Source::Estimated { on }));
+        match wide.point_spread(voxels, request.stop)? {
+            Told::Width(found) => {
+                let on = format!("{} of vessel {n} of the tree", found.on());
+                return Ok((found.fwhm, Source::Estimated { on }));
+            }
+            Told::Nothing(NARROW) => {}
+            Told::Nothing(reason) => why = reason,
         }
     }
-    let from = format!("{DEFAULT_FWHM} sides of a voxel");
-    Ok((assumed(voxels), Source::Assumed { from }))
+    Ok(default(voxels, why))
+}
+
+fn default(voxels: &Voxels, reason: &str) -> (f64, Source) {
+    let from = format!("{DEFAULT_FWHM} sides of a voxel, as {reason}");
+    (assumed(voxels), Source::Assumed { from })
 }
 
 /// A vessel before it is fitted.
@@ -133,7 +156,7 @@ impl Looked {
         Ok(Self { scale, places, rough: tamed(&rough) })
     }
 
-    fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Option<SharpEdges>> {
+    fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
         let bench = bench(voxels, self.scale, assumed(voxels));
         let fits = bench.first_fits(&self.places, &self.rough, stop)?;
         estimated(&bench, voxels.world_from_index.matrix3, &self.places, &fits, stop)

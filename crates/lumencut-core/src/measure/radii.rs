@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::flags::{LEFT_OUT, METAL, RECENTERED};
-use super::measuring::{Request, measure};
-use super::profile::{Profile, Source};
+use super::measuring::{Request, measure, point_spread_of};
+use super::profile::Profile;
 use crate::error::{ErrorKind, Result};
 use crate::stop::Stop;
 use crate::vessel_tree::Vessel;
@@ -27,8 +27,7 @@ pub struct Radii {
     pub kept: usize,
 }
 
-/// The measured radii of all vessels of a tree. The widest vessels come first: where the point spread is not given, the first
-/// that tells it tells it for all.
+/// The measured radii of all vessels of a tree. Where the point spread is not given, the widest vessels tell it for all.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a step or a point spread that is none, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
@@ -40,28 +39,17 @@ pub fn measured_radii(
     fwhm: Option<f64>,
     stop: Stop,
 ) -> Result<Vec<Radii>> {
-    let mut order: Vec<usize> = (0..tree.len()).collect();
-    let widest = |n: usize| tree[n].radius().map_or(0.0, |radii| radii.iter().copied().fold(0.0, f64::max));
-    order.sort_by(|a, b| widest(*b).total_cmp(&widest(*a)).then(a.cmp(b)));
-    let mut known = fwhm;
-    let mut all: Vec<Option<Radii>> = vec![None; tree.len()];
-    for n in order {
-        let request = Request { step, fwhm: known, tree, stop };
-        all[n] = Some(match measure(volume, &tree[n], &request) {
-            Ok(profile) => {
-                if let Source::Estimated { .. } = profile.fwhm_source {
-                    known = Some(profile.fwhm);
-                }
-                of_profile(&tree[n], &profile)
-            }
-            Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
-                let kept = tree[n].points().len();
-                Radii { radius: tree[n].radius().map(<[f64]>::to_vec), measured: 0, kept }
-            }
-            Err(error) => return Err(error),
-        });
-    }
-    Ok(all.into_iter().flatten().collect())
+    let request = Request { step, fwhm, tree, stop };
+    let request = Request { fwhm: Some(point_spread_of(volume, &request)?), ..request };
+    let radii = |vessel: &Vessel| match measure(volume, vessel, &request) {
+        Ok(profile) => Ok(of_profile(vessel, &profile)),
+        Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
+            let kept = vessel.points().len();
+            Ok(Radii { radius: vessel.radius().map(<[f64]>::to_vec), measured: 0, kept })
+        }
+        Err(error) => Err(error),
+    };
+    tree.iter().map(radii).collect()
 }
 
 /// The radii at the points of a vessel, of circles with the measured areas.

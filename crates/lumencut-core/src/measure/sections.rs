@@ -1,6 +1,6 @@
 //! The sections of a vessel: looked at, fitted, and fitted again with what all of them tell of each other.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::blur::Blur;
@@ -11,7 +11,7 @@ use super::flags::{AT_LIMIT, IRREGULAR, METAL, NO_EDGE, RECENTERED};
 use super::obstacles::{Obstacles, flags_of};
 use super::place::Place;
 use super::pooled::Level;
-use super::rays::{Look, Rays, direction};
+use super::rays::{Look, RAYS, Rays, direction};
 use super::rough::Rough;
 use super::slab::{Samples, Window};
 use crate::error::Result;
@@ -48,6 +48,13 @@ pub const LEAST_CONTRAST: f64 = 2.0;
 
 /// Where the blur is not taken into account diameters are unsure by this share of its width.
 const UNSURE: f64 = 0.5;
+
+/// The level of a lumen is seen within this share of its radius, where the blur leaves so much of its peak.
+const MIDDLE: f64 = 1.0 / 3.0;
+const LEAST_PEAK: f64 = 0.95;
+
+/// How far that lies from the level (standard deviation): as a share, and as a share of the noise of a voxel.
+const SEEN: (f64, f64) = (0.02, 0.33);
 
 /// The noise before it is known, as a share.
 const FIRST_NOISE: f64 = 0.1;
@@ -149,6 +156,11 @@ impl Bench<'_, '_> {
 
     /// The fit of a section, without what is in its way; None where too much is, or no ellipse fits.
     pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
+        self.fit_blurred(place, known, &self.blur)
+    }
+
+    /// The fit of a section to the same voxels as [`Self::fit`], by another blur.
+    pub fn fit_blurred(&self, place: &Place, known: &Known, blur: &Blur) -> Option<Fit> {
         let width = self.blur.width(place);
         let ellipse = &known.ellipse;
         let look = self.look(place, known);
@@ -166,9 +178,11 @@ impl Bench<'_, '_> {
         let voxels = self.rays.voxels;
         let samples =
             Samples::gather(voxels, &self.rays.scale, place, &window, |point| obstacles.keeps(point));
-        let whitening = Whitening::new(self.blur.of_voxels(place));
+        let whitening = Whitening::new(blur.of_voxels(place));
+        let seen = self.level_seen(place, known, |point| obstacles.keeps(point));
         let expected = Expected {
-            lumen: known.lumen,
+            // Where a wall is sharp an ellipse too small and a level too high may fit it as well: what is seen decides.
+            lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
             background: [0.0, 0.5],
             stretch: stretch(2.0 * ellipse.mean, width),
             noise: known.noise(),
@@ -176,6 +190,30 @@ impl Bench<'_, '_> {
         };
         let fit = Fit::new(&samples, whitening, ellipse, &expected)?;
         Some(Fit { free: obstacles.free, ..fit })
+    }
+
+    /// The level that is seen in the middle of a lumen, where it is wide enough to show it, of the points that may be kept.
+    fn level_seen(&self, place: &Place, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
+        let ellipse = &known.ellipse;
+        let peak =
+            Boundary::new(ellipse, Whitening::new(self.blur.interpolated(place))).value(ellipse.center);
+        if peak < LEAST_PEAK {
+            return None;
+        }
+        let mut values: Vec<f64> = (0..RAYS)
+            .map(|n| {
+                let share = MIDDLE * ((n % 4) as f64 / 3.0);
+                ellipse.center + direction(n) * (share * ellipse.radius_towards(direction(n)))
+            })
+            .filter(|point| keep(*point))
+            .map(|point| self.rays.at(place, point))
+            .filter(|value| value.is_finite())
+            .collect();
+        if values.len() < RAYS / 2 {
+            return None;
+        }
+        let deviation = SEEN.0.hypot(SEEN.1 * known.noise()) + 1.0 - peak;
+        median(&mut values).map(|seen| [seen / peak, deviation])
     }
 
     fn look(&self, place: &Place, known: &Known) -> Look {

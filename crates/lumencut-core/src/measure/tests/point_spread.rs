@@ -1,0 +1,20 @@
+use super::*;
+
+const RANGE: [f64; 2] = [0.3, 3.0];
+
+#[test]
+fn the_median_of_estimates_that_agree_is_taken() {
+    assert_eq!(agreed(&mut [1.1, 0.9, 1.0, 3.0, 1.0], RANGE), Ok(1.0));
+}
+
+#[test]
+fn estimates_that_do_not_agree_tell_nothing() {
+    assert!(agreed(&mut [0.5, 1.0, 2.0, 1.5, 0.6], RANGE).unwrap_err().contains("do not agree"));
+    assert!(agreed(&mut [3.0, 3.0, 2.99, 1.0], RANGE).unwrap_err().contains("do not agree"));
+}
+
+#[test]
+fn a_point_spread_below_the_range_is_none() {
+    assert!(agreed(&mut [0.3, 0.31, 0.9], RANGE).unwrap_err().contains("sharper"));
+    assert_eq!(agreed(&mut [1.0, 1.0], RANGE), Err(NARROW));
+}
