@@ -19,6 +19,7 @@ _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, st
 __all__ = [
     "LARGEST_EXTENT",
     "MEASURING_FLAGS",
+    "MEASURING_LEFT_OUT",
     "MILLIMETRES",
     "PAPER",
     "SETTINGS",
@@ -112,6 +113,7 @@ VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
 MILLIMETRES: dict[Unit, float]
 SIGNS: dict[Coordinates, tuple[float, float, float]]
 MEASURING_FLAGS: list[tuple[str, int]]
+MEASURING_LEFT_OUT: int
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 

@@ -8,8 +8,8 @@ from enum import IntFlag
 class Flag(IntFlag):
     """What there is to know of a section; sections keep their numbers whatever is set.
 
-    Sections with `BRANCH`, `METAL`, `OUTSIDE` or `NO_EDGE` are left out of what is narrowest, widest or
-    suggested, and of references.
+    Sections with `BRANCH`, `OUTSIDE` or `NO_EDGE` are left out of what is narrowest, widest or suggested, and
+    of references.
     """
 
     #: The diameter is below 1.5 times the width (FWHM) of the point spread.

@@ -9,12 +9,10 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.flags import Flag
 
 Floats = npt.NDArray[np.float64]
-
-#: Sections with any of these count for nothing but their own numbers; see :class:`lumencut.Flag`.
-_LEFT_OUT = Flag.BRANCH | Flag.METAL | Flag.OUTSIDE | Flag.NO_EDGE
 
 
 class Sections(Protocol):
@@ -128,7 +126,7 @@ class Mark:
 
 def counts(sections: Sections) -> npt.NDArray[np.bool_]:
     """Return which sections count for extrema, suggestions and references, shape (n,)."""
-    is_kept: npt.NDArray[np.bool_] = (sections.flags & int(_LEFT_OUT)) == 0
+    is_kept: npt.NDArray[np.bool_] = (sections.flags & _lumencut.MEASURING_LEFT_OUT) == 0
     return is_kept & np.isfinite(sections.area)
 
 

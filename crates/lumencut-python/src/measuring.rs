@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use lumencut::measure::cross_section::CrossSection;
-use lumencut::measure::flags::FLAGS;
+use lumencut::measure::flags::{FLAGS, LEFT_OUT};
 use lumencut::measure::groups::Territory;
 use lumencut::measure::measuring::{self, Request};
 use lumencut::measure::profile::{self, Source};
@@ -19,8 +19,9 @@ use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 
-/// The flags of sections, for `lumencut.Flag`.
+/// The flags of sections, for `lumencut.Flag`, and those whose sections do not count.
 pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("MEASURING_LEFT_OUT", LEFT_OUT)?;
     module.add("MEASURING_FLAGS", FLAGS.to_vec())
 }
 

@@ -33,7 +33,7 @@ pub const FLAGS: [(&str, u32); 9] = [
 ];
 
 /// Sections with any of these are left out of what is largest, narrowest or suggested.
-pub const LEFT_OUT: u32 = BRANCH | METAL | OUTSIDE | NO_EDGE;
+pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE;
 
 /// The names of the flags that are set.
 pub fn names_of(flags: u32) -> Vec<&'static str> {

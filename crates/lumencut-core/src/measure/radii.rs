@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::flags::{LEFT_OUT, METAL, RECENTERED};
+use super::flags::{LEFT_OUT, RECENTERED};
 use super::measuring::{Request, measure, point_spread_of};
 use super::profile::Profile;
 use crate::error::{ErrorKind, Result};
@@ -54,8 +54,8 @@ pub fn measured_radii(
 
 /// The radii at the points of a vessel, of circles with the measured areas.
 fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
-    // The wall within a stent was measured, if less surely. A lumen beside the line may be that of another vessel.
-    let left_out = (LEFT_OUT & !METAL) | RECENTERED;
+    // A lumen beside the line may be that of another vessel.
+    let left_out = LEFT_OUT | RECENTERED;
     let is_told = |n: &usize| {
         let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
         profile.flags[*n] & left_out == 0 && profile.uncertainty[*n] < UNSURE * diameter
