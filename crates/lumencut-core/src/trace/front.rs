@@ -299,7 +299,7 @@ fn bucket_of(way: f32) -> usize {
 }
 
 /// The steps to the 26 neighbours, and their lengths in the world (mm).
-fn steps(voxels: &Voxels) -> [([i32; 3], f32); 26] {
+pub fn steps(voxels: &Voxels) -> [([i32; 3], f32); 26] {
     std::array::from_fn(|n| {
         // The middle of the 27 is the voxel itself.
         let n = if n < 13 { n } else { n + 1 };

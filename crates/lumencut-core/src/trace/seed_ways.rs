@@ -1,8 +1,7 @@
 //! The cheapest way from a seed to every voxel of a flood, and what lies behind each voxel on these ways.
 
-use glam::DVec3;
-
 use super::flood::Flood;
+use super::front::steps;
 use super::region::{FORBIDDEN, Region, costs};
 use super::voxels::Voxels;
 use crate::error::Result;
@@ -135,16 +134,4 @@ impl Ways {
         }
         Ok(way)
     }
-}
-
-/// The steps to the 26 neighbours, and their lengths in the world (mm).
-fn steps(voxels: &Voxels) -> Vec<([i32; 3], f32)> {
-    (0..27)
-        .filter(|n| *n != 13)
-        .map(|n| {
-            let step = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
-            let across = voxels.world_from_index.transform_vector3(DVec3::from_array(step.map(f64::from)));
-            (step, across.length() as f32)
-        })
-        .collect()
 }
