@@ -132,9 +132,11 @@ macro_rules! plain {
     )*};
 }
 plain!(f32: f32);
+#[cfg(not(target_arch = "wasm32"))]
 plain!(f64: i32, u32, i64, u64, f64);
 
-/// The voxels of a volume, borrowed in their own type.
+/// The voxels of a volume, borrowed in their own type. What a browser loads has the code for the narrow types alone, which
+/// makes it a third smaller: wide voxels become `f32` there before they get here.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub enum Voxels<'a> {
@@ -142,15 +144,21 @@ pub enum Voxels<'a> {
     U8(&'a [u8]),
     I16(&'a [i16]),
     U16(&'a [u16]),
+    #[cfg(not(target_arch = "wasm32"))]
     I32(&'a [i32]),
+    #[cfg(not(target_arch = "wasm32"))]
     U32(&'a [u32]),
+    #[cfg(not(target_arch = "wasm32"))]
     I64(&'a [i64]),
+    #[cfg(not(target_arch = "wasm32"))]
     U64(&'a [u64]),
     F32(&'a [f32]),
+    #[cfg(not(target_arch = "wasm32"))]
     F64(&'a [f64]),
 }
 
 /// Runs `$body` with `$slice` bound to the voxels in their own type.
+#[cfg(not(target_arch = "wasm32"))]
 #[macro_export]
 macro_rules! with_voxels {
     ($voxels:expr, $slice:ident => $body:expr) => {
@@ -165,6 +173,21 @@ macro_rules! with_voxels {
             $crate::volume::Voxels::U64($slice) => $body,
             $crate::volume::Voxels::F32($slice) => $body,
             $crate::volume::Voxels::F64($slice) => $body,
+        }
+    };
+}
+
+/// Runs `$body` with `$slice` bound to the voxels in their own type.
+#[cfg(target_arch = "wasm32")]
+#[macro_export]
+macro_rules! with_voxels {
+    ($voxels:expr, $slice:ident => $body:expr) => {
+        match $voxels {
+            $crate::volume::Voxels::I8($slice) => $body,
+            $crate::volume::Voxels::U8($slice) => $body,
+            $crate::volume::Voxels::I16($slice) => $body,
+            $crate::volume::Voxels::U16($slice) => $body,
+            $crate::volume::Voxels::F32($slice) => $body,
         }
     };
 }

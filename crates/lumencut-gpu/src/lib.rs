@@ -20,6 +20,8 @@ mod pass;
 mod pass_on_cpu;
 mod recording;
 pub mod renderer;
+#[cfg(target_arch = "wasm32")]
+pub mod screen;
 pub mod shader;
 mod silhouette;
 mod stage;

@@ -20,6 +20,8 @@ use crate::levels::DeviceLevels;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::on_cpu::OnCpu;
 use crate::recording::{Recording, Results};
+#[cfg(target_arch = "wasm32")]
+use crate::screen::Screen;
 use crate::silhouette::SilhouetteImages;
 use crate::stages::Stages;
 use crate::surface::SurfaceImages;
@@ -234,6 +236,12 @@ impl<'a> Pass<'a> {
             }
         }
         Ok(frame)
+    }
+
+    /// Runs what is recorded, draws the picture on a canvas, and waits for it.
+    #[cfg(target_arch = "wasm32")]
+    pub async fn draw(self, screen: &mut Screen) -> Result<()> {
+        screen.record(self.device, self.recording, &self.images.picture)?.await
     }
 
     /// Runs what is recorded so far, and asks for images.

@@ -17,6 +17,8 @@ use crate::levels::DeviceLevels;
 use crate::on_cpu::OnCpu;
 use crate::pass::Pass;
 use crate::recording::Recording;
+#[cfg(target_arch = "wasm32")]
+use crate::screen::Screen;
 use crate::stages::Stages;
 use crate::view::ViewParameters;
 use crate::volume::DeviceVolume;
@@ -94,6 +96,30 @@ impl GpuRenderer {
             return Err(nothing_to_show());
         }
         let request = &request.without_unseen_picture(scene);
+        self.recorded(scene, request).await?.frame().await
+    }
+
+    /// The same onto a canvas, without a way back: only the picture is made. It returns once the GPU has drawn it.
+    ///
+    /// # Errors
+    /// As [`GpuRenderer::render`].
+    #[cfg(target_arch = "wasm32")]
+    pub async fn draw(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        screen: &mut Screen,
+    ) -> Result<()> {
+        request.settings.check()?;
+        if scene.volume.is_none() {
+            return Err(nothing_to_show());
+        }
+        screen.fit(&self.device, request.camera.size())?;
+        self.recorded(scene, request).await?.draw(screen).await
+    }
+
+    /// All stages of a view, recorded.
+    async fn recorded<'a>(&'a mut self, scene: &'a Scene<'a>, request: &'a Request<'a>) -> Result<Pass<'a>> {
         let mut pass = self.pass(scene, Geometry::rays(*request.camera), request)?;
         if scene.tree.is_some() {
             pass.cut_surface().await?;
@@ -101,7 +127,7 @@ impl GpuRenderer {
         if scene.volume.is_some() {
             pass.look().await?;
         }
-        pass.frame().await
+        Ok(pass)
     }
 
     /// Shows the volume where a frame's geometry looks, as [`lumencut_core::pipeline::CpuRenderer::look`] does.

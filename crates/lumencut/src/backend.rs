@@ -6,6 +6,8 @@ use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::{Scene, SharedVolume};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_gpu::renderer::GpuRenderer;
+#[cfg(target_arch = "wasm32")]
+use lumencut_gpu::screen::Screen;
 
 use crate::devices::{self, Choice, Wanted};
 use crate::method::Method;
@@ -15,6 +17,15 @@ use crate::samples::{Mean, sub_views};
 /// the one that errs.
 #[cfg(not(target_arch = "wasm32"))]
 pub const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
+
+/// Where a picture went.
+#[cfg(target_arch = "wasm32")]
+pub enum Drawn {
+    /// On the canvas.
+    OnScreen,
+    /// To the caller.
+    Frame(Frame),
+}
 
 /// What is asked of every sample of a picture.
 const PICTURE: ImageSet = ImageSet::of(&[Image::Picture]);
@@ -96,6 +107,37 @@ impl Backend {
             frame.image = mean.pixels();
         }
         Ok((frame, self.untold.take()))
+    }
+
+    /// The picture of a view on a canvas where the GPU makes all of it, with one sample per pixel; else to the caller.
+    ///
+    /// # Errors
+    /// As [`Backend::render_by`]; [`ErrorKind::Device`] also where the CPU could stand in, so that the caller can try the GPU
+    /// again.
+    #[cfg(target_arch = "wasm32")]
+    pub async fn draw(
+        &mut self,
+        method: Method,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        screen: Option<&mut Screen>,
+    ) -> Result<Drawn> {
+        let is_whole = method == Method::CutSurface && request.settings.samples == 1;
+        if let (true, Some(screen), Computer::Gpu(gpu)) = (is_whole, screen, &mut self.computer) {
+            gpu.open().await?.draw(scene, request, screen).await?;
+            return Ok(Drawn::OnScreen);
+        }
+        self.render_by(method, scene, request).await.map(|(frame, _)| Drawn::Frame(frame))
+    }
+
+    /// Simulates the loss of the GPU, for tests of what follows.
+    #[cfg(target_arch = "wasm32")]
+    pub fn lose(&self) {
+        if let Computer::Gpu(gpu) = &self.computer
+            && let Some(renderer) = &gpu.renderer
+        {
+            renderer.device().lose();
+        }
     }
 
     /// Shows a volume where another method than the cut surface looks: in the places of the frame that `places` makes, once

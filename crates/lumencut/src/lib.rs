@@ -26,4 +26,6 @@ pub use lumencut_core::{
     camera, error, frame, geometry, math, measure, pipeline, progress, reformations, scene, settings, stages,
     stop, trace, vessel_tree, volume, with_voxels,
 };
+#[cfg(target_arch = "wasm32")]
+pub use lumencut_gpu::screen;
 pub use lumencut_io as centerlines;

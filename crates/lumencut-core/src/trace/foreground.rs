@@ -45,11 +45,15 @@ impl Foreground {
             Voxels::U8(voxels) => Self::of(mask, voxels, labels, stop),
             Voxels::I16(voxels) => Self::of(mask, voxels, labels, stop),
             Voxels::U16(voxels) => Self::of(mask, voxels, labels, stop),
+            #[cfg(not(target_arch = "wasm32"))]
             Voxels::I32(voxels) => Self::of(mask, voxels, labels, stop),
+            #[cfg(not(target_arch = "wasm32"))]
             Voxels::U32(voxels) => Self::of(mask, voxels, labels, stop),
+            #[cfg(not(target_arch = "wasm32"))]
             Voxels::I64(voxels) => Self::of(mask, voxels, labels, stop),
+            #[cfg(not(target_arch = "wasm32"))]
             Voxels::U64(voxels) => Self::of(mask, voxels, labels, stop),
-            Voxels::F32(_) | Voxels::F64(_) => {
+            _ => {
                 let error = Error::new(ErrorKind::Volume, "mask", "voxels of a float type", "whole numbers");
                 Err(error.mend("compare the values with a threshold first"))
             }
@@ -138,11 +142,15 @@ pub fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
         Voxels::U8(voxels) => voxels[place].label(),
         Voxels::I16(voxels) => voxels[place].label(),
         Voxels::U16(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
         Voxels::I32(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
         Voxels::U32(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
         Voxels::I64(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
         Voxels::U64(voxels) => voxels[place].label(),
-        Voxels::F32(_) | Voxels::F64(_) => 0,
+        _ => 0,
     }
 }
 

@@ -1,0 +1,109 @@
+//! Settings by name, as JSON: the same table as everywhere.
+
+use lumencut::settings::{Choices, Kind, Named, Settings, Slab, SlabMode, Value, Window, table};
+use serde_json::{Map, Value as Json, json};
+
+use crate::failure::{Failure, Result};
+
+/// The table of settings for the page: names, kinds, ranges, units, names of values, defaults and what each does.
+pub fn table_as_json() -> Json {
+    let rows = table().map(|setting| {
+        json!({
+            "name": setting.name,
+            "kind": setting.kind.name(),
+            "optional": setting.optional,
+            "default": default_of(setting.default()),
+            "low": setting.limits.map(|limits| limits.low),
+            "high": setting.limits.map(|limits| limits.high),
+            "unit": setting.limits.map(|limits| limits.unit),
+            "choices": setting.choices(),
+            "open": setting.open,
+            "sentence": setting.sentence(),
+        })
+    });
+    Json::Array(rows.collect())
+}
+
+fn default_of(value: Value) -> Json {
+    match value {
+        Value::Flag(flag) => flag.into(),
+        Value::Number(number) => number.into(),
+        Value::Count(count) => count.into(),
+        Value::Color(channels) => channels.into(),
+        Value::Name(name) => name.into(),
+        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => Json::Null,
+    }
+}
+
+/// The settings that an object of names and values stands for, after those of `first`; all others have their defaults.
+///
+/// # Errors
+/// `settings` for an unknown name, a value of another kind, or one outside its range.
+pub fn settings(first: Vec<(&str, Value)>, chosen: &Map<String, Json>) -> Result<Settings> {
+    let mut choices = Choices::default();
+    for (name, value) in first {
+        choices.set(name, value)?;
+    }
+    for (name, value) in chosen {
+        let setting = table().find(|setting| setting.name == name);
+        let kind = setting.map_or(Kind::Flag, |setting| setting.kind);
+        choices.set(name, self::value(name, kind, value)?)?;
+    }
+    Ok(choices.settings()?)
+}
+
+fn value(name: &str, kind: Kind, json: &Json) -> Result<Value> {
+    if json.is_null() {
+        return Ok(Value::None);
+    }
+    let read = match kind {
+        Kind::Flag => json.as_bool().map(Value::Flag),
+        Kind::Number => json.as_f64().map(Value::Number),
+        Kind::Count => json.as_u64().and_then(|count| usize::try_from(count).ok()).map(Value::Count),
+        Kind::Color(_) => serde_json::from_value(json.clone()).ok().map(Value::Color),
+        Kind::Choice | Kind::Transfer => json.as_str().map(|name| Value::Name(name.to_owned())),
+        Kind::Window => pair(json).map(|[level, width]| Value::Window(Window { level, width })),
+        Kind::Slab => slab(json)?.map(Value::Slab),
+        Kind::Opacity => None,
+    };
+    read.ok_or_else(|| Failure::of_message(name, json, &format!("a value of the kind {}", kind.name())))
+}
+
+fn pair(json: &Json) -> Option<[f64; 2]> {
+    serde_json::from_value(json.clone()).ok()
+}
+
+/// A slab: its thickness (mm) and the name of its mode.
+fn slab(json: &Json) -> Result<Option<Slab>> {
+    let Ok((thickness, mode)) = serde_json::from_value::<(f64, String)>(json.clone()) else { return Ok(None) };
+    Ok(Some(Slab { thickness, mode: SlabMode::named("slab mode", &mode)? }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(json: Json) -> Result<Settings> {
+        settings(Vec::new(), json.as_object().expect("an object"))
+    }
+
+    #[test]
+    fn names_and_values_become_settings() {
+        let made = of(json!({"levels": 3, "context": "mip", "window": [300.0, 900.0], "slab": [5.0, "max"]})).expect("settings");
+        assert_eq!((made.levels, made.window), (3, Window { level: 300.0, width: 900.0 }));
+        assert_eq!(made.slab.map(|slab| slab.thickness), Some(5.0));
+        assert!(of(json!({"context": null})).expect("settings").context.is_none());
+    }
+
+    #[test]
+    fn odd_values_are_refused_with_their_name() {
+        assert_eq!(of(json!({"levels": "three"})).expect_err("a text").subject, "levels");
+        assert_eq!(of(json!({"levels": 99})).expect_err("too many").kind, "settings");
+        assert!(of(json!({"no_such_setting": true})).is_err());
+    }
+
+    #[test]
+    fn the_table_has_a_row_for_every_setting() {
+        assert_eq!(table_as_json().as_array().map(Vec::len), Some(table().count()));
+    }
+}

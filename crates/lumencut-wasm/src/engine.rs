@@ -1,0 +1,278 @@
+//! What the page's worker calls, and the turning view: on the canvas where a GPU computes, else as bytes.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use js_sys::{Uint8Array, Uint8ClampedArray};
+use lumencut::backend::{Backend, Drawn};
+use lumencut::devices::{Choice, Wanted};
+use lumencut::pipeline::Request;
+use lumencut::screen::Screen;
+use lumencut::stages::{Image, ImageSet};
+use serde::Serialize;
+use serde_json::json;
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+use web_sys::OffscreenCanvas;
+
+use crate::choices::table_as_json;
+use crate::failure::{Failure, Result};
+use crate::planes::Plane;
+use crate::session::{Picture, Session};
+use crate::sides::CprMessage;
+use crate::view::{View, ViewMessage};
+
+/// Whether the work under way is to stop; the page sets the byte at [`Engine::stop_address`] where it shares the memory.
+static STOPPED: AtomicBool = AtomicBool::new(false);
+
+/// What computes, and the study that is open. All methods throw the JSON of an error.
+#[wasm_bindgen]
+pub struct Engine {
+    backend: Backend,
+    screen: Option<Screen>,
+    session: Session,
+}
+
+type Answer<T> = std::result::Result<T, JsValue>;
+
+fn thrown(failure: &Failure) -> JsValue {
+    JsValue::from_str(&serde_json::to_string(failure).unwrap_or_else(|error| error.to_string()))
+}
+
+/// What succeeded, or what is thrown.
+fn answer<T>(result: Result<T>) -> Answer<T> {
+    result.map_err(|failure| thrown(&failure))
+}
+
+/// What succeeded, as JSON.
+fn told<T: Serialize>(result: Result<T>) -> Answer<String> {
+    let text = result.and_then(|value| {
+        serde_json::to_string(&value).map_err(|error| Failure::of_message("answer", error, "JSON"))
+    });
+    answer(text)
+}
+
+fn read<'a, T: serde::Deserialize<'a>>(what: &str, text: &'a str) -> Result<T> {
+    serde_json::from_str(text).map_err(|error| Failure::of_message(what, error, "JSON"))
+}
+
+#[wasm_bindgen]
+impl Engine {
+    /// An engine on `device`: `gpu`, `cpu`, or `auto`, a GPU of hardware where there is one; `any` takes a GPU that is software
+    /// too. It holds nothing yet.
+    ///
+    /// # Errors
+    /// `device` where a GPU is asked for and none can be used.
+    pub async fn open(device: &str) -> Answer<Engine> {
+        let wanted = match device {
+            "cpu" => Wanted::Cpu,
+            "gpu" => Wanted::Gpu(Choice::Any),
+            "any" => Wanted::Auto(Choice::Any),
+            _ => Wanted::Auto(Choice::Hardware),
+        };
+        let opened = Backend::new(wanted).await.map_err(Failure::from);
+        let (backend, _) = answer(opened)?;
+        Ok(Self { backend, screen: None, session: Session::default() })
+    }
+
+    /// "cpu", or the name of the GPU.
+    pub fn device(&self) -> String {
+        self.backend.name().to_owned()
+    }
+
+    /// Looks for a GPU again, after one was lost.
+    ///
+    /// # Errors
+    /// None: without one the CPU computes.
+    pub async fn reopen_device(&mut self) -> Answer<()> {
+        self.screen = None;
+        let (backend, _) = answer(Backend::new(Wanted::Auto(Choice::Any)).await.map_err(Failure::from))?;
+        self.backend = backend;
+        Ok(())
+    }
+
+    /// Simulates the loss of the GPU, for tests of what follows.
+    pub fn lose_device(&self) {
+        self.backend.lose();
+    }
+
+    /// From now on a GPU draws the turning view on this canvas.
+    ///
+    /// # Errors
+    /// `device` where the GPU cannot draw on it.
+    pub fn draw_on(&mut self, canvas: OffscreenCanvas) -> Answer<()> {
+        self.screen = Some(answer(Screen::new(canvas).map_err(Failure::from))?);
+        Ok(())
+    }
+
+    /// Where in the memory of the module the byte lies that makes work stop, once it is not 0.
+    pub fn stop_address() -> usize {
+        STOPPED.as_ptr() as usize
+    }
+
+    /// The table of settings as JSON.
+    pub fn settings_table() -> String {
+        table_as_json().to_string()
+    }
+
+    /// Makes room for a volume; `header` is the JSON before its voxels.
+    ///
+    /// # Errors
+    /// `volume` where there is no memory for it.
+    pub fn begin_volume(&mut self, header: &str) -> Answer<()> {
+        answer(self.session.begin_volume(header))
+    }
+
+    /// Takes over bytes of voxels from `offset` on.
+    ///
+    /// # Errors
+    /// `volume` for more bytes than the header tells of.
+    pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Answer<()> {
+        let room = self.session.voxel_bytes(offset as usize, bytes.length() as usize);
+        bytes.copy_to(answer(room)?);
+        Ok(())
+    }
+
+    /// Tells that voxels came since the picture before.
+    pub fn voxels_changed(&mut self) {
+        self.session.voxels_changed();
+    }
+
+    /// Opens a phantom by its name.
+    ///
+    /// # Errors
+    /// `settings` for another name.
+    pub fn open_phantom(&mut self, name: &str) -> Answer<()> {
+        answer(self.session.open_phantom(name))
+    }
+
+    /// Opens centerlines; tells what was odd about them, as a list in JSON.
+    ///
+    /// # Errors
+    /// `format` for a file that is damaged or holds none.
+    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str) -> Answer<String> {
+        told(self.session.open_centerlines(bytes, name))
+    }
+
+    /// Closes the study.
+    pub fn close(&mut self) {
+        self.session.close();
+    }
+
+    /// What is open, as JSON.
+    ///
+    /// # Errors
+    /// `volume` for values beyond all windows.
+    pub fn report(&self) -> Answer<String> {
+        told(self.session.study.report())
+    }
+
+    /// The camera of a named view that shows all of the study, as JSON.
+    ///
+    /// # Errors
+    /// `camera` where nothing is open.
+    pub fn fitted(&self, view: &str, width: usize, height: usize) -> Answer<String> {
+        told(self.session.fitted(view, [width, height]))
+    }
+
+    /// Renders a view, given as JSON. On the canvas of [`Engine::draw_on`] where the GPU computes, and then it gives nothing;
+    /// else its pixels, RGBA.
+    ///
+    /// # Errors
+    /// Those of view and scene, `interrupted` once the page says stop.
+    pub async fn render(&mut self, view: &str) -> Answer<Option<Uint8ClampedArray>> {
+        let view = answer(ViewMessage::read(view).and_then(|message| message.view()))?;
+        answer(self.rendered(&view).await)
+    }
+
+    async fn rendered(&mut self, view: &View) -> Result<Option<Uint8ClampedArray>> {
+        let View { camera, settings, method } = view;
+        let scene = self.session.study.scene()?;
+        let images = ImageSet::of(&[Image::Picture]);
+        STOPPED.store(false, Ordering::Relaxed);
+        let stop = || STOPPED.load(Ordering::Relaxed);
+        let request = Request { images, stop: &stop, ..Request::new(camera, settings) };
+        match self.backend.draw(*method, &scene, &request, self.screen.as_mut()).await? {
+            Drawn::OnScreen => Ok(None),
+            Drawn::Frame(frame) => Ok(Some(clamped(&frame.image.into_flattened()))),
+        }
+    }
+
+    /// What a pixel of a view shows, as JSON.
+    ///
+    /// # Errors
+    /// Those of the view.
+    pub fn pick(&mut self, view: &str, column: f64, row: f64) -> Answer<String> {
+        let view = ViewMessage::read(view).and_then(|message| message.view());
+        told(view.and_then(|view| self.session.pick(&view, [column, row])))
+    }
+
+    /// What lies at a world point, as JSON.
+    ///
+    /// # Errors
+    /// `settings` for a text that is no point.
+    pub fn at(&self, point: &str) -> Answer<String> {
+        told(read("point", point).map(|point| self.session.at(point)))
+    }
+
+    /// How the values of the volume are distributed, as JSON.
+    ///
+    /// # Errors
+    /// `volume` where none is open.
+    pub fn histogram(&self, bins: usize) -> Answer<String> {
+        told(self.session.histogram(bins))
+    }
+
+    /// The pixels of a plane, RGBA, in a window of this level and width.
+    ///
+    /// # Errors
+    /// `volume` where none is open.
+    pub fn slice(&self, plane: &str, level: f64, width: f64) -> Answer<Uint8ClampedArray> {
+        let plane = answer(read::<Plane>("plane", plane))?;
+        Ok(clamped(&answer(self.session.slice(&plane, [level, width]))?.bytes))
+    }
+
+    /// The middle and the axes of a section across a vessel, as JSON.
+    ///
+    /// # Errors
+    /// `vessel tree` for a vessel that there is not.
+    pub fn across(&self, vessel: usize, at: f64) -> Answer<String> {
+        told(self.session.across(vessel, at))
+    }
+
+    /// The straightened CPR of a vessel: its size in pixels, and these, RGBA.
+    ///
+    /// # Errors
+    /// `vessel tree` for a vessel that there is not.
+    pub fn straightened(&mut self, message: &str, level: f64, width: f64) -> Answer<js_sys::Array> {
+        let message = answer(read::<CprMessage>("cpr", message))?;
+        let Picture { size, bytes } = answer(self.session.straightened(message, [level, width]))?;
+        let size = size.map(|count| JsValue::from_f64(count as f64));
+        Ok(js_sys::Array::of(&[size[0].clone(), size[1].clone(), clamped(&bytes).into()]))
+    }
+
+    /// What a place in the straightened CPR shows, as JSON.
+    ///
+    /// # Errors
+    /// `settings` where none was shown.
+    pub fn pick_straightened(&self, column: f64, row: f64) -> Answer<String> {
+        let laid = self.session.laid().ok_or_else(|| Failure::of_message("CPR", "none", "one that is shown"));
+        told(laid.map(|laid| {
+            let at = self.session.at(laid.world([column, row]));
+            json!({"point": at.point, "value": at.value, "vessel": laid.vessel(), "arc_length": laid.arc_length(row)})
+        }))
+    }
+
+    /// Column and row of a world point in the straightened CPR, as JSON; null where none is shown.
+    ///
+    /// # Errors
+    /// `settings` for a text that is no point.
+    pub fn on_straightened(&self, point: &str) -> Answer<String> {
+        told(read("point", point).map(|point| self.session.laid().map(|laid| laid.pixel(point))))
+    }
+}
+
+/// The bytes of a picture as a browser takes them, which cannot be in shared memory.
+fn clamped(bytes: &[u8]) -> Uint8ClampedArray {
+    let copy = Uint8ClampedArray::new_with_length(bytes.len() as u32);
+    copy.copy_from(bytes);
+    copy
+}

@@ -1,0 +1,54 @@
+//! Errors as the page gets them: the same four texts as everywhere, and the kind.
+
+use lumencut::centerlines;
+use lumencut::error::{Error, ErrorKind};
+use serde::Serialize;
+
+/// An error for the page.
+#[derive(Debug, Serialize)]
+pub struct Failure {
+    /// The cause in a word, such as `volume`.
+    pub kind: &'static str,
+    /// What is wrong.
+    pub subject: String,
+    /// What was found.
+    pub found: String,
+    /// What was expected instead.
+    pub expected: String,
+    /// What would mend it; empty where `expected` already says so.
+    pub mend: String,
+}
+
+/// What the functions of this crate give.
+pub type Result<T> = std::result::Result<T, Failure>;
+
+impl Failure {
+    /// A message of the page that is not what it should be: a mistake of the page, never of its user.
+    pub fn of_message(subject: &str, found: impl ToString, expected: &str) -> Self {
+        Error::new(ErrorKind::Settings, subject, found.to_string(), expected).into()
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let Error { kind, subject, found, expected, mend } = error;
+        let kind = match kind {
+            ErrorKind::Volume => "volume",
+            ErrorKind::VesselTree => "vessel tree",
+            ErrorKind::Camera => "camera",
+            ErrorKind::Settings => "settings",
+            ErrorKind::Device => "device",
+            ErrorKind::Tracing => "tracing",
+            ErrorKind::Measuring => "measuring",
+            ErrorKind::Interrupted => "interrupted",
+        };
+        Self { kind, subject, found, expected, mend }
+    }
+}
+
+impl From<centerlines::Error> for Failure {
+    fn from(error: centerlines::Error) -> Self {
+        let centerlines::Error { subject, found, expected, mend, .. } = error;
+        Self { kind: "format", subject, found, expected, mend }
+    }
+}

@@ -1,0 +1,87 @@
+//! What files become here: the header of a stream of voxels, and centerlines in world space.
+
+use glam::{DAffine3, DMat4, DVec3, DVec4};
+use lumencut::centerlines::{self, Unit, junctions};
+use lumencut::extent::Extent;
+use lumencut::lumen_points::{Lines, lumen_count};
+use lumencut::placement::{Judge, Known, placement};
+use lumencut::vessel_tree::{Vessel, VesselTree};
+use lumencut::volume::Volume;
+use serde::Deserialize;
+
+use crate::failure::{Failure, Result};
+
+/// What comes before the voxels of a volume.
+#[derive(Clone, Debug, Deserialize)]
+pub struct VolumeHeader {
+    /// The number of voxels along (i, j, k); i is stored fastest.
+    pub size: [usize; 3],
+    /// The type of the voxels as NumPy calls it.
+    pub dtype: String,
+    /// World position (LPS, mm) of a continuous index, row by row.
+    pub world_from_index: [[f64; 4]; 4],
+}
+
+impl VolumeHeader {
+    /// The header of a text of JSON.
+    ///
+    /// # Errors
+    /// `settings` for a text that is none.
+    pub fn read(text: &str) -> Result<Self> {
+        let expected = "size, dtype and world_from_index as JSON";
+        serde_json::from_str(text).map_err(|error| Failure::of_message("header of the volume", error, expected))
+    }
+
+    /// The number of voxels, where it can be counted.
+    pub fn count(&self) -> Option<usize> {
+        self.size.iter().try_fold(1usize, |count, side| count.checked_mul(*side))
+    }
+
+    /// The grid's place.
+    pub fn affine(&self) -> DAffine3 {
+        DAffine3::from_mat4(DMat4::from_cols_array_2d(&self.world_from_index.map(|row| DVec4::from(row).to_array())).transpose())
+    }
+}
+
+/// Vessels, their names, and what was odd about their file.
+#[derive(Clone, Debug)]
+pub struct Read {
+    /// The vessels in world space.
+    pub tree: VesselTree,
+    /// The name of each vessel; empty where the file has none.
+    pub names: Vec<String>,
+    /// One sentence each.
+    pub notes: Vec<String>,
+}
+
+/// The vessels of the file `name` in world space; what it does not say of its space and unit the volume decides.
+///
+/// # Errors
+/// `format` for a file that is damaged or holds no centerlines, and where nothing tells where they lie.
+pub fn read_centerlines(bytes: &[u8], name: &str, volume: Option<&Volume>) -> Result<Read> {
+    let lines = centerlines::read(bytes, name)?;
+    let known = Known {
+        asked_space: None,
+        asked_unit: None,
+        stated_space: lines.space,
+        stated_unit: lines.unit,
+        usual_unit: lines.conventional_unit.unwrap_or(Unit::Millimetre),
+    };
+    let points: Vec<DVec3> = lines.lines.iter().flat_map(|line| &line.points).copied().collect();
+    let unknown = |line: &centerlines::Line| vec![f64::NAN; line.points.len()];
+    let radii: Vec<f64> =
+        lines.lines.iter().flat_map(|line| line.radius.clone().unwrap_or_else(|| unknown(line))).collect();
+    let of_lines = Lines { points: &points, radii: &radii };
+    let lumen = |place| volume.map_or_else(Default::default, |volume| lumen_count(volume, &of_lines, place));
+    let judge = volume.map(|volume| Judge { extent: Extent::from(volume), lumen: &lumen });
+    let found = placement(&known, &points, judge.as_ref()).map_err(|error| error.in_file(name))?;
+    let mm = found.place.unit.in_mm();
+    let placed = lines.scaled(mm).map(junctions::vessels).map_err(|error| error.in_file(name))?;
+    let signs = found.place.scale() / mm;
+    let vessel = |line: &centerlines::Line| Vessel::new(line.points.iter().map(|p| *p * signs).collect(), line.radius.clone());
+    let vessels = placed.lines.iter().map(vessel).collect::<lumencut::error::Result<Vec<_>>>()?;
+    let mut notes = placed.notes.clone();
+    notes.extend((!found.decision.is_empty()).then_some(found.decision));
+    let names = placed.lines.iter().map(|line| line.name.clone().unwrap_or_default()).collect();
+    Ok(Read { tree: VesselTree::new(vessels)?, names, notes })
+}

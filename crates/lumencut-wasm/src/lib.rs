@@ -1,0 +1,19 @@
+//! Lumencut in a browser: what the page in `web/` calls. Everything here is thin over the facade: texts of JSON become its
+//! values, and its pictures become bytes. [`session`] is the same on every target, so that its tests run natively.
+//!
+//! Points are in world space (LPS, mm) unless their documentation says otherwise.
+
+mod choices;
+#[cfg(target_arch = "wasm32")]
+mod engine;
+mod failure;
+mod files;
+mod histogram;
+mod planes;
+pub mod session;
+mod sides;
+mod study;
+#[cfg(target_arch = "wasm32")]
+mod threads;
+mod view;
+mod voxels;

@@ -1,0 +1,52 @@
+//! Flat pictures: slices of the patient, and sections across a vessel.
+
+use glam::{DVec3, Vec3};
+use lumencut::geometry::{Curved, Geometry};
+use lumencut::measure::place::Track;
+use lumencut::vessel_tree::Vessel;
+use serde::{Deserialize, Serialize};
+
+use crate::failure::Result;
+
+/// A flat picture as the page asks for it: the world point in its middle, unit vectors to the right and downwards (LPS), its
+/// size in pixels and their side (mm).
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub struct Plane {
+    /// The world point in the middle.
+    pub center: [f64; 3],
+    /// To the right.
+    pub right: [f64; 3],
+    /// Downwards.
+    pub down: [f64; 3],
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// The side of a pixel (mm).
+    pub pixel_spacing: f64,
+}
+
+impl Plane {
+    /// Where its pixels look.
+    ///
+    /// # Errors
+    /// `camera` for a picture without pixels.
+    pub fn geometry(&self) -> Result<Geometry> {
+        let [center, right, down] = [self.center, self.right, self.down].map(DVec3::from_array);
+        let [width, height] = self.size;
+        let away = |count: usize, n: usize| (n as f64 - (count as f64 - 1.0) / 2.0) * self.pixel_spacing;
+        let row = |j| (0..width).map(move |i| center + right * away(width, i) + down * away(height, j));
+        let position = (0..height).flat_map(row).collect();
+        let across = right.cross(down).as_vec3();
+        let directions: Vec<Vec3> = vec![across; width * height];
+        Ok(Geometry::Curved(Curved::new(self.size, position, directions)?))
+    }
+}
+
+/// The middle of a section across a vessel at an arc length (mm), to the right and downwards.
+///
+/// # Errors
+/// `vessel tree` for a vessel without length.
+pub fn across(vessel: &Vessel, at: f64, smoothing: f64) -> Result<[DVec3; 3]> {
+    let track = Track::new(vessel, smoothing)?;
+    let place = track.at(at.clamp(0.0, track.length()));
+    Ok([place.origin, place.axes[0], place.axes[1]])
+}

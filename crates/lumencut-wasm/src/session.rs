@@ -1,0 +1,281 @@
+//! What the page can ask of the study that is open, but for the turning view itself: all of it on the CPU.
+
+use glam::{DVec2, DVec3};
+use lumencut::camera::Camera;
+use lumencut::frame::Frame;
+use lumencut::geometry::Geometry;
+use lumencut::pipeline::{CpuRenderer, Request};
+use lumencut::positions::world_from_pixel;
+use lumencut::settings::{Settings, Window};
+use lumencut::stages::{Image, ImageSet};
+use lumencut::vessel_tree::Vessel;
+use lumencut::views;
+use lumencut::windows;
+use lumencut::with_voxels;
+use lumencut_phantom::Phantom;
+use serde::Serialize;
+
+use crate::failure::{Failure, Result};
+use crate::files::{VolumeHeader, read_centerlines};
+use crate::histogram::Histogram;
+use crate::planes::{Plane, across};
+use crate::sides::{CprMessage, Laid};
+use crate::study::{Held, Study};
+use crate::view::{CameraMessage, View};
+use crate::voxels::Stored;
+
+/// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
+const AROUND: usize = 8;
+
+/// How strongly the directions across a vessel are smoothed (mm).
+const QUIET: f64 = 2.0;
+
+/// A picture: RGBA in rows from the top, and its size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// A byte for each channel.
+    pub bytes: Vec<u8>,
+}
+
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Pick {
+    /// The world point.
+    pub point: [f64; 3],
+    /// The volume there; none outside.
+    pub value: Option<f32>,
+    /// The vessel whose zone it is in.
+    pub vessel: Option<usize>,
+    /// The place on the vessel that is nearest (mm).
+    pub arc_length: Option<f64>,
+}
+
+/// The study, and what its pictures keep from one to the next.
+#[derive(Default)]
+pub struct Session {
+    /// What is open.
+    pub study: Study,
+    cpu: CpuRenderer,
+    laid: Option<Laid>,
+}
+
+impl Session {
+    /// Makes room for a volume and puts it in the place of all that is open; its voxels follow as bytes.
+    ///
+    /// # Errors
+    /// `settings` for a header that is none, `volume` for more voxels than there is memory for and for a grid that is none.
+    pub fn begin_volume(&mut self, header: &str) -> Result<()> {
+        let header = VolumeHeader::read(header)?;
+        self.close();
+        let stored = Stored::zeros(&header.dtype, header.count().unwrap_or(usize::MAX))?;
+        let held = Held {
+            stored,
+            size: header.size,
+            world_from_index: header.affine(),
+            key: Default::default(),
+        };
+        held.volume()?;
+        self.study.held = Some(held);
+        Ok(())
+    }
+
+    /// The bytes of the voxels from `offset` on, `count` of them, to be written.
+    ///
+    /// # Errors
+    /// `volume` where the volume ends before.
+    pub fn voxel_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
+        let bytes = self.study.held.as_mut().map_or(&mut [][..], |held| held.stored.bytes_mut());
+        let expected = format!("no more than the {} that the header tells of", bytes.len());
+        let end = offset.saturating_add(count);
+        bytes.get_mut(offset..end).ok_or_else(|| Failure {
+            kind: "volume",
+            ..Failure::of_message("bytes of the volume", end, &expected)
+        })
+    }
+
+    /// What is known of the voxels no longer counts: some of them are others now.
+    pub fn voxels_changed(&mut self) {
+        if let Some(held) = &mut self.study.held {
+            held.key = Default::default();
+        }
+    }
+
+    /// Opens a phantom in the place of all that is open.
+    ///
+    /// # Errors
+    /// `settings` for another name.
+    pub fn open_phantom(&mut self, name: &str) -> Result<()> {
+        self.close();
+        let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name)?;
+        let stored = Stored::I16(voxels);
+        self.study.held = Some(Held { stored, size, world_from_index, key: Default::default() });
+        self.study.show_tree(Some((tree, vessel_names)));
+        Ok(())
+    }
+
+    /// Opens centerlines beside the volume, in the place of those before; tells what was odd about them.
+    ///
+    /// # Errors
+    /// `format` for a file that is damaged or holds none; the tree before stays then.
+    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str) -> Result<Vec<String>> {
+        let volume = self.study.held.as_ref().map(Held::volume).transpose()?;
+        let read = read_centerlines(bytes, name, volume.as_ref())?;
+        self.laid = None;
+        self.study.show_tree(Some((read.tree, read.names)));
+        Ok(read.notes)
+    }
+
+    /// Closes what is open; its memory is free again.
+    pub fn close(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The camera of a named view that shows all of the study in `size` pixels.
+    ///
+    /// # Errors
+    /// `camera` for another name, and where nothing is open.
+    pub fn fitted(&self, view: &str, size: [usize; 2]) -> Result<CameraMessage> {
+        let named = views::named(view)?;
+        let camera = Camera::new(DVec3::ZERO, named.direction, named.up, size, 1.0)?;
+        Ok(CameraMessage::from(&views::fitted(&camera, &self.study.outline()?)?))
+    }
+
+    /// What the pixel (column, row) of a view shows.
+    ///
+    /// # Errors
+    /// Those of the view, and `volume` where nothing is open.
+    pub fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+        let [x, y] = pixel.map(|place| place.round());
+        let point = world_from_pixel(&view.camera, [x, y], 0.0);
+        let side = 2 * AROUND + 1;
+        let camera = view.camera;
+        let spacing = camera.pixel_spacing();
+        let near = Camera::new(point, camera.direction(), camera.up(), [side, side], spacing)?;
+        let settings = Settings { samples: 1, ..view.settings.clone() };
+        let images = ImageSet::of(&[Image::Depth, Image::Vessel, Image::Value]);
+        let request = Request { images, ..Request::new(&near, &settings) };
+        let scene = self.study.scene()?;
+        let frame = view.method.on_cpu(&mut self.cpu, &scene, &request)?;
+        let middle = side * AROUND + AROUND;
+        let depth = frame.depth().get(middle).copied().unwrap_or_default();
+        let point = point + camera.direction() * f64::from(depth);
+        let vessel = frame.vessel.get(middle).and_then(|vessel| usize::try_from(*vessel).ok());
+        Ok(self.told(point, vessel))
+    }
+
+    /// What lies at a world point; the vessel where one is given.
+    fn told(&self, point: DVec3, vessel: Option<usize>) -> Pick {
+        let arc_length = vessel.and_then(|vessel| self.vessel(vessel).ok()).map(|vessel| nearest(vessel, point));
+        Pick { point: point.to_array(), value: self.value(point), vessel, arc_length }
+    }
+
+    /// What lies at a world point, and the vessel in whose lumen it is.
+    pub fn at(&self, point: [f64; 3]) -> Pick {
+        let point = DVec3::from_array(point);
+        let vessels = self.study.tree().map_or(&[][..], |tree| tree.tree().vessels());
+        let inside = vessels.iter().position(|vessel| {
+            let near = vessel.points().iter().zip(0..);
+            near.into_iter().any(|(p, i): (&DVec3, usize)| p.distance(point) <= vessel.radius_or_zero(i))
+        });
+        self.told(point, inside)
+    }
+
+    fn value(&self, point: DVec3) -> Option<f32> {
+        let volume = self.study.held.as_ref().and_then(|held| held.volume().ok())?;
+        windows::sample(&volume, &[point]).first().copied().filter(|value| value.is_finite())
+    }
+
+    /// How many voxels lie in each of `bins` equally wide ranges between the smallest and the largest that are looked at.
+    ///
+    /// # Errors
+    /// `volume` where none is open.
+    pub fn histogram(&self, bins: usize) -> Result<Histogram> {
+        let held = self.study.held.as_ref().ok_or_else(no_volume)?;
+        Ok(with_voxels!(held.stored.voxels(), voxels => Histogram::of(voxels, bins)))
+    }
+
+    /// The picture of a plane in a window.
+    ///
+    /// # Errors
+    /// `camera` for a plane without pixels, `volume` where none is open.
+    pub fn slice(&self, plane: &Plane, window: [f64; 2]) -> Result<Picture> {
+        self.shown(plane.geometry()?, window)
+    }
+
+    /// The middle of a section across a vessel, to the right and downwards.
+    ///
+    /// # Errors
+    /// `vessel tree` for a vessel that there is not.
+    pub fn across(&self, vessel: usize, at: f64) -> Result<[[f64; 3]; 3]> {
+        Ok(across(self.vessel(vessel)?, at, QUIET)?.map(|vector| vector.to_array()))
+    }
+
+    /// The straightened CPR of a vessel in a window.
+    ///
+    /// # Errors
+    /// `vessel tree` for a vessel that there is not, and those of the layout.
+    pub fn straightened(&mut self, message: CprMessage, window: [f64; 2]) -> Result<Picture> {
+        let laid = Laid::new(message, self.vessel(message.vessel)?, self.laid.as_ref())?;
+        let picture = self.shown(Geometry::Curved(laid.cpr.curved()?), window)?;
+        self.laid = Some(laid);
+        Ok(picture)
+    }
+
+    /// The layout of the CPR that was shown last.
+    pub fn laid(&self) -> Option<&Laid> {
+        self.laid.as_ref()
+    }
+
+    fn vessel(&self, number: usize) -> Result<&Vessel> {
+        let vessels = self.study.tree().map_or(&[][..], |tree| tree.tree().vessels());
+        vessels.get(number).ok_or_else(|| {
+            Failure::of_message("number of the vessel", number, &format!("a number below {}", vessels.len()))
+        })
+    }
+
+    fn shown(&self, geometry: Geometry, [level, width]: [f64; 2]) -> Result<Picture> {
+        let size = geometry.size();
+        let volume = self.study.scene()?.volume.ok_or_else(no_volume)?;
+        let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0)?;
+        let settings = Settings { window: Window { level, width }, context: None, ..Settings::default() };
+        let request = Request { images: ImageSet::of(&[Image::Picture]), ..Request::new(&camera, &settings) };
+        let frame = self.cpu.look(&volume, Frame::of(geometry), &request)?;
+        Ok(Picture { size, bytes: frame.image.into_flattened() })
+    }
+}
+
+fn no_volume() -> Failure {
+    Failure { kind: "volume", ..Failure::of_message("volume", "none", "one that is open") }
+}
+
+/// The arc length (mm) on a vessel that is nearest to a point.
+fn nearest(vessel: &Vessel, point: DVec3) -> f64 {
+    let (points, along) = (vessel.points(), vessel.arc_length());
+    let mut best = DVec2::new(f64::MAX, 0.0);
+    for (i, ends) in points.windows(2).enumerate() {
+        let way = ends[1] - ends[0];
+        let t = ((point - ends[0]).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let distance = point.distance(ends[0] + way * t);
+        if distance < best.x {
+            best = DVec2::new(distance, along[i] + t * (along[i + 1] - along[i]));
+        }
+    }
+    best.y
+}
+
+/// The phantom of this name, at its full size.
+fn phantom(name: &str) -> Result<Phantom> {
+    Ok(match name {
+        "aorta" => lumencut_phantom::aorta(0, 1.0)?,
+        "runoff" => lumencut_phantom::runoff(0, 1.0)?,
+        "cervical" => lumencut_phantom::cervical(0, 1.0)?,
+        "stenosis" => lumencut_phantom::stenosis(50.0)?,
+        "y_junction" => lumencut_phantom::y_junction()?,
+        other => {
+            let expected = "aorta, runoff, cervical, stenosis or y_junction";
+            return Err(Failure::of_message("name of the phantom", other, expected));
+        }
+    })
+}

@@ -1,0 +1,67 @@
+//! The straightened CPR of one vessel, and the way between its pixels and the world.
+
+use glam::{DVec2, DVec3};
+use lumencut::reformations::cpr::{Cpr, CprMode, View};
+use lumencut::reformations::path::Path;
+use lumencut::vessel_tree::Vessel;
+use serde::Deserialize;
+
+use crate::failure::Result;
+
+/// A CPR as the page asks for it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+pub struct CprMessage {
+    /// The vessel's number.
+    pub vessel: usize,
+    /// The rotation about its axis (radians).
+    pub angle: f64,
+    /// The width of the picture (mm).
+    pub width: f64,
+    /// The side of a pixel (mm).
+    pub pixel_spacing: f64,
+}
+
+/// The layout of the vessel that was straightened last.
+#[derive(Clone)]
+pub struct Laid {
+    message: CprMessage,
+    /// From pixels to the world and back.
+    pub cpr: Cpr,
+}
+
+impl Laid {
+    /// The layout that is asked for; that of `before` turned, where it is of the same vessel.
+    ///
+    /// # Errors
+    /// `camera` for an angle, a width or a spacing that is none.
+    pub fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
+        let same = |laid: &&Self| CprMessage { angle: message.angle, ..laid.message } == message;
+        if let Some(laid) = before.filter(same) {
+            return Ok(Self { message, cpr: laid.cpr.rotated(message.angle)? });
+        }
+        let view = View { up: DVec3::Z, angle: message.angle, normal: None };
+        let path = Path::new(vessel, 0.0)?;
+        let cpr = Cpr::new(path, CprMode::Straightened, view, Some(message.width), message.pixel_spacing)?;
+        Ok(Self { message, cpr })
+    }
+
+    /// The number of its vessel.
+    pub fn vessel(&self) -> usize {
+        self.message.vessel
+    }
+
+    /// The world point at a place in the picture, column and row.
+    pub fn world(&self, pixel: [f64; 2]) -> [f64; 3] {
+        self.cpr.world_from_pixel(DVec2::from_array(pixel)).to_array()
+    }
+
+    /// The column and row of a world point.
+    pub fn pixel(&self, point: [f64; 3]) -> [f64; 2] {
+        self.cpr.pixel_from_world(DVec3::from_array(point)).to_array()
+    }
+
+    /// The arc length (mm) of a row.
+    pub fn arc_length(&self, row: f64) -> f64 {
+        row * self.message.pixel_spacing
+    }
+}

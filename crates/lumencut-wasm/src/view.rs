@@ -1,0 +1,92 @@
+//! What the page asks for in the turning view: a camera, a method and settings.
+
+use glam::DVec3;
+use lumencut::camera::Camera;
+use lumencut::method::Method;
+use lumencut::reformations::cr::CrParameters;
+use lumencut::settings::Settings;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value as Json};
+
+use crate::choices::settings;
+use crate::failure::{Failure, Result};
+
+/// A camera as the page has it; its axes are unit vectors (LPS).
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub struct CameraMessage {
+    center: [f64; 3],
+    direction: [f64; 3],
+    up: [f64; 3],
+    size: [usize; 2],
+    pixel_spacing: f64,
+}
+
+impl CameraMessage {
+    /// The camera of the core.
+    ///
+    /// # Errors
+    /// `camera` for one that defines no view.
+    pub fn camera(&self) -> Result<Camera> {
+        let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
+        Ok(Camera::new(center, direction, up, self.size, self.pixel_spacing)?)
+    }
+}
+
+impl From<&Camera> for CameraMessage {
+    fn from(camera: &Camera) -> Self {
+        Self {
+            center: camera.center().to_array(),
+            direction: camera.direction().to_array(),
+            up: camera.up().to_array(),
+            size: camera.size(),
+            pixel_spacing: camera.pixel_spacing(),
+        }
+    }
+}
+
+/// A view as the page asks for it.
+#[derive(Clone, Debug, Deserialize)]
+pub struct ViewMessage {
+    /// From where.
+    pub camera: CameraMessage,
+    /// `csr`, `csr-paper`, `mpcpr` or `cr`.
+    pub method: String,
+    /// Settings by name.
+    pub settings: Map<String, Json>,
+}
+
+/// A view, checked.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// From where.
+    pub camera: Camera,
+    /// By which method.
+    pub method: Method,
+    /// How.
+    pub settings: Settings,
+}
+
+impl ViewMessage {
+    /// The view of a text of JSON.
+    ///
+    /// # Errors
+    /// `settings` for a text that is no view.
+    pub fn read(text: &str) -> Result<Self> {
+        serde_json::from_str(text).map_err(|error| Failure::of_message("view", error, "a view as JSON"))
+    }
+
+    /// The same, checked.
+    ///
+    /// # Errors
+    /// Those of camera and settings, and `settings` for another name of a method.
+    pub fn view(&self) -> Result<View> {
+        let method = match self.method.as_str() {
+            "csr" | "csr-paper" => Method::CutSurface,
+            "mpcpr" => Method::MpCpr,
+            "cr" => Method::Cr(CrParameters::default()),
+            other => return Err(Failure::of_message("method", other, "csr, csr-paper, mpcpr or cr")),
+        };
+        let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
+        Ok(View { camera: self.camera.camera()?, method, settings: settings(first, &self.settings)? })
+    }
+}

@@ -1,0 +1,85 @@
+//! The voxels of the one volume that is open, in their own type. The page turns wider types into `float32`.
+
+use lumencut::volume::Voxels;
+
+use crate::failure::{Failure, Result};
+
+/// Voxels of one of the types that a volume can have in a browser.
+#[derive(Debug)]
+pub enum Stored {
+    /// `int8`
+    I8(Vec<i8>),
+    /// `uint8`
+    U8(Vec<u8>),
+    /// `int16`
+    I16(Vec<i16>),
+    /// `uint16`
+    U16(Vec<u16>),
+    /// `float32`
+    F32(Vec<f32>),
+}
+
+/// Runs `$body` with `$voxels` bound to the voxels in their own type.
+macro_rules! with_stored {
+    ($stored:expr, $voxels:ident => $body:expr) => {
+        match $stored {
+            Stored::I8($voxels) => $body,
+            Stored::U8($voxels) => $body,
+            Stored::I16($voxels) => $body,
+            Stored::U16($voxels) => $body,
+            Stored::F32($voxels) => $body,
+        }
+    };
+}
+
+impl Stored {
+    /// Room for `count` voxels of the type that NumPy calls `dtype`, all 0.
+    ///
+    /// # Errors
+    /// `volume` for another type, and where the browser has not enough memory.
+    pub fn zeros(dtype: &str, count: usize) -> Result<Self> {
+        Ok(match dtype {
+            "int8" => Self::I8(room(count)?),
+            "uint8" => Self::U8(room(count)?),
+            "int16" => Self::I16(room(count)?),
+            "uint16" => Self::U16(room(count)?),
+            "float32" => Self::F32(room(count)?),
+            other => {
+                let expected = "int8, uint8, int16, uint16 or float32";
+                return Err(Failure { kind: "volume", ..Failure::of_message("type of the voxels", other, expected) });
+            }
+        })
+    }
+
+    /// The voxels as the bytes that they are in memory (little-endian).
+    pub fn bytes_mut(&mut self) -> &mut [u8] {
+        with_stored!(self, voxels => bytemuck::cast_slice_mut(voxels))
+    }
+
+    /// The voxels as the core borrows them.
+    pub fn voxels(&self) -> Voxels<'_> {
+        match self {
+            Self::I8(voxels) => Voxels::I8(voxels),
+            Self::U8(voxels) => Voxels::U8(voxels),
+            Self::I16(voxels) => Voxels::I16(voxels),
+            Self::U16(voxels) => Voxels::U16(voxels),
+            Self::F32(voxels) => Voxels::F32(voxels),
+        }
+    }
+}
+
+fn room<T: Clone + Default>(count: usize) -> Result<Vec<T>> {
+    let mut voxels = Vec::new();
+    if voxels.try_reserve_exact(count).is_err() {
+        let megabytes = count.saturating_mul(size_of::<T>()).div_ceil(1_000_000);
+        return Err(Failure {
+            kind: "volume",
+            subject: "size of the volume".into(),
+            found: format!("{megabytes} MB of voxels"),
+            expected: "no more than this page can have in memory".into(),
+            mend: "close other pages, or open a part of the scan or a coarser one".into(),
+        });
+    }
+    voxels.resize(count, T::default());
+    Ok(voxels)
+}

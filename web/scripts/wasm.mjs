@@ -1,0 +1,62 @@
+// Compiles crates/lumencut-wasm for the browser, and writes its module and types to src/core/pkg.
+//
+// Workers share the module's memory, for which Rust's standard library is compiled anew: that is what RUSTC_BOOTSTRAP
+// and `build-std` are for. Without `panic=immediate-abort` the module is a quarter larger.
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, renameSync, rmSync, statSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const web = dirname(dirname(fileURLToPath(import.meta.url)));
+const root = dirname(web);
+const target = 'wasm32-unknown-unknown';
+const pkg = join(web, 'src/core/pkg');
+const compiled = join(root, 'target', target, 'wasm/lumencut_wasm.wasm');
+const exported = ['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'];
+const linking = [
+  '--shared-memory',
+  '--import-memory',
+  '--max-memory=4294967296',
+  ...exported.map((name) => `--export=${name}`),
+];
+const flags = [
+  '-Zunstable-options',
+  '-Cpanic=immediate-abort',
+  '-Ctarget-feature=+atomics,+bulk-memory,+simd128',
+  ...linking.map((argument) => `-Clink-arg=${argument}`),
+];
+
+/** Runs a command in the repository; the build ends where it fails. */
+function run(command, commandArguments, environment = {}) {
+  const done = spawnSync(command, commandArguments, {
+    cwd: root,
+    env: { ...process.env, ...environment },
+    stdio: 'inherit',
+  });
+  if (done.status !== 0) {
+    console.error(`wasm: ${command} ${commandArguments[0]} did not succeed`, done.error?.message ?? '');
+    process.exit(done.status ?? 1);
+  }
+}
+
+run(
+  'cargo',
+  [
+    ...['build', '--locked', '--quiet', '--package', 'lumencut-wasm', '--lib', '--profile', 'wasm'],
+    ...['--target', target, '--target-dir', 'target', '-Z', 'build-std=std'],
+  ],
+  { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') },
+);
+const bindings = ['run', '--locked', '--quiet', '--manifest-path', 'xtask/Cargo.toml', '--target-dir', 'target/xtask'];
+const fresh = join(root, 'target/page-module');
+rmSync(fresh, { recursive: true, force: true });
+mkdirSync(fresh, { recursive: true });
+run('cargo', [...bindings, '--', compiled, fresh]);
+rmSync(pkg, { recursive: true, force: true });
+renameSync(fresh, pkg);
+const module = join(pkg, 'lumencut_bg.wasm');
+if (!existsSync(module)) {
+  console.error(`wasm: found no ${module} after the build`);
+  process.exit(1);
+}
+console.log(`wasm: ${(statSync(module).size / 1e6).toFixed(2)} MB`);

@@ -1,0 +1,70 @@
+/** What turning, panning and zooming do to a camera. All functions give another camera. */
+import type { Camera, Pair, Vector } from './messages';
+import { add, cross, dot, scale, subtract, turned, unit } from './vectors';
+
+/** The finest and the coarsest pixel that a zoom leads to (mm). */
+const FINEST = 0.005;
+const COARSEST = 20;
+
+export const rightOf = (camera: Camera): Vector => unit(cross(camera.direction, camera.up));
+
+/** The camera turned about an axis through `pivot`. */
+export function turnedAbout(camera: Camera, pivot: Vector, axis: Vector, angle: number): Camera {
+  const around = unit(axis);
+  const direction = unit(turned(camera.direction, around, angle));
+  const loose = turned(camera.up, around, angle);
+  const up = unit(subtract(loose, scale(direction, dot(loose, direction))));
+  const center = add(pivot, turned(subtract(camera.center, pivot), around, angle));
+  return { ...camera, center, direction, up };
+}
+
+/** The scene follows a drag over a ball that fills the view: the whole height of the view is half a turn. */
+export function trackballed(camera: Camera, pivot: Vector, [x, y]: Pair): Camera {
+  const perPixel = Math.PI / Math.max(camera.size[1], 1);
+  const axis = add(scale(camera.up, -x), scale(rightOf(camera), -y));
+  return turnedAbout(camera, pivot, axis, Math.hypot(x, y) * perPixel);
+}
+
+/** The scene follows a drag of so many pixels. */
+export function panned(camera: Camera, [x, y]: Pair): Camera {
+  const { pixel_spacing: side } = camera;
+  const shift = add(scale(rightOf(camera), -x * side), scale(camera.up, y * side));
+  return { ...camera, center: add(camera.center, shift) };
+}
+
+/** The camera magnified by a factor; the place at the pixel stays where it is. */
+export function zoomed(camera: Camera, factor: number, pixel: Pair = middleOf(camera)): Camera {
+  const spacing = Math.min(Math.max(camera.pixel_spacing / factor, FINEST), COARSEST);
+  const middle = middleOf(camera);
+  const away = camera.pixel_spacing - spacing;
+  const shift = add(
+    scale(rightOf(camera), (pixel[0] - middle[0]) * away),
+    scale(camera.up, (middle[1] - pixel[1]) * away),
+  );
+  return { ...camera, pixel_spacing: spacing, center: add(camera.center, shift) };
+}
+
+/** The same view in another number of pixels; as much of the scene is seen along the shorter side. */
+export function resized(camera: Camera, size: Pair): Camera {
+  const sides = (pixels: Pair) => Math.max(Math.min(pixels[0], pixels[1]), 1);
+  return { ...camera, size, pixel_spacing: (camera.pixel_spacing * sides(camera.size)) / sides(size) };
+}
+
+/** The same view with so many times the pixels. */
+export function sampled(camera: Camera, factor: number): Camera {
+  const size = camera.size.map((count) => Math.max(Math.round(count * factor), 1)) as [number, number];
+  return { ...camera, size, pixel_spacing: (camera.pixel_spacing * camera.size[1]) / size[1] };
+}
+
+/** Column and row of the middle. */
+export const middleOf = (camera: Camera): Pair => [(camera.size[0] - 1) / 2, (camera.size[1] - 1) / 2];
+
+/** Column and row at which a world point is seen. */
+export function pixelOf(camera: Camera, point: Vector): Pair {
+  const away = subtract(point, camera.center);
+  const [x, y] = middleOf(camera);
+  return [
+    x + dot(away, rightOf(camera)) / camera.pixel_spacing,
+    y - dot(away, camera.up) / camera.pixel_spacing,
+  ];
+}

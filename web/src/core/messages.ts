@@ -1,0 +1,130 @@
+/** What the page and its worker tell each other. Points are in world space (LPS, mm). */
+
+export type Vector = readonly [number, number, number];
+export type Pair = readonly [number, number];
+
+/** A camera: orthographic, its axes unit vectors. */
+export interface Camera {
+  readonly center: Vector;
+  /** From the viewer into the scene. */
+  readonly direction: Vector;
+  readonly up: Vector;
+  /** Columns and rows. */
+  readonly size: Pair;
+  /** The side of a pixel (mm). */
+  readonly pixel_spacing: number;
+}
+
+export type Method = 'csr' | 'csr-paper' | 'mpcpr' | 'cr';
+
+export type SettingValue = boolean | number | string | null | readonly (number | string)[];
+export type Settings = Readonly<Record<string, SettingValue>>;
+
+/** What the turning view is asked for. */
+export interface View {
+  readonly camera: Camera;
+  readonly method: Method;
+  readonly settings: Settings;
+}
+
+/** A row of the table of settings. */
+export interface SettingRow {
+  readonly name: string;
+  readonly kind: string;
+  readonly optional: boolean;
+  readonly default: SettingValue;
+  readonly low: number | null;
+  readonly high: number | null;
+  readonly unit: string | null;
+  readonly choices: readonly string[];
+  readonly open: string | null;
+  readonly sentence: string;
+}
+
+/** What lies at a place. */
+export interface Pick {
+  readonly point: Vector;
+  readonly value: number | null;
+  readonly vessel: number | null;
+  readonly arc_length: number | null;
+}
+
+/** A flat picture. */
+export interface Plane {
+  readonly center: Vector;
+  readonly right: Vector;
+  readonly down: Vector;
+  readonly size: Pair;
+  readonly pixel_spacing: number;
+}
+
+/** The straightened CPR of a vessel. */
+export interface Cpr {
+  readonly vessel: number;
+  /** Rotation about the vessel's axis (radians). */
+  readonly angle: number;
+  /** Width of the picture (mm). */
+  readonly width: number;
+  readonly pixel_spacing: number;
+}
+
+/** Level and width. */
+export type Window = Pair;
+
+export interface VolumeReport {
+  readonly size: Vector;
+  readonly world_from_index: readonly (readonly number[])[];
+  readonly corners: readonly Vector[];
+  readonly smallest_side: number;
+}
+
+export interface VesselReport {
+  readonly name: string;
+  /** mm */
+  readonly length: number;
+  readonly has_radius: boolean;
+}
+
+/** What is open. */
+export interface Report {
+  readonly volume: VolumeReport | null;
+  readonly vessels: readonly VesselReport[] | null;
+  readonly windows: { main: Window; mip: Window; whole: Window; full: Window } | null;
+}
+
+/** How many voxels are in each of equally wide bins between two values. */
+export interface Histogram {
+  readonly low: number;
+  readonly high: number;
+  readonly counts: readonly number[];
+}
+
+/** RGBA in rows from the top. */
+export interface Picture {
+  readonly size: Pair;
+  readonly bytes: Uint8ClampedArray<ArrayBuffer>;
+}
+
+/** What came of a view: its pixels, or nothing where the worker drew it on the canvas. */
+export interface Drawn {
+  readonly picture: Picture | null;
+  readonly milliseconds: number;
+}
+
+/** How far long work is; without a total it is not known how much there is. */
+export interface Progress {
+  readonly words: string;
+  readonly done: number;
+  readonly total: number | null;
+}
+
+/** What computes. */
+export interface Started {
+  readonly device: string;
+  readonly isGpu: boolean;
+  readonly threads: number;
+  readonly isIsolated: boolean;
+  readonly table: readonly SettingRow[];
+  /** Where the page says stop to work under way, where it shares the worker's memory. */
+  readonly stop: { readonly buffer: SharedArrayBuffer; readonly address: number } | null;
+}

@@ -1,0 +1,29 @@
+/** The WebAssembly module: the only file that touches it. */
+import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.js';
+
+export { Engine };
+
+/** What a worker needs to compute in the memory of another one. */
+export interface Shared {
+  readonly module: WebAssembly.Module;
+  readonly memory: WebAssembly.Memory;
+}
+
+/** Loads the module into this worker. */
+export async function loadModule(): Promise<Shared> {
+  const address = new URL('./pkg/lumencut_bg.wasm', import.meta.url);
+  const module = await WebAssembly.compileStreaming(fetch(address));
+  const { memory } = await init({ module_or_path: module });
+  return { module, memory };
+}
+
+/** Computes in the memory of another worker, to the end of this one. */
+export function joinModule({ module, memory }: Shared): void {
+  initSync({ module, memory });
+  run_thread();
+}
+
+/** Lets workers compute that wait in `joinModule` already. */
+export function useThreads(count: number): void {
+  use_threads(count);
+}

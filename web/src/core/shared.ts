@@ -1,0 +1,4 @@
+/** The one engine of the page. */
+import { EngineClient } from './engine';
+
+export const engine = new EngineClient();

@@ -1,0 +1,128 @@
+/** The one table of what mouse, touch and keys do. The views ask it, and the help is made from it. */
+
+export type Where = 'turning' | 'flat' | 'everywhere';
+export type Gesture = 'drag' | 'wheel' | 'click' | 'double click' | 'touch drag' | 'two-finger drag' | 'pinch' | 'key';
+export type Button = 'left' | 'middle' | 'right';
+export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
+
+export type Action =
+  | 'rotate'
+  | 'rotate about vessel'
+  | 'pan'
+  | 'zoom'
+  | 'window'
+  | 'scroll'
+  | 'pick'
+  | 'move cross-hair'
+  | 'maximise'
+  | 'cancel'
+  | 'reset'
+  | 'invert'
+  | 'context'
+  | 'silhouettes'
+  | 'turn'
+  | 'help'
+  | `view ${string}`
+  | `preset ${number}`;
+
+export interface Binding {
+  readonly where: Where;
+  readonly gesture: Gesture;
+  readonly button?: Button;
+  readonly modifier?: Modifier;
+  /** Of a key: what `KeyboardEvent.key` says. */
+  readonly key?: string;
+  readonly action: Action;
+  /** What it does, in the help. */
+  readonly words: string;
+}
+
+const mouse = (where: Where, button: Button, modifier: Modifier, action: Action, words: string): Binding => ({
+  where,
+  gesture: 'drag',
+  button,
+  modifier,
+  action,
+  words,
+});
+const other = (where: Where, gesture: Gesture, modifier: Modifier, action: Action, words: string): Binding => ({
+  where,
+  gesture,
+  modifier,
+  action,
+  words,
+});
+const key = (name: string, action: Action, words: string): Binding => ({
+  where: 'everywhere',
+  gesture: 'key',
+  key: name,
+  action,
+  words,
+});
+
+export const BINDINGS: readonly Binding[] = [
+  mouse('turning', 'left', '', 'rotate', 'rotate'),
+  mouse('turning', 'left', 'Alt', 'rotate about vessel', 'rotate about the axis of the picked vessel'),
+  mouse('turning', 'left', 'Ctrl', 'window', 'window: across its width, up and down its level'),
+  mouse('turning', 'left', 'Shift', 'pan', 'pan'),
+  mouse('turning', 'middle', '', 'pan', 'pan'),
+  mouse('turning', 'right', '', 'zoom', 'zoom'),
+  other('turning', 'wheel', '', 'zoom', 'zoom at the pointer'),
+  other('turning', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
+  other('turning', 'touch drag', '', 'rotate', 'rotate'),
+  mouse('flat', 'left', '', 'window', 'window: across its width, up and down its level'),
+  mouse('flat', 'left', 'Ctrl', 'window', 'window: across its width, up and down its level'),
+  mouse('flat', 'left', 'Shift', 'pan', 'pan'),
+  mouse('flat', 'middle', '', 'pan', 'pan'),
+  mouse('flat', 'right', '', 'zoom', 'zoom'),
+  other('flat', 'wheel', '', 'scroll', 'scroll through the slices, or turn the straightened vessel'),
+  other('flat', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
+  other('flat', 'touch drag', '', 'scroll', 'scroll'),
+  other('everywhere', 'two-finger drag', '', 'pan', 'pan'),
+  other('everywhere', 'pinch', '', 'zoom', 'zoom'),
+  other('everywhere', 'click', '', 'pick', 'put the cross-hair here'),
+  other('everywhere', 'double click', '', 'maximise', 'show this view alone, or all views again'),
+  key('Escape', 'cancel', 'cancel what is under way, and show all views again'),
+  key('a', 'view anterior', 'view from the front (anterior)'),
+  key('p', 'view posterior', 'view from the back (posterior)'),
+  key('l', 'view left', "view from the patient's left"),
+  key('R', 'view right', "view from the patient's right (Shift+r)"),
+  key('S', 'view superior', 'view from above (superior, Shift+s)'),
+  key('I', 'view inferior', 'view from below (inferior, Shift+i)'),
+  key('r', 'reset', 'reset the views and the window'),
+  key('i', 'invert', 'invert black and white'),
+  key('1', 'preset 0', 'window from the data'),
+  key('2', 'preset 1', 'window for CT angiography'),
+  key('3', 'preset 2', 'window for soft tissue'),
+  key('4', 'preset 3', 'window for bone'),
+  key('5', 'preset 4', 'window for lung'),
+  key('6', 'preset 5', 'window from the smallest to the largest value'),
+  key('c', 'context', 'context on and off'),
+  key('s', 'silhouettes', 'silhouettes on and off'),
+  key(' ', 'turn', 'turn slowly, or stop'),
+  key('?', 'help', 'show these keys'),
+];
+
+/** What a drag, wheel or click does in a view; nothing where the table has no row for it. */
+export function actionOf(where: Where, gesture: Gesture, button: Button | null, modifier: Modifier): Action | null {
+  const fits = (row: Binding) =>
+    (row.where === where || row.where === 'everywhere') &&
+    row.gesture === gesture &&
+    (row.button ?? null) === button &&
+    (row.modifier ?? '') === modifier;
+  return BINDINGS.find(fits)?.action ?? null;
+}
+
+/** What a key does; capitals are other keys than small letters. */
+export function actionOfKey(name: string): Action | null {
+  return BINDINGS.find((row) => row.gesture === 'key' && row.key === name)?.action ?? null;
+}
+
+/** How a row's input is called in the help. */
+export function inputName(row: Binding): string {
+  if (row.gesture === 'key') {
+    return row.key === ' ' ? 'Space' : row.key && row.key !== row.key.toLowerCase() && row.key.length === 1 ? `Shift+${row.key.toLowerCase()}` : (row.key ?? '');
+  }
+  const parts = [row.modifier ?? '', row.button ? `${row.button} ${row.gesture}` : row.gesture];
+  return parts.filter((part) => part !== '').join('+');
+}

@@ -1,0 +1,217 @@
+/** Gestures of mouse, pen and touch on an element. A press becomes a drag only beyond 4 pixels; else it is a click. */
+import { type Action, actionOf, type Button, type Modifier, type Where } from './bindings';
+
+/** How far a pointer moves before a press is a drag (CSS pixels). */
+const DRAG_FROM = 4;
+/** Zoom per pixel of a drag, and per pixel of the wheel: a trackpad sends many small steps. */
+const ZOOM_PER_PIXEL = 0.006;
+const ZOOM_PER_WHEEL = 0.0016;
+const MOST_WHEEL = 120;
+/** The pixels of a wheel that are one slice. */
+const WHEEL_STEP = 40;
+/** Within which time a second click makes a double click (ms), and how near (pixels). */
+const DOUBLE_WITHIN = 350;
+const DOUBLE_NEAR = 6;
+
+/** What a view does with gestures; places are CSS pixels within the element, from its top left. */
+export interface Handlers {
+  drag(action: Action, by: readonly [number, number], at: readonly [number, number]): void;
+  zoom(factor: number, at: readonly [number, number]): void;
+  scroll(steps: number): void;
+  click(action: Action, at: readonly [number, number]): void;
+  hover(at: readonly [number, number], shift: boolean): void;
+  begin(): void;
+  end(): void;
+}
+
+type Place = [number, number];
+
+/** Listens on an element until the function that it gives is called. */
+export function listen(element: HTMLElement, where: Where, handlers: Handlers): () => void {
+  const gestures = new Pointers(element, where, handlers);
+  const stop = new AbortController();
+  const options = { signal: stop.signal };
+  element.addEventListener('pointerdown', (event) => gestures.down(event), options);
+  element.addEventListener('pointermove', (event) => gestures.move(event), options);
+  element.addEventListener('pointerup', (event) => gestures.up(event), options);
+  element.addEventListener('pointercancel', (event) => gestures.cancel(event), options);
+  element.addEventListener('wheel', (event) => gestures.wheel(event), { passive: false, signal: stop.signal });
+  element.addEventListener('contextmenu', (event) => event.preventDefault(), options);
+  return () => stop.abort();
+}
+
+const BUTTONS: readonly Button[] = ['left', 'middle', 'right'];
+
+function modifierOf(event: MouseEvent): Modifier {
+  return event.altKey ? 'Alt' : event.ctrlKey || event.metaKey ? 'Ctrl' : event.shiftKey ? 'Shift' : '';
+}
+
+class Pointers {
+  private readonly held = new Map<number, Place>();
+  private start: Place = [0, 0];
+  private action: Action | null = null;
+  private clickAction: Action | null = null;
+  private isDragging = false;
+  private spread = 0;
+  private scrolled = 0;
+  private lastClick = { time: Number.NEGATIVE_INFINITY, at: [0, 0] as Place };
+
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly where: Where,
+    private readonly handlers: Handlers,
+  ) {}
+
+  private placeOf(event: MouseEvent): Place {
+    const box = this.element.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  down(event: PointerEvent): void {
+    const at = this.placeOf(event);
+    this.held.set(event.pointerId, at);
+    this.element.setPointerCapture(event.pointerId);
+    if (event.button === 1) {
+      event.preventDefault();
+    }
+    if (this.held.size === 2) {
+      this.beginTwo();
+      return;
+    }
+    this.start = at;
+    this.isDragging = false;
+    const isTouch = event.pointerType === 'touch';
+    const button = BUTTONS[event.button] ?? 'left';
+    this.action = isTouch
+      ? actionOf(this.where, 'touch drag', null, '')
+      : actionOf(this.where, 'drag', button, modifierOf(event));
+    this.clickAction = button === 'left' ? actionOf(this.where, 'click', null, '') : null;
+  }
+
+  private beginTwo(): void {
+    this.spread = this.distance();
+    if (!this.isDragging) {
+      this.handlers.begin();
+    }
+    this.isDragging = true;
+    this.clickAction = null;
+  }
+
+  private distance(): number {
+    const [a, b] = [...this.held.values()];
+    return a && b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0;
+  }
+
+  move(event: PointerEvent): void {
+    const at = this.placeOf(event);
+    const before = this.held.get(event.pointerId);
+    if (!before) {
+      this.handlers.hover(at, event.shiftKey);
+      return;
+    }
+    const by: Place = [at[0] - before[0], at[1] - before[1]];
+    if (this.held.size === 2) {
+      this.held.set(event.pointerId, at);
+      this.moveTwo(by);
+      return;
+    }
+    if (!this.isDragging && Math.hypot(at[0] - this.start[0], at[1] - this.start[1]) <= DRAG_FROM) {
+      return;
+    }
+    if (!this.isDragging) {
+      this.isDragging = true;
+      this.handlers.begin();
+    }
+    this.held.set(event.pointerId, at);
+    this.dragged(by, at);
+  }
+
+  private moveTwo(by: Place): void {
+    const middle = this.middle();
+    const spread = this.distance();
+    if (this.spread > 0 && spread > 0) {
+      this.handlers.zoom(spread / this.spread, middle);
+    }
+    this.spread = spread;
+    this.handlers.drag('pan', [by[0] / 2, by[1] / 2], middle);
+  }
+
+  private middle(): Place {
+    const [a, b] = [...this.held.values()];
+    return a && b ? [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] : this.start;
+  }
+
+  private dragged(by: Place, at: Place): void {
+    if (this.action === 'zoom') {
+      this.handlers.zoom(Math.exp(-by[1] * ZOOM_PER_PIXEL), this.start);
+    } else if (this.action === 'scroll') {
+      this.scrollBy(by[1] * 4);
+    } else if (this.action) {
+      this.handlers.drag(this.action, by, at);
+    }
+  }
+
+  up(event: PointerEvent): void {
+    if (!this.held.delete(event.pointerId)) {
+      return;
+    }
+    if (this.isDragging) {
+      if (this.held.size === 0) {
+        this.isDragging = false;
+        this.handlers.end();
+      }
+      return;
+    }
+    if (this.clickAction) {
+      this.click(this.placeOf(event), event.timeStamp);
+    }
+  }
+
+  private click(at: Place, time: number): void {
+    const last = this.lastClick;
+    const isNear = Math.hypot(at[0] - last.at[0], at[1] - last.at[1]) <= DOUBLE_NEAR;
+    if (time - last.time < DOUBLE_WITHIN && isNear) {
+      this.lastClick = { time: Number.NEGATIVE_INFINITY, at };
+      const action = actionOf(this.where, 'double click', null, '');
+      if (action) {
+        this.handlers.click(action, at);
+      }
+      return;
+    }
+    this.lastClick = { time, at };
+    if (this.clickAction) {
+      this.handlers.click(this.clickAction, at);
+    }
+  }
+
+  cancel(event: PointerEvent): void {
+    this.held.delete(event.pointerId);
+    if (this.isDragging && this.held.size === 0) {
+      this.isDragging = false;
+      this.handlers.end();
+    }
+  }
+
+  wheel(event: WheelEvent): void {
+    event.preventDefault();
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? WHEEL_STEP : 1);
+    // A pinch on a trackpad comes as a wheel with Ctrl.
+    const modifier: Modifier = event.ctrlKey || event.metaKey ? 'Ctrl' : '';
+    const action = actionOf(this.where, 'wheel', null, modifier);
+    if (action === 'zoom') {
+      const bounded = Math.max(-MOST_WHEEL, Math.min(MOST_WHEEL, pixels));
+      this.handlers.zoom(Math.exp(-bounded * ZOOM_PER_WHEEL), this.placeOf(event));
+    } else if (action === 'scroll') {
+      this.scrollBy(pixels);
+    }
+  }
+
+  private scrollBy(pixels: number): void {
+    this.scrolled += pixels;
+    const steps = Math.trunc(this.scrolled / WHEEL_STEP);
+    if (steps !== 0) {
+      this.scrolled -= steps * WHEEL_STEP;
+      this.handlers.scroll(steps);
+    }
+  }
+}

@@ -1,0 +1,38 @@
+/** Starts the page: the engine, the keys, and what its address names. */
+import { render } from 'preact';
+import { engine } from './core/shared';
+import { listenToKeys } from './input/keys';
+import { start } from './state/device';
+import { openAddresses, openPhantom } from './state/study';
+import './style/page.css';
+import { App } from './ui/App';
+
+const asked = new URLSearchParams(window.location.search);
+
+/** An address that the page was given: by its own address, or by the program that serves it. */
+function addressOf(name: string): string | null {
+  const meta = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${name}"]`);
+  const address = asked.get(name) ?? meta?.content ?? null;
+  if (address === null) {
+    return null;
+  }
+  const url = new URL(address, window.location.href);
+  return url.origin === window.location.origin ? url.href : null;
+}
+
+async function begin(): Promise<void> {
+  await start(asked.get('device') ?? 'auto');
+  const [volume, centerlines, phantom] = [addressOf('volume'), addressOf('centerlines'), asked.get('phantom')];
+  if (volume !== null || centerlines !== null) {
+    await openAddresses(engine, volume, centerlines);
+  } else if (phantom !== null) {
+    await openPhantom(engine, phantom);
+  }
+}
+
+const root = document.getElementById('page');
+if (root) {
+  render(<App />, root);
+}
+listenToKeys();
+void begin();

@@ -1,0 +1,168 @@
+/** What the user can do: each action writes the store, and nothing else. */
+import { batch } from '@preact/signals';
+import { panned, trackballed, turnedAbout, zoomed } from '../core/camera';
+import type { EngineClient } from '../core/engine';
+import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
+import type { Action } from '../input/bindings';
+import * as store from './store';
+
+/** Windows by their key; none stands for one that the data tell. */
+export const PRESETS: readonly { readonly name: string; readonly window: Window | 'main' | 'full' }[] = [
+  { name: 'From the data', window: 'main' },
+  { name: 'CT angiography', window: [300, 900] },
+  { name: 'Soft tissue', window: [40, 400] },
+  { name: 'Bone', window: [480, 2500] },
+  { name: 'Lung', window: [-600, 1500] },
+  { name: 'All values', window: 'full' },
+];
+
+/** How much of the window a drag of one pixel changes. */
+const WINDOW_PER_PIXEL = 0.004;
+const NARROWEST = 1e-3;
+
+/** Changes the camera where there is one. */
+export function changeCamera(change: (camera: Camera) => Camera): void {
+  const camera = store.camera.value;
+  if (camera) {
+    store.camera.value = change(camera);
+  }
+}
+
+/** The point about which the turning view turns. */
+function pivot(camera: Camera): Vector {
+  return store.crossHair.value?.point ?? camera.center;
+}
+
+/** A drag in the turning view, in CSS pixels. */
+export function dragTurning(action: Action, by: Pair, axis: Vector | null): void {
+  switch (action) {
+    case 'rotate':
+      return changeCamera((camera) => trackballed(camera, pivot(camera), by));
+    case 'rotate about vessel': {
+      const about = axis ?? store.camera.value?.up ?? [0, 0, 1];
+      return changeCamera((camera) => turnedAbout(camera, pivot(camera), about, (-by[0] * Math.PI) / camera.size[1]));
+    }
+    case 'pan':
+      return changeCamera((camera) => panned(camera, by));
+    case 'window':
+      return dragWindow(by);
+    default:
+  }
+}
+
+/** The place at which the pointer is stays where it is. */
+export function zoomTurning(factor: number, at: Pair): void {
+  changeCamera((camera) => zoomed(camera, factor, at));
+}
+
+/** To the right the window grows wider, upwards brighter. */
+export function dragWindow([x, y]: Pair): void {
+  const [level, width] = store.window_.value;
+  const wider = Math.max(width * Math.exp(x * WINDOW_PER_PIXEL), NARROWEST);
+  store.window_.value = [level + y * WINDOW_PER_PIXEL * width, wider];
+}
+
+export function setWindow(window: Window): void {
+  store.window_.value = [window[0], Math.max(window[1], NARROWEST)];
+}
+
+export function choosePreset(number: number): void {
+  const preset = PRESETS[number]?.window;
+  const windows = store.report.value?.windows;
+  if (preset === 'main' || preset === 'full') {
+    if (windows) {
+      setWindow(windows[preset]);
+    }
+  } else if (preset) {
+    setWindow(preset);
+  }
+}
+
+/** The value of a setting, its default where nothing else was chosen. */
+export function settingOf(name: string): SettingValue {
+  const chosen = store.settings.value[name];
+  const row = store.started.value?.table.find((setting) => setting.name === name);
+  return chosen === undefined ? (row?.default ?? null) : chosen;
+}
+
+export function setSetting(name: string, value: SettingValue): void {
+  store.settings.value = { ...store.settings.value, [name]: value };
+}
+
+/** Shows a named view of all of the study. */
+export async function showNamedView(engine: EngineClient, name: string): Promise<void> {
+  const camera = store.camera.value;
+  if (camera && store.report.value) {
+    store.camera.value = await engine.fitted(name, camera.size);
+  }
+}
+
+/** Turns the camera a little about the patient's long axis. */
+export function turnSlowly(angle: number): void {
+  changeCamera((camera) => turnedAbout(camera, pivot(camera), [0, 0, 1], angle));
+}
+
+/** Does what a key stands for. */
+export function perform(engine: EngineClient, action: Action): void {
+  if (action.startsWith('view ')) {
+    void showNamedView(engine, action.slice('view '.length));
+  } else if (action.startsWith('preset ')) {
+    choosePreset(Number(action.slice('preset '.length)));
+  } else {
+    performSimple(engine, action);
+  }
+}
+
+function performSimple(engine: EngineClient, action: Action): void {
+  switch (action) {
+    case 'invert':
+      store.isInverted.value = !store.isInverted.value;
+      break;
+    case 'context':
+      setSetting('context', settingOf('context') === null ? 'mida' : null);
+      break;
+    case 'silhouettes':
+      setSetting('silhouettes', !settingOf('silhouettes'));
+      break;
+    case 'turn':
+      store.isTurning.value = !store.isTurning.value;
+      break;
+    case 'help':
+      store.isHelpOpen.value = !store.isHelpOpen.value;
+      break;
+    case 'cancel':
+      cancel(engine);
+      break;
+    case 'reset':
+      reset(engine);
+      break;
+    default:
+  }
+}
+
+function cancel(engine: EngineClient): void {
+  if (store.progress.value) {
+    void engine.cancel();
+  }
+  batch(() => {
+    store.isHelpOpen.value = false;
+    store.isTurning.value = false;
+    store.maximised.value = null;
+    store.problem.value = null;
+  });
+}
+
+function reset(engine: EngineClient): void {
+  const windows = store.report.value?.windows;
+  batch(() => {
+    store.isInverted.value = false;
+    store.isTurning.value = false;
+    store.cprAngle.value = 0;
+    store.resets.value += 1;
+    if (windows) {
+      store.window_.value = windows.main;
+    }
+  });
+  void showNamedView(engine, 'anterior');
+}
+

@@ -1,0 +1,76 @@
+/** What the page knows: one store of signals, which the views read and the actions write. */
+import { computed, signal } from '@preact/signals';
+import type { Failure } from '../core/failure';
+import type { Camera, Histogram, Method, Progress, Report, Settings, Started, Vector, Window } from '../core/messages';
+
+export type Layout = 'one' | 'two' | 'four' | 'strip';
+export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip'];
+
+/** The views that a layout shows. */
+export type ViewName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straightened' | 'section';
+
+/** Where the cross-hair stands, and what is there. */
+export interface CrossHair {
+  readonly point: Vector;
+  readonly value: number | null;
+  readonly vessel: number | null;
+  /** Along the vessel (mm). */
+  readonly arcLength: number | null;
+}
+
+/** What computes; `epoch` counts how often it was exchanged. */
+export const started = signal<Started | null>(null);
+export const epoch = signal(0);
+
+export const report = signal<Report | null>(null);
+export const studyName = signal('');
+export const notes = signal<readonly string[]>([]);
+export const histogram = signal<Histogram | null>(null);
+export const progress = signal<Progress | null>(null);
+export const problem = signal<Failure | null>(null);
+
+export const camera = signal<Camera | null>(null);
+export const method = signal<Method>('csr');
+/** The settings that differ from their defaults, but for windows. */
+export const settings = signal<Settings>({});
+export const window_ = signal<Window>([300, 900]);
+/** Light where values are low. */
+export const isInverted = signal(false);
+export const isTurning = signal(false);
+
+export const crossHair = signal<CrossHair | null>(null);
+/** The vessel of the CPR, and the place of the section on it (mm). */
+export const pickedVessel = signal<number | null>(null);
+export const pickedPlace = signal(0);
+/** Rotation of the CPR about its vessel (radians). */
+export const cprAngle = signal(0);
+
+export const layout = signal<Layout>('strip');
+export const maximised = signal<ViewName | null>(null);
+/** How often the views were reset: flat views then show all of the volume again. */
+export const resets = signal(0);
+export const isHelpOpen = signal(false);
+export const frameTime = signal<number | null>(null);
+
+export const hasVolume = computed(() => Boolean(report.value?.volume));
+export const hasTree = computed(() => (report.value?.vessels?.length ?? 0) > 0);
+
+/** The settings of the turning view, with the windows. */
+export const viewSettings = computed<Settings>(() => {
+  const chosen: Record<string, Settings[string]> = { ...settings.value };
+  const windows = report.value?.windows;
+  const context = 'context' in chosen ? chosen.context : 'mida';
+  chosen.window = window_.value;
+  if (windows && context !== null) {
+    const own = context === 'mip' ? windows.mip : context === 'mida' ? windows.main : windows.whole;
+    chosen.context_window = moved(own, windows.main, window_.value);
+  }
+  return chosen;
+});
+
+/** A window of its own, moved and widened as the user did with the main one. */
+export function moved(own: Window, from: Window, to: Window): Window {
+  const factor = to[1] / from[1];
+  return [to[0] + (own[0] - from[0]) * factor, own[1] * factor];
+}
+

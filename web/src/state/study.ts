@@ -1,0 +1,100 @@
+/** Opening and closing: what is loaded, its windows and its first view. */
+import { batch } from '@preact/signals';
+import type { EngineClient, Opened } from '../core/engine';
+import { Failure } from '../core/failure';
+import type { Report } from '../core/messages';
+import { middle } from '../core/vectors';
+import * as store from './store';
+
+/** The size of a view before its pane is laid out. */
+const FIRST_SIZE = [512, 512] as const;
+
+/** Opens what `load` gives, and shows all of it from the front. */
+export async function open(engine: EngineClient, load: () => Promise<Opened>, name: string): Promise<void> {
+  batch(() => {
+    store.problem.value = null;
+    store.progress.value = { words: 'Opening', done: 0, total: null };
+  });
+  try {
+    const opened = await load();
+    await showStudy(engine, opened.report, opened.notes, name);
+  } catch (error) {
+    const failure = Failure.of(error);
+    if (!isCancelled(failure)) {
+      store.problem.value = failure;
+    }
+    await engine.close();
+    batch(forget);
+  } finally {
+    store.progress.value = null;
+  }
+}
+
+/** Opens a phantom by its name. */
+export function openPhantom(engine: EngineClient, name: string): Promise<void> {
+  const load = async () => ({ report: await engine.openPhantom(name), notes: [] });
+  return open(engine, load, `phantom ${name}`);
+}
+
+/** Opens addresses of the same origin. */
+export function openAddresses(engine: EngineClient, volume: string | null, centerlines: string | null): Promise<void> {
+  let name = '';
+  const load = async () => {
+    const opened = await engine.openAddresses(volume, centerlines, (told) => {
+      store.progress.value = told;
+    });
+    name = opened.name;
+    store.studyName.value = name;
+    return opened;
+  };
+  return open(engine, load, name);
+}
+
+/** Closes the study. */
+export async function close(engine: EngineClient): Promise<void> {
+  await engine.close();
+  batch(forget);
+}
+
+async function showStudy(engine: EngineClient, report: Report, notes: readonly string[], name: string): Promise<void> {
+  const size = store.camera.value?.size ?? FIRST_SIZE;
+  const camera = await engine.fitted('anterior', size);
+  const histogram = report.volume ? await engine.histogram(128) : null;
+  batch(() => {
+    forget();
+    store.report.value = report;
+    store.notes.value = notes;
+    store.studyName.value = name || store.studyName.value;
+    store.histogram.value = histogram;
+    store.window_.value = report.windows?.main ?? store.window_.value;
+    store.camera.value = camera;
+    if (report.volume) {
+      const point = report.vessels?.length ? camera.center : middle(report.volume.corners);
+      store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
+    }
+    store.pickedVessel.value = report.vessels?.length ? longest(report) : null;
+    store.pickedPlace.value = 0;
+  });
+}
+
+/** The longest vessel's number. */
+function longest(report: Report): number {
+  const lengths = (report.vessels ?? []).map((vessel) => vessel.length);
+  return lengths.indexOf(Math.max(...lengths));
+}
+
+function forget(): void {
+  store.report.value = null;
+  store.notes.value = [];
+  store.histogram.value = null;
+  store.crossHair.value = null;
+  store.pickedVessel.value = null;
+  store.cprAngle.value = 0;
+  store.isTurning.value = false;
+  store.maximised.value = null;
+  store.frameTime.value = null;
+}
+
+function isCancelled(failure: Failure): boolean {
+  return failure.kind === 'interrupted' || failure.found.includes('aborted');
+}

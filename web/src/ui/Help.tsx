@@ -1,0 +1,48 @@
+/** The list of what mouse, touch and keys do, made from the table of bindings. */
+import { useEffect, useRef } from 'preact/hooks';
+import { BINDINGS, inputName, type Where } from '../input/bindings';
+import { isHelpOpen } from '../state/store';
+
+const PARTS: readonly (readonly [Where, string])[] = [
+  ['turning', 'In the turning view'],
+  ['flat', 'In slices, section and straightened vessel'],
+  ['everywhere', 'Everywhere'],
+];
+
+export function Help() {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const isOpen = isHelpOpen.value;
+  useEffect(() => {
+    if (isOpen) {
+      dialog.current?.showModal();
+    } else {
+      dialog.current?.close();
+    }
+  }, [isOpen]);
+  const closed = () => {
+    isHelpOpen.value = false;
+  };
+  return (
+    <dialog ref={dialog} class="help" onClose={closed} aria-label="Keys and mouse">
+      <h2>Keys and mouse</h2>
+      <div class="help-parts">
+        {PARTS.map(([where, title]) => (
+          <section key={where}>
+            <h3>{title}</h3>
+            <dl>
+              {BINDINGS.filter((row) => row.where === where).map((row) => (
+                <div key={inputName(row)}>
+                  <dt>{inputName(row)}</dt>
+                  <dd>{row.words}</dd>
+                </div>
+              ))}
+            </dl>
+          </section>
+        ))}
+      </div>
+      <button type="button" onClick={closed}>
+        Close
+      </button>
+    </dialog>
+  );
+}

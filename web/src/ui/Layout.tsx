@@ -1,0 +1,71 @@
+/** The panes of a layout, and which view each of them shows. */
+import type { ComponentChildren } from 'preact';
+import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
+import { CprView } from '../views/CprView';
+import { SectionView } from '../views/SectionView';
+import { SliceView } from '../views/SliceView';
+import { TurningView } from '../views/TurningView';
+
+const VIEWS: Readonly<Record<Name, readonly ViewName[]>> = {
+  one: ['turning'],
+  two: ['turning', 'straightened'],
+  four: ['turning', 'axial', 'coronal', 'sagittal'],
+  strip: ['turning', 'axial', 'straightened', 'section'],
+};
+const TITLES: Readonly<Record<ViewName, string>> = {
+  turning: 'Vessels',
+  axial: 'Axial',
+  coronal: 'Coronal',
+  sagittal: 'Sagittal',
+  straightened: 'Straightened vessel',
+  section: 'Section',
+};
+
+export function Layout() {
+  const shown = VIEWS[layout.value];
+  const alone = maximised.value;
+  return (
+    <main class={`layout ${layout.value}${alone ? ' alone' : ''}`} data-layout={layout.value}>
+      {shown.map((name) => (
+        <Pane key={name} name={name} isHidden={alone !== null && alone !== name}>
+          {viewOf(name)}
+        </Pane>
+      ))}
+    </main>
+  );
+}
+
+function viewOf(name: ViewName) {
+  switch (name) {
+    case 'turning':
+      return <TurningView />;
+    case 'straightened':
+      return <CprView />;
+    case 'section':
+      return <SectionView />;
+    default:
+      return <SliceView name={name} />;
+  }
+}
+
+interface PaneProps {
+  readonly name: ViewName;
+  readonly isHidden: boolean;
+  readonly children: ComponentChildren;
+}
+
+function Pane({ name, isHidden, children }: PaneProps) {
+  const isAlone = maximised.value === name;
+  const toggle = () => {
+    maximised.value = isAlone ? null : name;
+  };
+  return (
+    <section class={`pane ${name}${isHidden ? ' hidden' : ''}`} aria-label={TITLES[name]}>
+      {children}
+      <h2 class="pane-title">{TITLES[name]}</h2>
+      <button type="button" class="pane-button" onClick={toggle} aria-label={isAlone ? 'Show all views' : `Show ${TITLES[name]} alone`}>
+        {isAlone ? '⤡' : '⤢'}
+      </button>
+    </section>
+  );
+}

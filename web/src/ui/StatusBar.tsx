@@ -1,0 +1,57 @@
+/** The read-out: where the cross-hair is, what is there, and how fast the page is. */
+import * as store from '../state/store';
+import { positionText } from '../views/letters';
+
+export function StatusBar() {
+  return (
+    <footer class="status">
+      <output aria-label="Read-out" data-testid="readout">
+        {readOut()}
+      </output>
+      <span class="spring" />
+      <span data-testid="window">{`W ${round(store.window_.value[1])} L ${round(store.window_.value[0])}`}</span>
+      <span data-testid="device">{deviceText()}</span>
+      <span class="frame-time">{store.frameTime.value === null ? '' : `${store.frameTime.value.toFixed(0)} ms`}</span>
+      <span class="notice">Not a medical device</span>
+    </footer>
+  );
+}
+
+function round(value: number): string {
+  return Math.abs(value) < 10 ? value.toPrecision(3) : value.toFixed(0);
+}
+
+function readOut(): string {
+  const hair = store.crossHair.value;
+  if (!hair) {
+    return '';
+  }
+  const parts = [positionText(hair.point)];
+  if (hair.value !== null) {
+    parts.push(Number.isInteger(hair.value) ? `${hair.value}` : hair.value.toFixed(1));
+  }
+  if (hair.vessel !== null) {
+    parts.push(vesselName(hair.vessel));
+    if (hair.arcLength !== null) {
+      parts.push(`${hair.arcLength.toFixed(1)} mm`);
+    }
+  }
+  return parts.join(' · ');
+}
+
+/** The name of a vessel; its number, counted from 1, where it has none. */
+export function vesselName(vessel: number): string {
+  return store.report.value?.vessels?.[vessel]?.name || `vessel ${vessel + 1}`;
+}
+
+function deviceText(): string {
+  const started = store.started.value;
+  if (!started) {
+    return 'starting';
+  }
+  if (started.isGpu) {
+    return `GPU: ${started.device}`;
+  }
+  const threads = started.threads === 1 ? '1 thread' : `${started.threads} threads`;
+  return `CPU: ${threads}${started.isIsolated ? '' : ', as the page is not cross-origin isolated'}`;
+}

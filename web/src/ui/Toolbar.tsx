@@ -1,0 +1,120 @@
+/** The bar at the top: method, context, silhouettes, slab, presets, layout. */
+import type { Method } from '../core/messages';
+import { engine } from '../core/shared';
+import { choosePreset, perform, PRESETS, setSetting, settingOf } from '../state/actions';
+import * as store from '../state/store';
+import { close } from '../state/study';
+
+const METHODS: readonly (readonly [Method, string])[] = [
+  ['csr', 'CSR'],
+  ['csr-paper', 'CSR (paper)'],
+  ['cr', 'CR'],
+  ['mpcpr', 'mpCPR'],
+];
+const CONTEXTS: readonly (readonly [string, string])[] = [
+  ['mida', 'MIDA'],
+  ['dvr', 'DVR'],
+  ['mip', 'MIP'],
+  ['minip', 'MinIP'],
+  ['average', 'Average'],
+  ['', 'None'],
+];
+const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
+  one: 'One view',
+  two: 'Two views',
+  four: 'Four views',
+  strip: 'One view and a strip',
+};
+
+export function Toolbar() {
+  const slab = settingOf('slab');
+  return (
+    <header class="toolbar" aria-label="Tools">
+      <strong class="brand">Lumencut</strong>
+      <label>
+        Method
+        <select
+          value={store.method.value}
+          onChange={(event) => {
+            store.method.value = event.currentTarget.value as Method;
+          }}
+        >
+          {METHODS.map(([name, words]) => (
+            <option key={name} value={name}>
+              {words}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label>
+        Context
+        <select value={String(settingOf('context') ?? '')} onChange={(event) => setSetting('context', event.currentTarget.value || null)}>
+          {CONTEXTS.map(([name, words]) => (
+            <option key={name} value={name}>
+              {words}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label>
+        <input
+          type="checkbox"
+          checked={Boolean(settingOf('silhouettes'))}
+          onChange={(event) => setSetting('silhouettes', event.currentTarget.checked)}
+        />
+        Silhouettes
+      </label>
+      <label>
+        Slab
+        <input
+          class="number"
+          type="number"
+          min="0"
+          max="100"
+          step="1"
+          value={Array.isArray(slab) ? String(slab[0]) : '0'}
+          onChange={(event) => {
+            const thickness = Number(event.currentTarget.value);
+            setSetting('slab', thickness > 0 ? [thickness, 'max'] : null);
+          }}
+        />
+        mm
+      </label>
+      <label>
+        Window
+        <select value="" onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
+          <option value="" disabled>
+            Preset
+          </option>
+          {PRESETS.map((preset, number) => (
+            <option key={preset.name} value={number}>
+              {preset.name}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label>
+        Layout
+        <select
+          value={store.layout.value}
+          onChange={(event) => {
+            store.layout.value = event.currentTarget.value as store.Layout;
+          }}
+        >
+          {store.LAYOUTS.map((name) => (
+            <option key={name} value={name}>
+              {LAYOUT_NAMES[name]}
+            </option>
+          ))}
+        </select>
+      </label>
+      <span class="spring" />
+      <button type="button" onClick={() => perform(engine, 'help')} aria-label="Keys and mouse">
+        ?
+      </button>
+      <button type="button" onClick={() => void close(engine)}>
+        Close scan
+      </button>
+    </header>
+  );
+}

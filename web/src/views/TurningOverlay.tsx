@@ -1,0 +1,31 @@
+/** What lies over the turning view: letters, bar, cross-hair and cube. */
+import { pixelOf, rightOf } from '../core/camera';
+import { negate } from '../core/vectors';
+import { camera, crossHair, hasVolume } from '../state/store';
+import { Cube } from './Cube';
+import { EdgeLabels } from './EdgeLabels';
+
+export function TurningOverlay() {
+  const seen = camera.value;
+  if (!seen || !hasVolume.value) {
+    return null;
+  }
+  const hair = crossHair.value;
+  const place = hair && pixelOf(seen, hair.point);
+  return (
+    <div class="overlay">
+      <EdgeLabels right={rightOf(seen)} down={negate(seen.up)} size={seen.size} spacing={seen.pixel_spacing} />
+      {place && <HairLines at={place} />}
+      <Cube camera={seen} />
+    </div>
+  );
+}
+
+/** The cross-hair: four short lines around a place, which itself stays free. */
+export function HairLines({ at }: { readonly at: readonly [number, number] }) {
+  return (
+    <svg class="hair" style={{ left: `${at[0]}px`, top: `${at[1]}px` }} width="41" height="41" aria-hidden="true">
+      <path d="M20.5 0v14M20.5 27v14M0 20.5h14M27 20.5h14" />
+    </svg>
+  );
+}

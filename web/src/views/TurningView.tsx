@@ -1,0 +1,163 @@
+/** The main view: the vessels cut open, freely turned. */
+import { useSignalEffect } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { resized } from '../core/camera';
+import { engine } from '../core/shared';
+import type { Picture, Vector, View } from '../core/messages';
+import { cross } from '../core/vectors';
+import { listen } from '../input/pointer';
+import { placeCrossHair } from '../link/cross-hair';
+import * as actions from '../state/actions';
+import { recover } from '../state/device';
+import * as store from '../state/store';
+import { FrameLoop, type Shown } from './frame-loop';
+import { TurningOverlay } from './TurningOverlay';
+import { usePaneSize } from './pane-size';
+
+/** Radians that a slow turn advances in a second. */
+const TURN_PER_SECOND = 0.5;
+
+export function TurningView() {
+  const pane = useRef<HTMLDivElement>(null);
+  const loop = useRef<FrameLoop | null>(null);
+  const size = usePaneSize(pane);
+  const epoch = store.epoch.value;
+  const canvas = useRef<HTMLCanvasElement>(null);
+
+  useEffect(() => {
+    const frames = new FrameLoop(engine, (shown) => showFrame(canvas.current, shown), recover);
+    loop.current = frames;
+    return () => frames.end();
+  }, []);
+
+  useEffect(() => {
+    const element = canvas.current;
+    if (element && store.started.value?.isGpu) {
+      void engine.drawOn(element.transferControlToOffscreen()).then(() => loop.current?.again());
+    } else {
+      loop.current?.again();
+    }
+  }, [epoch]);
+
+  useEffect(() => {
+    const camera = store.camera.value;
+    if (camera && size && (camera.size[0] !== size[0] || camera.size[1] !== size[1])) {
+      store.camera.value = resized(camera, size);
+    }
+  }, [size, store.report.value]);
+
+  useSignalEffect(() => {
+    const view = wantedView();
+    if (view) {
+      loop.current?.want(view);
+    }
+  });
+
+  useSignalEffect(() => (store.isTurning.value ? turnOn() : undefined));
+
+  useEffect(() => {
+    const element = pane.current;
+    return element ? listen(element, 'turning', handlers) : undefined;
+  }, []);
+
+  return (
+    <div class="pane-body" ref={pane} data-testid="turning">
+      <canvas key={epoch} ref={canvas} class={store.isInverted.value ? 'picture inverted' : 'picture'} />
+      <TurningOverlay />
+    </div>
+  );
+}
+
+/** What is to be shown, in CSS pixels times the density of the screen. */
+function wantedView(): View | null {
+  const [camera, report] = [store.camera.value, store.report.value];
+  if (!camera || !report?.volume || camera.size[0] < 2 || camera.size[1] < 2) {
+    return null;
+  }
+  return { camera, method: store.method.value, settings: store.viewSettings.value };
+}
+
+function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view }: Shown): void {
+  store.frameTime.value = drawn.milliseconds;
+  if (canvas && drawn.picture) {
+    paint(canvas, drawn.picture);
+  }
+  if (canvas) {
+    canvas.dataset.stage = stage;
+    canvas.dataset.pixels = view.camera.size.join('x');
+  }
+}
+
+function paint(canvas: HTMLCanvasElement, picture: Picture): void {
+  const [width, height] = picture.size;
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+  canvas.getContext('2d')?.putImageData(new ImageData(picture.bytes, width, height), 0, 0);
+}
+
+/** Turns until it is stopped. */
+function turnOn(): () => void {
+  let frame = 0;
+  let before = performance.now();
+  const step = (now: number) => {
+    actions.turnSlowly((TURN_PER_SECOND * (now - before)) / 1000);
+    before = now;
+    frame = requestAnimationFrame(step);
+  };
+  frame = requestAnimationFrame(step);
+  return () => cancelAnimationFrame(frame);
+}
+
+/** The axis of the picked vessel where the cross-hair stands; that of the view where none is picked. */
+let vesselAxis: Vector | null = null;
+
+const handlers = {
+  drag: (action: Parameters<typeof actions.dragTurning>[0], by: readonly [number, number]) =>
+    actions.dragTurning(action, by, vesselAxis),
+  zoom: actions.zoomTurning,
+  scroll: () => undefined,
+  click: (action: string, at: readonly [number, number]) => {
+    if (action === 'maximise') {
+      store.maximised.value = store.maximised.value === 'turning' ? null : 'turning';
+    } else {
+      void pickAt(at);
+    }
+  },
+  hover: (at: readonly [number, number], shift: boolean) => {
+    if (shift) {
+      void pickAt(at);
+    }
+  },
+  begin: () => void findAxis(),
+  end: () => undefined,
+};
+
+async function findAxis(): Promise<void> {
+  const vessel = store.pickedVessel.value;
+  if (vessel === null) {
+    vesselAxis = null;
+    return;
+  }
+  const [, right, down] = await engine.across(vessel, store.pickedPlace.value);
+  vesselAxis = cross(right, down);
+}
+
+let isPicking = false;
+
+async function pickAt(at: readonly [number, number]): Promise<void> {
+  const view = wantedView();
+  if (!view || isPicking) {
+    return;
+  }
+  isPicking = true;
+  try {
+    placeCrossHair(await engine.pick(view, at), 'turning');
+  } catch (error) {
+    recover(error);
+  } finally {
+    isPicking = false;
+  }
+}
+

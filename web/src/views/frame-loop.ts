@@ -1,0 +1,133 @@
+/**
+ * The loop of the turning view: while something changes, pictures of as many pixels as the rate allows; at rest one with
+ * all pixels, and then one with several samples for each. One picture is under way at a time, and the latest view wins.
+ */
+import { sampled } from '../core/camera';
+import type { EngineClient } from '../core/engine';
+import { Failure } from '../core/failure';
+import type { Drawn, View } from '../core/messages';
+
+/** The time of a picture while something changes (ms): 25 a second leave room for all else. */
+const MOVING_TIME = 40;
+/** How long nothing changes before the view is at rest (ms). */
+const REST_AFTER = 120;
+/** The fewest pixels along a side while something changes, as a part of all. */
+const COARSEST = 0.2;
+/** Samples along each side of a pixel at rest. */
+const SAMPLES = 2;
+
+type Stage = 'moving' | 'full' | 'samples' | 'done';
+
+export interface Shown {
+  readonly view: View;
+  readonly drawn: Drawn;
+  readonly stage: Stage;
+}
+
+export class FrameLoop {
+  private wanted: View | null = null;
+  private changed = 0;
+  private stage: Stage = 'done';
+  private isBusy = false;
+  private isStopped = false;
+  private factor = 1;
+  private timer = 0;
+
+  constructor(
+    private readonly engine: EngineClient,
+    private readonly show: (shown: Shown) => void,
+    private readonly fail: (failure: Failure) => void,
+  ) {}
+
+  /** The view to be shown from now on. */
+  want(view: View): void {
+    this.wanted = view;
+    this.changed = performance.now();
+    if (this.isBusy && (this.stage === 'full' || this.stage === 'samples')) {
+      this.engine.stop();
+    }
+    this.stage = 'moving';
+    this.next();
+  }
+
+  /** Shows the same view again, after what draws it was exchanged. */
+  again(): void {
+    if (this.wanted) {
+      this.stage = 'full';
+      this.next();
+    }
+  }
+
+  end(): void {
+    this.isStopped = true;
+    window.clearTimeout(this.timer);
+  }
+
+  private next(): void {
+    window.clearTimeout(this.timer);
+    if (this.isBusy || this.isStopped || !this.wanted || this.stage === 'done') {
+      return;
+    }
+    void this.draw(this.wanted, this.stage);
+  }
+
+  private async draw(view: View, stage: Stage): Promise<void> {
+    this.isBusy = true;
+    const asked = this.atStage(view, stage);
+    try {
+      const drawn = await this.engine.render(asked);
+      if (!this.isStopped) {
+        this.adapt(asked, view, drawn.milliseconds, stage);
+        this.show({ view: asked, drawn, stage });
+      }
+      this.isBusy = false;
+      this.goOn(view, stage);
+    } catch (error) {
+      this.isBusy = false;
+      const failure = Failure.of(error);
+      if (failure.kind === 'interrupted') {
+        this.next();
+      } else if (!this.isStopped) {
+        this.stage = 'done';
+        this.fail(failure);
+      }
+    }
+  }
+
+  /** The view with the pixels and samples of a stage. */
+  private atStage(view: View, stage: Stage): View {
+    if (stage === 'moving') {
+      const settings = { ...view.settings, context_preview: true, samples: 1 };
+      return { ...view, camera: sampled(view.camera, this.factor), settings };
+    }
+    return stage === 'samples' ? { ...view, settings: { ...view.settings, samples: SAMPLES } } : view;
+  }
+
+  /** As many pixels as take the wanted time, judged by the picture before; by no more than a half at once. */
+  private adapt(asked: View, view: View, milliseconds: number, stage: Stage): void {
+    if (stage === 'samples') {
+      return;
+    }
+    const used = asked.camera.size[1] / view.camera.size[1];
+    const ideal = used * Math.sqrt(MOVING_TIME / Math.max(milliseconds, 1));
+    this.factor = Math.min(1, Math.max(COARSEST, used / 2, Math.min(ideal, used * 1.25)));
+  }
+
+  private goOn(view: View, stage: Stage): void {
+    if (this.wanted !== view) {
+      this.next();
+    } else if (stage === 'moving') {
+      const rest = REST_AFTER - (performance.now() - this.changed);
+      this.timer = window.setTimeout(() => this.advance('full'), Math.max(rest, 0));
+    } else if (stage === 'full') {
+      this.timer = window.setTimeout(() => this.advance('samples'), REST_AFTER);
+    } else {
+      this.stage = 'done';
+    }
+  }
+
+  private advance(stage: Stage): void {
+    this.stage = stage;
+    this.next();
+  }
+}

@@ -1,0 +1,21 @@
+/** Runs one piece of work at a time; of those that come meanwhile only the latest runs. */
+export class Latest {
+  private isBusy = false;
+  private waiting: (() => Promise<void>) | null = null;
+
+  run(work: () => Promise<void>): void {
+    if (this.isBusy) {
+      this.waiting = work;
+      return;
+    }
+    this.isBusy = true;
+    void work().finally(() => {
+      this.isBusy = false;
+      const next = this.waiting;
+      this.waiting = null;
+      if (next) {
+        this.run(next);
+      }
+    });
+  }
+}

@@ -1,0 +1,21 @@
+/** The size of a pane in CSS pixels, whole numbers; none before it is laid out. */
+import { type RefObject } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+import type { Pair } from '../core/messages';
+
+export function usePaneSize(pane: RefObject<HTMLElement | null>): Pair | null {
+  const [size, setSize] = useState<Pair | null>(null);
+  useEffect(() => {
+    const element = pane.current;
+    if (!element) {
+      return undefined;
+    }
+    const observer = new ResizeObserver(() => {
+      const [width, height] = [Math.floor(element.clientWidth), Math.floor(element.clientHeight)];
+      setSize((before) => (before && before[0] === width && before[1] === height ? before : [width, height]));
+    });
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, [pane]);
+  return size;
+}

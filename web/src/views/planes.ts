@@ -1,0 +1,78 @@
+/** Slices of the patient: their axes, and the way between their pixels and the world. */
+import type { Pair, Plane, Vector, VolumeReport } from '../core/messages';
+import { add, cross, dot, middle, scale, subtract } from '../core/vectors';
+
+export type SliceName = 'axial' | 'coronal' | 'sagittal';
+
+/** To the right and downwards, as radiologists look at them: axial from the feet, coronal from the front, sagittal with the face to the left. */
+export const AXES: Readonly<Record<SliceName, { readonly right: Vector; readonly down: Vector }>> = {
+  axial: { right: [1, 0, 0], down: [0, 1, 0] },
+  coronal: { right: [1, 0, 0], down: [0, 0, -1] },
+  sagittal: { right: [0, 1, 0], down: [0, 0, -1] },
+};
+
+/** Where a slice is looked at: its middle within the plane, and mm per pixel. */
+export interface Look {
+  readonly center: Vector;
+  readonly spacing: number;
+}
+
+/** All of the volume in a pane. */
+export function fittedLook(volume: VolumeReport, name: SliceName, size: Pair): Look {
+  const center = middle(volume.corners);
+  const { right, down } = AXES[name];
+  const reach = (axis: Vector) => Math.max(...volume.corners.map((corner) => Math.abs(dot(subtract(corner, center), axis))));
+  const spacing = Math.max((2 * reach(right)) / size[0], (2 * reach(down)) / size[1]);
+  return { center, spacing: spacing * 1.02 };
+}
+
+/** The slice through a point. */
+export function planeOf(name: SliceName, look: Look, through: Vector, size: Pair): Plane {
+  const { right, down } = AXES[name];
+  const normal = cross(right, down);
+  const center = add(look.center, scale(normal, dot(subtract(through, look.center), normal)));
+  return { center, right, down, size, pixel_spacing: look.spacing };
+}
+
+/** The world point at a column and a row. */
+export function pointOn({ center, right, down, size, pixel_spacing }: Plane, [x, y]: Pair): Vector {
+  const across = scale(right, (x - (size[0] - 1) / 2) * pixel_spacing);
+  return add(add(center, across), scale(down, (y - (size[1] - 1) / 2) * pixel_spacing));
+}
+
+/** Column and row of a world point, seen along the normal. */
+export function pixelOn({ center, right, down, size, pixel_spacing }: Plane, point: Vector): Pair {
+  const away = subtract(point, center);
+  return [
+    dot(away, right) / pixel_spacing + (size[0] - 1) / 2,
+    dot(away, down) / pixel_spacing + (size[1] - 1) / 2,
+  ];
+}
+
+/** The look after a drag of so many pixels. */
+export function pannedLook(look: Look, name: SliceName, [x, y]: Pair): Look {
+  const { right, down } = AXES[name];
+  const shift = add(scale(right, -x * look.spacing), scale(down, -y * look.spacing));
+  return { ...look, center: add(look.center, shift) };
+}
+
+/** The look magnified; the place at the pixel stays where it is. */
+export function zoomedLook(look: Look, plane: Plane, factor: number, at: Pair): Look {
+  const spacing = Math.min(Math.max(look.spacing / factor, 0.005), 20);
+  const kept = pointOn(plane, at);
+  const toward = scale(subtract(plane.center, kept), spacing / look.spacing);
+  return { center: add(kept, toward), spacing };
+}
+
+/** How far apart the slices of a volume are along an axis of the patient (mm). */
+export function sliceDistance(volume: VolumeReport, name: SliceName): number {
+  const { right, down } = AXES[name];
+  const normal = cross(right, down);
+  const steps = [0, 1, 2].map((axis) => Math.abs(dot(column(volume, axis), normal)));
+  return Math.max(...steps, 1e-3);
+}
+
+/** The step from one voxel to the next along an index. */
+function column(volume: VolumeReport, axis: number): Vector {
+  return [0, 1, 2].map((row) => volume.world_from_index[row]?.[axis] ?? 0) as unknown as Vector;
+}

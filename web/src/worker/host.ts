@@ -1,0 +1,171 @@
+/** What the page asks its worker for. Errors leave as the texts that `Failure.of` reads. */
+import { transfer } from 'comlink';
+import { Failure } from '../core/failure';
+import type { Cpr, Drawn, Histogram, Pick, Picture, Plane, Progress, Report, Started, Vector, View, Window } from '../core/messages';
+import { Engine, loadModule } from '../core/module';
+import { fetchStudy, type Told } from './fetching';
+import { Queue } from './queue';
+import { startThreads } from './threads';
+
+export class EngineHost {
+  private readonly queue = new Queue();
+  private engine: Engine | null = null;
+  private cancelled = new AbortController();
+
+  /** Loads the module and finds out what computes. */
+  start(device: string): Promise<Started> {
+    return this.run(async () => {
+      const shared = await loadModule();
+      const threads = await startThreads(shared);
+      this.engine = await Engine.open(device);
+      const buffer = shared.memory.buffer;
+      const isShared = self.crossOriginIsolated && buffer instanceof SharedArrayBuffer;
+      return {
+        ...this.device(),
+        threads,
+        isIsolated: self.crossOriginIsolated,
+        table: JSON.parse(Engine.settings_table()),
+        stop: isShared ? { buffer, address: Engine.stop_address() } : null,
+      };
+    });
+  }
+
+  private device(): { device: string; isGpu: boolean } {
+    const device = this.ready().device();
+    return { device, isGpu: device !== 'cpu' };
+  }
+
+  /** Looks for a GPU again after one was lost; the CPU computes where there is none. */
+  reopenDevice(): Promise<{ device: string; isGpu: boolean }> {
+    return this.run(async () => {
+      await this.ready().reopen_device();
+      return this.device();
+    });
+  }
+
+  /** Simulates the loss of the GPU, for tests. */
+  loseDevice(): Promise<void> {
+    return this.run(() => this.ready().lose_device());
+  }
+
+  /** Draws the turning view on this canvas from now on. */
+  drawOn(canvas: OffscreenCanvas): Promise<void> {
+    return this.run(() => this.ready().draw_on(canvas));
+  }
+
+  openPhantom(name: string): Promise<Report> {
+    return this.run(() => {
+      this.ready().open_phantom(name);
+      return this.report();
+    });
+  }
+
+  /** Opens a volume and centerlines of the same origin; `told` hears how far it is. */
+  openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<{ report: Report; notes: string[]; name: string }> {
+    this.cancelled = new AbortController();
+    const { signal } = this.cancelled;
+    return this.run(async () => {
+      const { notes, name } = await fetchStudy(this.ready(), { volume, centerlines }, told, signal);
+      return { report: this.report(), notes, name };
+    });
+  }
+
+  /** Opens centerlines beside the volume. */
+  openCenterlines(bytes: Uint8Array, name: string): Promise<{ report: Report; notes: string[] }> {
+    return this.run(() => {
+      const notes: string[] = JSON.parse(this.ready().open_centerlines(bytes, name));
+      return { report: this.report(), notes };
+    });
+  }
+
+  /** Stops loading; what is open then is nothing. */
+  cancel(): void {
+    this.cancelled.abort();
+  }
+
+  close(): Promise<void> {
+    return this.run(() => this.ready().close());
+  }
+
+  fitted(view: string, width: number, height: number): Promise<View['camera']> {
+    return this.run(() => JSON.parse(this.ready().fitted(view, width, height)));
+  }
+
+  /** Renders a view: on the canvas where the GPU draws, else into the answer. */
+  render(view: View): Promise<Drawn> {
+    return this.run(async () => {
+      const start = performance.now();
+      const bytes = await this.ready().render(JSON.stringify(view));
+      const milliseconds = performance.now() - start;
+      return bytes ? sent({ size: view.camera.size, bytes: plain(bytes) }, milliseconds) : { picture: null, milliseconds };
+    });
+  }
+
+  pick(view: View, column: number, row: number): Promise<Pick> {
+    return this.run(() => JSON.parse(this.ready().pick(JSON.stringify(view), column, row)));
+  }
+
+  at(point: Vector): Promise<Pick> {
+    return this.run(() => JSON.parse(this.ready().at(JSON.stringify(point))));
+  }
+
+  slice(plane: Plane, window: Window): Promise<Picture> {
+    return this.run(() => {
+      const bytes = plain(this.ready().slice(JSON.stringify(plane), window[0], window[1]));
+      return transfer({ size: plane.size, bytes }, [bytes.buffer]);
+    });
+  }
+
+  /** The middle of a section across a vessel, to the right and downwards. */
+  across(vessel: number, at: number): Promise<[Vector, Vector, Vector]> {
+    return this.run(() => JSON.parse(this.ready().across(vessel, at)));
+  }
+
+  straightened(cpr: Cpr, window: Window): Promise<Picture> {
+    return this.run(() => {
+      const [width, height, pixels] = this.ready().straightened(JSON.stringify(cpr), window[0], window[1]);
+      const bytes = plain(pixels as Uint8ClampedArray);
+      return transfer({ size: [width as number, height as number] as const, bytes }, [bytes.buffer]);
+    });
+  }
+
+  pickStraightened(column: number, row: number): Promise<Pick> {
+    return this.run(() => JSON.parse(this.ready().pick_straightened(column, row)));
+  }
+
+  onStraightened(point: Vector): Promise<[number, number] | null> {
+    return this.run(() => JSON.parse(this.ready().on_straightened(JSON.stringify(point))));
+  }
+
+  histogram(bins: number): Promise<Histogram> {
+    return this.run(() => JSON.parse(this.ready().histogram(bins)));
+  }
+
+  private report(): Report {
+    return JSON.parse(this.ready().report());
+  }
+
+  private ready(): Engine {
+    if (!this.engine) {
+      throw new Failure('unexpected', 'the engine', 'nothing', 'one that is started');
+    }
+    return this.engine;
+  }
+
+  private run<T>(work: () => T | Promise<T>): Promise<T> {
+    return this.queue.run(work).catch((error: unknown) => {
+      throw new Error(Failure.of(error).text);
+    });
+  }
+}
+
+function sent(picture: Picture, milliseconds: number): Drawn {
+  return transfer({ picture, milliseconds }, [picture.bytes.buffer]);
+}
+
+/** Pixels that the engine copied out of its memory already. */
+function plain(bytes: Uint8ClampedArray): Uint8ClampedArray<ArrayBuffer> {
+  return bytes as Uint8ClampedArray<ArrayBuffer>;
+}
+
+export type { Progress };

@@ -1,0 +1,24 @@
+//! `xtask MODULE FOLDER`: makes of a module that cargo compiled for WebAssembly what a browser loads, in a folder:
+//! the module `lumencut.wasm` and its JavaScript and types, `lumencut.js` and `lumencut.d.ts`.
+
+use std::process::ExitCode;
+
+use wasm_bindgen_cli_support::Bindgen;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [module, folder] = &arguments[..] else {
+        eprintln!("xtask: found {} arguments; expected the module and the folder", arguments.len());
+        return ExitCode::FAILURE;
+    };
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(module).out_name("lumencut").typescript(true).omit_default_module_path(false);
+    let web = bindgen.web(true).map(|web| web.remove_name_section(true).remove_producers_section(true));
+    match web.and_then(|web| web.generate(folder)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
