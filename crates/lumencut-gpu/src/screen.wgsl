@@ -11,7 +11,7 @@ struct ScreenParameters {
 
 @vertex
 fn corner(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f {
-    let place = vec2f(f32(vertex << 1u & 2u), f32(vertex & 2u));
+    let place = vec2f(f32((vertex << 1u) & 2u), f32(vertex & 2u));
     return vec4f(2.0 * place - 1.0, 0.0, 1.0);
 }
 

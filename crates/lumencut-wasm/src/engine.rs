@@ -54,6 +54,18 @@ fn read<'a, T: serde::Deserialize<'a>>(what: &str, text: &'a str) -> Result<T> {
     serde_json::from_str(text).map_err(|error| Failure::of_message(what, error, "JSON"))
 }
 
+/// What computes on a device of this name.
+async fn backend(device: &str) -> Answer<Backend> {
+    let wanted = match device {
+        "cpu" => Wanted::Cpu,
+        "gpu" => Wanted::Gpu(Choice::Any),
+        "any" => Wanted::Auto(Choice::Any),
+        _ => Wanted::Auto(Choice::Hardware),
+    };
+    let (backend, _) = answer(Backend::new(wanted).await.map_err(Failure::from))?;
+    Ok(backend)
+}
+
 #[wasm_bindgen]
 impl Engine {
     /// An engine on `device`: `gpu`, `cpu`, or `auto`, a GPU of hardware where there is one; `any` takes a GPU that is software
@@ -62,15 +74,7 @@ impl Engine {
     /// # Errors
     /// `device` where a GPU is asked for and none can be used.
     pub async fn open(device: &str) -> Answer<Engine> {
-        let wanted = match device {
-            "cpu" => Wanted::Cpu,
-            "gpu" => Wanted::Gpu(Choice::Any),
-            "any" => Wanted::Auto(Choice::Any),
-            _ => Wanted::Auto(Choice::Hardware),
-        };
-        let opened = Backend::new(wanted).await.map_err(Failure::from);
-        let (backend, _) = answer(opened)?;
-        Ok(Self { backend, screen: None, session: Session::default() })
+        Ok(Self { backend: backend(device).await?, screen: None, session: Session::default() })
     }
 
     /// "cpu", or the name of the GPU.
@@ -78,14 +82,13 @@ impl Engine {
         self.backend.name().to_owned()
     }
 
-    /// Looks for a GPU again, after one was lost.
+    /// Computes on another device from now on, or on the same one after it was lost; the study stays open.
     ///
     /// # Errors
-    /// None: without one the CPU computes.
-    pub async fn reopen_device(&mut self) -> Answer<()> {
+    /// As [`Engine::open`].
+    pub async fn change_device(&mut self, device: &str) -> Answer<()> {
         self.screen = None;
-        let (backend, _) = answer(Backend::new(Wanted::Auto(Choice::Any)).await.map_err(Failure::from))?;
-        self.backend = backend;
+        self.backend = backend(device).await?;
         Ok(())
     }
 

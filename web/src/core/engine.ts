@@ -48,8 +48,8 @@ export class EngineClient {
     }
   }
 
-  reopenDevice(): Promise<{ device: string; isGpu: boolean }> {
-    return heard(this.host.reopenDevice());
+  changeDevice(device: string): Promise<{ device: string; isGpu: boolean }> {
+    return heard(this.host.changeDevice(device));
   }
 
   loseDevice(): Promise<void> {

@@ -4,9 +4,10 @@ import { Failure } from '../core/failure';
 import { engine } from '../core/shared';
 import * as store from './store';
 
-/** How often a GPU that is lost is looked for again; then the CPU goes on. */
-const MOST_LOSSES = 5;
-let losses = 0;
+/** A GPU that fails again within this time is given up, and the CPU goes on (ms). */
+const SOON = 20_000;
+let lastLoss = Number.NEGATIVE_INFINITY;
+let isChanging = false;
 
 /** Starts the engine: on `gpu`, `any` GPU, `cpu`, or `auto`. */
 export async function start(device: string): Promise<void> {
@@ -24,24 +25,32 @@ export async function start(device: string): Promise<void> {
 /** Goes on after a failure of the view: with the GPU that comes back, or with the CPU. Other failures are shown. */
 export function recover(error: unknown): void {
   const failure = Failure.of(error);
-  if (failure.kind === 'device' && losses < MOST_LOSSES) {
-    losses += 1;
-    void reopen(failure);
+  if (failure.kind === 'device' && store.started.value?.isGpu) {
+    const isAgain = performance.now() - lastLoss < SOON;
+    lastLoss = performance.now();
+    void change(isAgain ? 'cpu' : 'any', failure);
   } else if (failure.kind !== 'interrupted') {
     store.problem.value = failure;
   }
 }
 
-async function reopen(failure: Failure): Promise<void> {
+async function change(device: string, failure: Failure): Promise<void> {
+  if (isChanging) {
+    return;
+  }
+  isChanging = true;
   try {
-    const device = await engine.reopenDevice();
+    const changed = await engine.changeDevice(device);
     const before = store.started.value;
+    const outcome = changed.isGpu ? 'it came back' : 'the CPU goes on';
     batch(() => {
-      store.started.value = before && { ...before, ...device };
+      store.started.value = before && { ...before, ...changed };
       store.epoch.value += 1;
-      store.notes.value = [...store.notes.value, `The GPU failed (${failure.found}); ${device.isGpu ? 'it came back' : 'the CPU goes on'}.`];
+      store.notes.value = [...new Set([...store.notes.value, `The GPU failed (${failure.found}): ${outcome}.`])];
     });
   } catch (error) {
     store.problem.value = Failure.of(error);
+  } finally {
+    isChanging = false;
   }
 }

@@ -50,7 +50,7 @@ function deviceText(): string {
     return 'starting';
   }
   if (started.isGpu) {
-    return `GPU: ${started.device}`;
+    return started.device ? `GPU: ${started.device}` : 'GPU';
   }
   const threads = started.threads === 1 ? '1 thread' : `${started.threads} threads`;
   return `CPU: ${threads}${started.isIsolated ? '' : ', as the page is not cross-origin isolated'}`;

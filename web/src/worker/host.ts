@@ -35,10 +35,10 @@ export class EngineHost {
     return { device, isGpu: device !== 'cpu' };
   }
 
-  /** Looks for a GPU again after one was lost; the CPU computes where there is none. */
-  reopenDevice(): Promise<{ device: string; isGpu: boolean }> {
+  /** Computes on another device from now on, or on the same one after it was lost. */
+  changeDevice(device: string): Promise<{ device: string; isGpu: boolean }> {
     return this.run(async () => {
-      await this.ready().reopen_device();
+      await this.ready().change_device(device);
       return this.device();
     });
   }

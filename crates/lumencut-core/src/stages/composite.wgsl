@@ -38,7 +38,7 @@ fn straight(pixel: vec4f, behind: vec3f) -> u32 {
     let any = pixel.w > 0.0;
     let per_alpha = 255.0 / select(1.0, pixel.w, any);
     let color = select(behind * 255.0, pixel.xyz * per_alpha, any);
-    return byte(color.x) | byte(color.y) << 8u | byte(color.z) << 16u | byte(pixel.w * 255.0) << 24u;
+    return byte(color.x) | (byte(color.y) << 8u) | (byte(color.z) << 16u) | (byte(pixel.w * 255.0) << 24u);
 }
 
 @compute @workgroup_size(16, 4)
