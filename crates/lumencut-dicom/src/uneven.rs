@@ -13,7 +13,7 @@ use crate::wording::{counted, rounded};
 const MOST_SLICES: usize = 4;
 /// A distance more than this many times as long as those beside it is a hole.
 const HOLE: f64 = 3.0;
-/// What rounding leaves of a whole number of steps.
+/// What rounding leaves of a whole number of steps, or of equal distances (mm).
 const ROUNDING: f64 = 1e-6;
 
 /// Slices at uneven distances, sorted along their normal.
@@ -69,7 +69,7 @@ impl Uneven<'_, '_> {
              keep their values; the largest gap is {}",
             self.found(),
             last as i64 + 1,
-            self.gap(largest(&self.gaps)),
+            self.gap(self.widest()),
         )
     }
 
@@ -124,6 +124,12 @@ impl Uneven<'_, '_> {
         let others = wide.len() as i64 - 1;
         let more = if others > 0 { format!(" and {}", counted(others, "more hole")) } else { String::new() };
         Some(format!("of {first}{more}"))
+    }
+
+    /// The first of the widest distances, which may be equal but for rounding.
+    fn widest(&self) -> usize {
+        let widest = ends(&self.gaps).1;
+        self.gaps.iter().position(|gap| gap + ROUNDING >= widest).unwrap_or_default()
     }
 
     fn gap(&self, n: usize) -> String {

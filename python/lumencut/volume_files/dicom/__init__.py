@@ -5,15 +5,16 @@ Headers are read and pixels decoded by pydicom and its plugins; the core judges 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy.typing as npt
 
 from lumencut.series_report import SeriesReport
-from lumencut.volume_files.dicom.headers import is_dicom, read_headers
-from lumencut.volume_files.dicom.judging import Files, Wanted, described, judged
+from lumencut.volume_files.dicom.files import File, read_files
+from lumencut.volume_files.dicom.headers import is_dicom
+from lumencut.volume_files.dicom.judging import Wanted, described, judged
 from lumencut.volume_files.dicom.sources import is_zip
 from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
@@ -23,21 +24,21 @@ __all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "o
 
 def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
     """Read the headers of a DICOM series; `progress` counts the files looked into."""
-    return opened(path, wanted, lambda notes: read_headers(path, notes, progress))
+    return opened(path, wanted, lambda notes: read_files(path, notes, progress))
 
 
-def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Files]) -> VolumeFile:
+def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File]]) -> VolumeFile:
     """Make one volume of the files that `read` gives, which takes the notes; `path` names them."""
     notes: list[str] = []
     with refusing(path, "DICOM", notes):
         series = judged(path, read(notes), wanted, notes)
-    stack = series.stack
+    stack, space = series.stack, "LPS (as every DICOM)"
 
     def voxels(progress: Progress) -> npt.NDArray[Any]:
         return load(stack, notes, progress)
 
     return VolumeFile(
-        path, "DICOM", stack.size, series.stored, "LPS (as every DICOM)", stack.world_from_index, voxels, notes,
+        path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
         filled=stack.missing, details=series.details,
     )  # fmt: skip
 
@@ -45,4 +46,4 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Files]) -> Vo
 def list_dicom_series(path: Path) -> list[SeriesReport]:
     """Describe all series below a folder, in a zip archive, or of a single file."""
     with refusing(path, "DICOM", []):
-        return described(path, read_headers(path, []))
+        return described(path, read_files(path, []))

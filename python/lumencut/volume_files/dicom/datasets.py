@@ -10,8 +10,8 @@ from typing import Any, BinaryIO
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom import Wanted, opened
+from lumencut.volume_files.dicom.files import File, recorded
 from lumencut.volume_files.dicom.headers import Header, Image, header_tags
-from lumencut.volume_files.dicom.judging import Files
 from lumencut.volume_files.dicom.sources import Source
 from lumencut.volume_files.opened import VolumeFile, refusing
 
@@ -62,12 +62,12 @@ def open_datasets(datasets: Sequence[Any]) -> VolumeFile:
     return opened(_SUBJECT, Wanted(), lambda notes: _images(datasets, notes))
 
 
-def _images(datasets: Sequence[Any], notes: list[str]) -> Files:
-    found: list[tuple[Source, Image | None]] = []
+def _images(datasets: Sequence[Any], notes: list[str]) -> list[File]:
+    found = []
     for number, dataset in enumerate(datasets):
         with refusing(f"{_SUBJECT}: dataset {number}", "DICOM", notes):
             image = _image(number, dataset)
-            found.append((image.source, image))
+            found.append(recorded(image.source, image))
     return found
 
 

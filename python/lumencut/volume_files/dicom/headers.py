@@ -1,4 +1,4 @@
-"""The headers of DICOM files: the attributes that series are judged by and that pixels are read with."""
+"""The header of one DICOM file: the attributes that series are judged by and that pixels are read with."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ import io
 import struct
 from dataclasses import dataclass
 from functools import cache, cached_property
-from pathlib import Path
 from typing import Any
 
 from lumencut._lumencut import DICOM_ATTRIBUTES
-from lumencut.volume_files.dicom.sources import Source, refuse_deflate_bomb, sources
-from lumencut.volume_files.opened import Progress, refusing
+from lumencut.volume_files.dicom.sources import Source, refuse_deflate_bomb
 
 Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
@@ -69,28 +67,12 @@ def transfer_syntax(header: Header) -> Any:
     return stated or (ImplicitVRLittleEndian if header.original_encoding[0] else ExplicitVRLittleEndian)
 
 
-def read_headers(
-    path: Path, notes: list[str], progress: Progress | None = None
-) -> list[tuple[Source, Image | None]]:
-    """Read the header of every file below a folder, in a zip archive, or of a single file.
-
-    What is no DICOM has none. `progress` is called with (files looked into, files in all).
-    """
-    found = sources(path)
-    read = []
-    for number, source in enumerate(found, 1):
-        read.append((source, _read_header(source, notes)))
-        if progress is not None:
-            progress(number, len(found))
-    return read
-
-
-def _read_header(source: Source, notes: list[str]) -> Image | None:
-    with refusing(source, "DICOM", notes):
-        head = source.head(_HEAD)
-        if not is_dicom(head):
-            return None
-        return _within(source, head) or _whole(source)
+def read_header(source: Source) -> Image | None:
+    """Read the attributes of one file, None if it is no DICOM."""
+    head = source.head(_HEAD)
+    if not is_dicom(head):
+        return None
+    return _within(source, head) or _whole(source)
 
 
 def _within(source: Source, head: bytes) -> Image | None:

@@ -18,14 +18,9 @@ from lumencut._lumencut import describe_dicom, judge_dicom
 from lumencut.errors import FormatError, SeriesError
 from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
-from lumencut.volume_files.dicom.headers import Image
-from lumencut.volume_files.dicom.records import Record, header_record, kind
-from lumencut.volume_files.dicom.sources import Source, not_dicom
+from lumencut.volume_files.dicom.files import File
+from lumencut.volume_files.dicom.records import Record
 from lumencut.volume_files.dicom.stack import Fill, Slice, Stack
-from lumencut.volume_files.opened import refusing
-
-Files = Sequence[tuple[Source, Image | None]]
-"""What was looked into, and the header of each that is DICOM."""
 
 
 @dataclass(frozen=True)
@@ -47,14 +42,13 @@ class Judged:
     details: dict[str, str]
 
 
-def judged(path: Path, files: Files, wanted: Wanted, notes: list[str]) -> Judged:
+def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) -> Judged:
     """Choose one series and find where its slices lie; `path` names all files together."""
-    headers = _document(_headers(files, notes))
-    plan = _answer(path, files, judge_dicom(headers, _document(asdict(wanted))))["plan"]
+    plan = _answer(path, files, judge_dicom(_headers(files), _document(asdict(wanted))))["plan"]
     notes += plan["notes"]
     slices = []
     for one in plan["slices"]:
-        image = files[one["file"]][1]
+        image = files[one["file"]].image
         assert image is not None, "a plan names files with a header"
         slices.append(Slice(image, one["frame"], one["place"], (one["slope"], one["intercept"])))
     fills = [Fill(**fill) for fill in plan["fills"]]
@@ -64,24 +58,14 @@ def judged(path: Path, files: Files, wanted: Wanted, notes: list[str]) -> Judged
     return Judged(stack, np.dtype(plan["stored_type"]), plan["details"])
 
 
-def described(path: Path, files: Files) -> list[SeriesReport]:
+def described(path: Path, files: Sequence[File]) -> list[SeriesReport]:
     """Describe all series."""
-    headers = _document(_headers(files, []))
-    return [_report(one) for one in _answer(path, files, describe_dicom(headers))["series"]]
+    return [_report(one) for one in _answer(path, files, describe_dicom(_headers(files)))["series"]]
 
 
-def _headers(files: Files, notes: list[str]) -> Record:
-    return {
-        "transfer_syntaxes": [*NATIVE, *PLUGINS],
-        "files": [_file(source, image, notes) for source, image in files],
-    }
-
-
-def _file(source: Source, image: Image | None, notes: list[str]) -> Record:
-    if image is None:
-        return {"name": source.name, "kind": not_dicom(source)}
-    with refusing(source, "DICOM", notes):
-        return {"name": source.name, "kind": kind(image.header), "header": header_record(image)}
+def _headers(files: Sequence[File]) -> bytes:
+    records = [file.record for file in files]
+    return _document({"transfer_syntaxes": [*NATIVE, *PLUGINS], "files": records})
 
 
 def _document(record: Record) -> bytes:
@@ -89,15 +73,15 @@ def _document(record: Record) -> bytes:
     return json.dumps(record, ensure_ascii=False, allow_nan=False).encode("utf-8", "replace")
 
 
-def _answer(path: Path, files: Files, answer: str) -> Record:
+def _answer(path: Path, files: Sequence[File], answer: str) -> Record:
     told: Record = json.loads(answer)
     if "error" in told:
         raise _error(path, files, told["error"])
     return told
 
 
-def _error(path: Path, files: Files, error: Record) -> FormatError:
-    subject = str(path if error["file"] is None else files[error["file"]][0])
+def _error(path: Path, files: Sequence[File], error: Record) -> FormatError:
+    subject = str(path if error["file"] is None else files[error["file"]].source)
     words = subject, error["found"], error["expected"], error["mend"]
     if error["kind"] != "series":
         return FormatError(*words)

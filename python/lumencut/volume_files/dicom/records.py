@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from datetime import date, time
 from functools import cache
 from typing import Any
+
+import numpy as np
 
 from lumencut._lumencut import DICOM_ATTRIBUTES
 from lumencut.volume_files.dicom.headers import Header, Image, transfer_syntax
@@ -46,14 +48,12 @@ def plain(value: Any) -> Any:
     """Give a value in a form that JSON has, true where there is none; DS and IS are the texts of the file."""
     if value is None or isinstance(value, str):
         return value
-    if isinstance(value, _numeric_strings()) or isinstance(value, (date, time)):
+    if isinstance(value, _as_text()):
         return str(value)
     if isinstance(value, float):
         return value if math.isfinite(value) else str(value)
     if isinstance(value, int):
         return value
-    if hasattr(value, "tolist"):
-        return value.tolist()
     return _several(value)
 
 
@@ -63,14 +63,17 @@ def _several(value: Any) -> Any:
 
     if isinstance(value, Sequence):
         return len(value)
+    if isinstance(value, np.ndarray):
+        return value.tolist()
     return [plain(one) for one in value] if isinstance(value, (MultiValue, list, tuple)) else True
 
 
 @cache
-def _numeric_strings() -> tuple[type, ...]:
+def _as_text() -> tuple[type, ...]:
+    """Types of values that a file writes as texts."""
     from pydicom.valuerep import IS, DSdecimal, DSfloat
 
-    return DSfloat, DSdecimal, IS
+    return DSfloat, DSdecimal, IS, date, time
 
 
 @cache
@@ -80,7 +83,7 @@ def _keywords() -> Mapping[int, str]:
 
 
 @cache
-def _groups() -> Iterable[tuple[int, Mapping[int, str]]]:
+def _groups() -> tuple[tuple[int, dict[int, str]], ...]:
     """The functional groups, and the attributes that are looked for in each."""
     groups: dict[int, dict[int, str]] = {}
     for keyword, sequences in DICOM_ATTRIBUTES.items():
@@ -102,7 +105,7 @@ def _of_groups(groups: Header) -> Record:
     """The attributes of functional groups side by side."""
     found: Record = {}
     for sequence, keywords in _groups():
-        items = groups[sequence].value if sequence in groups else ()
+        items: Any = groups[sequence].value if sequence in groups else None
         for tag, keyword in keywords.items() if items else ():
             if keyword not in found and tag in items[0]:
                 found[keyword] = plain(items[0][tag].value)
