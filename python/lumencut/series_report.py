@@ -23,7 +23,7 @@ class SeriesReport:
         Whether it may be an angiography volume: a stack of grey CT, MR or 3D XA slices.
     trouble : str
         Why its images form no volume, or no such volume; empty otherwise.
-    words : str
+    shown : str
         All of it on one line.
     """
 
@@ -36,7 +36,7 @@ class SeriesReport:
     spacing: tuple[float, float, float] | None
     can_be_volume: bool
     trouble: str
-    words: str
+    shown: str
 
     def __str__(self) -> str:
-        return self.words
+        return self.shown

@@ -14,22 +14,27 @@ use crate::report::Report;
 
 #[derive(Serialize)]
 #[serde(rename_all = "snake_case")]
-enum Answer {
-    Plan(Plan),
-    Series(Vec<Report>),
-    Error(Error),
+enum Answer<'a> {
+    Plan(&'a Plan),
+    Series(&'a [Report]),
+    Error(&'a Error),
 }
 
 /// How images become one volume, or why they do not.
 pub fn judge(headers: &[u8], wanted: &[u8]) -> String {
     let judged = || judging::judge(&read::<Headers>(headers, "headers")?, &read::<Wanted>(wanted, "wishes")?);
-    written(judged().map_or_else(Answer::Error, Answer::Plan))
+    match judged() {
+        Ok(plan) => written(&Answer::Plan(&plan)),
+        Err(error) => written(&Answer::Error(&error)),
+    }
 }
 
 /// Describes all series.
 pub fn describe(headers: &[u8]) -> String {
-    let described = || judging::describe(&read::<Headers>(headers, "headers")?);
-    written(described().map_or_else(Answer::Error, Answer::Series))
+    match read::<Headers>(headers, "headers").and_then(|headers| judging::describe(&headers)) {
+        Ok(series) => written(&Answer::Series(&series)),
+        Err(error) => written(&Answer::Error(&error)),
+    }
 }
 
 /// Reads a document; what is wrong with it is told by its place, as the words of the parser quote values.
@@ -40,6 +45,6 @@ fn read<T: DeserializeOwned>(document: &[u8], what: &str) -> Result<T> {
     })
 }
 
-fn written(answer: Answer) -> String {
-    serde_json::to_string(&answer).unwrap_or_default()
+fn written(answer: &Answer) -> String {
+    serde_json::to_string(answer).unwrap_or_default()
 }

@@ -35,7 +35,7 @@ pub fn judge(headers: &Headers, wanted: &Wanted) -> Result<Plan> {
     let series = chosen(&every, wanted.series.as_deref(), &mut notes)?;
     let mut slices = series.slices(&mut notes)?;
     if let Some(phase) = &wanted.phase {
-        slices = of_phase(slices, phase)?;
+        slices = of_phase(&slices, phase)?;
     }
     let mending = Mending { fill_gaps: wanted.fill_gaps, resample_slices: wanted.resample_slices };
     let stack = stacked(slices, mending, &mut notes)?;

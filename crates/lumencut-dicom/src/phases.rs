@@ -46,7 +46,7 @@ pub fn phases(ordered: &[Slice], pairs: &[(&Slice, &Slice)]) -> Option<String> {
 }
 
 /// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
-pub fn of_phase<'a>(slices: Vec<Slice<'a>>, phase: &str) -> Result<Vec<Slice<'a>>> {
+pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str) -> Result<Vec<Slice<'a>>> {
     for keyword in PHASE_KEYWORDS {
         let is_of = |one: &&Slice| is_called(one.get(keyword), phase);
         let count = slices.iter().filter(is_of).count();
@@ -58,7 +58,7 @@ pub fn of_phase<'a>(slices: Vec<Slice<'a>>, phase: &str) -> Result<Vec<Slice<'a>
         let values: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
         1 < values.len() && values.len() < slices.len()
     };
-    let is = |keyword: Keyword| format!("{} is {}", keyword.name(), values_of(&slices, keyword));
+    let is = |keyword: Keyword| format!("{} is {}", keyword.name(), values_of(slices, keyword));
     let told: Vec<String> = PHASE_KEYWORDS.into_iter().filter(separates).map(is).collect();
     let told = if told.is_empty() { "nothing tells phases apart".to_owned() } else { told.join("; ") };
     let found = format!("no phase {}: {told}", quoted(phase));

@@ -47,7 +47,7 @@ impl fmt::Display for Report {
     }
 }
 
-/// The fields, and `words`: the line.
+/// The fields, and `shown`: the line.
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = serializer.serialize_struct("Report", 10)?;
@@ -60,7 +60,7 @@ impl Serialize for Report {
         fields.serialize_field("spacing", &self.spacing)?;
         fields.serialize_field("can_be_volume", &self.can_be_volume)?;
         fields.serialize_field("trouble", &self.trouble)?;
-        fields.serialize_field("words", &self.to_string())?;
+        fields.serialize_field("shown", &self.to_string())?;
         fields.end()
     }
 }

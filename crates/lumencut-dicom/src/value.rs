@@ -11,9 +11,10 @@ use crate::wording::quoted;
 
 /// The value of one attribute.
 ///
-/// In JSON it is `null`, a number, a text or a list of these. Decimal and integer strings (DS and IS) are passed as
-/// the texts that stand in the file, numbers that JSON cannot write as the texts `nan`, `inf` and `-inf`. A
-/// sequence is the number of its items. Whatever has no such form, such as bytes, is `true`.
+/// In JSON it is `null`, a number, a text without the padding at its end, or a list of these where there are
+/// several. Decimal and integer strings (DS and IS) are passed as the texts that stand in the file, numbers that
+/// JSON cannot write as the texts `nan`, `inf` and `-inf`. A sequence is the number of its items. Whatever has no
+/// such form, such as bytes or a name of a person, is `true`: stated, but damaged.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Value {
     /// There is none: the attribute is empty or not stated.
