@@ -5,6 +5,8 @@
 
 mod choices;
 #[cfg(target_arch = "wasm32")]
+mod dicom;
+#[cfg(target_arch = "wasm32")]
 mod engine;
 mod failure;
 mod files;
