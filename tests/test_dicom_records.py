@@ -9,8 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pydicom._uid_dict import UID_dictionary
 from pydicom.multival import MultiValue
 from pydicom.sequence import Sequence
+from pydicom.uid import EnhancedCTImageStorage
 from pydicom.valuerep import IS, TM, DSdecimal, DSfloat, PersonName
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
@@ -69,6 +71,13 @@ def test_every_attribute_that_is_judged_by_is_read():
     assert {tag_for_keyword(name) for name in DICOM_ATTRIBUTES} <= set(header_tags())
 
 
+def test_names_of_kinds_and_syntaxes_are_those_of_pydicom():
+    listed = write_dicom_cases.ROOT / "crates/lumencut-dicom/src/uids.txt"
+    names = dict(line.split(" ", 1) for line in listed.read_text("utf-8").splitlines())
+    wanted = {"SOP Class", "Transfer Syntax"}
+    assert names == {uid: told[0] for uid, told in UID_dictionary.items() if told[1] in wanted}
+
+
 def test_records_hold_frames_as_they_are(tmp_path):
     data = enhanced(PLAIN_STACK)
     data.PerFrameFunctionalGroupsSequence[3].PlanePositionSequence[0].ImagePositionPatient = None
@@ -77,7 +86,7 @@ def test_records_hold_frames_as_they_are(tmp_path):
     found = {file.source.name: file.record for file in read_files(tmp_path, [])}
     assert found["note.txt"] == {"name": "note.txt", "kind": "no DICOM"}
     record = found["all.dcm"]
-    assert record["kind"] == "Enhanced CT Image Storage"
+    assert record["header"]["sop_class"] == EnhancedCTImageStorage
     frames = record["header"]["frames"]
     assert len(frames) == len(PLAIN_STACK)
     assert [frame["ImagePositionPatient"] is None for frame in frames].index(True) == 3
