@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::image::Image;
 use crate::keyword::Keyword;
+use crate::uids;
 use crate::value::Value;
 
 /// Kinds of colour that are told by their names; any other text may be anything.
@@ -77,8 +78,7 @@ fn require_decoder(image: &Image) -> Result<()> {
     if image.is_decodable {
         return Ok(());
     }
-    let (uid, name) = (&image.header.transfer_syntax, &image.header.transfer_syntax_name);
-    let named = if name == uid || name.is_empty() { "an unknown transfer syntax" } else { name };
+    let named = uids::name(&image.header.transfer_syntax).unwrap_or("an unknown transfer syntax");
     let expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels";
     let mend = "convert it to one of these, lossless where it can be";
     Err(Error::new(format!("pixels in {named}"), expected).mended_by(mend))

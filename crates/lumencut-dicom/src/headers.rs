@@ -22,8 +22,8 @@ pub struct Headers {
 pub struct File {
     /// Its name without folders.
     pub name: String,
-    /// For DICOM the name of its SOP class in the standard, such as `CT Image Storage`, empty where it has none;
-    /// otherwise what the file is, such as `no DICOM`.
+    /// What the file is that is no DICOM, such as `no DICOM` or `gzipped; unpack it first`.
+    #[serde(default)]
     pub kind: String,
     /// Its header, none (null or left out) where it is no DICOM.
     #[serde(default)]
@@ -33,10 +33,10 @@ pub struct File {
 /// The header of a DICOM file.
 #[derive(Debug, Deserialize)]
 pub struct Header {
+    /// The UID of its SOP class, in the dataset or else in the meta information; empty where neither states it.
+    pub sop_class: String,
     /// The UID of its transfer syntax.
     pub transfer_syntax: String,
-    /// The name of that in the standard, such as `JPEG 2000 Image Compression`; the UID where it has none.
-    pub transfer_syntax_name: String,
     /// The keyword of its element of pixels, such as `PixelData`; empty where there is none.
     pub pixels: String,
     /// What stands at its top level.

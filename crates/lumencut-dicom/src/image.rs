@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::headers::{File, Header};
 use crate::keyword::Keyword;
+use crate::uids;
 use crate::value::Value;
 use crate::wording::{line, printable};
 
@@ -113,7 +114,10 @@ impl<'a> Image<'a> {
 
 /// What a file is, in words.
 pub fn kind(file: &File) -> &str {
-    if file.header.is_some() && file.kind.is_empty() { "DICOM of no known kind" } else { &file.kind }
+    match &file.header {
+        Some(header) => uids::name(&header.sop_class).unwrap_or("DICOM of no known kind"),
+        None => &file.kind,
+    }
 }
 
 /// An attribute whose value is none; it may be any text, a patient's name too, and is not told.

@@ -22,7 +22,7 @@ pub fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<I
                 let error = Error::new("an image without rows and columns", "a whole file");
                 return Err(error.of(number).mended_by("copy the file again"));
             }
-            _ => foreign.push(format!("{} ({})", printable(&file.name), kind(file))),
+            _ => foreign.push(format!("{} ({})", printable(&file.name), printable(kind(file)))),
         }
     }
     if images.is_empty() {

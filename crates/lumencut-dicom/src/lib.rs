@@ -14,10 +14,9 @@
 //!     "transfer_syntaxes": ["1.2.840.10008.1.2.1"],
 //!     "files": [{
 //!         "name": "IM0001.dcm",
-//!         "kind": "CT Image Storage",
 //!         "header": {
+//!             "sop_class": "1.2.840.10008.5.1.4.1.1.2",
 //!             "transfer_syntax": "1.2.840.10008.1.2.1",
-//!             "transfer_syntax_name": "Explicit VR Little Endian",
 //!             "pixels": "PixelData",
 //!             "attributes": {
 //!                 "Rows": 3, "Columns": 4, "PhotometricInterpretation": "MONOCHROME2",
@@ -52,6 +51,7 @@ mod report;
 mod series;
 mod slices;
 mod spacing;
+mod uids;
 mod uneven;
 mod value;
 mod wording;

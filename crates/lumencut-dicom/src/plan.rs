@@ -8,6 +8,7 @@ use crate::geometry::Stack;
 use crate::keyword::Keyword;
 use crate::oddities::images_of;
 use crate::series::Series;
+use crate::uids;
 use crate::wording::{listed, shown};
 
 /// The volume that a series becomes.
@@ -134,8 +135,8 @@ fn details(series: &Series, stack: &Stack) -> Details {
     let number = or(series.number(), "not stated");
     let description = or(series.description(), "no description");
     let images = images_of(stack);
-    let names: BTreeSet<String> =
-        images.iter().map(|image| shown(&image.header.transfer_syntax_name)).collect();
+    let name = |uid: &str| shown(uids::name(uid).unwrap_or(uid));
+    let names: BTreeSet<String> = images.iter().map(|image| name(&image.header.transfer_syntax)).collect();
     Details {
         series: format!("number {number}, {description}"),
         series_uid: series.uid.clone(),

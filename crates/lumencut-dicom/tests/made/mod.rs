@@ -13,10 +13,9 @@ pub const SYNTAX: &str = "1.2.840.10008.1.2.1";
 pub fn file(name: &str, attributes: &Value) -> Value {
     json!({
         "name": name,
-        "kind": "CT Image Storage",
         "header": {
+            "sop_class": "1.2.840.10008.5.1.4.1.1.2",
             "transfer_syntax": SYNTAX,
-            "transfer_syntax_name": "Explicit VR Little Endian",
             "pixels": "PixelData",
             "attributes": attributes,
         },

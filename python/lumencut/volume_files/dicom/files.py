@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lumencut.volume_files.dicom.headers import Image, read_header
-from lumencut.volume_files.dicom.records import Record, header_record, kind
+from lumencut.volume_files.dicom.records import Record, header_record
 from lumencut.volume_files.dicom.sources import Source, not_dicom, sources
 from lumencut.volume_files.opened import Progress, refusing
 
@@ -39,5 +39,4 @@ def recorded(source: Source, image: Image | None) -> File:
     """Give a file its record, for which every value of its header is read."""
     if image is None:
         return File(source, None, {"name": source.name, "kind": not_dicom(source)})
-    record = {"name": source.name, "kind": kind(image.header), "header": header_record(image)}
-    return File(source, image, record)
+    return File(source, image, {"name": source.name, "header": header_record(image)})

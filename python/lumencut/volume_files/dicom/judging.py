@@ -44,7 +44,8 @@ class Judged:
 
 def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) -> Judged:
     """Choose one series and find where its slices lie; `path` names all files together."""
-    plan = _answer(path, files, judge_dicom(_headers(files), _document(asdict(wanted))))["plan"]
+    answer = judge_dicom(headers_document(files), wanted_document(wanted))
+    plan = _answer(path, files, answer)["plan"]
     notes += plan["notes"]
     slices = []
     for one in plan["slices"]:
@@ -60,12 +61,19 @@ def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) 
 
 def described(path: Path, files: Sequence[File]) -> list[SeriesReport]:
     """Describe all series."""
-    return [_report(one) for one in _answer(path, files, describe_dicom(_headers(files)))["series"]]
+    answer = describe_dicom(headers_document(files))
+    return [_report(one) for one in _answer(path, files, answer)["series"]]
 
 
-def _headers(files: Sequence[File]) -> bytes:
+def headers_document(files: Sequence[File]) -> bytes:
+    """Give the headers of files as the core takes them."""
     records = [file.record for file in files]
     return _document({"transfer_syntaxes": [*NATIVE, *PLUGINS], "files": records})
+
+
+def wanted_document(wanted: Wanted) -> bytes:
+    """Give what is to be read as the core takes it."""
+    return _document(asdict(wanted))
 
 
 def _document(record: Record) -> bytes:

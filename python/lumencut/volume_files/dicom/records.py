@@ -11,15 +11,14 @@ from typing import Any
 import numpy as np
 
 from lumencut._lumencut import DICOM_ATTRIBUTES
-from lumencut.volume_files.dicom.headers import Header, Image, transfer_syntax
+from lumencut.volume_files.dicom.headers import Header, Image
 
 Record = dict[str, Any]
 
 
 def header_record(image: Image) -> Record:
     """Give a header as a record; every value is read, and one that is damaged raises what pydicom raises."""
-    header, syntax = image.header, transfer_syntax(image.header)
-    keywords = _keywords()
+    header, keywords = image.header, _keywords()
     attributes = {}
     for tag in tuple(header.keys()):
         value = header[tag].value
@@ -28,20 +27,13 @@ def header_record(image: Image) -> Record:
     shared = header.get("SharedFunctionalGroupsSequence") or ()
     frames = header.get("PerFrameFunctionalGroupsSequence") or ()
     return {
-        "transfer_syntax": str(syntax),
-        "transfer_syntax_name": str(syntax.name),
+        "sop_class": str(header.get("SOPClassUID") or header.file_meta.get("MediaStorageSOPClassUID") or ""),
+        "transfer_syntax": str(image.transfer_syntax),
         "pixels": image.pixel_keyword,
         "attributes": attributes,
         "shared": _of_groups(shared[0]) if shared else {},
         "frames": [_of_groups(groups) for groups in frames],
     }
-
-
-def kind(header: Header) -> str:
-    """The name of what the instance is, such as ``CT Image Storage``; empty where it has none."""
-    uid = header.get("SOPClassUID") or header.file_meta.get("MediaStorageSOPClassUID")
-    name = str(getattr(uid, "name", ""))
-    return name if uid and name != uid else ""
 
 
 def plain(value: Any) -> Any:
