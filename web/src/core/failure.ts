@@ -1,3 +1,12 @@
+/** A DICOM series that can be chosen. */
+export interface SeriesChoice {
+  readonly uid: string;
+  readonly description: string;
+  readonly can_be_volume: boolean;
+  /** All of it on one line. */
+  readonly shown: string;
+}
+
 /** Errors in the words of the whole of Lumencut: what is wrong, what was found, what was expected, what mends it. */
 export class Failure extends Error {
   constructor(
@@ -6,6 +15,8 @@ export class Failure extends Error {
     readonly found: string,
     readonly expected: string,
     readonly mend = '',
+    /** The DICOM series of which none was chosen. */
+    readonly series: readonly SeriesChoice[] = [],
   ) {
     const words = [`${subject}: found ${found}`, `expected ${expected}`, mend];
     super(words.filter((part) => part !== '').join('; '));
@@ -20,15 +31,22 @@ export class Failure extends Error {
     const text = thrown instanceof Error ? thrown.message : String(thrown);
     const fields = parsed(text);
     if (fields) {
-      return new Failure(fields.kind, fields.subject, fields.found, fields.expected, fields.mend);
+      const { kind, subject, found, expected, mend, series } = fields;
+      return new Failure(kind, subject, found, expected, mend, series ?? []);
     }
-    return new Failure('unexpected', 'the page', text, 'no error here', 'reload the page and open the scan again');
+    return new Failure(
+      'unexpected',
+      'the page',
+      text,
+      'no error here',
+      'reload the page and open the scan again',
+    );
   }
 
   /** As a text that survives the way between worker and page; `of` reads it again. */
   get text(): string {
-    const { kind, subject, found, expected, mend } = this;
-    return JSON.stringify({ kind, subject, found, expected, mend });
+    const { kind, subject, found, expected, mend, series } = this;
+    return JSON.stringify({ kind, subject, found, expected, mend, series });
   }
 }
 
@@ -38,6 +56,7 @@ interface Fields {
   found: string;
   expected: string;
   mend: string;
+  series?: readonly SeriesChoice[];
 }
 
 function parsed(text: string): Fields | null {

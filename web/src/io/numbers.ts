@@ -58,6 +58,12 @@ function swapBytes(bytes: Uint8Array, unit: number): void {
   }
 }
 
+/** The type of an array. */
+export function kindName(numbers: Numbers): Kind {
+  const found = (Object.keys(ARRAYS) as Kind[]).find((kind) => numbers instanceof ARRAYS[kind]);
+  return found ?? 'float64';
+}
+
 /** The limits of an integer type. */
 export function limits(kind: Kind): readonly [bigint, bigint] {
   const bits = BigInt(8 * byteCount(kind));

@@ -47,3 +47,8 @@ export function besidePath(path: string, name: string): string {
 export function among(sources: readonly Source[]): Beside {
   return async (path) => sources.find((source) => source.path === path) ?? null;
 }
+
+/** Files in the order of their names, as Python sorts them. */
+export function inOrder(sources: readonly Source[]): Source[] {
+  return [...sources].sort((one, other) => (one.path < other.path ? -1 : one.path > other.path ? 1 : 0));
+}
