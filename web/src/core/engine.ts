@@ -64,7 +64,11 @@ export class EngineClient {
     return heard(this.host.openPhantom(name));
   }
 
-  openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<Opened & { name: string }> {
+  openAddresses(
+    volume: string | null,
+    centerlines: string | null,
+    told: Told,
+  ): Promise<Opened & { name: string }> {
     return heard(this.host.openAddresses(volume, centerlines, proxy(told)));
   }
 

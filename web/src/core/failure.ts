@@ -22,7 +22,13 @@ export class Failure extends Error {
     if (fields) {
       return new Failure(fields.kind, fields.subject, fields.found, fields.expected, fields.mend);
     }
-    return new Failure('unexpected', 'the page', text, 'no error here', 'reload the page and open the scan again');
+    return new Failure(
+      'unexpected',
+      'the page',
+      text,
+      'no error here',
+      'reload the page and open the scan again',
+    );
   }
 
   /** As a text that survives the way between worker and page; `of` reads it again. */

@@ -37,7 +37,11 @@ export function openPhantom(engine: EngineClient, name: string): Promise<void> {
 }
 
 /** Opens addresses of the same origin. */
-export function openAddresses(engine: EngineClient, volume: string | null, centerlines: string | null): Promise<void> {
+export function openAddresses(
+  engine: EngineClient,
+  volume: string | null,
+  centerlines: string | null,
+): Promise<void> {
   let name = '';
   const load = async () => {
     const opened = await engine.openAddresses(volume, centerlines, (told) => {
@@ -56,7 +60,12 @@ export async function close(engine: EngineClient): Promise<void> {
   batch(forget);
 }
 
-async function showStudy(engine: EngineClient, report: Report, notes: readonly string[], name: string): Promise<void> {
+async function showStudy(
+  engine: EngineClient,
+  report: Report,
+  notes: readonly string[],
+  name: string,
+): Promise<void> {
   const size = store.camera.value?.size ?? FIRST_SIZE;
   const camera = await engine.fitted('anterior', size);
   const histogram = report.volume ? await engine.histogram(128) : null;

@@ -29,5 +29,7 @@ export function barLength(most: number): number {
 
 /** A position as radiologists read it, such as `R 17.6 P 35.3 S 12.1` (mm). */
 export function positionText(point: Vector): string {
-  return point.map((part, axis) => `${NAMES[axis]?.[part >= 0 ? 0 : 1]} ${Math.abs(part).toFixed(1)}`).join(' ');
+  return point
+    .map((part, axis) => `${NAMES[axis]?.[part >= 0 ? 0 : 1]} ${Math.abs(part).toFixed(1)}`)
+    .join(' ');
 }

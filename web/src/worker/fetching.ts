@@ -58,11 +58,22 @@ async function answered(address: string, signal: AbortSignal): Promise<Response>
   const text = await response.text();
   const failure = Failure.of(text);
   throw failure.kind === 'unexpected'
-    ? new Failure('file', address, `an answer ${response.status}`, 'a file', 'look at the program that serves the page')
+    ? new Failure(
+        'file',
+        address,
+        `an answer ${response.status}`,
+        'a file',
+        'look at the program that serves the page',
+      )
     : failure;
 }
 
-async function fetchVolume(engine: Engine, address: string, told: Told, signal: AbortSignal): Promise<Header> {
+async function fetchVolume(
+  engine: Engine,
+  address: string,
+  told: Told,
+  signal: AbortSignal,
+): Promise<Header> {
   const response = await answered(address, signal);
   if (!response.body) {
     throw new Failure('file', address, 'an answer without content', 'a volume');
@@ -81,7 +92,13 @@ async function readHeader(bytes: ByteReader, address: string): Promise<Header> {
   const magic = new TextDecoder().decode(start.subarray(0, 8));
   const length = start.length === 12 ? new DataView(start.buffer, start.byteOffset).getUint32(8, true) : 0;
   if (magic !== MAGIC || length === 0 || length > LONGEST_HEADER) {
-    throw new Failure('format', address, 'another file', 'a stream of voxels', 'drop the file on the page instead');
+    throw new Failure(
+      'format',
+      address,
+      'another file',
+      'a stream of voxels',
+      'drop the file on the page instead',
+    );
   }
   return JSON.parse(new TextDecoder().decode(await bytes.take(length))) as Header;
 }
@@ -106,8 +123,15 @@ async function readVoxels(engine: Engine, bytes: ByteReader, header: Header, tol
 }
 
 /** The stream ended early: the server's words why, where it has some. */
-async function refuseShort(address: string, signal: AbortSignal, found: number, total: number): Promise<never> {
-  const problem = await fetch(new URL('problem', new URL(address, self.location.href)), { signal }).catch(() => null);
+async function refuseShort(
+  address: string,
+  signal: AbortSignal,
+  found: number,
+  total: number,
+): Promise<never> {
+  const problem = await fetch(new URL('problem', new URL(address, self.location.href)), { signal }).catch(
+    () => null,
+  );
   const words = problem?.ok ? await problem.text() : '';
   throw words
     ? new Failure('file', 'volume', words, 'a whole volume')
