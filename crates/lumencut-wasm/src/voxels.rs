@@ -42,7 +42,10 @@ impl Stored {
             "float32" => Self::F32(room(count)?),
             other => {
                 let expected = "uint8, int16, uint16 or float32";
-                return Err(Failure { kind: "volume", ..Failure::of_message("type of the voxels", other, expected) });
+                return Err(Failure {
+                    kind: "volume",
+                    ..Failure::of_message("type of the voxels", other, expected)
+                });
             }
         })
     }
