@@ -15,14 +15,14 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from lumencut import Volume
+from lumencut import Vessel, VesselTree, Volume, demo
 from lumencut.cli import browser, main
 from lumencut.viewer import page as page_room
 from lumencut.viewer.guard import Place
 from lumencut.viewer.server import ViewerServer
 from lumencut.volume_writers import write_volume as write_any
 from scene_files import write_lines, write_volume
-from view_serving import write_page
+from view_serving import Client, split, write_page
 
 #: The program on a page of its own.
 PROGRAM = """
@@ -148,6 +148,7 @@ def test_a_page_that_was_not_built_is_explained(run, built):
         (["--phase", "3"], 2, "without VOLUME"),
         (["{ct}", "--unit", "cm"], 2, "without CENTERLINES"),
         (["{empty}"], 1, "an empty file"),
+        (["--demo", "{ct}"], 2, "expected one of them"),
         (["--port", "70000"], 2, "70000 is not in the range"),
     ],
 )
@@ -178,6 +179,24 @@ def test_the_end_of_a_way_to_a_browser_is_not_waited_for(monkeypatch):
     monkeypatch.delenv("SSH_CONNECTION", raising=False)
     browser.open_or_explain(Place(80, "token"), is_wanted=True)
     late.set()
+
+
+def test_the_demo_is_a_scene_too(run, monkeypatch):
+    volume = Volume(np.ones((4, 4, 4), np.int16), states_orientation=True)
+    tree = VesselTree([Vessel([[0, 0, 0], [1, 1, 1.0]])])
+    monkeypatch.setattr(demo, "stent_scene", lambda cache: (volume, tree))
+    found = []
+
+    def look(server):
+        client = Client(server)
+        found.extend(client.ask(f"data/{name}") for name in ("volume", "centerlines"))
+
+    monkeypatch.setattr(ViewerServer, "wait", look)
+    assert run("--demo").exit_code == 0
+    header, voxels = split(found[0].body)
+    assert (header["states_spacing"], header["states_orientation"]) == (False, True)
+    assert voxels == volume.array.tobytes()
+    assert found[1].status == 200
 
 
 # How it ends

@@ -9,6 +9,7 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.browser import open_or_explain
+from lumencut.cli.demo import demo_scene
 from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.report import bar, detail, say, verbose_option
 from lumencut.cli.scene import centerlines_of
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 @click.command(short_help="Open the viewer in a browser tab.")
 @click.argument("volume", type=options.FILE, required=False)
 @click.argument("centerlines", type=options.FILE, nargs=-1)
+@click.option("--demo", "is_demo", is_flag=True, help="Show the CT of lumencut demo.")
 @options.file_options
 @click.option(
     "--port",
@@ -37,7 +39,12 @@ if TYPE_CHECKING:
 @click.option("--no-browser", is_flag=True, help="Print the address alone, and open no browser.")
 @verbose_option
 def view(
-    volume: Path | None, centerlines: tuple[Path, ...], port: int, no_browser: bool, **chosen: Any
+    volume: Path | None,
+    centerlines: tuple[Path, ...],
+    is_demo: bool,
+    port: int,
+    no_browser: bool,
+    **chosen: Any,
 ) -> None:
     """Show VOLUME and CENTERLINES in a browser tab, until Ctrl-C ends it.
 
@@ -50,9 +57,12 @@ def view(
 
     \b
     lumencut view ct.nii.gz centerlines.vtp
+    lumencut view --demo
     lumencut view dicom/ --series 4
     lumencut view ct.nrrd LAD.mrk.json LCX.mrk.json --port 8765 --no-browser
     """  # noqa: D301 - click needs the control character itself
+    if is_demo and volume is not None:
+        raise click.UsageError(f"found --demo and {volume}; expected one of them: --demo has its own scan")
     check_files(volume, centerlines)
     volumes = [] if volume is None else [volume]
     check_reading(chosen, volumes, has_centerlines=bool(centerlines))
@@ -60,7 +70,9 @@ def view(
     from lumencut.viewer.server import ViewerServer
 
     built = page.Page.of(page.FOLDER)
-    scene = None if volume is None else _scene(volume, centerlines, chosen)
+    scene = _demo() if is_demo else None
+    if volume is not None:
+        scene = _scene(volume, centerlines, chosen)
     with ViewerServer(built, scene, port) as server:
         say(server.place.address)
         open_or_explain(server.place, is_wanted=not no_browser)
@@ -77,6 +89,15 @@ def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) 
     if lines is None:
         return ArrivingScene(file)
     return ArrivingScene(file, lambda voxels: _tree(lines, voxels, chosen))
+
+
+def _demo() -> ArrivingScene:
+    """The scene of the demo, which is in memory."""
+    from lumencut.viewer.arriving import ArrivingScene
+    from lumencut.volume_files.opened import held_in_memory
+
+    volume, tree, _ = demo_scene()
+    return ArrivingScene(held_in_memory(volume, "demo"), lambda _: tree)
 
 
 def _opened(path: Path, chosen: dict[str, Any]) -> VolumeFile:

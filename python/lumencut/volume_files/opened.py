@@ -69,6 +69,16 @@ class VolumeFile:
         return self
 
 
+def held_in_memory(volume: Volume, name: str) -> VolumeFile:
+    """Give a volume of a name as a file whose voxels are already read."""
+    return VolumeFile(
+        Path(name), "memory", volume.size, volume.dtype, "LPS", volume.world_from_index,
+        lambda progress, filled: volume.array,
+        states_spacing=volume.states_spacing, states_orientation=volume.states_orientation,
+        settled_type=volume.dtype,
+    )  # fmt: skip
+
+
 def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:
     try:
         return Volume(
