@@ -123,6 +123,17 @@ def test_the_end_of_the_server_stops_the_reading(page):
     assert scene.problem is None
 
 
+def test_who_goes_away_is_not_missed(page, caplog):
+    array = np.zeros((40, 512, 512), np.int16)
+    with serving(page, ArrivingScene(made_file(array))) as client:
+        connection = client.connection()
+        connection.request("GET", f"/{client.place.token}/data/volume")
+        connection.getresponse().read(1000)
+        connection.close()
+        assert client.ask("data/volume").body.endswith(array.tobytes())
+    assert caplog.records == []
+
+
 # What cannot be read
 
 
@@ -136,13 +147,14 @@ def fails(after):
     return load
 
 
-def test_a_volume_that_breaks_off_is_noticed_and_explained(page):
+def test_a_volume_that_breaks_off_is_noticed_and_explained(page, caplog):
     with serving(page, ArrivingScene(made_file(coded(), fails(after=2)))) as client:
         # The first request may come before or after the failure.
         broken = client.ask("data/volume")
         words = client.ask("data/problem")
         later = client.ask("data/volume")
         assert client.ask().status == 200
+    assert [record.name for record in caplog.records] == ["lumencut"]
     if broken.status == 200:
         assert len(broken.body) < int(broken.headers["content-length"])
     assert (words.status, words.headers["content-type"]) == (200, "text/plain; charset=utf-8")

@@ -108,7 +108,7 @@ def test_so_has_the_answer_to_what_is_no_http(client):
     assert_protected(parsed(received))
 
 
-def test_so_has_the_answer_where_the_server_itself_fails(page, tmp_path):
+def test_so_has_the_answer_where_the_server_itself_fails(tmp_path, caplog):
     own = write_page(tmp_path / "page")
     with serving(own) as client:
         (own / "assets/app.js").unlink()
@@ -116,6 +116,7 @@ def test_so_has_the_answer_where_the_server_itself_fails(page, tmp_path):
     assert answer.status == 500
     assert_protected(answer.headers)
     assert str(tmp_path).encode() not in answer.body
+    assert "could not answer: unexpected RuntimeError" in caplog.text
 
 
 # Who may ask

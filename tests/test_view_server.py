@@ -10,6 +10,7 @@ from lumencut.cli.view import _scene
 from lumencut.viewer import volume_stream
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.page import Page
+from lumencut.viewer.server import ViewerServer
 from lumencut.volume_files import open_volume
 from lumencut.volume_writers import write_volume as write_any
 from scene_files import bent_line, write_lines, write_volume
@@ -84,6 +85,13 @@ def test_an_index_without_a_head_is_refused(page):
     (page / "index.html").write_text("no page")
     with pytest.raises(FormatError, match="a page without a head"):
         Page.of(page)
+
+
+def test_a_server_that_ends_by_itself_is_an_error(page):
+    with ViewerServer(Page.of(page)) as server:
+        server._server.should_exit = True
+        with pytest.raises(RuntimeError, match="ended by itself"):
+            server.wait()
 
 
 # The volume

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from collections.abc import AsyncIterator, Callable
 from functools import partial
 from typing import Any
@@ -24,6 +25,8 @@ from lumencut.viewer import volume_stream
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.guard import Place, has_body
 from lumencut.viewer.page import Page, type_of
+
+_log = logging.getLogger("lumencut")
 
 #: How long to wait before looking again whether more is read (s).
 _PAUSE = 0.02
@@ -49,8 +52,14 @@ class Application:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request."""
         request = Request(scope, receive)
-        response = await self._answer(request)
-        await response(scope, receive, send)
+        try:
+            response = await self._answer(request)
+            await response(scope, receive, send)
+        except _BrokenOffError:
+            raise
+        except Exception as error:
+            _log.warning("the viewer's server could not answer: unexpected %s", type(error).__name__)
+            raise
 
     async def _answer(self, request: Request) -> Response:
         if not self._place.is_host(request.headers.get("host")):
@@ -120,6 +129,8 @@ async def _stream(
             raise _BrokenOffError
         for piece in volume_stream.pieces(voxels[sent:count]):
             yield piece
+            # The others have their turn, and an end of this connection is heard of.
+            await asyncio.sleep(0)
         sent = count
 
 

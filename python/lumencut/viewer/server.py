@@ -22,6 +22,8 @@ _LOOPBACK = "127.0.0.1"
 #: The waiting connections that the system keeps for the server.
 _BACKLOG = 32
 _TOKEN_BYTES = 32
+#: Browsers send what other servers of this machine had them keep, which may be a lot (bytes).
+_MOST_HEADERS = 32 << 10
 #: How long the end waits for the thread, which hears of it ten times a second (s).
 _PATIENCE = 5.0
 
@@ -59,6 +61,7 @@ class ViewerServer:
             access_log=False,
             proxy_headers=False,
             server_header=False,
+            h11_max_incomplete_event_size=_MOST_HEADERS,
             headers=list(HEADERS.items()),
         )
         self._server = uvicorn.Server(config)
@@ -84,10 +87,11 @@ class ViewerServer:
         self._socket.close()
 
     def wait(self) -> None:
-        """Wait for the server to end, which it does by a signal to the caller alone."""
+        """Wait for a signal, which raises an error here; by itself the server never ends."""
         while self._thread.is_alive():
             # In pieces: some systems deliver signals only between them.
             self._thread.join(0.5)
+        raise RuntimeError("the viewer's server ended by itself")
 
 
 def _listening(port: int) -> socket.socket:
