@@ -168,3 +168,34 @@ def test_the_packed_sources_have_what_their_build_needs():
     backend = (SCRIPTS / "build_backend.py").read_text("utf-8")
     assert "\nfrom page" not in backend
     assert "\nimport page" not in backend
+
+
+@pytest.fixture
+def toolchain():
+    yield from script("toolchain")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="the stand-ins are scripts of a shell")
+@pytest.mark.parametrize(
+    ("said", "missing"), [("v20.1.0", ""), ("v24.0.0", ""), ("v18.19.1", "20 or newer"), ("what", "'what'")]
+)
+def test_an_old_node_is_as_good_as_none(toolchain, tmp_path, monkeypatch, said, missing):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert "no node or no npm" in toolchain.missing_of_node()
+    for name in ("node", "npm"):
+        (tmp_path / name).write_text(f"#!/bin/sh\necho {said}\n")
+        (tmp_path / name).chmod(0o755)
+    found = toolchain.missing_of_node()
+    assert missing in found
+    assert bool(missing) == bool(found)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="the stand-ins are scripts of a shell")
+def test_rust_without_webassembly_is_told(toolchain, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert toolchain.missing_of_wasm() == "no rustc on the PATH"
+    (tmp_path / "rustc").write_text(f"#!/bin/sh\necho {tmp_path}/lib\n")
+    (tmp_path / "rustc").chmod(0o755)
+    assert "rustup target add wasm32-unknown-unknown" in toolchain.missing_of_wasm()
+    (tmp_path / "lib").mkdir()
+    assert toolchain.missing_of_wasm() == ""

@@ -54,6 +54,7 @@ class ViewerServer:
             Application(page, scene, self.place),
             http=Connection,
             ws="none",
+            backlog=_BACKLOG,
             lifespan="off",
             loop="asyncio",
             log_config=None,
