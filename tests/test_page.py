@@ -2,6 +2,8 @@
 
 import json
 import os
+import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -199,3 +201,21 @@ def test_rust_without_webassembly_is_told(toolchain, tmp_path, monkeypatch):
     assert "rustup target add wasm32-unknown-unknown" in toolchain.missing_of_wasm()
     (tmp_path / "lib").mkdir()
     assert toolchain.missing_of_wasm() == ""
+
+
+@pytest.fixture
+def backend(monkeypatch):
+    maturin = pytest.importorskip("maturin")
+    monkeypatch.setattr(maturin, "build_wheel", lambda *given: f"wheel in {given[0]}")
+    monkeypatch.setattr(maturin, "build_sdist", lambda *given: f"sources in {given[0]}")
+    yield from script("build_backend")
+
+
+@pytest.mark.parametrize("has_sources", [True, False], ids=["checkout", "packed sources"])
+def test_the_backend_builds_the_page_where_its_sources_are(backend, tmp_path, monkeypatch, has_sources):
+    built = []
+    monkeypatch.setitem(sys.modules, "page", SimpleNamespace(build_if_possible=lambda: built.append(1)))
+    monkeypatch.setattr(backend, "_WEB", tmp_path if has_sources else tmp_path / "none")
+    assert backend.build_wheel("there") == "wheel in there"
+    assert backend.build_sdist("there") == "sources in there"
+    assert len(built) == (2 if has_sources else 0)
