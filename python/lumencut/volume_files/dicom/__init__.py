@@ -20,8 +20,8 @@ from lumencut.volume_files.dicom.geometry import Stack, stacked
 from lumencut.volume_files.dicom.headers import Image, is_dicom
 from lumencut.volume_files.dicom.series import Series, chosen, grouped, read_images
 from lumencut.volume_files.dicom.sources import is_zip
-from lumencut.volume_files.dicom.values import load
-from lumencut.volume_files.opened import Progress, VolumeFile, refusing, shown
+from lumencut.volume_files.dicom.values import load, settled_type
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile, refusing, shown
 from lumencut.volume_files.rescale import is_integral
 
 __all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
@@ -55,12 +55,12 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], list[Image]])
         stored = _stored_type(stack.slices[0].image)
         details = _details(one, stack)
 
-    def voxels(progress: Progress) -> npt.NDArray[Any]:
-        return load(stack, notes, progress)
+    def voxels(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
+        return load(stack, notes, progress, filled)
 
     return VolumeFile(
         path, "DICOM", stack.size, stored, "LPS (as every DICOM)", stack.world_from_index, voxels, notes,
-        filled=stack.missing, details=details,
+        filled=stack.missing, details=details, settled_type=settled_type(stack),
     )  # fmt: skip
 
 
