@@ -42,8 +42,12 @@ function drawLabels(context: CanvasRenderingContext2D, camera: Camera, density: 
     [lettersOf(negate(right)), edge, height / 2],
     [lettersOf(right), width - edge, height / 2],
   ];
-  for (const [letters, x, y] of places) {
+  const { spacing, orientation } = store.states.value;
+  for (const [letters, x, y] of orientation ? places : []) {
     outlined(context, letters, x, y, 'center');
+  }
+  if (!spacing) {
+    return;
   }
   const bar = barLength(camera.size[0] * 0.3 * camera.pixel_spacing);
   const length = (bar / camera.pixel_spacing) * density;

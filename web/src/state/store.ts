@@ -9,6 +9,7 @@ import type {
   Report,
   Settings,
   Started,
+  States,
   Vector,
   Window,
 } from '../core/messages';
@@ -35,6 +36,8 @@ export const epoch = signal(0);
 export const report = signal<Report | null>(null);
 export const studyName = signal('');
 export const notes = signal<readonly string[]>([]);
+/** What the file says of its grid. */
+export const states = signal<States>({ spacing: true, orientation: true });
 export const histogram = signal<Histogram | null>(null);
 export const progress = signal<Progress | null>(null);
 export const problem = signal<Failure | null>(null);

@@ -29,14 +29,14 @@ function readOut(): string {
   if (!hair) {
     return '';
   }
-  const parts = [positionText(hair.point)];
+  const parts = [positionText(hair.point, store.states.value.orientation)];
   if (hair.value !== null) {
     parts.push(Number.isInteger(hair.value) ? `${hair.value}` : hair.value.toFixed(1));
   }
   if (hair.vessel !== null) {
     parts.push(vesselName(hair.vessel));
     if (hair.arcLength !== null) {
-      parts.push(`${hair.arcLength.toFixed(1)} mm`);
+      parts.push(`${hair.arcLength.toFixed(1)}${store.states.value.spacing ? ' mm' : ''}`);
     }
   }
   return parts.join(' · ');

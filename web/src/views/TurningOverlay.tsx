@@ -1,7 +1,7 @@
 /** What lies over the turning view: letters, bar, cross-hair and cube. */
 import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
-import { camera, crossHair, hasVolume } from '../state/store';
+import { camera, crossHair, hasVolume, states } from '../state/store';
 import { Cube } from './Cube';
 import { EdgeLabels } from './EdgeLabels';
 
@@ -21,7 +21,7 @@ export function TurningOverlay() {
         spacing={seen.pixel_spacing}
       />
       {place && <HairLines at={place} />}
-      <Cube camera={seen} />
+      {states.value.orientation && <Cube camera={seen} />}
     </div>
   );
 }

@@ -16,7 +16,7 @@ import type {
   Window,
 } from '../core/messages';
 import { Engine, loadModule } from '../core/module';
-import { fetchStudy, type Told } from './fetching';
+import { type Fetched, fetchStudy, type Told } from './fetching';
 import { Queue } from './queue';
 import { startThreads } from './threads';
 
@@ -78,12 +78,12 @@ export class EngineHost {
     volume: string | null,
     centerlines: string | null,
     told: Told,
-  ): Promise<{ report: Report; notes: string[]; name: string }> {
+  ): Promise<Fetched & { report: Report }> {
     this.cancelled = new AbortController();
     const { signal } = this.cancelled;
     return this.run(async () => {
-      const { notes, name } = await fetchStudy(this.ready(), { volume, centerlines }, told, signal);
-      return { report: this.report(), notes, name };
+      const fetched = await fetchStudy(this.ready(), { volume, centerlines }, told, signal);
+      return { ...fetched, report: this.report() };
     });
   }
 
