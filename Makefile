@@ -16,13 +16,20 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint format settings fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: help demo page site test lint format settings fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
 
 demo: develop ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
+	@$(PYTHON) scripts/page.py --if-possible
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo
+
+page: toolchain ## Build the viewer's page into the package where its sources changed; needs Node.
+	@$(PYTHON) scripts/page.py
+
+site: toolchain ## Write the viewer's page into ./site, for any server of files; needs Node.
+	@$(PYTHON) scripts/page.py --site site
 
 test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
@@ -60,7 +67,7 @@ compare-dicom: develop $(VENV)/.peers ## Have other readers read the DICOM cases
 bench-dicom: develop tools ## Measure how fast long DICOM series are read, the decoder alone beside it.
 	$(BIN)/python benches/read_dicom.py
 
-wheel: $(VENV)/.wheel ## Build the wheels and the source package into ./dist, and try them out; takes minutes.
+wheel: page $(VENV)/.wheel ## Build the wheels and the source package into ./dist, and try them out; takes minutes.
 	@$(PYTHON) scripts/toolchain.py rust targets
 	@$(BIN)/python scripts/wheel.py
 
@@ -75,7 +82,7 @@ lock: $(VENV)/.python ## Resolve the Python requirements anew into requirements/
 	$(RESOLVE) --group wheel --constraints requirements/runtime.lock --output-file requirements/wheel.lock
 
 clean: ## Remove everything that the other commands made.
-	rm -rf $(VENV) target dist demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) target dist demo site python/lumencut/viewer/page .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	rm -f python/lumencut/_lumencut*.so
 	find python tests scripts -name __pycache__ -type d -prune -exec rm -rf {} +
 

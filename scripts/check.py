@@ -30,7 +30,7 @@ CHECKS = ("--locked", "--profile", "checks")
 SCRIPTS = tuple(
     f"scripts/{name}.py"
     for name in (
-        *("check", "frames", "fuzz", "licences", "render_phantom"),
+        *("build_backend", "check", "frames", "fuzz", "licences", "notices", "page", "render_phantom"),
         *("settings", "toolchain", "wasm_size", "wheel", "window_table"),
     )
 )

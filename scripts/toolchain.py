@@ -15,9 +15,13 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+#: What the viewer's WebAssembly is compiled for.
+WASM = "wasm32-unknown-unknown"
+#: The oldest Node that builds the viewer's page.
+NODE = 20
 #: The targets besides this machine's own that everything but the extension module must compile for.
 TARGETS = (
-    "wasm32-unknown-unknown",
+    WASM,
     "aarch64-unknown-linux-gnu",
     "x86_64-pc-windows-gnu",
     "aarch64-apple-darwin",
@@ -95,6 +99,27 @@ def add_targets() -> None:
     print(f"rustup target add {names}", flush=True)
     if subprocess.run(["rustup", "target", "add", *missing], check=False, cwd=ROOT).returncode:
         refuse(f"rustup unable to add {names}", "Rust's libraries for it", "check the network connection")
+
+
+def missing_of_node() -> str:
+    """What of Node is missing here, in words; nothing where it can build the viewer's page."""
+    node = shutil.which("node")
+    if node is None or shutil.which("npm") is None:
+        return f"no node or no npm on the PATH (Node {NODE} or newer is needed)"
+    said = subprocess.run([node, "--version"], check=False, capture_output=True, text=True).stdout.strip()
+    version = re.match(r"v(\d+)\.", said)
+    if version is None or int(version[1]) < NODE:
+        return f"Node that says {said!r} ({NODE} or newer is needed)"
+    return ""
+
+
+def missing_of_wasm() -> str:
+    """What Rust lacks for WebAssembly, in words; nothing where it can compile it."""
+    if shutil.which("rustc") is None:
+        return "no rustc on the PATH"
+    command = ["rustc", "--print", "target-libdir", "--target", WASM]
+    said = subprocess.run(command, check=False, capture_output=True, text=True, cwd=ROOT).stdout.strip()
+    return "" if said and Path(said).is_dir() else f"no {WASM} for Rust (rustup target add {WASM})"
 
 
 def missing_of_vulkan() -> str:

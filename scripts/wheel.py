@@ -27,6 +27,8 @@ DIST = ROOT / "dist"
 #: Where the pictures of the trials are kept, to be looked at.
 PICTURES = ROOT / "target/wheel"
 LOCK = ROOT / "requirements/runtime.lock"
+#: What of the viewer's page must be in a wheel.
+PAGE = tuple(f"lumencut/viewer/page/{name}" for name in ("index.html", "THIRD-PARTY-NOTICES.txt"))
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY-LICENSES")
 #: The oldest glibc that the wheels run with.
 GLIBC = (2, 17)
@@ -100,7 +102,7 @@ def build_wheels(folder: Path) -> list[Path]:
 
 
 def check_wheel(wheel: Path) -> None:
-    """The wheel is for every Python that it says it is for, and holds the licences."""
+    """The wheel is for every Python that it says it is for, and holds the licences and the viewer's page."""
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
         (folder,) = {name.partition("/")[0] for name in names if ".dist-info/" in name}
@@ -108,6 +110,8 @@ def check_wheel(wheel: Path) -> None:
         kept = {name: archive.read(f"{folder}/licenses/{name}") for name in stated or []}
     if set(kept) != set(LICENCES):
         raise PackageError(f"{wheel.name}: found the licences {sorted(kept)}; expected {sorted(LICENCES)}")
+    if absent := [name for name in PAGE if name not in names]:
+        raise PackageError(f"{wheel.name}: found no {' and no '.join(absent)}; expected the viewer's page")
     for name, text in kept.items():
         if text != (ROOT / name).read_bytes():
             raise PackageError(f"{wheel.name}: {name} is not the repository's")

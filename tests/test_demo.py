@@ -142,6 +142,7 @@ def test_the_demo_makes_six_pictures_and_a_turntable(index, tmp_path):
     assert (result.exit_code, result.stderr) == (0, "")
     assert sorted(path.name for path in (tmp_path / "shown").iterdir()) == PICTURES
     assert all(str(tmp_path / "shown" / name) in result.stdout for name in PICTURES)
+    assert result.stdout.splitlines()[-1].endswith("lumencut view --demo")
     with Image.open(tmp_path / "shown" / "turntable.webp") as picture:
         assert (picture.n_frames, picture.size) == (24, (384, 384))
 

@@ -48,7 +48,9 @@ HEAVY = {
     "nrrd",
     "openjpeg",
     "pydicom",
+    "starlette",
     "tqdm",
+    "uvicorn",
     "vtkmodules",
 }
 

@@ -21,12 +21,14 @@ def wheel():
 def made(tmp_path, wheel):
     """A wheel with as much in it as is looked at."""
 
-    def make(platform="manylinux_2_17_x86_64", tag=None, binary=MODULE, **licences):
+    def make(platform="manylinux_2_17_x86_64", tag=None, binary=MODULE, page=wheel.PAGE, **licences):
         path = tmp_path / f"lumencut-0.1.0-cp311-abi3-{platform}.whl"
         texts = {name: (ROOT / name).read_bytes() for name in wheel.LICENCES} | licences
         stated = "".join(f"License-File: {name}\n" for name, text in texts.items() if text)
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("lumencut/_lumencut.abi3.so", binary)
+            for name in page:
+                archive.writestr(name, "page")
             archive.writestr("lumencut-0.1.0.dist-info/METADATA", f"Name: lumencut\n{stated}")
             archive.writestr("lumencut-0.1.0.dist-info/WHEEL", f"Tag: cp311-abi3-{tag or platform}\n")
             for name, text in texts.items():
@@ -65,6 +67,11 @@ def test_a_wheel_without_a_licence_text_is_noticed(wheel, made):
         wheel.check_wheel(made(**{"THIRD-PARTY-LICENSES": b""}))
     with pytest.raises(wheel.PackageError, match="THIRD-PARTY-LICENSES is not the repository's"):
         wheel.check_wheel(made(**{"THIRD-PARTY-LICENSES": b"an older list"}))
+
+
+def test_a_wheel_without_the_page_of_the_viewer_is_noticed(wheel, made):
+    with pytest.raises(wheel.PackageError, match=r"found no lumencut/viewer/page/index\.html"):
+        wheel.check_wheel(made(page=wheel.PAGE[1:]))
 
 
 def test_a_wheel_for_one_python_alone_is_noticed(wheel, made, tmp_path):

@@ -57,11 +57,16 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
         raise FormatError(
             str(place), f"the ending {place.suffix!r}", "'.vtp', '.mrk.json', '.vtk', '.csv' or '.swc'"
         )
+    content = centerline_content(tree, kind)
+    replace_whole(place, lambda temporary: temporary.write_bytes(content))
+
+
+def centerline_content(tree: VesselTree, kind: str) -> bytes:
+    """Return the content of a centerline file of a kind, such as ``vtp``, that `write_centerlines` writes."""
     try:
-        content = _lumencut.write_centerlines(
+        return _lumencut.write_centerlines(
             [(vessel.points, vessel.radius, vessel.name, vessel.confidence) for vessel in tree], kind
         )
     except UnicodeEncodeError as error:
         found = ascii(error.object)
         raise VesselTreeError("name of a vessel", found, "letters that a file can hold") from error
-    replace_whole(place, lambda temporary: temporary.write_bytes(content))

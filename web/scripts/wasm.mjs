@@ -47,7 +47,15 @@ run(
   ],
   { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') },
 );
-const bindings = ['run', '--locked', '--quiet', '--manifest-path', 'xtask/Cargo.toml', '--target-dir', 'target/xtask'];
+const bindings = [
+  'run',
+  '--locked',
+  '--quiet',
+  '--manifest-path',
+  'xtask/Cargo.toml',
+  '--target-dir',
+  'target/xtask',
+];
 const fresh = join(root, 'target/page-module');
 rmSync(fresh, { recursive: true, force: true });
 mkdirSync(fresh, { recursive: true });

@@ -3,9 +3,11 @@ import { render } from 'preact';
 import { engine } from './core/shared';
 import { listenToKeys } from './input/keys';
 import { start } from './state/device';
+import { report } from './state/store';
 import { openAddresses, openPhantom } from './state/study';
 import './style/page.css';
 import { App } from './ui/App';
+import { followView, restore, stateOf } from './url/fragment';
 
 const asked = new URLSearchParams(window.location.search);
 
@@ -21,13 +23,23 @@ function addressOf(name: string): string | null {
 }
 
 async function begin(): Promise<void> {
+  // Read before anything is shown: what is shown is written there.
+  const state = stateOf(window.location.hash);
   await start(asked.get('device') ?? 'auto');
-  const [volume, centerlines, phantom] = [addressOf('volume'), addressOf('centerlines'), asked.get('phantom')];
+  const [volume, centerlines, phantom] = [
+    addressOf('volume'),
+    addressOf('centerlines'),
+    asked.get('phantom'),
+  ];
   if (volume !== null || centerlines !== null) {
     await openAddresses(engine, volume, centerlines);
   } else if (phantom !== null) {
     await openPhantom(engine, phantom);
   }
+  if (state && report.value) {
+    restore(state);
+  }
+  followView();
 }
 
 const root = document.getElementById('page');

@@ -118,6 +118,17 @@ impl GpuRenderer {
         self.recorded(scene, request).await?.draw(screen).await
     }
 
+    /// Draws a picture that was made elsewhere on a canvas.
+    ///
+    /// # Errors
+    /// As [`GpuRenderer::draw`].
+    #[cfg(target_arch = "wasm32")]
+    pub async fn show(&self, picture: &[[u8; 4]], size: [usize; 2], screen: &mut Screen) -> Result<()> {
+        screen.fit(&self.device, size)?;
+        let sent = self.device.upload("picture", picture);
+        screen.record(&self.device, Recording::new(&self.device), &sent)?.await
+    }
+
     /// All stages of a view, recorded.
     async fn recorded<'a>(&'a mut self, scene: &'a Scene<'a>, request: &'a Request<'a>) -> Result<Pass<'a>> {
         let mut pass = self.pass(scene, Geometry::rays(*request.camera), request)?;

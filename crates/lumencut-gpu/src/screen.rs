@@ -5,8 +5,9 @@ use std::future::Future;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use web_sys::OffscreenCanvas;
 use wgpu::{
-    BindGroupEntry, Buffer, BufferUsages, CompositeAlphaMode, CurrentSurfaceTexture, Instance, InstanceDescriptor,
-    PresentMode, RenderPipeline, Surface, SurfaceConfiguration, SurfaceTarget, TextureFormat, TextureUsages,
+    BindGroupEntry, Buffer, BufferUsages, CompositeAlphaMode, CurrentSurfaceTexture, Instance,
+    InstanceDescriptor, PresentMode, RenderPipeline, Surface, SurfaceConfiguration, SurfaceTarget,
+    TextureFormat, TextureUsages,
 };
 
 use crate::device::Device;
@@ -52,7 +53,11 @@ impl Screen {
         let most = device.limits.max_texture_dimension_2d;
         if width > most || height > most {
             let found = format!("{width} × {height} pixels");
-            return Err(device.too_large("size of the camera", found, &format!("{most} pixels along each side")));
+            return Err(device.too_large(
+                "size of the camera",
+                found,
+                &format!("{most} pixels along each side"),
+            ));
         }
         self.surface.configure(
             &device.device,
@@ -72,7 +77,8 @@ impl Screen {
             Some(drawing) => drawing.pipeline,
             None => pipeline(device),
         };
-        let parameters = device.buffer("screen parameters", 8, BufferUsages::UNIFORM | BufferUsages::COPY_DST);
+        let parameters =
+            device.buffer("screen parameters", 8, BufferUsages::UNIFORM | BufferUsages::COPY_DST);
         device.write(&parameters, &[width, height]);
         self.drawn = Some(Drawing { size, pipeline, parameters });
         device.check()

@@ -121,7 +121,9 @@ enum Texel {
 impl Texel {
     fn of(voxels: Voxels) -> Self {
         match voxels {
-            Voxels::I8(_) | Voxels::U8(_) => Self::Byte,
+            #[cfg(not(target_arch = "wasm32"))]
+            Voxels::I8(_) => Self::Byte,
+            Voxels::U8(_) => Self::Byte,
             Voxels::I16(_) | Voxels::U16(_) => Self::Short,
             _ => Self::Float,
         }
@@ -230,6 +232,7 @@ fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop:
         let count = slices.min(nk - first);
         let bytes = &mut bytes[..count * slice];
         match volume.voxels() {
+            #[cfg(not(target_arch = "wasm32"))]
             Voxels::I8(voxels) => gather(volume, voxels, first, bytes, |v| v),
             Voxels::U8(voxels) => gather(volume, voxels, first, bytes, |v| (v ^ 0x80) as i8),
             Voxels::I16(voxels) => gather(volume, voxels, first, bytes, |v| v),

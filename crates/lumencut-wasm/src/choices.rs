@@ -31,7 +31,9 @@ fn default_of(value: Value) -> Json {
         Value::Count(count) => count.into(),
         Value::Color(channels) => channels.into(),
         Value::Name(name) => name.into(),
-        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => Json::Null,
+        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
+            Json::Null
+        }
     }
 }
 
@@ -75,7 +77,9 @@ fn pair(json: &Json) -> Option<[f64; 2]> {
 
 /// A slab: its thickness (mm) and the name of its mode.
 fn slab(json: &Json) -> Result<Option<Slab>> {
-    let Ok((thickness, mode)) = serde_json::from_value::<(f64, String)>(json.clone()) else { return Ok(None) };
+    let Ok((thickness, mode)) = serde_json::from_value::<(f64, String)>(json.clone()) else {
+        return Ok(None);
+    };
     Ok(Some(Slab { thickness, mode: SlabMode::named("slab mode", &mode)? }))
 }
 
@@ -89,7 +93,8 @@ mod tests {
 
     #[test]
     fn names_and_values_become_settings() {
-        let made = of(json!({"levels": 3, "context": "mip", "window": [300.0, 900.0], "slab": [5.0, "max"]})).expect("settings");
+        let made = of(json!({"levels": 3, "context": "mip", "window": [300.0, 900.0], "slab": [5.0, "max"]}))
+            .expect("settings");
         assert_eq!((made.levels, made.window), (3, Window { level: 300.0, width: 900.0 }));
         assert_eq!(made.slab.map(|slab| slab.thickness), Some(5.0));
         assert!(of(json!({"context": null})).expect("settings").context.is_none());

@@ -29,7 +29,8 @@ impl VolumeHeader {
     /// `settings` for a text that is none.
     pub fn read(text: &str) -> Result<Self> {
         let expected = "size, dtype and world_from_index as JSON";
-        serde_json::from_str(text).map_err(|error| Failure::of_message("header of the volume", error, expected))
+        serde_json::from_str(text)
+            .map_err(|error| Failure::of_message("header of the volume", error, expected))
     }
 
     /// The number of voxels, where it can be counted.
@@ -39,7 +40,10 @@ impl VolumeHeader {
 
     /// The grid's place.
     pub fn affine(&self) -> DAffine3 {
-        DAffine3::from_mat4(DMat4::from_cols_array_2d(&self.world_from_index.map(|row| DVec4::from(row).to_array())).transpose())
+        DAffine3::from_mat4(
+            DMat4::from_cols_array_2d(&self.world_from_index.map(|row| DVec4::from(row).to_array()))
+                .transpose(),
+        )
     }
 }
 
@@ -78,7 +82,9 @@ pub fn read_centerlines(bytes: &[u8], name: &str, volume: Option<&Volume>) -> Re
     let mm = found.place.unit.in_mm();
     let placed = lines.scaled(mm).map(junctions::vessels).map_err(|error| error.in_file(name))?;
     let signs = found.place.scale() / mm;
-    let vessel = |line: &centerlines::Line| Vessel::new(line.points.iter().map(|p| *p * signs).collect(), line.radius.clone());
+    let vessel = |line: &centerlines::Line| {
+        Vessel::new(line.points.iter().map(|p| *p * signs).collect(), line.radius.clone())
+    };
     let vessels = placed.lines.iter().map(vessel).collect::<lumencut::error::Result<Vec<_>>>()?;
     let mut notes = placed.notes.clone();
     notes.extend((!found.decision.is_empty()).then_some(found.decision));

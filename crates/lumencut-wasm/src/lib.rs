@@ -15,6 +15,8 @@ mod planes;
 pub mod session;
 mod sides;
 mod study;
+#[cfg(test)]
+mod tests;
 #[cfg(target_arch = "wasm32")]
 mod threads;
 mod view;

@@ -70,12 +70,8 @@ impl Session {
         let header = VolumeHeader::read(header)?;
         self.close();
         let stored = Stored::zeros(&header.dtype, header.count().unwrap_or(usize::MAX))?;
-        let held = Held {
-            stored,
-            size: header.size,
-            world_from_index: header.affine(),
-            key: Default::default(),
-        };
+        let held =
+            Held { stored, size: header.size, world_from_index: header.affine(), key: Default::default() };
         held.volume()?;
         self.study.held = Some(held);
         Ok(())
@@ -167,7 +163,8 @@ impl Session {
 
     /// What lies at a world point; the vessel where one is given.
     fn told(&self, point: DVec3, vessel: Option<usize>) -> Pick {
-        let arc_length = vessel.and_then(|vessel| self.vessel(vessel).ok()).map(|vessel| nearest(vessel, point));
+        let arc_length =
+            vessel.and_then(|vessel| self.vessel(vessel).ok()).map(|vessel| nearest(vessel, point));
         Pick { point: point.to_array(), value: self.value(point), vessel, arc_length }
     }
 

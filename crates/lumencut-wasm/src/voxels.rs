@@ -1,4 +1,4 @@
-//! The voxels of the one volume that is open, in their own type. The page turns wider types into `float32`.
+//! The voxels of the one volume that is open, in their own type. The page turns other types into one of these.
 
 use lumencut::volume::Voxels;
 
@@ -7,8 +7,6 @@ use crate::failure::{Failure, Result};
 /// Voxels of one of the types that a volume can have in a browser.
 #[derive(Debug)]
 pub enum Stored {
-    /// `int8`
-    I8(Vec<i8>),
     /// `uint8`
     U8(Vec<u8>),
     /// `int16`
@@ -23,7 +21,6 @@ pub enum Stored {
 macro_rules! with_stored {
     ($stored:expr, $voxels:ident => $body:expr) => {
         match $stored {
-            Stored::I8($voxels) => $body,
             Stored::U8($voxels) => $body,
             Stored::I16($voxels) => $body,
             Stored::U16($voxels) => $body,
@@ -39,14 +36,16 @@ impl Stored {
     /// `volume` for another type, and where the browser has not enough memory.
     pub fn zeros(dtype: &str, count: usize) -> Result<Self> {
         Ok(match dtype {
-            "int8" => Self::I8(room(count)?),
             "uint8" => Self::U8(room(count)?),
             "int16" => Self::I16(room(count)?),
             "uint16" => Self::U16(room(count)?),
             "float32" => Self::F32(room(count)?),
             other => {
-                let expected = "int8, uint8, int16, uint16 or float32";
-                return Err(Failure { kind: "volume", ..Failure::of_message("type of the voxels", other, expected) });
+                let expected = "uint8, int16, uint16 or float32";
+                return Err(Failure {
+                    kind: "volume",
+                    ..Failure::of_message("type of the voxels", other, expected)
+                });
             }
         })
     }
@@ -59,7 +58,6 @@ impl Stored {
     /// The voxels as the core borrows them.
     pub fn voxels(&self) -> Voxels<'_> {
         match self {
-            Self::I8(voxels) => Voxels::I8(voxels),
             Self::U8(voxels) => Voxels::U8(voxels),
             Self::I16(voxels) => Voxels::I16(voxels),
             Self::U16(voxels) => Voxels::U16(voxels),

@@ -109,7 +109,8 @@ impl Backend {
         Ok((frame, self.untold.take()))
     }
 
-    /// The picture of a view on a canvas where the GPU makes all of it, with one sample per pixel; else to the caller.
+    /// The picture of a view on a canvas where a GPU computes, else to the caller. What the GPU makes alone, one sample of a cut
+    /// surface, never leaves it.
     ///
     /// # Errors
     /// As [`Backend::render_by`]; [`ErrorKind::Device`] also where the CPU could stand in, so that the caller can try the GPU
@@ -122,12 +123,20 @@ impl Backend {
         request: &Request<'_>,
         screen: Option<&mut Screen>,
     ) -> Result<Drawn> {
-        let is_whole = method == Method::CutSurface && request.settings.samples == 1;
-        if let (true, Some(screen), Computer::Gpu(gpu)) = (is_whole, screen, &mut self.computer) {
+        let is_alone = method == Method::CutSurface && request.settings.samples == 1;
+        let (Some(screen), Computer::Gpu(gpu)) = (screen, &mut self.computer) else {
+            return self.render_by(method, scene, request).await.map(|(frame, _)| Drawn::Frame(frame));
+        };
+        if is_alone {
             gpu.open().await?.draw(scene, request, screen).await?;
             return Ok(Drawn::OnScreen);
         }
-        self.render_by(method, scene, request).await.map(|(frame, _)| Drawn::Frame(frame))
+        let (frame, lost) = self.render_by(method, scene, request).await?;
+        match (lost, &mut self.computer) {
+            (None, Computer::Gpu(gpu)) => gpu.open().await?.show(&frame.image, frame.size(), screen).await?,
+            (lost, _) => return Err(lost.unwrap_or_else(Error::interrupted)),
+        }
+        Ok(Drawn::OnScreen)
     }
 
     /// Simulates the loss of the GPU, for tests of what follows.

@@ -19,6 +19,7 @@ from lumencut.cli.render import render
 from lumencut.cli.report import reported, verbose_option
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
+from lumencut.cli.view import view
 from lumencut.cli.write_settings import settings
 
 __all__ = ["main"]
@@ -54,5 +55,17 @@ def main() -> None:
     """Show the lumen of all vessels of a CT or MR angiography in one freely rotatable view."""
 
 
-for _command in (render, turntable, compare_methods, cpr, evaluate, info, trace, measure, settings, demo):
+for _command in (
+    view,
+    render,
+    turntable,
+    compare_methods,
+    cpr,
+    evaluate,
+    info,
+    trace,
+    measure,
+    settings,
+    demo,
+):
     main.add_command(_command)

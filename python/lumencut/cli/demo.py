@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from lumencut.camera import Camera
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
 
 _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 
@@ -53,24 +56,39 @@ def demo(
     _spin(renderer, directory / "turntable.webp")
     detail(f"device: {renderer.device}")
     say(f"made in {time.perf_counter() - start:.1f} s")
+    say(f"turn it in your browser: {_program()} view --demo")
+
+
+def _program() -> str:
+    """How to call this program again: it need not be on the path."""
+    called = Path(sys.argv[0])
+    return str(called) if called.name == "lumencut" else "lumencut"
 
 
 def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[Renderer, Any]:
     """The scene, and points from which its vessels can be traced."""
-    from lumencut.demo import STENT_POINTS, UnreachableError, default_cache, stent_scene
+    from lumencut.demo import STENT_POINTS
     from lumencut.renderer import Renderer
 
+    volume, tree, is_stent = demo_scene(cache)
+    points: Any = STENT_POINTS
+    if not is_stent:
+        points = [max(tree, key=lambda vessel: vessel.length).points[[2, -3]]]
+    return Renderer(volume, tree, device), points
+
+
+def demo_scene(cache: Path | None = None) -> tuple[Volume, VesselTree, bool]:
+    """Return the volume and the vessels of the demo, and whether they are the CT's and no phantom's."""
+    from lumencut.demo import UnreachableError, default_cache, stent_scene
+
     try:
-        volume, tree = stent_scene(cache or default_cache())
-        points: Any = STENT_POINTS
+        return *stent_scene(cache or default_cache()), True
     except UnreachableError as error:
         from lumencut.phantom import aorta
 
         warn(f"the CT of the demo cannot be had, a phantom is shown instead ({error})")
         phantom = aorta(scale=0.5)
-        volume, tree = phantom.volume, phantom.tree
-        points = [max(tree, key=lambda vessel: vessel.length).points[[2, -3]]]
-    return Renderer(volume, tree, device), points
+        return phantom.volume, phantom.tree, False
 
 
 def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:

@@ -121,6 +121,11 @@ def scene_arguments(command: Command) -> Command:
 
 def reading_options(command: Command) -> Command:
     """Add the options that say how the files are read, and what computes."""
+    return added((file_options, device_option, threads_option), command)
+
+
+def file_options(command: Command) -> Command:
+    """Add the options that say how the files are read."""
     parts = (
         coordinates_option,
         unit_option,
@@ -128,8 +133,6 @@ def reading_options(command: Command) -> Command:
         phase_option,
         fill_gaps_option,
         resample_slices_option,
-        device_option,
-        threads_option,
     )
     return added(parts, command)
 

@@ -52,6 +52,11 @@ def say(text: str) -> None:
     click.echo(text)
 
 
+def tell(text: str) -> None:
+    """Print what the user should know beside the result, on stderr."""
+    click.echo(text, err=True)
+
+
 def detail(text: str) -> None:
     """Print what only a curious user wants to know."""
     if is_verbose():

@@ -82,7 +82,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
     """Return the volume and the vessel tree of the files, each None where its file is."""
     start = time.perf_counter()
     # The small files first: what is wrong with them shows before gigabytes are read.
-    lines = _centerlines(files.centerlines)
+    lines = centerlines_of(files.centerlines)
     voxels = None if files.volume is None else _read_volume(files.volume, files)
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
     if voxels is not None and has_seed(chosen):
@@ -94,7 +94,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
     return voxels, tree
 
 
-def _centerlines(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
+def centerlines_of(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
     """Read the files of centerlines. A single one is compared with the volume by the renderer alone."""
     from lumencut.centerline_file import CenterlineFile
 

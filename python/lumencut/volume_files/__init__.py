@@ -134,11 +134,30 @@ def read_volume(
     volume = file.volume(told)
     if file.format != "DICOM":
         told(volume.size[2], volume.size[2])
+    log_oddities(file)
+    return volume
+
+
+def open_volume(
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    phase: str | float | None = None,
+    fill_gaps: bool = False,
+    resample_slices: bool = False,
+    progress: Progress | None = None,
+) -> VolumeFile:
+    """Read the headers that `read_volume` reads, and leave the voxels on disk; parameters are the same."""
+    told = progress if progress is not None else _untold
+    return _open(path, _wanted(series, phase, fill_gaps, resample_slices), told)
+
+
+def log_oddities(file: VolumeFile) -> None:
+    """Log what was assumed of a file that is read."""
     for note in file.notes:
         _log.warning("%s: %s", file.path, note)
     for remark in file.remarks:
         _log.info("%s: %s", file.path, remark)
-    return volume
 
 
 def inspect_volume(

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile, decoded, inside, shown
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
 
 _HEADER_LIMIT = 1 << 16
@@ -57,16 +57,17 @@ def open_metaimage(path: Path) -> VolumeFile:
     codec: Codec = "zlib" if _is_true(fields, "CompressedData") else "raw"
     data_path, start = _data_place(path, fields, end, binary and codec == "raw")
 
-    def load(progress: Progress) -> npt.NDArray[Any]:
+    def load(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
         if not binary:
             return read_numbers(data_path, size[::-1], dtype, start=start)
-        return read_voxels(data_path, size[::-1], dtype, start=start, codec=codec)
+        return read_voxels(data_path, size[::-1], dtype, start=start, codec=codec, filled=filled)
 
     return VolumeFile(
         path, "MetaImage", size, dtype, "LPS (as every MetaImage)", affine, load, notes,
         states_spacing=any(name in fields for name in _SPACING),
         # A matrix that a label contradicts states two orientations, and none that can be relied on.
         states_orientation=agrees and any(name in fields for name in (*_DIRECTION, "AnatomicalOrientation")),
+        settled_type=dtype.newbyteorder("="),
     )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile, shown
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile, shown, unfollowed
 from lumencut.volume_files.payload import Codec, first_bytes, read_voxels
 from lumencut.volume_files.rescale import is_integral, rescaled
 
@@ -51,20 +51,26 @@ def open_nifti(path: Path) -> VolumeFile:
     affine[:3] *= millimetres(header, notes)
     _note_forms(header, size, notes)
     slope, intercept = _scaling(path, header)
-    if (slope, intercept) != (1.0, 0.0):
+    is_scaled = (slope, intercept) != (1.0, 0.0)
+    settled: np.dtype[Any] | None = dtype.newbyteorder("=")
+    if is_scaled:
         floats = "float64" if dtype == np.float64 else "float32"
         exact = dtype.kind in "iu" and is_integral(slope, intercept)
+        settled = None if exact else np.dtype(floats)
         kind = "integers where 64 bits hold them" if exact else f"read as {floats}"
         remarks.append(f"values are scaled by {slope:g} and shifted by {intercept:g}: {kind}")
 
-    def load(progress: Progress) -> npt.NDArray[Any]:
+    def load(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
         codec: Codec = "zlib" if _is_gzip(data_path) else "raw"
-        return rescaled(read_voxels(data_path, size[::-1], dtype, codec=codec, skip=offset), slope, intercept)
+        heard = unfollowed if is_scaled else filled
+        stored = read_voxels(data_path, size[::-1], dtype, codec=codec, skip=offset, filled=heard)
+        return rescaled(stored, slope, intercept)
 
     space = _stated_space(header)
     return VolumeFile(
         path, kind, size, dtype, space, affine, load, notes, remarks=remarks,
         states_spacing=states_spacing(header), states_orientation=states_orientation(header),
+        settled_type=settled,
     )  # fmt: skip
 
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import Progress, VolumeFile, decoded, inside, shown
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile, decoded, inside, shown
 from lumencut.volume_files.payload import Codec, read_numbers, read_voxels
 
 _TO_LPS = {
@@ -70,18 +70,20 @@ def open_nrrd(path: Path) -> VolumeFile:
     lines, skip = _skips(path, header, encoding)
     data_path, start = _data_place(path, header, end)
 
-    def load(progress: Progress) -> npt.NDArray[Any]:
+    def load(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
         begin = _after_lines(data_path, start, lines)
         if encoding in _TEXT:
             return read_numbers(data_path, size[::-1], dtype, start=begin + skip)
         if skip == -1:
-            return read_voxels(data_path, size[::-1], dtype, start=-1)
-        return read_voxels(data_path, size[::-1], dtype, start=begin, codec=_CODECS[encoding], skip=skip)
+            return read_voxels(data_path, size[::-1], dtype, start=-1, filled=filled)
+        codec = _CODECS[encoding]
+        return read_voxels(data_path, size[::-1], dtype, start=begin, codec=codec, skip=skip, filled=filled)
 
     return VolumeFile(
         path, "NRRD", size, dtype, shown(space) or "none stated", affine, load, notes,
         states_spacing=_states_spacing(header, axes),
         states_orientation="space directions" in header and _patient_space(header) in _TO_LPS,
+        settled_type=dtype.newbyteorder("="),
     )  # fmt: skip
 
 

@@ -23,6 +23,13 @@ from lumencut.volume import Volume
 Progress = Callable[[int, int], None]
 """Called with (slices read, slices in all)."""
 
+Filled = Callable[[npt.NDArray[Any], int], None]
+"""Called with (the voxels [k, j, i] that are being read, how many of their first slices are final)."""
+
+
+def unfollowed(voxels: npt.NDArray[Any], count: int) -> None:
+    """Take no notice of slices that are final."""
+
 
 @dataclass(frozen=True, eq=False)
 class VolumeFile:
@@ -34,7 +41,7 @@ class VolumeFile:
     dtype: np.dtype[Any]
     space: str
     world_from_index: npt.NDArray[np.float64]
-    load: Callable[[Progress], npt.NDArray[Any]]
+    load: Callable[[Progress, Filled], npt.NDArray[Any]]
     notes: list[str] = field(default_factory=list)
     filled: tuple[int, ...] = ()
     details: dict[str, str] = field(default_factory=dict)
@@ -42,11 +49,16 @@ class VolumeFile:
     """What is told of the file to whoever asks, and is no reason to warn every reader."""
     states_spacing: bool = True
     states_orientation: bool = True
+    settled_type: np.dtype[Any] | None = None
+    """The type that the voxels will have, where the headers alone settle it."""
 
-    def volume(self, progress: Progress) -> Volume:
-        """Read the voxels; what `progress` raises passes through."""
+    def volume(self, progress: Progress, filled: Filled = unfollowed) -> Volume:
+        """Read the voxels; what `progress` raises passes through.
+
+        `filled` is told of voxels that others may look at while the rest is read. Not every reader has such.
+        """
         with heeding(progress) as told_on, refusing(self.path, self.format, self.notes):
-            voxels = self.load(told_on)
+            voxels = self.load(told_on, filled)
         volume = _placed(self, voxels)
         volume._filled_slices = self.filled
         return volume
@@ -55,6 +67,16 @@ class VolumeFile:
         """Refuse a grid that no volume can have before any voxel is read."""
         _placed(self, np.zeros((1, 1, 1), np.uint8))
         return self
+
+
+def held_in_memory(volume: Volume, name: str) -> VolumeFile:
+    """Give a volume of a name as a file whose voxels are already read."""
+    return VolumeFile(
+        Path(name), "memory", volume.size, volume.dtype, "LPS", volume.world_from_index,
+        lambda progress, filled: volume.array,
+        states_spacing=volume.states_spacing, states_orientation=volume.states_orientation,
+        settled_type=volume.dtype,
+    )  # fmt: skip
 
 
 def _placed(file: VolumeFile, voxels: npt.NDArray[Any]) -> Volume:

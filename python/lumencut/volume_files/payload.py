@@ -5,8 +5,9 @@ from __future__ import annotations
 import bz2
 import os
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO, Literal
 
@@ -15,13 +16,14 @@ import numpy.typing as npt
 
 from lumencut._files import checked_path
 from lumencut.errors import FormatError
-from lumencut.volume_files.opened import shown
+from lumencut.volume_files.opened import Filled, shown, unfollowed
 
 Codec = Literal["raw", "zlib", "bzip2"]
 """``zlib`` stands for zlib and gzip streams alike, whichever the bytes turn out to be."""
 
 _CHUNK = 1 << 14
 _PIECE = 1 << 20
+_READ = 16 << 20
 _PLAIN_FILE = "a file of voxels"
 _DEFLATE_LIMIT = 1032
 """No byte of a deflate stream becomes more bytes than this."""
@@ -41,6 +43,7 @@ def read_voxels(
     start: int = 0,
     codec: Codec = "raw",
     skip: int = 0,
+    filled: Filled = unfollowed,
 ) -> npt.NDArray[Any]:
     """Read voxels of a shape [k, j, i] that begin at byte `start` of the file.
 
@@ -59,6 +62,8 @@ def read_voxels(
         How the bytes are compressed.
     skip : int, default 0
         Bytes to leave out at the beginning of the decompressed stream.
+    filled : callable, optional
+        Told of the voxels as they come in.
 
     Returns
     -------
@@ -82,11 +87,28 @@ def read_voxels(
         file.seek(start if start >= 0 else length - needed)
         held = max(length - file.tell(), 0)
         _require_room(path, file, codec, skip + needed, held)
+        data = np.empty(needed, np.uint8)
+        voxels = data.view(dtype).reshape(shape)
+        told = partial(filled, voxels)
         if codec == "raw":
-            data = _plain(path, file, skip, needed)
+            file.seek(skip, 1)
+            _read_plain(path, file, data, _in_slices(voxels, told))
         else:
-            data = _decompressed(path, file, codec, skip, needed)
-    return data.view(dtype).reshape(shape)
+            _decompress(_pieces(path, file, codec, skip + needed), data, skip, _in_slices(voxels, told), path)
+    return voxels
+
+
+def _in_slices(voxels: npt.NDArray[Any], told: Callable[[int], None]) -> Callable[[int], None]:
+    """A function that is told of bytes that are read, and tells on of slices that are whole."""
+    size, known = max(voxels[:1].nbytes, 1), 0
+
+    def told_of_bytes(count: int) -> None:
+        nonlocal known
+        if count // size > known:
+            known = count // size
+            told(known)
+
+    return told_of_bytes
 
 
 def first_bytes(path: Path, file: BinaryIO, count: int) -> bytes:
@@ -98,12 +120,14 @@ def first_bytes(path: Path, file: BinaryIO, count: int) -> bytes:
     return bytes(found)
 
 
-def _plain(path: Path, file: BinaryIO, skip: int, needed: int) -> npt.NDArray[np.uint8]:
-    file.seek(skip, 1)
-    data = np.fromfile(file, np.uint8, needed)
-    if data.size < needed:
-        raise _too_short(path, data.size, needed)
-    return data
+def _read_plain(path: Path, file: BinaryIO, data: npt.NDArray[np.uint8], told: Callable[[int], None]) -> None:
+    place, room = 0, data.data
+    while place < data.size:
+        count = file.readinto(room[place : place + _READ])  # type: ignore[attr-defined]
+        if not count:
+            raise _too_short(path, place, data.size)
+        place += count
+        told(place)
 
 
 def _require_room(path: Path, file: BinaryIO, codec: Codec, needed: int, held: int) -> None:
@@ -137,17 +161,23 @@ def _memory() -> int:
         return 1 << 48
 
 
-def _decompressed(path: Path, file: BinaryIO, codec: Codec, skip: int, needed: int) -> npt.NDArray[np.uint8]:
-    data = np.empty(needed, np.uint8)
+def _decompress(
+    pieces: Iterator[bytes],
+    data: npt.NDArray[np.uint8],
+    skip: int,
+    told: Callable[[int], None],
+    path: Path,
+) -> None:
+    """Fill an array with the pieces of a stream, of which the first bytes are left out."""
     place = -skip
-    for piece in _pieces(path, file, codec, skip + needed):
+    for piece in pieces:
         end = place + len(piece)
         if end > 0:
             data[max(place, 0) : end] = np.frombuffer(piece, np.uint8)[max(-place, 0) :]
+            told(end)
         place = end
-    if place < needed:
-        raise _too_short(path, max(place, 0), needed)
-    return data
+    if place < data.size:
+        raise _too_short(path, max(place, 0), data.size)
 
 
 def _pieces(path: Path, file: BinaryIO, codec: Codec, wanted: int) -> Iterator[bytes]:

@@ -14,6 +14,7 @@ import type {
   Progress,
   Report,
   Started,
+  States,
   Vector,
   View,
   Window,
@@ -24,6 +25,8 @@ export type Told = (progress: Progress) => void;
 export interface Opened {
   readonly report: Report;
   readonly notes: readonly string[];
+  readonly name?: string;
+  readonly states?: States;
 }
 
 export class EngineClient {
@@ -64,7 +67,7 @@ export class EngineClient {
     return heard(this.host.openPhantom(name));
   }
 
-  openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<Opened & { name: string }> {
+  openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<Opened> {
     return heard(this.host.openAddresses(volume, centerlines, proxy(told)));
   }
 

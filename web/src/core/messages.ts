@@ -92,6 +92,12 @@ export interface Report {
   readonly windows: { main: Window; mip: Window; whole: Window; full: Window } | null;
 }
 
+/** What a file says of its grid: without it no lengths in mm, and no sides of the patient, are shown. */
+export interface States {
+  readonly spacing: boolean;
+  readonly orientation: boolean;
+}
+
 /** How many voxels are in each of equally wide bins between two values. */
 export interface Histogram {
   readonly low: number;

@@ -1,7 +1,15 @@
 /** The one table of what mouse, touch and keys do. The views ask it, and the help is made from it. */
 
 export type Where = 'turning' | 'flat' | 'everywhere';
-export type Gesture = 'drag' | 'wheel' | 'click' | 'double click' | 'touch drag' | 'two-finger drag' | 'pinch' | 'key';
+export type Gesture =
+  | 'drag'
+  | 'wheel'
+  | 'click'
+  | 'double click'
+  | 'touch drag'
+  | 'two-finger drag'
+  | 'pinch'
+  | 'key';
 export type Button = 'left' | 'middle' | 'right';
 export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
 
@@ -22,6 +30,7 @@ export type Action =
   | 'silhouettes'
   | 'turn'
   | 'help'
+  | 'pane'
   | `view ${string}`
   | `preset ${number}`;
 
@@ -45,7 +54,13 @@ const mouse = (where: Where, button: Button, modifier: Modifier, action: Action,
   action,
   words,
 });
-const other = (where: Where, gesture: Gesture, modifier: Modifier, action: Action, words: string): Binding => ({
+const other = (
+  where: Where,
+  gesture: Gesture,
+  modifier: Modifier,
+  action: Action,
+  words: string,
+): Binding => ({
   where,
   gesture,
   modifier,
@@ -57,6 +72,15 @@ const key = (name: string, action: Action, words: string): Binding => ({
   gesture: 'key',
   key: name,
   action,
+  words,
+});
+
+/** Keys of the view that has the focus, which it hears itself. */
+const pane = (where: Where, name: string, words: string): Binding => ({
+  where,
+  gesture: 'key',
+  key: name,
+  action: 'pane',
   words,
 });
 
@@ -82,6 +106,10 @@ export const BINDINGS: readonly Binding[] = [
   other('everywhere', 'pinch', '', 'zoom', 'zoom'),
   other('everywhere', 'click', '', 'pick', 'put the cross-hair here'),
   other('everywhere', 'double click', '', 'maximise', 'show this view alone, or all views again'),
+  pane('turning', 'Arrow keys', 'rotate; with Shift pan'),
+  pane('turning', '+ and -', 'zoom'),
+  pane('flat', 'Up and down', 'scroll'),
+  pane('flat', '+ and -', 'zoom'),
   key('Escape', 'cancel', 'cancel what is under way, and show all views again'),
   key('a', 'view anterior', 'view from the front (anterior)'),
   key('p', 'view posterior', 'view from the back (posterior)'),
@@ -104,7 +132,12 @@ export const BINDINGS: readonly Binding[] = [
 ];
 
 /** What a drag, wheel or click does in a view; nothing where the table has no row for it. */
-export function actionOf(where: Where, gesture: Gesture, button: Button | null, modifier: Modifier): Action | null {
+export function actionOf(
+  where: Where,
+  gesture: Gesture,
+  button: Button | null,
+  modifier: Modifier,
+): Action | null {
   const fits = (row: Binding) =>
     (row.where === where || row.where === 'everywhere') &&
     row.gesture === gesture &&
@@ -121,7 +154,11 @@ export function actionOfKey(name: string): Action | null {
 /** How a row's input is called in the help. */
 export function inputName(row: Binding): string {
   if (row.gesture === 'key') {
-    return row.key === ' ' ? 'Space' : row.key && row.key !== row.key.toLowerCase() && row.key.length === 1 ? `Shift+${row.key.toLowerCase()}` : (row.key ?? '');
+    return row.key === ' '
+      ? 'Space'
+      : row.key && row.key !== row.key.toLowerCase() && row.key.length === 1
+        ? `Shift+${row.key.toLowerCase()}`
+        : (row.key ?? '');
   }
   const parts = [row.modifier ?? '', row.button ? `${row.button} ${row.gesture}` : row.gesture];
   return parts.filter((part) => part !== '').join('+');

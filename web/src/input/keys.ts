@@ -6,7 +6,8 @@ import { actionOfKey } from './bindings';
 export function listenToKeys(): void {
   window.addEventListener('keydown', (event) => {
     const isTyped = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
-    const isButton = event.target instanceof HTMLButtonElement && (event.key === ' ' || event.key === 'Enter');
+    const isButton =
+      event.target instanceof HTMLButtonElement && (event.key === ' ' || event.key === 'Enter');
     if (event.ctrlKey || event.metaKey || event.altKey || isButton || (isTyped && event.key !== 'Escape')) {
       return;
     }

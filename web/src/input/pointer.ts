@@ -22,6 +22,8 @@ export interface Handlers {
   hover(at: readonly [number, number], shift: boolean): void;
   begin(): void;
   end(): void;
+  /** Escape while a drag is under way: all is as it was when it began. */
+  putBack(): void;
 }
 
 type Place = [number, number];
@@ -35,7 +37,11 @@ export function listen(element: HTMLElement, where: Where, handlers: Handlers): 
   element.addEventListener('pointermove', (event) => gestures.move(event), options);
   element.addEventListener('pointerup', (event) => gestures.up(event), options);
   element.addEventListener('pointercancel', (event) => gestures.cancel(event), options);
-  element.addEventListener('wheel', (event) => gestures.wheel(event), { passive: false, signal: stop.signal });
+  element.addEventListener('wheel', (event) => gestures.wheel(event), {
+    passive: false,
+    signal: stop.signal,
+  });
+  window.addEventListener('keydown', (event) => gestures.key(event), { capture: true, signal: stop.signal });
   element.addEventListener('contextmenu', (event) => event.preventDefault(), options);
   return () => stop.abort();
 }
@@ -189,6 +195,16 @@ class Pointers {
     if (this.isDragging && this.held.size === 0) {
       this.isDragging = false;
       this.handlers.end();
+    }
+  }
+
+  key(event: KeyboardEvent): void {
+    if (event.key === 'Escape' && this.isDragging) {
+      event.stopPropagation();
+      event.preventDefault();
+      this.held.clear();
+      this.isDragging = false;
+      this.handlers.putBack();
     }
   }
 

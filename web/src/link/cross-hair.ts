@@ -6,7 +6,12 @@ import { crossHair, pickedPlace, pickedVessel, type ViewName } from '../state/st
 /** Puts the cross-hair where a view was pointed at; a vessel there becomes the one of CPR and section. */
 export function placeCrossHair(pick: Pick, from: ViewName): void {
   batch(() => {
-    crossHair.value = { point: pick.point, value: pick.value, vessel: pick.vessel, arcLength: pick.arc_length };
+    crossHair.value = {
+      point: pick.point,
+      value: pick.value,
+      vessel: pick.vessel,
+      arcLength: pick.arc_length,
+    };
     // A section stays where it is while one points into it.
     if (pick.vessel !== null && from !== 'section') {
       pickedVessel.value = pick.vessel;

@@ -37,15 +37,20 @@ function pivot(camera: Camera): Vector {
 export function dragTurning(action: Action, by: Pair, axis: Vector | null): void {
   switch (action) {
     case 'rotate':
-      return changeCamera((camera) => trackballed(camera, pivot(camera), by));
+      changeCamera((camera) => trackballed(camera, pivot(camera), by));
+      break;
     case 'rotate about vessel': {
       const about = axis ?? store.camera.value?.up ?? [0, 0, 1];
-      return changeCamera((camera) => turnedAbout(camera, pivot(camera), about, (-by[0] * Math.PI) / camera.size[1]));
+      const angle = (size: Pair) => (-by[0] * Math.PI) / size[1];
+      changeCamera((camera) => turnedAbout(camera, pivot(camera), about, angle(camera.size)));
+      break;
     }
     case 'pan':
-      return changeCamera((camera) => panned(camera, by));
+      changeCamera((camera) => panned(camera, by));
+      break;
     case 'window':
-      return dragWindow(by);
+      dragWindow(by);
+      break;
     default:
   }
 }
@@ -53,6 +58,24 @@ export function dragTurning(action: Action, by: Pair, axis: Vector | null): void
 /** The place at which the pointer is stays where it is. */
 export function zoomTurning(factor: number, at: Pair): void {
   changeCamera((camera) => zoomed(camera, factor, at));
+}
+
+/** What a drag changes, kept at its beginning, so that Escape puts it back. */
+let before = { camera: store.camera.value, window: store.window_.value };
+
+/** The beginning, the end and the taking back of a drag, for the handlers of a view. */
+export function windowBack(): { begin(): void; end(): void; putBack(): void } {
+  return {
+    begin: () => {
+      before = { camera: store.camera.value, window: store.window_.value };
+    },
+    end: () => undefined,
+    putBack: () =>
+      batch(() => {
+        store.camera.value = before.camera;
+        store.window_.value = before.window;
+      }),
+  };
 }
 
 /** To the right the window grows wider, upwards brighter. */
@@ -143,6 +166,7 @@ function performSimple(engine: EngineClient, action: Action): void {
 function cancel(engine: EngineClient): void {
   if (store.progress.value) {
     void engine.cancel();
+    store.progress.value = null;
   }
   batch(() => {
     store.isHelpOpen.value = false;
@@ -165,4 +189,3 @@ function reset(engine: EngineClient): void {
   });
   void showNamedView(engine, 'anterior');
 }
-

@@ -46,7 +46,9 @@ async function change(device: string, failure: Failure): Promise<void> {
     batch(() => {
       store.started.value = before && { ...before, ...changed };
       store.epoch.value += 1;
-      store.notes.value = [...new Set([...store.notes.value, `The GPU failed (${failure.found}): ${outcome}.`])];
+      store.notes.value = [
+        ...new Set([...store.notes.value, `The GPU failed (${failure.found}): ${outcome}.`]),
+      ];
     });
   } catch (error) {
     store.problem.value = Failure.of(error);

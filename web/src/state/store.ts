@@ -1,7 +1,18 @@
 /** What the page knows: one store of signals, which the views read and the actions write. */
 import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
-import type { Camera, Histogram, Method, Progress, Report, Settings, Started, Vector, Window } from '../core/messages';
+import type {
+  Camera,
+  Histogram,
+  Method,
+  Progress,
+  Report,
+  Settings,
+  Started,
+  States,
+  Vector,
+  Window,
+} from '../core/messages';
 
 export type Layout = 'one' | 'two' | 'four' | 'strip';
 export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip'];
@@ -25,6 +36,8 @@ export const epoch = signal(0);
 export const report = signal<Report | null>(null);
 export const studyName = signal('');
 export const notes = signal<readonly string[]>([]);
+/** What the file says of its grid. */
+export const states = signal<States>({ spacing: true, orientation: true });
 export const histogram = signal<Histogram | null>(null);
 export const progress = signal<Progress | null>(null);
 export const problem = signal<Failure | null>(null);
@@ -50,6 +63,8 @@ export const maximised = signal<ViewName | null>(null);
 /** How often the views were reset: flat views then show all of the volume again. */
 export const resets = signal(0);
 export const isHelpOpen = signal(false);
+/** The camera whose view is shown with all its pixels, since it last changed. */
+export const settled = signal<Camera | null>(null);
 export const frameTime = signal<number | null>(null);
 
 export const hasVolume = computed(() => Boolean(report.value?.volume));
@@ -73,4 +88,3 @@ export function moved(own: Window, from: Window, to: Window): Window {
   const factor = to[1] / from[1];
   return [to[0] + (own[0] - from[0]) * factor, own[1] * factor];
 }
-

@@ -17,7 +17,7 @@ export async function open(engine: EngineClient, load: () => Promise<Opened>, na
   });
   try {
     const opened = await load();
-    await showStudy(engine, opened.report, opened.notes, name);
+    await showStudy(engine, opened, opened.name ?? name);
   } catch (error) {
     const failure = Failure.of(error);
     if (!isCancelled(failure)) {
@@ -37,17 +37,16 @@ export function openPhantom(engine: EngineClient, name: string): Promise<void> {
 }
 
 /** Opens addresses of the same origin. */
-export function openAddresses(engine: EngineClient, volume: string | null, centerlines: string | null): Promise<void> {
-  let name = '';
-  const load = async () => {
-    const opened = await engine.openAddresses(volume, centerlines, (told) => {
+export function openAddresses(
+  engine: EngineClient,
+  volume: string | null,
+  centerlines: string | null,
+): Promise<void> {
+  const load = () =>
+    engine.openAddresses(volume, centerlines, (told) => {
       store.progress.value = told;
     });
-    name = opened.name;
-    store.studyName.value = name;
-    return opened;
-  };
-  return open(engine, load, name);
+  return open(engine, load, '');
 }
 
 /** Closes the study. */
@@ -56,7 +55,11 @@ export async function close(engine: EngineClient): Promise<void> {
   batch(forget);
 }
 
-async function showStudy(engine: EngineClient, report: Report, notes: readonly string[], name: string): Promise<void> {
+async function showStudy(
+  engine: EngineClient,
+  { report, notes, states }: Opened,
+  name: string,
+): Promise<void> {
   const size = store.camera.value?.size ?? FIRST_SIZE;
   const camera = await engine.fitted('anterior', size);
   const histogram = report.volume ? await engine.histogram(128) : null;
@@ -64,7 +67,8 @@ async function showStudy(engine: EngineClient, report: Report, notes: readonly s
     forget();
     store.report.value = report;
     store.notes.value = notes;
-    store.studyName.value = name || store.studyName.value;
+    store.studyName.value = name;
+    store.states.value = states ?? { spacing: true, orientation: true };
     store.histogram.value = histogram;
     store.window_.value = report.windows?.main ?? store.window_.value;
     store.camera.value = camera;

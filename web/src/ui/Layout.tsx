@@ -1,10 +1,12 @@
 /** The panes of a layout, and which view each of them shows. */
+import { type Signal, signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
 import { CprView } from '../views/CprView';
 import { SectionView } from '../views/SectionView';
 import { SliceView } from '../views/SliceView';
 import { TurningView } from '../views/TurningView';
+import { Divider } from './Divider';
 
 const VIEWS: Readonly<Record<Name, readonly ViewName[]>> = {
   one: ['turning'],
@@ -21,16 +23,35 @@ const TITLES: Readonly<Record<ViewName, string>> = {
   section: 'Section',
 };
 
+/** Where the panes of each layout meet, as parts of it. */
+const columns: Readonly<Record<Name, Signal<number>>> = {
+  one: signal(1),
+  two: signal(0.67),
+  four: signal(0.5),
+  strip: signal(0.75),
+};
+const row = signal(0.5);
+
 export function Layout() {
   const shown = VIEWS[layout.value];
   const alone = maximised.value;
   return (
-    <main class={`layout ${layout.value}${alone ? ' alone' : ''}`} data-layout={layout.value}>
+    <main
+      class={`layout ${layout.value}${alone ? ' alone' : ''}`}
+      data-layout={layout.value}
+      style={{ '--column': `${100 * columns[layout.value].value}%`, '--row': `${100 * row.value}%` }}
+    >
       {shown.map((name) => (
         <Pane key={name} name={name} isHidden={alone !== null && alone !== name}>
           {viewOf(name)}
         </Pane>
       ))}
+      {!alone && layout.value !== 'one' && (
+        <Divider words="Width of the left views" between="column" place={columns[layout.value]} />
+      )}
+      {!alone && layout.value === 'four' && (
+        <Divider words="Height of the upper views" between="row" place={row} />
+      )}
     </main>
   );
 }
@@ -63,7 +84,12 @@ function Pane({ name, isHidden, children }: PaneProps) {
     <section class={`pane ${name}${isHidden ? ' hidden' : ''}`} aria-label={TITLES[name]}>
       {children}
       <h2 class="pane-title">{TITLES[name]}</h2>
-      <button type="button" class="pane-button" onClick={toggle} aria-label={isAlone ? 'Show all views' : `Show ${TITLES[name]} alone`}>
+      <button
+        type="button"
+        class="pane-button"
+        onClick={toggle}
+        aria-label={isAlone ? 'Show all views' : `Show ${TITLES[name]} alone`}
+      >
         {isAlone ? '⤡' : '⤢'}
       </button>
     </section>

@@ -1,22 +1,13 @@
-/** What went wrong, what was odd about a file, and how far loading is. */
+/** What went wrong, and how far long work is. */
 import { engine } from '../core/shared';
-import { notes, problem, progress } from '../state/store';
+import { perform } from '../state/actions';
+import { problem, progress } from '../state/store';
 
 export function Messages() {
   return (
     <div class="messages">
       {progress.value && <Loading />}
       {problem.value && <Problem />}
-      {notes.value.length > 0 && (
-        <details class="notes">
-          <summary>{notes.value.length === 1 ? '1 note' : `${notes.value.length} notes`} on this scan</summary>
-          <ul>
-            {notes.value.map((note) => (
-              <li key={note}>{note}</li>
-            ))}
-          </ul>
-        </details>
-      )}
     </div>
   );
 }
@@ -31,7 +22,7 @@ function Loading() {
     <div class="message" role="status">
       <span>{share === null ? `${told.words} …` : `${told.words}: ${(100 * share).toFixed(0)} %`}</span>
       <progress aria-label={told.words} {...(share === null ? {} : { value: share })} />
-      <button type="button" onClick={() => void engine.cancel()}>
+      <button type="button" onClick={() => perform(engine, 'cancel')}>
         Cancel
       </button>
     </div>

@@ -9,9 +9,12 @@ export function StatusBar() {
         {readOut()}
       </output>
       <span class="spring" />
+      <Notes />
       <span data-testid="window">{`W ${round(store.window_.value[1])} L ${round(store.window_.value[0])}`}</span>
       <span data-testid="device">{deviceText()}</span>
-      <span class="frame-time">{store.frameTime.value === null ? '' : `${store.frameTime.value.toFixed(0)} ms`}</span>
+      <span class="frame-time">
+        {store.frameTime.value === null ? '' : `${store.frameTime.value.toFixed(0)} ms`}
+      </span>
       <span class="notice">Not a medical device</span>
     </footer>
   );
@@ -26,14 +29,14 @@ function readOut(): string {
   if (!hair) {
     return '';
   }
-  const parts = [positionText(hair.point)];
+  const parts = [positionText(hair.point, store.states.value.orientation)];
   if (hair.value !== null) {
     parts.push(Number.isInteger(hair.value) ? `${hair.value}` : hair.value.toFixed(1));
   }
   if (hair.vessel !== null) {
     parts.push(vesselName(hair.vessel));
     if (hair.arcLength !== null) {
-      parts.push(`${hair.arcLength.toFixed(1)} mm`);
+      parts.push(`${hair.arcLength.toFixed(1)}${store.states.value.spacing ? ' mm' : ''}`);
     }
   }
   return parts.join(' · ');
@@ -54,4 +57,22 @@ function deviceText(): string {
   }
   const threads = started.threads === 1 ? '1 thread' : `${started.threads} threads`;
   return `CPU: ${threads}${started.isIsolated ? '' : ', as the page is not cross-origin isolated'}`;
+}
+
+/** What was odd about the scan, one sentence each. */
+function Notes() {
+  const notes = store.notes.value;
+  if (notes.length === 0) {
+    return null;
+  }
+  return (
+    <details class="menu upwards">
+      <summary>{notes.length === 1 ? '1 note' : `${notes.length} notes`}</summary>
+      <ul class="menu-body">
+        {notes.map((note) => (
+          <li key={note}>{note}</li>
+        ))}
+      </ul>
+    </details>
+  );
 }

@@ -1,9 +1,12 @@
 /** The bar at the top: method, context, silhouettes, slab, presets, layout. */
 import type { Method } from '../core/messages';
 import { engine } from '../core/shared';
-import { choosePreset, perform, PRESETS, setSetting, settingOf } from '../state/actions';
+import { perform, setSetting, settingOf } from '../state/actions';
 import * as store from '../state/store';
 import { close } from '../state/study';
+import { SaveMenu } from './SaveMenu';
+import { SettingsPanel } from './SettingsPanel';
+import { WindowStrip } from './WindowStrip';
 
 const METHODS: readonly (readonly [Method, string])[] = [
   ['csr', 'CSR'],
@@ -20,16 +23,16 @@ const CONTEXTS: readonly (readonly [string, string])[] = [
   ['', 'None'],
 ];
 const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
-  one: 'One view',
-  two: 'Two views',
-  four: 'Four views',
-  strip: 'One view and a strip',
+  one: 'One',
+  two: 'Two',
+  four: 'Four',
+  strip: 'With strip',
 };
 
 export function Toolbar() {
   const slab = settingOf('slab');
   return (
-    <header class="toolbar" aria-label="Tools">
+    <header class="toolbar">
       <strong class="brand">Lumencut</strong>
       <label>
         Method
@@ -48,7 +51,10 @@ export function Toolbar() {
       </label>
       <label>
         Context
-        <select value={String(settingOf('context') ?? '')} onChange={(event) => setSetting('context', event.currentTarget.value || null)}>
+        <select
+          value={String(settingOf('context') ?? '')}
+          onChange={(event) => setSetting('context', event.currentTarget.value || null)}
+        >
           {CONTEXTS.map(([name, words]) => (
             <option key={name} value={name}>
               {words}
@@ -80,19 +86,7 @@ export function Toolbar() {
         />
         mm
       </label>
-      <label>
-        Window
-        <select value="" onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
-          <option value="" disabled>
-            Preset
-          </option>
-          {PRESETS.map((preset, number) => (
-            <option key={preset.name} value={number}>
-              {preset.name}
-            </option>
-          ))}
-        </select>
-      </label>
+      <WindowStrip />
       <label>
         Layout
         <select
@@ -108,12 +102,14 @@ export function Toolbar() {
           ))}
         </select>
       </label>
+      <SettingsPanel />
+      <SaveMenu />
       <span class="spring" />
       <button type="button" onClick={() => perform(engine, 'help')} aria-label="Keys and mouse">
         ?
       </button>
-      <button type="button" onClick={() => void close(engine)}>
-        Close scan
+      <button type="button" onClick={() => void close(engine)} aria-label="Close the scan">
+        Close
       </button>
     </header>
   );

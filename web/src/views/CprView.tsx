@@ -1,9 +1,9 @@
 /** The straightened CPR of the picked vessel. */
 import { useCallback, useState } from 'preact/hooks';
-import { engine } from '../core/shared';
 import type { Cpr, Pair } from '../core/messages';
+import { engine } from '../core/shared';
 import { placeCrossHair } from '../link/cross-hair';
-import { dragWindow } from '../state/actions';
+import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 import { FlatPicture } from './FlatPicture';
 
@@ -20,7 +20,9 @@ export function CprView() {
   const length = vessel === null ? 0 : (store.report.value?.vessels?.[vessel]?.length ?? 0);
   const spacing = size && length > 0 ? Math.max(length / size[1], 0.05) : null;
   const cpr: Cpr | null =
-    vessel !== null && spacing && size ? { vessel, angle, width: Math.min(WIDTH, size[0] * spacing), pixel_spacing: spacing } : null;
+    vessel !== null && spacing && size
+      ? { vessel, angle, width: Math.min(WIDTH, size[0] * spacing), pixel_spacing: spacing }
+      : null;
   const text = cpr && JSON.stringify(cpr);
   const [shown, setShown] = useState<Pair | null>(null);
   const ask = useCallback(async () => {
@@ -32,7 +34,9 @@ export function CprView() {
   const left = size && shown ? (size[0] - shown[0]) / 2 : 0;
   const point = (at: Pair) => {
     if (shown) {
-      void engine.pickStraightened([at[0] - left, at[1]]).then((pick) => placeCrossHair(pick, 'straightened'));
+      void engine
+        .pickStraightened([at[0] - left, at[1]])
+        .then((pick) => placeCrossHair(pick, 'straightened'));
     }
   };
   const handlers = {
@@ -49,12 +53,18 @@ export function CprView() {
       }
     },
     hover: (at: Pair, shift: boolean) => (shift ? point(at) : undefined),
-    begin: () => undefined,
-    end: () => undefined,
+    ...windowBack(),
   };
   const row = spacing === null ? 0 : store.pickedPlace.value / spacing;
   return (
-    <FlatPicture name="straightened" ask={text ? ask : null} handlers={handlers} onSize={setSize} style={{ margin: '0 auto' }}>
+    <FlatPicture
+      name="straightened"
+      words="picked vessel, straightened"
+      ask={text ? ask : null}
+      handlers={handlers}
+      onSize={setSize}
+      style={{ margin: '0 auto' }}
+    >
       {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
       {cpr && <span class="edge bottom">{`${((angle * 180) / Math.PI).toFixed(0)}°`}</span>}
     </FlatPicture>

@@ -4,7 +4,11 @@ import type { Camera, Vector } from '../core/messages';
 import { dot } from '../core/vectors';
 
 const SIDE = 17;
-const FACES: readonly { readonly normal: Vector; readonly letter: string; readonly corners: readonly Vector[] }[] = [
+const FACES: readonly {
+  readonly normal: Vector;
+  readonly letter: string;
+  readonly corners: readonly Vector[];
+}[] = [
   { normal: [1, 0, 0], letter: 'L' },
   { normal: [-1, 0, 0], letter: 'R' },
   { normal: [0, 1, 0], letter: 'P' },
@@ -29,7 +33,14 @@ export function Cube({ camera }: { readonly camera: Camera }) {
   const seen = (point: Vector) => [SIDE * dot(point, right), -SIDE * dot(point, camera.up)] as const;
   const faces = FACES.filter((face) => dot(face.normal, camera.direction) < -0.02);
   return (
-    <svg class="cube" width="64" height="64" viewBox="-32 -32 64 64" role="img" aria-label="orientation of the view">
+    <svg
+      class="cube"
+      width="64"
+      height="64"
+      viewBox="-32 -32 64 64"
+      role="img"
+      aria-label="orientation of the view"
+    >
       {faces.map(({ letter, normal, corners }) => {
         const [x, y] = seen(normal);
         return (

@@ -10,6 +10,8 @@ import { usePaneSize } from './pane-size';
 
 interface FlatPictureProps {
   readonly name: ViewName;
+  /** What a screen reader says of it. */
+  readonly words: string;
   /** Gives the picture for a pane; it changes whenever the picture does. */
   readonly ask: ((size: Pair) => Promise<Picture>) | null;
   readonly handlers: Handlers;
@@ -19,7 +21,7 @@ interface FlatPictureProps {
   readonly children?: ComponentChildren;
 }
 
-export function FlatPicture({ name, ask, handlers, style, onSize, children }: FlatPictureProps) {
+export function FlatPicture({ name, words, ask, handlers, style, onSize, children }: FlatPictureProps) {
   const pane = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
   const latest = useRef(new Latest());
@@ -48,15 +50,42 @@ export function FlatPicture({ name, ask, handlers, style, onSize, children }: Fl
 
   useEffect(() => {
     const element = pane.current;
-    return element ? listen(element, 'flat', forwarded(() => current.current)) : undefined;
+    return element
+      ? listen(
+          element,
+          'flat',
+          forwarded(() => current.current),
+        )
+      : undefined;
   }, []);
 
   return (
-    <div class="pane-body" ref={pane} data-testid={name}>
+    <div
+      class="pane-body"
+      ref={pane}
+      data-testid={name}
+      role="img"
+      aria-label={words}
+      tabIndex={0}
+      onKeyDown={(event) => pressed(event, handlers)}
+    >
       <canvas ref={canvas} class={isInverted.value ? 'flat inverted' : 'flat'} style={style} />
       <div class="overlay">{children}</div>
     </div>
   );
+}
+
+/** Arrow keys scroll, + and - zoom. */
+function pressed(event: KeyboardEvent, handlers: Handlers): void {
+  const steps = { ArrowDown: 1, PageDown: 10, ArrowUp: -1, PageUp: -10 }[event.key];
+  const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
+  if (steps) {
+    event.preventDefault();
+    handlers.scroll(steps);
+  } else if (factor) {
+    const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
+    handlers.zoom(factor, [box.width / 2, box.height / 2]);
+  }
 }
 
 /** Handlers that always are the latest ones. */
@@ -69,6 +98,7 @@ function forwarded(handlers: () => Handlers): Handlers {
     hover: (...given) => handlers().hover(...given),
     begin: () => handlers().begin(),
     end: () => handlers().end(),
+    putBack: () => handlers().putBack(),
   };
 }
 

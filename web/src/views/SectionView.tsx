@@ -1,9 +1,9 @@
 /** The section across the picked vessel. */
 import { useCallback, useEffect, useState } from 'preact/hooks';
-import { engine } from '../core/shared';
 import type { Pair, Plane } from '../core/messages';
+import { engine } from '../core/shared';
 import { placeCrossHair } from '../link/cross-hair';
-import { dragWindow } from '../state/actions';
+import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 import { EdgeLabels } from './EdgeLabels';
 import { FlatPicture } from './FlatPicture';
@@ -51,12 +51,17 @@ export function SectionView() {
       }
     },
     hover: (place: Pair, shift: boolean) => (shift ? point(place) : undefined),
-    begin: () => undefined,
-    end: () => undefined,
+    ...windowBack(),
   };
   const hair = store.crossHair.value;
   return (
-    <FlatPicture name="section" ask={text ? ask : null} handlers={handlers} onSize={setSize}>
+    <FlatPicture
+      name="section"
+      words="section across the picked vessel"
+      ask={text ? ask : null}
+      handlers={handlers}
+      onSize={setSize}
+    >
       {plane && (
         <>
           <EdgeLabels right={plane.right} down={plane.down} size={plane.size} spacing={plane.pixel_spacing} />

@@ -1,15 +1,26 @@
 /** An axial, coronal or sagittal slice through the cross-hair. */
 import { useCallback, useEffect, useState } from 'preact/hooks';
-import { engine } from '../core/shared';
 import type { Pair, Plane, Window } from '../core/messages';
+import { engine } from '../core/shared';
 import { add, cross, scale } from '../core/vectors';
 import type { Handlers } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
-import { dragWindow } from '../state/actions';
+import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 import { EdgeLabels } from './EdgeLabels';
 import { FlatPicture } from './FlatPicture';
-import { AXES, fittedLook, type Look, pannedLook, pixelOn, planeOf, pointOn, type SliceName, sliceDistance, zoomedLook } from './planes';
+import {
+  AXES,
+  fittedLook,
+  type Look,
+  pannedLook,
+  pixelOn,
+  planeOf,
+  pointOn,
+  type SliceName,
+  sliceDistance,
+  zoomedLook,
+} from './planes';
 import { HairLines } from './TurningOverlay';
 
 export function SliceView({ name }: { readonly name: SliceName }) {
@@ -26,7 +37,13 @@ export function SliceView({ name }: { readonly name: SliceName }) {
   const plane = look && point && size ? planeOf(name, look, point, size) : null;
   const ask = useAsked(plane, window);
   return (
-    <FlatPicture name={name} ask={ask} handlers={sliceHandlers(name, look, setLook, plane)} onSize={setSize}>
+    <FlatPicture
+      name={name}
+      words={`${name} slice`}
+      ask={ask}
+      handlers={sliceHandlers(name, look, setLook, plane)}
+      onSize={setSize}
+    >
       {plane && point && (
         <>
           <EdgeLabels {...AXES[name]} size={plane.size} spacing={plane.pixel_spacing} />
@@ -38,13 +55,21 @@ export function SliceView({ name }: { readonly name: SliceName }) {
 }
 
 /** A question that changes only where the picture does. */
-export function useAsked(plane: Plane | null, window: Window): ((size: Pair) => Promise<import('../core/messages').Picture>) | null {
+export function useAsked(
+  plane: Plane | null,
+  window: Window,
+): ((size: Pair) => Promise<import('../core/messages').Picture>) | null {
   const text = plane && JSON.stringify(plane);
   const ask = useCallback(() => engine.slice(JSON.parse(text ?? '{}') as Plane, window), [text, window]);
   return text ? ask : null;
 }
 
-function sliceHandlers(name: SliceName, look: Look | null, setLook: (look: Look) => void, plane: Plane | null): Handlers {
+function sliceHandlers(
+  name: SliceName,
+  look: Look | null,
+  setLook: (look: Look) => void,
+  plane: Plane | null,
+): Handlers {
   const point = (at: Pair) => {
     if (plane) {
       void engine.at(pointOn(plane, at)).then((pick) => placeCrossHair(pick, name));
@@ -76,8 +101,7 @@ function sliceHandlers(name: SliceName, look: Look | null, setLook: (look: Look)
         point(at);
       }
     },
-    begin: () => undefined,
-    end: () => undefined,
+    ...windowBack(),
   };
 }
 

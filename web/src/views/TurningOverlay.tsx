@@ -1,7 +1,7 @@
 /** What lies over the turning view: letters, bar, cross-hair and cube. */
 import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
-import { camera, crossHair, hasVolume } from '../state/store';
+import { camera, crossHair, hasVolume, states } from '../state/store';
 import { Cube } from './Cube';
 import { EdgeLabels } from './EdgeLabels';
 
@@ -14,9 +14,14 @@ export function TurningOverlay() {
   const place = hair && pixelOf(seen, hair.point);
   return (
     <div class="overlay">
-      <EdgeLabels right={rightOf(seen)} down={negate(seen.up)} size={seen.size} spacing={seen.pixel_spacing} />
+      <EdgeLabels
+        right={rightOf(seen)}
+        down={negate(seen.up)}
+        size={seen.size}
+        spacing={seen.pixel_spacing}
+      />
       {place && <HairLines at={place} />}
-      <Cube camera={seen} />
+      {states.value.orientation && <Cube camera={seen} />}
     </div>
   );
 }
@@ -24,7 +29,13 @@ export function TurningOverlay() {
 /** The cross-hair: four short lines around a place, which itself stays free. */
 export function HairLines({ at }: { readonly at: readonly [number, number] }) {
   return (
-    <svg class="hair" style={{ left: `${at[0]}px`, top: `${at[1]}px` }} width="41" height="41" aria-hidden="true">
+    <svg
+      class="hair"
+      style={{ left: `${at[0]}px`, top: `${at[1]}px` }}
+      width="41"
+      height="41"
+      aria-hidden="true"
+    >
       <path d="M20.5 0v14M20.5 27v14M0 20.5h14M27 20.5h14" />
     </svg>
   );

@@ -1,9 +1,9 @@
 /** The main view: the vessels cut open, freely turned. */
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
-import { resized } from '../core/camera';
-import { engine } from '../core/shared';
+import { resized, zoomed } from '../core/camera';
 import type { Picture, Vector, View } from '../core/messages';
+import { engine } from '../core/shared';
 import { cross } from '../core/vectors';
 import { listen } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
@@ -11,8 +11,8 @@ import * as actions from '../state/actions';
 import { recover } from '../state/device';
 import * as store from '../state/store';
 import { FrameLoop, type Shown } from './frame-loop';
-import { TurningOverlay } from './TurningOverlay';
 import { usePaneSize } from './pane-size';
+import { TurningOverlay } from './TurningOverlay';
 
 /** Radians that a slow turn advances in a second. */
 const TURN_PER_SECOND = 0.5;
@@ -61,7 +61,15 @@ export function TurningView() {
   }, []);
 
   return (
-    <div class="pane-body" ref={pane} data-testid="turning">
+    <div
+      class="pane-body"
+      ref={pane}
+      data-testid="turning"
+      role="application"
+      aria-label="vessels, cut open"
+      tabIndex={0}
+      onKeyDown={pressed}
+    >
       <canvas key={epoch} ref={canvas} class={store.isInverted.value ? 'picture inverted' : 'picture'} />
       <TurningOverlay />
     </div>
@@ -77,7 +85,7 @@ function wantedView(): View | null {
   return { camera, method: store.method.value, settings: store.viewSettings.value };
 }
 
-function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view }: Shown): void {
+function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted }: Shown): void {
   store.frameTime.value = drawn.milliseconds;
   if (canvas && drawn.picture) {
     paint(canvas, drawn.picture);
@@ -86,6 +94,7 @@ function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view }: Sho
     canvas.dataset.stage = stage;
     canvas.dataset.pixels = view.camera.size.join('x');
   }
+  store.settled.value = stage === 'moving' ? null : wanted.camera;
 }
 
 function paint(canvas: HTMLCanvasElement, picture: Picture): void {
@@ -110,8 +119,26 @@ function turnOn(): () => void {
   return () => cancelAnimationFrame(frame);
 }
 
+/** The pixels that an arrow key turns or, with Shift, pans. */
+const KEY_STEP = 24;
+
+/** Arrow keys turn, with Shift they pan; + and - zoom. */
+function pressed(event: KeyboardEvent): void {
+  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+  const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
+  if (step) {
+    event.preventDefault();
+    const by = [KEY_STEP * (step[0] ?? 0), KEY_STEP * (step[1] ?? 0)] as const;
+    actions.dragTurning(event.shiftKey ? 'pan' : 'rotate', by, null);
+  } else if (factor) {
+    actions.changeCamera((camera) => zoomed(camera, factor));
+  }
+}
+
 /** The axis of the picked vessel where the cross-hair stands; that of the view where none is picked. */
 let vesselAxis: Vector | null = null;
+
+const dragged = actions.windowBack();
 
 const handlers = {
   drag: (action: Parameters<typeof actions.dragTurning>[0], by: readonly [number, number]) =>
@@ -130,8 +157,11 @@ const handlers = {
       void pickAt(at);
     }
   },
-  begin: () => void findAxis(),
-  end: () => undefined,
+  ...dragged,
+  begin: () => {
+    dragged.begin();
+    void findAxis();
+  },
 };
 
 async function findAxis(): Promise<void> {
@@ -160,4 +190,3 @@ async function pickAt(at: readonly [number, number]): Promise<void> {
     isPicking = false;
   }
 }
-

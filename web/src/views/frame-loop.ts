@@ -10,15 +10,20 @@ import type { Drawn, View } from '../core/messages';
 /** The time of a picture while something changes (ms): 25 a second leave room for all else. */
 const MOVING_TIME = 40;
 /** How long nothing changes before the view is at rest (ms). */
-const REST_AFTER = 120;
+const REST_AFTER = 80;
 /** The fewest pixels along a side while something changes, as a part of all. */
 const COARSEST = 0.2;
-/** Samples along each side of a pixel at rest. */
+/** The most pixels of a picture along a pixel of the page, on dense screens. */
+const MOST_DENSE = 2;
+/** Samples along each side of a pixel at rest, where a picture with one takes at most so long (ms). */
 const SAMPLES = 2;
+const SAMPLED_WITHIN = 700;
 
 type Stage = 'moving' | 'full' | 'samples' | 'done';
 
 export interface Shown {
+  /** What was asked for, before the pixels were made fewer or more. */
+  readonly wanted: View;
   readonly view: View;
   readonly drawn: Drawn;
   readonly stage: Stage;
@@ -78,10 +83,10 @@ export class FrameLoop {
       const drawn = await this.engine.render(asked);
       if (!this.isStopped) {
         this.adapt(asked, view, drawn.milliseconds, stage);
-        this.show({ view: asked, drawn, stage });
+        this.show({ wanted: view, view: asked, drawn, stage });
       }
       this.isBusy = false;
-      this.goOn(view, stage);
+      this.goOn(view, stage, drawn.milliseconds);
     } catch (error) {
       this.isBusy = false;
       const failure = Failure.of(error);
@@ -100,7 +105,10 @@ export class FrameLoop {
       const settings = { ...view.settings, context_preview: true, samples: 1 };
       return { ...view, camera: sampled(view.camera, this.factor), settings };
     }
-    return stage === 'samples' ? { ...view, settings: { ...view.settings, samples: SAMPLES } } : view;
+    const camera = sampled(view.camera, Math.min(window.devicePixelRatio || 1, MOST_DENSE));
+    return stage === 'samples'
+      ? { ...view, camera, settings: { ...view.settings, samples: SAMPLES } }
+      : { ...view, camera };
   }
 
   /** As many pixels as take the wanted time, judged by the picture before; by no more than a half at once. */
@@ -113,13 +121,13 @@ export class FrameLoop {
     this.factor = Math.min(1, Math.max(COARSEST, used / 2, Math.min(ideal, used * 1.25)));
   }
 
-  private goOn(view: View, stage: Stage): void {
+  private goOn(view: View, stage: Stage, milliseconds: number): void {
     if (this.wanted !== view) {
       this.next();
     } else if (stage === 'moving') {
       const rest = REST_AFTER - (performance.now() - this.changed);
       this.timer = window.setTimeout(() => this.advance('full'), Math.max(rest, 0));
-    } else if (stage === 'full') {
+    } else if (stage === 'full' && milliseconds <= SAMPLED_WITHIN) {
       this.timer = window.setTimeout(() => this.advance('samples'), REST_AFTER);
     } else {
       this.stage = 'done';

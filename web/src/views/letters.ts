@@ -27,7 +27,12 @@ export function barLength(most: number): number {
   return step * power;
 }
 
-/** A position as radiologists read it, such as `R 17.6 P 35.3 S 12.1` (mm). */
-export function positionText(point: Vector): string {
-  return point.map((part, axis) => `${NAMES[axis]?.[part >= 0 ? 0 : 1]} ${Math.abs(part).toFixed(1)}`).join(' ');
+/** A position as radiologists read it, such as `R 17.6 P 35.3 S 12.1` (mm); by axes where the sides are not known. */
+export function positionText(point: Vector, isOriented = true): string {
+  if (!isOriented) {
+    return point.map((part, axis) => `${'xyz'[axis]} ${part.toFixed(1)}`).join(' ');
+  }
+  return point
+    .map((part, axis) => `${NAMES[axis]?.[part >= 0 ? 0 : 1]} ${Math.abs(part).toFixed(1)}`)
+    .join(' ');
 }

@@ -1,5 +1,5 @@
 /** The size of a pane in CSS pixels, whole numbers; none before it is laid out. */
-import { type RefObject } from 'preact';
+import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import type { Pair } from '../core/messages';
 

@@ -21,7 +21,8 @@ export interface Look {
 export function fittedLook(volume: VolumeReport, name: SliceName, size: Pair): Look {
   const center = middle(volume.corners);
   const { right, down } = AXES[name];
-  const reach = (axis: Vector) => Math.max(...volume.corners.map((corner) => Math.abs(dot(subtract(corner, center), axis))));
+  const reach = (axis: Vector) =>
+    Math.max(...volume.corners.map((corner) => Math.abs(dot(subtract(corner, center), axis))));
   const spacing = Math.max((2 * reach(right)) / size[0], (2 * reach(down)) / size[1]);
   return { center, spacing: spacing * 1.02 };
 }

@@ -1,5 +1,14 @@
-/** The worker that holds the study and computes its pictures. */
+/** The workers: one holds the study and computes its pictures; those named `thread` compute in its memory. */
 import { expose } from 'comlink';
+import { joinModule, type Shared } from '../core/module';
 import { EngineHost } from './host';
+import { THREAD } from './threads';
 
-expose(new EngineHost());
+if (self.name === THREAD) {
+  self.onmessage = (message: MessageEvent<Shared>) => {
+    self.postMessage('ready');
+    joinModule(message.data);
+  };
+} else {
+  expose(new EngineHost());
+}

@@ -1,6 +1,6 @@
 /** Loads a study of the same origin: the stream of voxels that `lumencut view` serves, and a file of centerlines. */
 import { Failure } from '../core/failure';
-import type { Progress } from '../core/messages';
+import type { Progress, States } from '../core/messages';
 import type { Engine } from '../core/module';
 import { ByteReader } from './byte-reader';
 import { narrowed } from './narrowed';
@@ -22,6 +22,16 @@ interface Header {
   readonly world_from_index: readonly (readonly number[])[];
   readonly notes?: readonly string[];
   readonly name?: string;
+  /** Whether the file says how large its voxels are, and where the patient's sides are. */
+  readonly states_spacing?: boolean;
+  readonly states_orientation?: boolean;
+}
+
+/** What is told of a study beside what the engine knows. */
+export interface Fetched {
+  readonly notes: string[];
+  readonly name: string;
+  readonly states: States;
 }
 
 /** Loads volume and centerlines one after the other; tells what was odd, and the name of the volume. */
@@ -30,13 +40,15 @@ export async function fetchStudy(
   addresses: Addresses,
   told: Told,
   signal: AbortSignal,
-): Promise<{ notes: string[]; name: string }> {
+): Promise<Fetched> {
   const notes: string[] = [];
   let name = '';
+  let states: States = { spacing: true, orientation: true };
   if (addresses.volume !== null) {
     const header = await fetchVolume(engine, addresses.volume, told, signal);
     notes.push(...(header.notes ?? []));
     name = header.name ?? '';
+    states = { spacing: header.states_spacing !== false, orientation: header.states_orientation !== false };
   } else {
     engine.close();
   }
@@ -47,7 +59,7 @@ export async function fetchStudy(
     const file = new URL(response.url).pathname.split('/').pop() ?? 'centerlines';
     notes.push(...(JSON.parse(engine.open_centerlines(bytes, file)) as string[]));
   }
-  return { notes, name };
+  return { notes, name, states };
 }
 
 async function answered(address: string, signal: AbortSignal): Promise<Response> {
@@ -58,11 +70,22 @@ async function answered(address: string, signal: AbortSignal): Promise<Response>
   const text = await response.text();
   const failure = Failure.of(text);
   throw failure.kind === 'unexpected'
-    ? new Failure('file', address, `an answer ${response.status}`, 'a file', 'look at the program that serves the page')
+    ? new Failure(
+        'file',
+        address,
+        `an answer ${response.status}`,
+        'a file',
+        'look at the program that serves the page',
+      )
     : failure;
 }
 
-async function fetchVolume(engine: Engine, address: string, told: Told, signal: AbortSignal): Promise<Header> {
+async function fetchVolume(
+  engine: Engine,
+  address: string,
+  told: Told,
+  signal: AbortSignal,
+): Promise<Header> {
   const response = await answered(address, signal);
   if (!response.body) {
     throw new Failure('file', address, 'an answer without content', 'a volume');
@@ -81,7 +104,13 @@ async function readHeader(bytes: ByteReader, address: string): Promise<Header> {
   const magic = new TextDecoder().decode(start.subarray(0, 8));
   const length = start.length === 12 ? new DataView(start.buffer, start.byteOffset).getUint32(8, true) : 0;
   if (magic !== MAGIC || length === 0 || length > LONGEST_HEADER) {
-    throw new Failure('format', address, 'another file', 'a stream of voxels', 'drop the file on the page instead');
+    throw new Failure(
+      'format',
+      address,
+      'another file',
+      'a stream of voxels',
+      'drop the file on the page instead',
+    );
   }
   return JSON.parse(new TextDecoder().decode(await bytes.take(length))) as Header;
 }
@@ -106,8 +135,15 @@ async function readVoxels(engine: Engine, bytes: ByteReader, header: Header, tol
 }
 
 /** The stream ended early: the server's words why, where it has some. */
-async function refuseShort(address: string, signal: AbortSignal, found: number, total: number): Promise<never> {
-  const problem = await fetch(new URL('problem', new URL(address, self.location.href)), { signal }).catch(() => null);
+async function refuseShort(
+  address: string,
+  signal: AbortSignal,
+  found: number,
+  total: number,
+): Promise<never> {
+  const problem = await fetch(new URL('problem', new URL(address, self.location.href)), { signal }).catch(
+    () => null,
+  );
   const words = problem?.ok ? await problem.text() : '';
   throw words
     ? new Failure('file', 'volume', words, 'a whole volume')

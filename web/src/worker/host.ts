@@ -1,9 +1,22 @@
 /** What the page asks its worker for. Errors leave as the texts that `Failure.of` reads. */
 import { transfer } from 'comlink';
 import { Failure } from '../core/failure';
-import type { Cpr, Drawn, Histogram, Pick, Picture, Plane, Progress, Report, Started, Vector, View, Window } from '../core/messages';
+import type {
+  Cpr,
+  Drawn,
+  Histogram,
+  Pick,
+  Picture,
+  Plane,
+  Progress,
+  Report,
+  Started,
+  Vector,
+  View,
+  Window,
+} from '../core/messages';
 import { Engine, loadModule } from '../core/module';
-import { fetchStudy, type Told } from './fetching';
+import { type Fetched, fetchStudy, type Told } from './fetching';
 import { Queue } from './queue';
 import { startThreads } from './threads';
 
@@ -61,12 +74,16 @@ export class EngineHost {
   }
 
   /** Opens a volume and centerlines of the same origin; `told` hears how far it is. */
-  openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<{ report: Report; notes: string[]; name: string }> {
+  openAddresses(
+    volume: string | null,
+    centerlines: string | null,
+    told: Told,
+  ): Promise<Fetched & { report: Report }> {
     this.cancelled = new AbortController();
     const { signal } = this.cancelled;
     return this.run(async () => {
-      const { notes, name } = await fetchStudy(this.ready(), { volume, centerlines }, told, signal);
-      return { report: this.report(), notes, name };
+      const fetched = await fetchStudy(this.ready(), { volume, centerlines }, told, signal);
+      return { ...fetched, report: this.report() };
     });
   }
 
@@ -97,7 +114,9 @@ export class EngineHost {
       const start = performance.now();
       const bytes = await this.ready().render(JSON.stringify(view));
       const milliseconds = performance.now() - start;
-      return bytes ? sent({ size: view.camera.size, bytes: plain(bytes) }, milliseconds) : { picture: null, milliseconds };
+      return bytes
+        ? sent({ size: view.camera.size, bytes: plain(bytes) }, milliseconds)
+        : { picture: null, milliseconds };
     });
   }
 

@@ -1,4 +1,4 @@
-/** The types of voxels that the module computes with, and how wider ones become `float32`. */
+/** The types of voxels that the module computes with, and how others become one of them. */
 import { Failure } from '../core/failure';
 
 interface Narrowed {
@@ -9,12 +9,14 @@ interface Narrowed {
   readonly narrow: (bytes: Uint8Array) => Uint8Array;
 }
 
-const AS_THEY_ARE: Readonly<Record<string, number>> = { int8: 1, uint8: 1, int16: 2, uint16: 2, float32: 4 };
+const AS_THEY_ARE: Readonly<Record<string, number>> = { uint8: 1, int16: 2, uint16: 2, float32: 4 };
 
-const WIDE = {
-  int32: Int32Array,
-  uint32: Uint32Array,
-  float64: Float64Array,
+/** Types that become another one: bytes exactly, wide numbers to 24 bits. */
+const OTHERS = {
+  int8: { From: Int8Array, To: Int16Array, dtype: 'int16' },
+  int32: { From: Int32Array, To: Float32Array, dtype: 'float32' },
+  uint32: { From: Uint32Array, To: Float32Array, dtype: 'float32' },
+  float64: { From: Float64Array, To: Float32Array, dtype: 'float32' },
 } as const;
 
 export function narrowed(dtype: string): Narrowed {
@@ -22,14 +24,14 @@ export function narrowed(dtype: string): Narrowed {
   if (bytesPerVoxel !== undefined) {
     return { dtype, bytesPerVoxel, narrow: (bytes) => bytes };
   }
-  if (!(dtype in WIDE)) {
-    const expected = [...Object.keys(AS_THEY_ARE), ...Object.keys(WIDE)].join(', ');
+  if (!(dtype in OTHERS)) {
+    const expected = [...Object.keys(AS_THEY_ARE), ...Object.keys(OTHERS)].join(', ');
     throw new Failure('volume', 'type of the voxels', dtype, expected);
   }
-  const Wide = WIDE[dtype as keyof typeof WIDE];
+  const { From, To, dtype: becomes } = OTHERS[dtype as keyof typeof OTHERS];
   const narrow = (bytes: Uint8Array) => {
-    const voxels = new Wide(bytes.slice().buffer as ArrayBuffer);
-    return new Uint8Array(Float32Array.from(voxels).buffer);
+    const voxels = new From(bytes.slice().buffer as ArrayBuffer);
+    return new Uint8Array(To.from(voxels).buffer);
   };
-  return { dtype: 'float32', bytesPerVoxel: Wide.BYTES_PER_ELEMENT, narrow };
+  return { dtype: becomes, bytesPerVoxel: From.BYTES_PER_ELEMENT, narrow };
 }

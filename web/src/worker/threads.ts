@@ -4,6 +4,9 @@ import { type Shared, useThreads } from '../core/module';
 /** The most threads: beyond them memory, not arithmetic, is what a picture waits for. */
 const MOST = 16;
 
+/** The name of a worker that is a thread. */
+export const THREAD = 'thread';
+
 /** Starts as many threads as the machine runs at once; tells how many compute. */
 export async function startThreads(shared: Shared): Promise<number> {
   const count = Math.min(navigator.hardwareConcurrency || 1, MOST);
@@ -16,7 +19,8 @@ export async function startThreads(shared: Shared): Promise<number> {
 }
 
 function startThread(shared: Shared): Promise<void> {
-  const worker = new Worker(new URL('./thread.worker.ts', import.meta.url), { type: 'module' });
+  // Its own file once more: what all of them need is loaded and compiled once.
+  const worker = new Worker(self.location.href, { type: 'module', name: THREAD });
   return new Promise((resolve, reject) => {
     worker.onmessage = () => resolve();
     worker.onerror = (event) => reject(new Error(event.message || 'a worker did not start'));

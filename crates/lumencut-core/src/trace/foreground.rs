@@ -41,6 +41,7 @@ impl Foreground {
             return Err(error.mend("a single slice has no centerlines: give the whole mask"));
         }
         match mask.voxels() {
+            #[cfg(not(target_arch = "wasm32"))]
             Voxels::I8(voxels) => Self::of(mask, voxels, labels, stop),
             Voxels::U8(voxels) => Self::of(mask, voxels, labels, stop),
             Voxels::I16(voxels) => Self::of(mask, voxels, labels, stop),
@@ -138,6 +139,7 @@ label_values!(i8, u8, i16, u16, i32, u32, i64, u64);
 pub fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
     let place: usize = (0..3).map(|a| index[a] * mask.strides()[a]).sum();
     match mask.voxels() {
+        #[cfg(not(target_arch = "wasm32"))]
         Voxels::I8(voxels) => voxels[place].label(),
         Voxels::U8(voxels) => voxels[place].label(),
         Voxels::I16(voxels) => voxels[place].label(),

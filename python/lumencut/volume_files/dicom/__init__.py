@@ -16,8 +16,14 @@ from lumencut.volume_files.dicom.files import File, read_files
 from lumencut.volume_files.dicom.headers import is_dicom
 from lumencut.volume_files.dicom.judging import Wanted, described, judged
 from lumencut.volume_files.dicom.sources import is_zip
+<<<<<<< HEAD
 from lumencut.volume_files.dicom.values import load
 from lumencut.volume_files.opened import Progress, VolumeFile, refusing
+=======
+from lumencut.volume_files.dicom.values import load, settled_type
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile, refusing, shown
+from lumencut.volume_files.rescale import is_integral
+>>>>>>> main
 
 __all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
 
@@ -34,12 +40,17 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
         series = judged(path, read(notes), wanted, notes)
     stack, space = series.stack, "LPS (as every DICOM)"
 
-    def voxels(progress: Progress) -> npt.NDArray[Any]:
-        return load(stack, notes, progress)
+    def voxels(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
+        return load(stack, notes, progress, filled)
 
     return VolumeFile(
+<<<<<<< HEAD
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
         filled=stack.missing, details=series.details,
+=======
+        path, "DICOM", stack.size, stored, "LPS (as every DICOM)", stack.world_from_index, voxels, notes,
+        filled=stack.missing, details=details, settled_type=settled_type(stack),
+>>>>>>> main
     )  # fmt: skip
 
 

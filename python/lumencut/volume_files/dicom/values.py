@@ -8,15 +8,20 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.volume_files.dicom.pixels import PixelReader
+<<<<<<< HEAD
 from lumencut.volume_files.dicom.stack import Stack
 from lumencut.volume_files.opened import Progress, refusing
+=======
+from lumencut.volume_files.opened import Filled, Progress, refusing, unfollowed
+>>>>>>> main
 from lumencut.volume_files.rescale import holding, is_integral, rescaled
 
 _INT32 = np.iinfo(np.int32)
 
 
-def load(stack: Stack, notes: list[str], progress: Progress) -> npt.NDArray[Any]:
+def load(stack: Stack, notes: list[str], progress: Progress, filled: Filled) -> npt.NDArray[Any]:
     """Read slice after slice, and fill in between them what the grid asks for."""
+<<<<<<< HEAD
     places = np.array([one.place for one in stack.slices])
     whole = np.flatnonzero(places % 1 == 0)
     if len(whole) == len(places):
@@ -30,13 +35,47 @@ def load(stack: Stack, notes: list[str], progress: Progress) -> npt.NDArray[Any]
     for fill in stack.fills:
         volume[fill.k] = _mixed(measured[rows[fill.before]], measured[rows[fill.after]], fill.part)
     return volume
+=======
+    if not (stack.places % 1).any():
+        places = stack.places.astype(np.int64)
+        # Missing slices are interpolated only once all others are there.
+        is_whole = len(places) == places[-1] + 1
+        volume = _read(stack, places, notes, progress, filled if is_whole else unfollowed)
+        _interpolate(volume, places)
+        return volume
+    measured = _read(stack, np.arange(len(stack.slices)), notes, progress, unfollowed)
+    return _between(measured, stack.places)
+>>>>>>> main
+
+
+def settled_type(stack: Stack) -> np.dtype[Any] | None:
+    """The type that the values will have; None where it takes the values themselves to tell."""
+    if not _is_exact(stack) or all(s.image.pixel_keyword != "PixelData" for s in stack.slices):
+        return np.dtype(np.float32)
+    limits = np.iinfo(np.int16)
+    ranges = {(_stored_range(s.image.header), s.scaling) for s in stack.slices}
+    ends = [end * slope + intercept for stored, (slope, intercept) in ranges for end in stored]
+    is_narrow = limits.min <= min(ends) and max(ends) <= limits.max
+    return np.dtype(np.int16) if is_narrow else None
+
+
+def _stored_range(header: Any) -> tuple[int, int]:
+    """The smallest and the largest value that the stored bits can hold."""
+    bits = int(header.get("BitsStored") or header.BitsAllocated)
+    if header.get("PixelRepresentation"):
+        return -(1 << bits - 1), (1 << bits - 1) - 1
+    return 0, (1 << bits) - 1
+
+
+def _is_exact(stack: Stack) -> bool:
+    return all(is_integral(*s.scaling) for s in stack.slices)
 
 
 def _read(
-    stack: Stack, places: npt.NDArray[np.int64], notes: list[str], progress: Progress
+    stack: Stack, places: npt.NDArray[np.int64], notes: list[str], progress: Progress, filled: Filled
 ) -> npt.NDArray[Any]:
     """Read each slice to its place, in the narrowest type that has held all values so far."""
-    exact = all(is_integral(*s.scaling) for s in stack.slices)
+    exact = _is_exact(stack)
     ni, nj, _ = stack.size
     volume: npt.NDArray[Any] | None = None
     with PixelReader(stack.slices, notes) as reader:
@@ -48,6 +87,7 @@ def _read(
                 volume = np.empty((int(places[-1]) + 1, nj, ni), start)
             volume = _widened(volume, places[:number], values)
             volume[place] = values
+            filled(volume, number + 1)
             progress(number + 1, len(stack.slices))
     assert volume is not None, "a series has at least one slice"
     return volume

@@ -1,0 +1,151 @@
+//! What the page relies on, tested on this machine's own target.
+
+use glam::DVec3;
+use lumencut::backend::Backend;
+use lumencut::devices::Wanted;
+use lumencut::pipeline::Request;
+use serde_json::json;
+
+use crate::planes::Plane;
+use crate::session::Session;
+use crate::sides::CprMessage;
+use crate::view::ViewMessage;
+
+fn opened(phantom: &str) -> Session {
+    let mut session = Session::default();
+    session.open_phantom(phantom).expect("a phantom");
+    session
+}
+
+fn view(session: &Session, size: [usize; 2]) -> ViewMessage {
+    let camera = serde_json::to_value(session.fitted("anterior", size).expect("a camera")).expect("JSON");
+    let text = json!({"camera": camera, "method": "csr", "settings": {"window": [300.0, 900.0]}});
+    ViewMessage::read(&text.to_string()).expect("a view")
+}
+
+/// The middle of the first vessel, and how far along it is.
+fn on_first_vessel(session: &Session) -> (DVec3, f64) {
+    let vessels = session.study.tree().expect("a tree").tree().vessels();
+    let middle = vessels[0].points().len() / 2;
+    (vessels[0].points()[middle], vessels[0].arc_length()[middle])
+}
+
+#[test]
+fn a_pick_is_the_pixel_of_the_whole_picture() {
+    let mut session = opened("stenosis");
+    let view = view(&session, [96, 80]).view().expect("a view");
+    let scene = session.study.scene().expect("a scene");
+    let request = Request::new(&view.camera, &view.settings);
+    let (mut backend, _) = pollster::block_on(Backend::new(Wanted::Cpu)).expect("a CPU");
+    let (frame, _) =
+        pollster::block_on(backend.render_by(view.method, &scene, &request)).expect("a frame");
+    let (depth, vessel) = (frame.depth().to_vec(), frame.vessel.clone());
+    for (x, y) in [(48, 40), (10, 12), (90, 70), (50, 8)] {
+        let pick = session.pick(&view, [x as f64, y as f64]).expect("a pick");
+        let point = lumencut::positions::world_from_pixel(
+            &view.camera,
+            [x as f64, y as f64],
+            f64::from(depth[y * 96 + x]),
+        );
+        // The sub-view has other sums of floats, nothing else.
+        assert!(point.distance(DVec3::from_array(pick.point)) < 1e-3, "pixel {x}, {y}");
+        assert_eq!(pick.vessel, usize::try_from(vessel[y * 96 + x]).ok());
+    }
+}
+
+#[test]
+fn a_place_on_a_vessel_is_told_with_its_arc_length() {
+    let session = opened("y_junction");
+    let (point, along) = on_first_vessel(&session);
+    let at = session.at(point.to_array());
+    assert_eq!(at.vessel, Some(0));
+    assert!((at.arc_length.expect("a place") - along).abs() < 1e-9);
+    assert!(at.value.expect("inside") > 200.0);
+    let outside = session.at([1e4, 0.0, 0.0]);
+    assert_eq!((outside.vessel, outside.value), (None, None));
+}
+
+#[test]
+fn a_slice_shows_the_voxels_of_its_plane() {
+    let session = opened("y_junction");
+    let (point, _) = on_first_vessel(&session);
+    let plane = Plane {
+        center: point.to_array(),
+        right: [1.0, 0.0, 0.0],
+        down: [0.0, 1.0, 0.0],
+        size: [3, 3],
+        pixel_spacing: 0.2,
+    };
+    let value = session.at(point.to_array()).value.expect("inside");
+    let picture = session.slice(&plane, [f64::from(value), 200.0]).expect("a slice");
+    // The level of a window is its middle grey.
+    assert!((i32::from(picture.bytes[4 * 4]) - 128).abs() <= 1);
+    assert_eq!(picture.bytes.len(), 3 * 3 * 4);
+    let away = Plane { center: [1e4, 0.0, 0.0], ..plane };
+    let nothing = session.slice(&away, [0.0, 1.0]).expect("a slice");
+    assert!(nothing.bytes.chunks_exact(4).all(|pixel| pixel[..3] == [0, 0, 0]));
+}
+
+#[test]
+fn the_straightened_vessel_runs_down_the_middle() {
+    let mut session = opened("stenosis");
+    let message = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5 };
+    let picture = session.straightened(message, [300.0, 900.0]).expect("a CPR");
+    let [width, height] = picture.size;
+    let laid = session.laid().expect("the layout");
+    for row in [2, height / 2, height - 3] {
+        let middle = laid.world([(width - 1) as f64 / 2.0, row as f64]);
+        let along = session.at(middle).arc_length.expect("in the lumen");
+        assert!((along - laid.arc_length(row as f64)).abs() < 0.5);
+        let pixel = laid.pixel(middle);
+        assert!((pixel[0] - (width - 1) as f64 / 2.0).abs() < 0.1 && (pixel[1] - row as f64).abs() < 0.1);
+    }
+    let turned = CprMessage { angle: 1.0, ..message };
+    assert_eq!(session.straightened(turned, [300.0, 900.0]).expect("a CPR").size, picture.size);
+}
+
+#[test]
+fn voxels_come_in_parts_and_must_fit() {
+    let mut session = Session::default();
+    let header = json!({"size": [2, 2, 2], "dtype": "int16", "world_from_index":
+        [[1.0, 0.0, 0.0, -5.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 3.0, 0.0], [0.0, 0.0, 0.0, 1.0]]});
+    session.begin_volume(&header.to_string()).expect("room");
+    session.voxel_bytes(2, 2).expect("room").copy_from_slice(&700i16.to_le_bytes());
+    assert_eq!(session.at([-4.0, 0.0, 0.0]).value, Some(700.0));
+    assert_eq!(session.voxel_bytes(15, 2).expect_err("beyond").kind, "volume");
+    let odd = header.to_string().replace("int16", "complex64");
+    assert_eq!(session.begin_volume(&odd).expect_err("odd").found, "complex64");
+    let huge = header.to_string().replace("[2,2,2]", "[4000000000,4000000000,4000000000]");
+    assert_eq!(session.begin_volume(&huge).expect_err("too many").kind, "volume");
+}
+
+#[test]
+fn a_broken_file_of_centerlines_leaves_the_tree() {
+    let mut session = opened("y_junction");
+    let error = session.open_centerlines(b"<VTKFile", "tree.vtp").expect_err("broken");
+    assert_eq!(error.kind, "format");
+    assert!(session.study.tree().is_some());
+    let points = session.study.tree().expect("a tree").tree().vessels()[0].points().to_vec();
+    let rows = points.iter().map(|p| format!("{},{},{},1.5\n", p.x, p.y, p.z)).collect::<String>();
+    let text = format!("x,y,z,radius\n{rows}");
+    session.open_centerlines(text.as_bytes(), "line.csv").expect("a line");
+    assert_eq!(session.study.tree().map(|tree| tree.tree().vessels().len()), Some(1));
+}
+
+#[test]
+fn the_report_names_vessels_and_windows() {
+    let session = opened("stenosis");
+    let report = session.study.report().expect("a report");
+    assert_eq!(report["vessels"].as_array().map(Vec::len), Some(1));
+    assert!(report["windows"]["main"][1].as_f64().expect("a width") > 0.0);
+    assert!(Session::default().study.report().expect("a report")["volume"].is_null());
+}
+
+#[test]
+fn messages_that_are_none_are_refused() {
+    assert!(ViewMessage::read("{}").is_err());
+    let session = opened("y_junction");
+    let odd = ViewMessage { method: "xyz".into(), ..view(&session, [8, 8]) };
+    assert_eq!(odd.view().expect_err("no method").subject, "method");
+    assert!(Session::default().open_phantom("heart").is_err());
+}

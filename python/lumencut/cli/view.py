@@ -1,0 +1,122 @@
+"""``lumencut view``: the viewer in a browser tab, served from this machine to this machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from lumencut.cli import options
+from lumencut.cli.browser import open_or_explain
+from lumencut.cli.demo import demo_scene
+from lumencut.cli.mistakes import check_files, check_reading
+from lumencut.cli.report import bar, detail, say, verbose_option
+from lumencut.cli.scene import centerlines_of
+
+if TYPE_CHECKING:
+    from lumencut.centerline_file import CenterlineFile
+    from lumencut.several_centerlines import CenterlineFiles
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.viewer.arriving import ArrivingScene
+    from lumencut.volume import Volume
+    from lumencut.volume_files.opened import VolumeFile
+
+
+@click.command(short_help="Open the viewer in a browser tab.")
+@click.argument("volume", type=options.FILE, required=False)
+@click.argument("centerlines", type=options.FILE, nargs=-1)
+@click.option("--demo", "is_demo", is_flag=True, help="Show the CT of lumencut demo.")
+@options.file_options
+@click.option(
+    "--port",
+    type=click.IntRange(0, 65535),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="The port to listen on; 0 takes any that is free.",
+)
+@click.option("--no-browser", is_flag=True, help="Print the address alone, and open no browser.")
+@verbose_option
+def view(
+    volume: Path | None,
+    centerlines: tuple[Path, ...],
+    is_demo: bool,
+    port: int,
+    no_browser: bool,
+    **chosen: Any,
+) -> None:
+    """Show VOLUME and CENTERLINES in a browser tab, until Ctrl-C ends it.
+
+    VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp,
+    .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
+    Without them the viewer opens empty, and takes files that are dropped into it.
+
+    The page and the data go to browsers of this machine alone, under an address with a secret in it, which
+    stands on a line of its own. Nothing is sent anywhere else.
+
+    \b
+    lumencut view ct.nii.gz centerlines.vtp
+    lumencut view --demo
+    lumencut view dicom/ --series 4
+    lumencut view ct.nrrd LAD.mrk.json LCX.mrk.json --port 8765 --no-browser
+    """  # noqa: D301 - click needs the control character itself
+    if is_demo and volume is not None:
+        raise click.UsageError(f"found --demo and {volume}; expected one of them: --demo has its own scan")
+    check_files(volume, centerlines)
+    volumes = [] if volume is None else [volume]
+    check_reading(chosen, volumes, has_centerlines=bool(centerlines))
+    from lumencut.viewer import page
+    from lumencut.viewer.server import ViewerServer
+
+    built = page.Page.of(page.FOLDER)
+    scene = _demo() if is_demo else None
+    if volume is not None:
+        scene = _scene(volume, centerlines, chosen)
+    with ViewerServer(built, scene, port) as server:
+        say(server.place.address)
+        open_or_explain(server.place, is_wanted=not no_browser)
+        server.wait()
+
+
+def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) -> ArrivingScene:
+    """The scene, of which the small files and the headers are read: what is wrong with them shows at once."""
+    from lumencut.viewer.arriving import ArrivingScene
+
+    lines = centerlines_of(centerlines)
+    file = _opened(volume, chosen)
+    detail(f"{volume}: {file.format}, {' × '.join(map(str, file.size))} voxels")
+    if lines is None:
+        return ArrivingScene(file)
+    return ArrivingScene(file, lambda voxels: _tree(lines, voxels, chosen))
+
+
+def _demo() -> ArrivingScene:
+    """The scene of the demo, which is in memory."""
+    from lumencut.viewer.arriving import ArrivingScene
+    from lumencut.volume_files.opened import held_in_memory
+
+    volume, tree, _ = demo_scene()
+    return ArrivingScene(held_in_memory(volume, "demo"), lambda _: tree)
+
+
+def _opened(path: Path, chosen: dict[str, Any]) -> VolumeFile:
+    from lumencut.volume_files import open_volume
+
+    with bar(f"reading {path.name}", "file") as told:
+        return open_volume(
+            path,
+            series=chosen["series"],
+            phase=chosen["phase"],
+            fill_gaps=chosen["fill_gaps"],
+            resample_slices=chosen["resample_slices"],
+            progress=told,
+        )
+
+
+def _tree(lines: CenterlineFile | CenterlineFiles, volume: Volume, chosen: dict[str, Any]) -> VesselTree:
+    from lumencut.centerline_file import CenterlineFile
+
+    if isinstance(lines, CenterlineFile):
+        return lines.beside(volume, chosen["coordinates"], chosen["unit"])[0]
+    return lines.tree(chosen["coordinates"], chosen["unit"], volume)

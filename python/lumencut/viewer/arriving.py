@@ -1,0 +1,145 @@
+"""A scene that is read while the server already answers, and how far its reading is."""
+
+from __future__ import annotations
+
+import logging
+import os
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.centerline_writers import centerline_content
+from lumencut.errors import FormatError, LumencutError
+from lumencut.vessel_tree import VesselTree
+from lumencut.viewer import volume_stream
+from lumencut.volume import Volume
+from lumencut.volume_files import log_oddities
+from lumencut.volume_files.opened import VolumeFile
+
+_log = logging.getLogger("lumencut")
+
+#: How long the end of the server waits for its reader, which hears of it between two slices (s).
+_PATIENCE = 5.0
+
+
+class _StoppedError(BaseException):
+    """The server ends; no error, so that no reader takes it for one."""
+
+
+class ArrivingScene:
+    """A volume that a thread of its own reads, and the centerlines that it decides the place of.
+
+    The thread alone writes; each attribute that others read changes at once.
+
+    Parameters
+    ----------
+    file : VolumeFile
+        The volume, of which the headers are read.
+    tree_in : callable, optional
+        Gives the vessel tree where it gets the volume; None where there are no centerlines.
+    """
+
+    def __init__(self, file: VolumeFile, tree_in: Callable[[Volume], VesselTree] | None = None) -> None:
+        self._file, self._tree_in = file, tree_in
+        self._is_stopped = False
+        self._thread = threading.Thread(target=self._read, name="lumencut volume", daemon=True)
+        #: The type of the voxels; None as long as it is not known.
+        self.read_type: np.dtype[Any] | None = file.settled_type
+        #: The voxels [k, j, i] and how many of their first slices are final.
+        self.voxels: tuple[npt.NDArray[Any] | None, int] = (None, 0)
+        #: What is wrong with the volume, and with the centerlines.
+        self.problem: LumencutError | None = None
+        self.centerline_problem: LumencutError | None = None
+        #: The centerlines as a .vtp file; None as long as they are not placed.
+        self.centerlines: bytes | None = None
+
+    @property
+    def has_centerlines(self) -> bool:
+        """Whether there are centerlines, read or not."""
+        return self._tree_in is not None
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether all voxels are there."""
+        return self.voxels[1] == self.slices
+
+    @property
+    def slices(self) -> int:
+        """The number of slices."""
+        return self._file.size[2]
+
+    def header(self, read_type: np.dtype[Any]) -> bytes:
+        """Return the first bytes of the volume's stream."""
+        return volume_stream.header(self._file, read_type)
+
+    def length(self, read_type: np.dtype[Any]) -> int:
+        """Return how many bytes follow the header."""
+        return volume_stream.length(self._file, read_type)
+
+    def has_news(self, count: int) -> bool:
+        """Tell whether more slices than these are there, or will never be."""
+        return self.voxels[1] > count or self.problem is not None
+
+    def start(self) -> None:
+        """Begin to read."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Give up what is not read yet."""
+        self._is_stopped = True
+        if self._thread.is_alive():
+            self._thread.join(_PATIENCE)
+
+    def _read(self) -> None:
+        try:
+            self._read_volume()
+        except _StoppedError:
+            return
+        except Exception as error:
+            self.problem = self._told(error)
+            self.centerline_problem = self.problem
+            _log.warning("%s", self.problem)
+
+    def _read_volume(self) -> None:
+        volume = self._file.volume(self._heed, self._fill)
+        promised, self.read_type = self.read_type, volume.dtype
+        self.voxels = volume.array, self.slices
+        log_oddities(self._file)
+        if promised not in (None, volume.dtype):
+            # Whoever has the header of before cannot take these voxels; the next one gets the right header.
+            found, expected = f"voxels of type {volume.dtype}", f"{promised} as its headers say"
+            self.problem = FormatError(self._file.path.name, found, expected, "load the page again")
+        if self._tree_in is not None:
+            self._place(self._tree_in, volume)
+
+    def _place(self, tree_in: Callable[[Volume], VesselTree], volume: Volume) -> None:
+        try:
+            self.centerlines = centerline_content(tree_in(volume), "vtp")
+        except Exception as error:
+            self.centerline_problem = self._told(error)
+            _log.warning("%s", self.centerline_problem)
+
+    def _heed(self, done: int, total: int) -> None:
+        if self._is_stopped:
+            raise _StoppedError
+
+    def _fill(self, voxels: npt.NDArray[Any], count: int) -> None:
+        """Let others see slices that are final, in an array that will not be replaced by another."""
+        self._heed(count, self.slices)
+        if voxels.dtype == self.read_type and voxels.shape[0] == self.slices:
+            self.voxels = voxels, count
+
+    def _told(self, error: Exception) -> LumencutError:
+        """The error in words for the page, which learns the names of files but not of folders."""
+        if isinstance(error, MemoryError):
+            found, expected = "more than the free memory holds", "a scene that fits into it"
+            return FormatError(self._file.path.name, found, expected)
+        if not isinstance(error, LumencutError):
+            found = f"an unexpected {type(error).__name__}"
+            return FormatError(self._file.path.name, found, "a scene that can be read")
+        folder = f"{self._file.path.parent}{os.sep}"
+        subject, *rest = error.subject, error.found, error.expected, error.mend
+        return type(error)(subject.removeprefix(folder), *rest)

@@ -1,0 +1,86 @@
+"""What the server refuses, and what it tells the browser to refuse.
+
+A page of another site may be open in the same browser, and other programs run on the same machine. None of
+them may read a scan, so every request must know the token, and must name this server as its host.
+"""
+
+from __future__ import annotations
+
+import re
+import secrets
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+#: The page gets everything from this server, and nobody may show it within another page.
+_CONTENT_SECURITY_POLICY = {
+    "default-src": "'none'",
+    "script-src": "'self' 'wasm-unsafe-eval'",
+    "worker-src": "'self'",
+    "style-src": "'self'",
+    "img-src": "'self' data: blob:",
+    "connect-src": "'self'",
+    "font-src": "'self'",
+    "base-uri": "'none'",
+    "form-action": "'none'",
+    "frame-ancestors": "'none'",
+}
+#: Only features that browsers know: of others they complain.
+_DENIED_FEATURES = (
+    *("accelerometer", "browsing-topics", "camera", "display-capture", "geolocation", "gyroscope", "hid"),
+    *("idle-detection", "local-fonts", "magnetometer", "microphone", "midi", "payment", "serial", "usb"),
+    "xr-spatial-tracking",
+)
+
+#: What every response says, errors too.
+HEADERS = {
+    "Content-Security-Policy": "; ".join(
+        f"{name} {value}" for name, value in _CONTENT_SECURITY_POLICY.items()
+    ),
+    # Isolated from other sites, the page may share memory between its workers.
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Embedder-Policy": "require-corp",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cache-Control": "no-store",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Permissions-Policy": ", ".join(f"{feature}=()" for feature in _DENIED_FEATURES),
+}
+
+#: Letters of paths that are served. Without % no path has a second spelling.
+_PLAIN = re.compile(rb"/[\w.~/-]*", re.ASCII)
+_LONGEST = 512
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where the server is: its port, and the token that stands for the right to read."""
+
+    port: int
+    token: str
+
+    @property
+    def address(self) -> str:
+        """The address of the page."""
+        return f"http://127.0.0.1:{self.port}/{self.token}/"
+
+    def is_host(self, host: str | None) -> bool:
+        """Tell whether a request is for this server: a name of another site may lead to this machine too."""
+        return host in (f"127.0.0.1:{self.port}", f"localhost:{self.port}")
+
+    def inside(self, raw_path: bytes) -> str | None:
+        """Return what follows the token in a path as it was sent; None for all that is not plainly within."""
+        if len(raw_path) > _LONGEST or not _PLAIN.fullmatch(raw_path):
+            return None
+        _, first, *rest = raw_path.split(b"/")
+        # How long this takes tells nothing of the token.
+        is_ours = secrets.compare_digest(first, self.token.encode())
+        is_plain = all(part not in (b"", b".", b"..") for part in rest[:-1])
+        if not is_ours or not is_plain or rest[-1:] in ([b"."], [b".."]):
+            return None
+        return raw_path[1 + len(first) :].decode()
+
+
+def has_body(headers: Mapping[str, str]) -> bool:
+    """Tell whether more follows the headers of a request, which none of ours has."""
+    return headers.get("content-length", "0") != "0" or "transfer-encoding" in headers

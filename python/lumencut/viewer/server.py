@@ -1,0 +1,112 @@
+"""The run of the server: its socket, its thread, its limits and its end."""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import socket
+import threading
+from types import TracebackType
+
+import uvicorn
+
+from lumencut.errors import FileError
+from lumencut.viewer.application import Application
+from lumencut.viewer.arriving import ArrivingScene
+from lumencut.viewer.connection import Connection
+from lumencut.viewer.guard import HEADERS, Place
+from lumencut.viewer.page import Page
+
+_LOOPBACK = "127.0.0.1"
+#: The waiting connections that the system keeps for the server.
+_BACKLOG = 32
+_TOKEN_BYTES = 32
+#: Browsers send what other servers of this machine had them keep, which may be a lot (bytes).
+_MOST_HEADERS = 32 << 10
+#: How long the end waits for the thread, which hears of it ten times a second (s).
+_PATIENCE = 5.0
+
+
+class ViewerServer:
+    """A server for browsers of this machine, in a thread of its own as long as its context is open.
+
+    Parameters
+    ----------
+    page : Page
+        The built page.
+    scene : ArrivingScene, optional
+        What it shows; without one the page is empty.
+    port : int, default 0
+        The port to listen on; 0 for any that is free.
+
+    Raises
+    ------
+    FileError
+        Where the port cannot be had.
+    """
+
+    def __init__(self, page: Page, scene: ArrivingScene | None = None, port: int = 0) -> None:
+        self._socket = _listening(port)
+        self.place = Place(self._socket.getsockname()[1], secrets.token_urlsafe(_TOKEN_BYTES))
+        self._scene = scene
+        config = uvicorn.Config(
+            Application(page, scene, self.place),
+            http=Connection,
+            ws="none",
+            backlog=_BACKLOG,
+            lifespan="off",
+            loop="asyncio",
+            log_config=None,
+            log_level="critical",
+            access_log=False,
+            proxy_headers=False,
+            server_header=False,
+            h11_max_incomplete_event_size=_MOST_HEADERS,
+            headers=list(HEADERS.items()),
+        )
+        self._server = uvicorn.Server(config)
+        # Signals come to the main thread, which ends this one: uvicorn would take them for itself.
+        self._thread = threading.Thread(
+            target=self._server.run, args=([self._socket],), name="lumencut server", daemon=True
+        )
+
+    def __enter__(self) -> ViewerServer:
+        if self._scene is not None:
+            self._scene.start()
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        # Whoever still reads is cut off.
+        self._server.should_exit = self._server.force_exit = True
+        self._thread.join(_PATIENCE)
+        if self._scene is not None:
+            self._scene.stop()
+        self._socket.close()
+
+    def wait(self) -> None:
+        """Wait for a signal, which raises an error here; by itself the server never ends."""
+        while self._thread.is_alive():
+            # In pieces: some systems deliver signals only between them.
+            self._thread.join(0.5)
+        raise RuntimeError("the viewer's server ended by itself")
+
+
+def _listening(port: int) -> socket.socket:
+    """A socket that listens on loopback and nowhere else."""
+    own = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        if os.name == "posix":
+            # A port can be had again at once; two servers on one port are still refused.
+            own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        own.bind((_LOOPBACK, port))
+        own.listen(_BACKLOG)
+    except OSError as error:
+        own.close()
+        taken = error.errno == errno.EADDRINUSE
+        found = "another program on it" if taken else error.strerror or str(error)
+        raise FileError(f"port {port}", found, "a free port", "give another --port, or none") from error
+    return own

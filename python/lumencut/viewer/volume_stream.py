@@ -1,0 +1,69 @@
+"""A volume as the page reads it: a header that says what follows, then the voxels as bytes.
+
+The stream is the magic ``LCVOLUME``, the length of the JSON (uint32, little-endian), the JSON, padded with
+blanks so that the voxels begin at a multiple of 16 bytes, and the voxels, little-endian, i fastest, then j,
+then k.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.volume_files.opened import VolumeFile, printable
+from lumencut.volume_files.rescale import slabs
+
+MEDIA_TYPE = "application/vnd.lumencut.volume"
+
+_MAGIC = b"LCVOLUME"
+_ALIGNMENT = 16
+_PIECE = 1 << 20
+_SENT_AS_THEY_ARE = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
+
+
+def sent_type(dtype: np.dtype[Any]) -> np.dtype[Any]:
+    """Return the type in which voxels of a type are sent: their own, or float32."""
+    return np.dtype(dtype.name if dtype.name in _SENT_AS_THEY_ARE else np.float32).newbyteorder("<")
+
+
+def header(file: VolumeFile, read_type: np.dtype[Any]) -> bytes:
+    """Return the bytes before the voxels of a file, which are read as a type."""
+    sent = sent_type(read_type)
+    notes: Sequence[str] = file.notes
+    if sent.name != read_type.name:
+        notes = [*notes, f"voxels of type {read_type.name} are shown as {sent.name}"]
+    told = {
+        "version": 1,
+        "name": printable(file.path.resolve().name),
+        "size": list(file.size),
+        "dtype": sent.name,
+        "world_from_index": file.world_from_index.tolist(),
+        "states_spacing": file.states_spacing,
+        "states_orientation": file.states_orientation,
+        "filled_slices": list(file.filled),
+        "notes": list(notes),
+    }
+    text = json.dumps(told, allow_nan=False).encode()
+    before = len(_MAGIC) + 4
+    text += b" " * (-(before + len(text)) % _ALIGNMENT)
+    return _MAGIC + len(text).to_bytes(4, "little") + text
+
+
+def length(file: VolumeFile, read_type: np.dtype[Any]) -> int:
+    """Return how many bytes of voxels follow the header."""
+    ni, nj, nk = file.size
+    return ni * nj * nk * sent_type(read_type).itemsize
+
+
+def pieces(voxels: npt.NDArray[Any]) -> Iterator[memoryview]:
+    """Yield voxels [k, j, i] as bytes, a piece at a time: no second copy of them ever exists."""
+    sent = sent_type(voxels.dtype)
+    for slab in slabs(voxels):
+        with np.errstate(over="ignore"):
+            data = np.ascontiguousarray(slab, sent).reshape(-1).view(np.uint8).data
+        for start in range(0, len(data), _PIECE):
+            yield data[start : start + _PIECE]

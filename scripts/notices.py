@@ -1,0 +1,72 @@
+"""Write the notices of the viewer's page: the licence texts of the npm packages and crates that are in it.
+
+The packages are those that `web/package-lock.json` names as needed at run time, with the texts that they
+ship; the crates are those that the WebAssembly links. Run by `make page` after `npm ci`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from licences import Crate, LicenceError, linked_crates, listing, shipped_texts, standard_text
+
+ROOT = Path(__file__).resolve().parent.parent
+WEB = ROOT / "web"
+#: The build of the page takes it over as it is.
+NOTICES = WEB / "public/THIRD-PARTY-NOTICES.txt"
+#: The crate that becomes the WebAssembly.
+CRATE = "lumencut-wasm"
+TARGET = "wasm32-unknown-unknown"
+#: Packages that ship no licence text, so that theirs is the standard text.
+WITHOUT_TEXT: frozenset[str] = frozenset()
+HEADING = """\
+Licences of third parties
+
+The viewer's page of Lumencut holds the npm packages and the Rust crates below, each under the
+licence beside it. The licence texts follow; where a package ships none, it is the standard text.
+scripts/notices.py writes this file.
+"""
+
+
+def packages(web: Path) -> list[Crate]:
+    """The npm packages that the page needs at run time."""
+    locked: dict[str, dict[str, Any]] = json.loads((web / "package-lock.json").read_text("utf-8"))["packages"]
+    return [package_of(web / place, told) for place, told in needed(locked)]
+
+
+def needed(locked: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The places of packages in a lock file that are no tools; the page itself is in the empty place."""
+    for place, told in locked.items():
+        if place and not (told.get("dev") or told.get("devOptional") or told.get("link")):
+            yield place, told
+
+
+def package_of(folder: Path, told: dict[str, Any]) -> Crate:
+    """A package as the lock file describes it, with its texts."""
+    name = folder.as_posix().rpartition("node_modules/")[2]
+    licence = told.get("license") or "none stated"
+    texts = shipped_texts(folder) if folder.is_dir() else []
+    if not texts and name not in WITHOUT_TEXT:
+        raise LicenceError(
+            f"{name} {told.get('version')}: found no licence text; expected one in {folder}; if the standard "
+            f"text of {licence!r} will do, add the package to WITHOUT_TEXT in scripts/notices.py"
+        )
+    ships_none = not texts
+    texts = texts or [standard_text(licence, f"the authors of {name}")]
+    return Crate(name, str(told.get("version", "")), licence, tuple(texts), is_standard=ships_none)
+
+
+def crates() -> list[Crate]:
+    """The crates that the WebAssembly links."""
+    return linked_crates((TARGET,), CRATE)
+
+
+def write() -> None:
+    """Write the file; where nothing changed it stays as old as it is."""
+    text = listing([*packages(WEB), *crates()], HEADING)
+    if not NOTICES.is_file() or NOTICES.read_text("utf-8") != text:
+        NOTICES.parent.mkdir(parents=True, exist_ok=True)
+        NOTICES.write_text(text, "utf-8")

@@ -1,0 +1,117 @@
+"""The viewer's server on a stand-in page, and a client that may ask for anything."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from lumencut.viewer.arriving import ArrivingScene
+from lumencut.viewer.page import Page
+from lumencut.viewer.server import ViewerServer
+from lumencut.volume_files.opened import VolumeFile
+
+INDEX = "<!doctype html><html><head lang='en'><title>stand-in</title></head><body></body></html>"
+SCRIPT = b"export const one = 1\n"
+
+
+def write_page(folder: Path) -> Path:
+    """Write a page with a script and a module of WebAssembly."""
+    (folder / "assets").mkdir(parents=True)
+    (folder / "index.html").write_text(INDEX)
+    (folder / "assets/app.js").write_bytes(SCRIPT)
+    (folder / "assets/core.wasm").write_bytes(b"\0asm")
+    return folder
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What the server said."""
+
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+    @property
+    def json(self):
+        return json.loads(self.body)
+
+
+class Client:
+    """Asks a server, under its token unless a whole path is given."""
+
+    def __init__(self, server: ViewerServer) -> None:
+        self.place = server.place
+
+    def connection(self) -> http.client.HTTPConnection:
+        return http.client.HTTPConnection("127.0.0.1", self.place.port, timeout=10)
+
+    def ask(self, name: str = "", method: str = "GET", path: str | None = None, **headers: str) -> Answer:
+        connection = self.connection()
+        try:
+            connection.request(method, path or f"/{self.place.token}/{name}", headers=headers)
+            response = connection.getresponse()
+            return answer(response)
+        finally:
+            connection.close()
+
+    def raw(self, sent: bytes) -> bytes:
+        """What comes back to these bytes until the server ends the connection."""
+        with socket.create_connection(("127.0.0.1", self.place.port), timeout=10) as connection:
+            connection.sendall(sent)
+            return rest_of(connection)
+
+
+def rest_of(connection: socket.socket) -> bytes:
+    """What comes in until the other side ends the connection."""
+    received = b""
+    with suppress(ConnectionResetError):
+        while part := connection.recv(65536):
+            received += part
+    return received
+
+
+def answer(response: http.client.HTTPResponse) -> Answer:
+    """The whole of a response, or what came of it."""
+    try:
+        body = response.read()
+    except http.client.IncompleteRead as error:
+        body = error.partial
+    return Answer(response.status, {name.lower(): value for name, value in response.getheaders()}, body)
+
+
+@contextmanager
+def serving(page: Path, scene: ArrivingScene | None = None) -> Iterator[Client]:
+    """A server with a client."""
+    with ViewerServer(Page.of(page), scene) as server:
+        yield Client(server)
+
+
+def split(stream: bytes):
+    """The header of a volume's stream, and the bytes of its voxels."""
+    assert stream[:8] == b"LCVOLUME"
+    end = 12 + int.from_bytes(stream[8:12], "little")
+    assert end % 16 == 0
+    return json.loads(stream[12:end]), stream[end:]
+
+
+def made_file(array, load=None, settled=True, affine=None, **more) -> VolumeFile:
+    """A volume file that hands an array over, or does as `load` says."""
+    nk, nj, ni = array.shape
+    return VolumeFile(
+        Path("/somewhere/made.nrrd"),
+        "made",
+        (ni, nj, nk),
+        array.dtype,
+        "LPS",
+        np.eye(4) if affine is None else affine,
+        load or (lambda progress, filled: array),
+        settled_type=array.dtype.newbyteorder("=") if settled else None,
+        **more,
+    )

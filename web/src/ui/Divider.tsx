@@ -1,0 +1,53 @@
+/** A line between panes that is dragged, or moved by arrow keys. */
+import type { Signal } from '@preact/signals';
+
+/** The least part of the layout that a side keeps. */
+const LEAST = 0.12;
+
+interface DividerProps {
+  readonly words: string;
+  /** `column` between panes side by side, `row` between panes above each other. */
+  readonly between: 'column' | 'row';
+  /** Where it is, as a part of the layout. */
+  readonly place: Signal<number>;
+}
+
+export function Divider({ words, between, place }: DividerProps) {
+  const set = (value: number) => {
+    place.value = Math.min(Math.max(value, LEAST), 1 - LEAST);
+  };
+  const move = (event: PointerEvent) => {
+    const layout = (event.currentTarget as HTMLElement).parentElement;
+    if (layout && (event.currentTarget as HTMLElement).hasPointerCapture(event.pointerId)) {
+      const box = layout.getBoundingClientRect();
+      set(
+        between === 'column'
+          ? (event.clientX - box.left) / box.width
+          : (event.clientY - box.top) / box.height,
+      );
+    }
+  };
+  const key = (event: KeyboardEvent) => {
+    const step = { ArrowLeft: -0.02, ArrowUp: -0.02, ArrowRight: 0.02, ArrowDown: 0.02 }[event.key];
+    if (step) {
+      event.preventDefault();
+      set(place.value + step);
+    }
+  };
+  const at = `${100 * place.value}%`;
+  return (
+    // biome-ignore lint/a11y/useSemanticElements: a rule cannot be moved
+    <div
+      class={`divider ${between}`}
+      style={between === 'column' ? { left: at } : { top: at }}
+      role="separator"
+      tabIndex={0}
+      aria-label={words}
+      aria-orientation={between === 'column' ? 'vertical' : 'horizontal'}
+      aria-valuenow={Math.round(100 * place.value)}
+      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+      onPointerMove={move}
+      onKeyDown={key}
+    />
+  );
+}

@@ -1,0 +1,30 @@
+/** What can be saved of the turning view. */
+import { Failure } from '../core/failure';
+import { savePng } from '../output/pictures';
+import { saveTurntable } from '../output/turntable';
+import { problem } from '../state/store';
+
+export function SaveMenu() {
+  return (
+    <details class="menu">
+      <summary>Save</summary>
+      <div class="menu-body">
+        <button type="button" onClick={() => attempt(() => savePng('labels'))}>
+          Picture with labels (PNG)
+        </button>
+        <button type="button" onClick={() => attempt(() => savePng('plain'))}>
+          Picture without labels (PNG)
+        </button>
+        <button type="button" onClick={() => attempt(saveTurntable)}>
+          Turntable (WebM)
+        </button>
+      </div>
+    </details>
+  );
+}
+
+function attempt(save: () => Promise<void>): void {
+  save().catch((error: unknown) => {
+    problem.value = Failure.of(error);
+  });
+}

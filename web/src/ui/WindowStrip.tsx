@@ -1,0 +1,132 @@
+/** The window over the histogram of the volume: its ends and its middle can be dragged, and moved by arrow keys. */
+import { useRef } from 'preact/hooks';
+import type { Histogram, Window } from '../core/messages';
+import { choosePreset, PRESETS, setWindow } from '../state/actions';
+import * as store from '../state/store';
+
+const WIDTH = 220;
+const HEIGHT = 26;
+
+export function WindowStrip() {
+  const histogram = store.histogram.value;
+  const [level, width] = store.window_.value;
+  if (!histogram) {
+    return null;
+  }
+  const scale = new Scale(histogram, store.report.value?.windows?.main ?? store.window_.value);
+  return (
+    <div class="window-strip">
+      <svg width={WIDTH} height={HEIGHT} aria-hidden="true" class="histogram">
+        <path d={outline(histogram, scale)} />
+        <rect
+          x={scale.x(level - width / 2)}
+          width={Math.max(scale.x(level + width / 2) - scale.x(level - width / 2), 1)}
+          height={HEIGHT}
+        />
+      </svg>
+      <Handle
+        scale={scale}
+        value={level - width / 2}
+        words="Black"
+        change={(low) => setWindow(between(low, level + width / 2))}
+      />
+      <Handle scale={scale} value={level} words="Level" change={(middle) => setWindow([middle, width])} />
+      <Handle
+        scale={scale}
+        value={level + width / 2}
+        words="White"
+        change={(high) => setWindow(between(level - width / 2, high))}
+      />
+      <label>
+        <span class="hidden-words">Window preset</span>
+        <select value="" onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
+          <option value="" disabled>
+            Window
+          </option>
+          {PRESETS.map((preset, number) => (
+            <option key={preset.name} value={number}>{`${preset.name} (${number + 1})`}</option>
+          ))}
+        </select>
+      </label>
+    </div>
+  );
+}
+
+/** The window between black and white; white stays above black. */
+function between(low: number, high: number): Window {
+  return [(low + high) / 2, Math.max(high - low, 1e-3)];
+}
+
+/** Values along the strip: from the darkest to somewhat above the window of the data, so that metal does not press all else together. */
+class Scale {
+  readonly low: number;
+  readonly high: number;
+
+  constructor(histogram: Histogram, main: Window) {
+    this.low = Math.max(histogram.low, main[0] - 2 * main[1]);
+    this.high = Math.max(Math.min(histogram.high, main[0] + 2 * main[1]), this.low + 1e-3);
+  }
+
+  x(value: number): number {
+    return Math.min(Math.max((value - this.low) / (this.high - this.low), 0), 1) * WIDTH;
+  }
+
+  get perPixel(): number {
+    return (this.high - this.low) / WIDTH;
+  }
+}
+
+/** The counts as a filled line; of each the square root, as few values are most of the voxels. */
+function outline({ low, high, counts }: Histogram, scale: Scale): string {
+  const most = Math.sqrt(Math.max(...counts, 1));
+  const step = (high - low) / counts.length;
+  const points = counts.map((count, n) => {
+    const x = scale.x(low + (n + 0.5) * step).toFixed(1);
+    return `${x} ${(HEIGHT * (1 - Math.sqrt(count) / most)).toFixed(1)}`;
+  });
+  return `M0 ${HEIGHT}L${points.join('L')}L${WIDTH} ${HEIGHT}Z`;
+}
+
+interface HandleProps {
+  readonly scale: Scale;
+  readonly value: number;
+  readonly words: string;
+  readonly change: (value: number) => void;
+}
+
+function Handle({ scale, value, words, change }: HandleProps) {
+  const start = useRef<{ x: number; value: number } | null>(null);
+  const move = (event: PointerEvent) => {
+    if (start.current) {
+      change(start.current.value + (event.clientX - start.current.x) * scale.perPixel);
+    }
+  };
+  const key = (event: KeyboardEvent) => {
+    const direction = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+    if (direction) {
+      event.preventDefault();
+      change(value + direction * scale.perPixel * (event.shiftKey ? 10 : 1));
+    }
+  };
+  return (
+    <div
+      class={`handle ${words.toLowerCase()}`}
+      style={{ left: `${scale.x(value)}px` }}
+      role="slider"
+      tabIndex={0}
+      aria-label={`${words} of the window`}
+      aria-valuenow={Math.round(value)}
+      aria-valuemin={Math.round(scale.low)}
+      aria-valuemax={Math.round(scale.high)}
+      onPointerDown={(event) => {
+        start.current = { x: event.clientX, value };
+        event.currentTarget.setPointerCapture(event.pointerId);
+      }}
+      onPointerMove={move}
+      onPointerUp={() => {
+        start.current = null;
+      }}
+      onKeyDown={key}
+    />
+  );
+}
