@@ -1,7 +1,10 @@
 /** Files opened by the page's readers, with a volume in plain memory in the engine's place. */
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join, relative } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { vi } from 'vitest';
 import { Failure } from '../src/core/failure';
+import type { States } from '../src/core/messages';
 import { dicom_attributes, initSync, judge_dicom } from '../src/core/pkg/lumencut.js';
 import { ALL_OF_IT, type Wanted } from '../src/io/dicom/judging';
 import type { Kind } from '../src/io/numbers';
@@ -15,6 +18,8 @@ export interface Header {
   readonly dtype: Kind;
   readonly world_from_index: number[][];
 }
+
+const modules = fileURLToPath(new URL('../node_modules', import.meta.url));
 
 /** What takes the volume. */
 export class Memory {
@@ -38,16 +43,22 @@ export class Memory {
   }
 
   get values(): Float32Array {
-    return Float32Array.from(new ARRAYS[this.header?.dtype as 'int16'](this.bytes.buffer));
+    return Float32Array.from(new ARRAYS[(this.header?.dtype ?? 'uint8') as 'int16'](this.bytes.buffer));
   }
 }
 
 /** What came of opening: a volume, or why there is none. */
 export interface Result {
   readonly memory: Memory;
+  readonly states: States | null;
   readonly notes: readonly string[];
   readonly failure: Failure | null;
 }
+
+// The page fetches its decoders from its own server; here they are files.
+vi.stubGlobal('fetch', async (address: string) => {
+  return new Response(readFileSync(address.replace(/^\/node_modules/, modules)));
+});
 
 initSync({ module: readFileSync(new URL('../src/core/pkg/lumencut_bg.wasm', import.meta.url)) });
 
@@ -68,12 +79,16 @@ export async function openSources(
   { others = sources, wanted = {}, signal = new AbortController().signal }: Options = {},
 ): Promise<Result> {
   const memory = new Memory();
-  const means = { study: memory, judge: { dicom_attributes, judge_dicom }, steps: new Steps(() => {}, signal) };
+  const means = {
+    study: memory,
+    judge: { dicom_attributes, judge_dicom },
+    steps: new Steps(() => {}, signal),
+  };
   try {
-    const { notes } = await openFiles(sources, among(others), { ...ALL_OF_IT, ...wanted }, means);
-    return { memory, notes, failure: null };
+    const { notes, states } = await openFiles(sources, among(others), { ...ALL_OF_IT, ...wanted }, means);
+    return { memory, notes, states, failure: null };
   } catch (error) {
-    return { memory, notes: [], failure: Failure.of(error) };
+    return { memory, notes: [], states: null, failure: Failure.of(error) };
   }
 }
 

@@ -28,7 +28,7 @@ from dicom_cases import CASES  # noqa: E402
 from volume_samples import DATA, coded, oblique  # noqa: E402
 
 from lumencut.errors import LumencutError  # noqa: E402
-from lumencut.volume_files import inspected_volume  # noqa: E402
+from lumencut.volume_files import inspected_volume, read_volume  # noqa: E402
 
 Writer = Callable[[Path], Path]
 
@@ -47,6 +47,7 @@ def read(path: Path, **wanted: Any) -> dict[str, Any]:
         "dtype": volume.array.dtype.name,
         "sha256": hashlib.sha256(voxels.tobytes()).hexdigest(),
         "notes": list(report.notes),
+        "states": {"spacing": volume.states_spacing, "orientation": volume.states_orientation},
     }
 
 
@@ -229,7 +230,11 @@ def made(folder: Path) -> Iterator[dict[str, Any]]:
         path = case.write(place).path
         wanted = {"series": case.series, "resample_slices": case.resample_slices}
         named = {"name": case.name, "kind": "series", "path": str(path), "folder": str(place), "wanted": wanted}
-        yield named | read(path, **wanted)
+        truth = named | read(path, **wanted)
+        if case.loss:
+            truth["values"] = str(folder / f"series-{number}.f32")
+            np.ascontiguousarray(read_volume(path).array, np.float32).tofile(truth["values"])
+        yield truth
 
 
 def shared() -> Iterator[dict[str, Any]]:

@@ -29,6 +29,9 @@ const WORDS: Readonly<Record<string, string>> = {
 
 /** Looks at the first bytes of a file. */
 export async function known(source: Source): Promise<Known> {
+  if (source.size === 0) {
+    return { source, kind: 'empty', words: WORDS.empty ?? '', mend: '' };
+  }
   const head = await firstBytes(source, HEAD);
   const name = fileName(source.path).toLowerCase();
   const kind = ofBytes(head, name);
@@ -40,9 +43,6 @@ export async function known(source: Source): Promise<Known> {
 
 function ofBytes(head: Uint8Array, name: string): Kind | null {
   const letters = new TextDecoder('latin1').decode(head);
-  if (head.length === 0) {
-    return 'empty';
-  }
   if (letters.startsWith('PK\x03\x04') || letters.startsWith('PK\x05\x06')) {
     return 'zip';
   }
@@ -63,14 +63,19 @@ type Told = Omit<Known, 'source'>;
 const NOTHING: Told = { kind: 'other', words: 'a file of no known format', mend: '' };
 
 function ofText(head: Uint8Array): Told | null {
-  const text = new TextDecoder('latin1').decode(head).replace(/^\xef\xbb\xbf/, '').trimStart();
+  const text = new TextDecoder('latin1')
+    .decode(head)
+    .replace(/^\xef\xbb\xbf/, '')
+    .trimStart();
   if (text.startsWith('{')) {
     return ofJson(text);
   }
   if (text.startsWith('<')) {
     return ofVtk(/<VTKFile[^>]*\stype\s*=\s*["'](\w+)/.exec(text)?.[1] ?? '');
   }
-  return text.startsWith('# vtk DataFile') ? ofVtk(/^\s*DATASET\s+(\w+)/im.exec(text)?.[1]?.toUpperCase() ?? '') : null;
+  return text.startsWith('# vtk DataFile')
+    ? ofVtk(/^\s*DATASET\s+(\w+)/im.exec(text)?.[1]?.toUpperCase() ?? '')
+    : null;
 }
 
 function ofVtk(kind: string): Told | null {
@@ -86,7 +91,9 @@ function ofJson(text: string): Told | null {
   if (kind === 'vtkImageData') {
     return { kind: 'other', words: 'an image in the JSON of vtk.js, which is not read', mend: CONVERT };
   }
-  return kind || text.includes('"markups"') ? { kind: 'centerlines', words: '3D Slicer markups', mend: '' } : null;
+  return kind || text.includes('"markups"')
+    ? { kind: 'centerlines', words: '3D Slicer markups', mend: '' }
+    : null;
 }
 
 function ofName(name: string): Told {

@@ -36,6 +36,11 @@ class Header {
     readonly end: number,
   ) {}
 
+  /** Whether one of several fields is there. */
+  states(names: readonly string[]): boolean {
+    return names.some((name) => this.fields.has(name));
+  }
+
   /** The numbers of the first of several synonymous fields that is there. */
   numbers(names: readonly string[], count: number, otherwise?: readonly number[]): readonly number[] {
     const name = names.find((one) => this.fields.has(one));
@@ -81,10 +86,15 @@ export async function openMetaImage(source: Source, beside: Beside): Promise<Vol
   const notes: string[] = [];
   const stored = storedKind(header);
   const worldFromIndex = affineOf(header, dims, notes);
-  noteLabel(header.fields.get('AnatomicalOrientation') ?? '', worldFromIndex, notes);
+  const agrees = labelAgrees(header.fields.get('AnatomicalOrientation') ?? '', worldFromIndex, notes);
   noteIntensity(header, notes);
   const place = await placeOf(header, source, beside);
-  return { path, format: 'MetaImage', size, worldFromIndex, stored, scaling: UNSCALED, place, notes };
+  const states = {
+    spacing: header.states(SPACING),
+    // A matrix that a label contradicts states two orientations, and none that can be relied on.
+    orientation: agrees && header.states([...DIRECTION, 'AnatomicalOrientation']),
+  };
+  return { path, format: 'MetaImage', size, worldFromIndex, stored, scaling: UNSCALED, place, notes, states };
 }
 
 function readHeader(path: string, head: Uint8Array): Header {
@@ -129,7 +139,7 @@ function storedKind(header: Header): StoredKind {
 }
 
 function affineOf(header: Header, dims: number, notes: string[]): Affine {
-  if (!SPACING.some((name) => header.fields.has(name))) {
+  if (!header.states(SPACING)) {
     notes.push('no ElementSpacing: 1 mm assumed');
   }
   const spacing = header.numbers(SPACING, dims, new Array(dims).fill(1));
@@ -146,10 +156,10 @@ function affineOf(header: Header, dims: number, notes: string[]): Affine {
   return [row(0), row(1), row(2), [0, 0, 0, 1]];
 }
 
-/** Notes a label (the side on which each axis begins, as ITK writes it) that does not go with the matrix. */
-function noteLabel(label: string, affine: Affine, notes: string[]): void {
+/** Whether a label (the side on which each axis begins, as ITK writes it) goes with the matrix. */
+function labelAgrees(label: string, affine: Affine, notes: string[]): boolean {
   if (!/^[RLAPIS]{3}$/.test(label)) {
-    return;
+    return true;
   }
   const side = (column: number) => {
     const along = affine.slice(0, 3).map((row) => row[column] ?? 0);
@@ -163,6 +173,7 @@ function noteLabel(label: string, affine: Affine, notes: string[]): void {
   if (label !== sides) {
     notes.push(`AnatomicalOrientation = ${label}, the matrix says ${sides}: the matrix is used`);
   }
+  return label === sides;
 }
 
 /** Notes a scaling of the values, which ITK does not apply either. */

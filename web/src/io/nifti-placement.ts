@@ -1,4 +1,5 @@
 /** Where a NIfTI header places its grid: the sform, shear and all, else the qform, else centred at the origin. */
+import type { States } from '../core/messages';
 import type { NiftiHeader } from './nifti-header';
 import type { Affine, Size } from './volume-file';
 import { formatFailure, short, shown } from './words';
@@ -15,6 +16,7 @@ const MOST_CODE = 5;
 const TOLERANCE = { 'NIfTI-1': 3 * 2 ** -23, 'NIfTI-2': 3 * Number.EPSILON } as const;
 /** Placements that lie further apart are told of (mm). */
 const APART = 0.01;
+const SAME_AXIS = Math.cos((25 * Math.PI) / 180);
 
 /** A header whose lengths and codes can be relied on; what was mended is noted, in nibabel's words. */
 export function mended(header: NiftiHeader, notes: string[]): NiftiHeader {
@@ -97,10 +99,15 @@ function qform({ format, quaternion, pixdim, offset }: NiftiHeader): Affine | nu
   return rotation.map((row, i) => [...row.map((value, j) => value * (sides[j] ?? 1)), offset[i] ?? 0]);
 }
 
-/** Millimetres per unit of length that the header states, 1 where it states none. */
-function unit(header: NiftiHeader, notes: string[]): number {
+/** The unit of length that the header states, and its millimetres; null where it states none that is known. */
+function unitOf(header: NiftiHeader): readonly [string, number] | null {
   const code = header.units % 8;
-  const stated = TIMES.includes(header.units - code) ? MILLIMETRES[code] : undefined;
+  return TIMES.includes(header.units - code) ? (MILLIMETRES[code] ?? null) : null;
+}
+
+/** Millimetres per unit of length, 1 where none is stated. */
+function unit(header: NiftiHeader, notes: string[]): number {
+  const stated = unitOf(header);
   if (!stated) {
     notes.push('the unit of length is not stated: mm assumed');
     return 1;
@@ -109,6 +116,26 @@ function unit(header: NiftiHeader, notes: string[]): number {
     notes.push(`lengths are in ${stated[0]}s: converted to mm`);
   }
   return stated[1];
+}
+
+/**
+ * Whether lengths in mm are known, and the patient's sides. Lengths of a placement are mm by convention; the sides are
+ * not known where two placements turn an axis more than 25 degrees apart.
+ */
+export function statesOf(header: NiftiHeader): States {
+  const isPlaced = header.sformCode > 0 || header.qformCode > 0;
+  const spacing = isPlaced || unitOf(header) !== null;
+  if (!(header.sformCode > 0 && header.qformCode > 0)) {
+    return { spacing, orientation: isPlaced };
+  }
+  const other = qform(header);
+  const isAlike = (axis: number) => {
+    const [one, two] = [header.rows, other ?? header.rows].map((rows) => rows.map((row) => row[axis] ?? 0));
+    const dot = (a: readonly number[] = [], b: readonly number[] = []) =>
+      a.reduce((sum, v, i) => sum + v * (b[i] ?? 0), 0);
+    return dot(one, two) / Math.sqrt(dot(one, one) * dot(two, two)) > SAME_AXIS;
+  };
+  return { spacing, orientation: [0, 1, 2].every(isAlike) };
 }
 
 /** Notes a missing placement, or two that contradict each other. */

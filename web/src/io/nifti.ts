@@ -3,7 +3,7 @@
 import { Failure } from '../core/failure';
 import { firstBytes, isGzip } from './inflating';
 import { HEADER_BYTES, type NiftiHeader, readHeader } from './nifti-header';
-import { mended, placement } from './nifti-placement';
+import { mended, placement, statesOf } from './nifti-placement';
 import type { Kind } from './numbers';
 import type { Place } from './payload';
 import { type Scaling, UNSCALED } from './rescale';
@@ -53,7 +53,8 @@ export async function openNifti(source: Source, beside: Beside): Promise<VolumeF
   const place: Place = { source: data, start: 0, codec, skip };
   const stored = { kind, isBig: header.isBig };
   const scaling = scalingOf(path, header);
-  return { path, format: header.format, size, worldFromIndex, stored, scaling, place, notes };
+  const states = statesOf(header);
+  return { path, format: header.format, size, worldFromIndex, stored, scaling, place, notes, states };
 }
 
 /** The other file of a pair where this one's name ends as `mine` (`x.img.gz` belongs to `x.hdr.gz` or `x.hdr`). */

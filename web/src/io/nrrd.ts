@@ -65,7 +65,11 @@ export async function openNrrd(source: Source, beside: Beside): Promise<VolumeFi
   const stored = storedKind(header);
   const worldFromIndex = affineOf(header, axes, directions, notes);
   const place = await placeOf(header, source, beside);
-  return { path, format: 'NRRD', size, worldFromIndex, stored, scaling: UNSCALED, place, notes };
+  const states = {
+    spacing: statesSpacing(header, axes),
+    orientation: directions !== null && toLps(header) !== null,
+  };
+  return { path, format: 'NRRD', size, worldFromIndex, stored, scaling: UNSCALED, place, notes, states };
 }
 
 /** The three axes of the grid; further axes must have length 1. */
@@ -153,6 +157,14 @@ function spacings(header: NrrdHeader, axes: readonly number[], notes: string[]):
   );
 }
 
+/** Whether lengths in mm are known: stated, and not in a unit that nobody knows. */
+function statesSpacing(header: NrrdHeader, axes: readonly number[]): boolean {
+  const stated = header.numbers('spacings');
+  const isStated = header.has('space directions') || axes.every((axis) => Number.isFinite(stated[axis]));
+  const unit = unitOf(header);
+  return isStated && (unit === '' || unit in MILLIMETRES);
+}
+
 function originOf(header: NrrdHeader, notes: string[]): readonly number[] {
   if (!header.has('space origin')) {
     const unused = header.has('axis mins') ? ', axis mins are not used' : '';
@@ -166,31 +178,44 @@ function originOf(header: NrrdHeader, notes: string[]): readonly number[] {
   return origin;
 }
 
-/** What turns the file's space into LPS. */
-function signsOf(header: NrrdHeader, notes: string[]): readonly [number, number, number] {
-  const stated = header
+/** What turns the file's space into LPS, null for one that names no patient axes. */
+function toLps(header: NrrdHeader): readonly [number, number, number] | null {
+  const stated = patientSpace(header);
+  return TO_LPS[IN_FULL[stated] ?? stated] ?? null;
+}
+
+function patientSpace(header: NrrdHeader): string {
+  return header
     .text('space')
     .toLowerCase()
     .replace(/-time$/, '');
-  const signs = TO_LPS[IN_FULL[stated] ?? stated];
+}
+
+/** The same, LPS where nothing is known. */
+function signsOf(header: NrrdHeader, notes: string[]): readonly [number, number, number] {
+  const signs = toLps(header);
   if (signs) {
     return signs;
   }
+  const stated = shown(patientSpace(header));
   notes.push(
-    stated ? `space '${shown(stated)}' names no patient axes: LPS assumed` : 'no space stated: LPS assumed',
+    stated ? `space '${stated}' names no patient axes: LPS assumed` : 'no space stated: LPS assumed',
   );
   return [1, 1, 1];
 }
 
-/** Millimetres per unit of the file. */
-function millimetres(header: NrrdHeader, notes: string[]): number {
+/** The unit of the first axis of the space, in the singular where that is known; empty for none. */
+function unitOf(header: NrrdHeader): string {
   const stated = (header.words('space units')[0] ?? '').trim().toLowerCase();
   const singular = stated.replace(/s$/, '');
   const unit = !(stated in MILLIMETRES) && singular in MILLIMETRES ? singular : stated;
-  if (unit === '' || unit === '???') {
-    return 1;
-  }
-  const factor = MILLIMETRES[unit];
+  return unit === '???' ? '' : unit;
+}
+
+/** Millimetres per unit of the file. */
+function millimetres(header: NrrdHeader, notes: string[]): number {
+  const unit = unitOf(header);
+  const factor = unit === '' ? 1 : MILLIMETRES[unit];
   if (factor === undefined) {
     notes.push(`space units '${shown(unit)}' are not known: mm assumed`);
   } else if (factor !== 1) {

@@ -26,7 +26,12 @@ export interface StoredKind {
 }
 
 /** The types that the engine computes with. */
-export const OF_THE_ENGINE: readonly Kind[] = ['int8', 'uint8', 'int16', 'uint16', 'float32'];
+const OF_THE_ENGINE: readonly Kind[] = ['uint8', 'int16', 'uint16', 'float32'];
+
+/** The type that the engine has for numbers of another one: bytes exactly, wide numbers to 24 bits. */
+export function inTheEngine(kind: Kind): Kind {
+  return OF_THE_ENGINE.includes(kind) ? kind : kind === 'int8' ? 'int16' : 'float32';
+}
 
 export function byteCount(kind: Kind): number {
   return ARRAYS[kind].BYTES_PER_ELEMENT;

@@ -3,11 +3,11 @@ import {
   ARRAYS,
   bytesOf,
   holding,
+  inTheEngine,
   isInteger,
   type Kind,
   type Numbers,
   numbersOf,
-  OF_THE_ENGINE,
   type StoredKind,
 } from './numbers';
 
@@ -70,8 +70,7 @@ export function conversion(
   scaling: Scaling,
   range: readonly [number, number] | null,
 ): Conversion {
-  const wanted = scaledKind(stored.kind, scaling, range);
-  const kind = OF_THE_ENGINE.includes(wanted) ? wanted : 'float32';
+  const kind = inTheEngine(scaledKind(stored.kind, scaling, range));
   const isAsStored = !isScaled(scaling) && kind === stored.kind;
   const convert = (bytes: Uint8Array<ArrayBuffer>) => {
     if (isAsStored && !stored.isBig) {

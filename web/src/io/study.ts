@@ -1,4 +1,5 @@
 /** What was dropped, chosen or fetched becomes the study: one volume, its centerlines, or both. */
+import type { States } from '../core/messages';
 import type { Judge, Wanted } from './dicom/judging';
 import { type Known, known } from './kinds';
 import { openMetaImage } from './metaimage';
@@ -26,8 +27,11 @@ export interface Opened {
   /** The name of the volume, empty where there was none. */
   readonly name: string;
   readonly notes: readonly string[];
+  readonly states: States;
 }
 
+/** DICOM states both, or is refused. */
+const STATED: States = { spacing: true, orientation: true };
 const VOLUMES =
   'a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)';
 const LINES = 'centerlines (.vtp, .vtk, .mrk.json, .fcsv, .swc, .csv, .pth)';
@@ -42,13 +46,22 @@ interface Sorted {
 }
 
 /** Opens files: a volume in the place of all that is open, centerlines beside it. */
-export async function openFiles(sources: readonly Source[], beside: Beside, wanted: Wanted, means: Means): Promise<Opened> {
+export async function openFiles(
+  sources: readonly Source[],
+  beside: Beside,
+  wanted: Wanted,
+  means: Means,
+): Promise<Opened> {
   const sorted = await sort(sources, means.steps);
   requireOne(sorted);
   const volume = await openVolume(sorted, sources, { beside, wanted, ...means });
   const [lines] = sorted.lines;
   const notes = lines ? await openLines(lines.source, means) : [];
-  return { name: volume?.name ?? '', notes: [...(volume?.notes ?? []), ...notes] };
+  return {
+    name: volume?.name ?? '',
+    notes: [...(volume?.notes ?? []), ...notes],
+    states: volume?.states ?? STATED,
+  };
 }
 
 /** Opens centerlines beside the volume; gives notes. */
@@ -84,7 +97,10 @@ async function sort(sources: readonly Source[], steps: Steps): Promise<Sorted> {
 /** Whether a file is the second one of a pair, whatever its voxels look like. */
 function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   const stem = /^(.*)\.img(\.gz)?$/i.exec(source.path)?.[1];
-  return stem !== undefined && every.some((one) => one.source.path.toLowerCase().startsWith(`${stem.toLowerCase()}.hdr`));
+  return (
+    stem !== undefined &&
+    every.some((one) => one.source.path.toLowerCase().startsWith(`${stem.toLowerCase()}.hdr`))
+  );
 }
 
 /** Refuses what would leave open which file is meant. */
@@ -135,7 +151,7 @@ async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked
   const subject = archive?.path ?? commonName(sources);
   const series = { subject, sources, wanted: asked.wanted };
   const notes = await openDicom(series, asked.judge, asked.study, asked.steps);
-  return { name: fileName(subject), notes };
+  return { name: fileName(subject), notes, states: STATED };
 }
 
 async function membersOf(archive: Source): Promise<Source[]> {
@@ -147,7 +163,7 @@ async function openFile({ source, kind }: Known, { beside, study, steps }: Asked
   const open = kind === 'nrrd' ? openNrrd : kind === 'metaimage' ? openMetaImage : openNifti;
   const file = await open(source, beside);
   await load(file, study, steps);
-  return { name: fileName(source.path), notes: file.notes };
+  return { name: fileName(source.path), notes: file.notes, states: file.states };
 }
 
 /** The folder in which all files are; the name of a single one. */

@@ -1,5 +1,6 @@
 /** A volume whose header is read, and the way of its voxels into the engine. */
 import { Failure } from '../core/failure';
+import type { States } from '../core/messages';
 import { byteCount, numbersOf, type StoredKind } from './numbers';
 import { type Bytes, type Place, requireRoom, voxelBytes } from './payload';
 import { conversion, needsRange, type Scaling } from './rescale';
@@ -26,6 +27,7 @@ export interface VolumeFile {
   readonly scaling: Scaling;
   readonly place: Place;
   readonly notes: readonly string[];
+  readonly states: States;
 }
 
 /** Makes room for a volume; what is no grid is refused in the name of its file. */

@@ -15,7 +15,10 @@ interface Decoder {
   delete(): void;
 }
 
-type Glue = (options: { wasmBinary: ArrayBuffer }) => Promise<Record<string, unknown>>;
+/** What the decoders' libraries print is for their makers. */
+const SILENT = { print: () => {}, printErr: () => {} };
+
+type Glue = (options: { wasmBinary: ArrayBuffer } & typeof SILENT) => Promise<Record<string, unknown>>;
 
 interface Package {
   readonly glue: () => Promise<{ default: unknown }>;
@@ -77,7 +80,7 @@ export function decoderOf(name: CodecName): Promise<Decode> {
 async function ofPackage({ glue, wasm, decoder }: Package): Promise<Decode> {
   const [made, address] = await Promise.all([glue(), wasm()]);
   const wasmBinary = await (await fetch(address.default)).arrayBuffer();
-  const codec = await (made.default as Glue)({ wasmBinary });
+  const codec = await (made.default as Glue)({ wasmBinary, ...SILENT });
   const Constructor = codec[decoder] as new () => Decoder;
   return (frame) => decodedBy(new Constructor(), frame);
 }

@@ -4,11 +4,11 @@ import {
   byteCount,
   bytesOf,
   holding,
+  inTheEngine,
   isInteger,
   type Kind,
   kindName,
   type Numbers,
-  OF_THE_ENGINE,
 } from '../numbers';
 import { isIntegral, isScaled, type Scaling, scaled } from '../rescale';
 import type { Steps } from '../steps';
@@ -105,8 +105,7 @@ class Filler {
     }
     const [low, high] = rangeOf(values);
     this.range = [Math.min(low, this.range[0]), Math.max(high, this.range[1])];
-    const wider = holding(...this.range, this.kind) ?? 'float32';
-    const kind = OF_THE_ENGINE.includes(wider) ? wider : 'float32';
+    const kind = inTheEngine(holding(...this.range, this.kind) ?? 'float32');
     return kind === this.kind ? null : kind;
   }
 
