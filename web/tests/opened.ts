@@ -85,8 +85,8 @@ export async function openSources(
     steps: new Steps(() => {}, signal),
   };
   try {
-    const { notes, states } = await openFiles(sources, among(others), { ...ALL_OF_IT, ...wanted }, means);
-    return { memory, notes, states, failure: null };
+    const { notes, volume } = await openFiles(sources, among(others), { ...ALL_OF_IT, ...wanted }, means);
+    return { memory, notes, states: volume?.states ?? null, failure: null };
   } catch (error) {
     return { memory, notes: [], states: null, failure: Failure.of(error) };
   }

@@ -24,7 +24,12 @@ export interface Means {
 }
 
 export interface Opened {
-  /** The name of the volume, empty where there was none. */
+  /** What is told of the volume, null where there was none. */
+  readonly volume: Volume | null;
+  readonly notes: readonly string[];
+}
+
+interface Volume {
   readonly name: string;
   readonly notes: readonly string[];
   readonly states: States;
@@ -57,11 +62,7 @@ export async function openFiles(
   const volume = await openVolume(sorted, sources, { beside, wanted, ...means });
   const [lines] = sorted.lines;
   const notes = lines ? await openLines(lines.source, means) : [];
-  return {
-    name: volume?.name ?? '',
-    notes: [...(volume?.notes ?? []), ...notes],
-    states: volume?.states ?? STATED,
-  };
+  return { volume, notes: [...(volume?.notes ?? []), ...notes] };
 }
 
 /** Opens centerlines beside the volume; gives notes. */
@@ -136,7 +137,7 @@ interface Asked extends Means {
   readonly wanted: Wanted;
 }
 
-async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked): Promise<Opened | null> {
+async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked): Promise<Volume | null> {
   const [volume] = sorted.volumes;
   if (volume) {
     return openFile(volume, asked);
@@ -159,7 +160,7 @@ async function membersOf(archive: Source): Promise<Source[]> {
   return zip.membersOf(archive);
 }
 
-async function openFile({ source, kind }: Known, { beside, study, steps }: Asked): Promise<Opened> {
+async function openFile({ source, kind }: Known, { beside, study, steps }: Asked): Promise<Volume> {
   const open = kind === 'nrrd' ? openNrrd : kind === 'metaimage' ? openMetaImage : openNifti;
   const file = await open(source, beside);
   await load(file, study, steps);

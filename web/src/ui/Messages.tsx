@@ -2,6 +2,7 @@
 import { engine } from '../core/shared';
 import { perform } from '../state/actions';
 import { problem, progress } from '../state/store';
+import { Mends } from './Mends';
 
 export function Messages() {
   return (
@@ -39,6 +40,7 @@ function Problem() {
       <strong>{failure.subject}</strong>
       <span>{`Found ${failure.found}; expected ${failure.expected}.`}</span>
       {failure.mend && <span>{`${failure.mend[0]?.toUpperCase() ?? ''}${failure.mend.slice(1)}.`}</span>}
+      <Mends failure={failure} />
       <button
         type="button"
         onClick={() => {
