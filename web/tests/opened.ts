@@ -6,7 +6,7 @@ import { vi } from 'vitest';
 import { Failure } from '../src/core/failure';
 import type { States } from '../src/core/messages';
 import { dicom_attributes, initSync, judge_dicom } from '../src/core/pkg/lumencut.js';
-import { ALL_OF_IT, type Wanted } from '../src/io/dicom/judging';
+import { ALL_OF_IT, type Wanted } from '../src/io/dicom/wanted';
 import type { Kind } from '../src/io/numbers';
 import { ARRAYS, byteCount } from '../src/io/numbers';
 import { among, BlobSource, type Source } from '../src/io/source';

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { expect } from 'vitest';
-import type { Wanted } from '../src/io/dicom/judging';
+import type { Wanted } from '../src/io/dicom/wanted';
 import type { Result } from './opened';
 
 export interface Expected {

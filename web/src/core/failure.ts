@@ -1,10 +1,15 @@
 /** A DICOM series that can be chosen. */
 export interface SeriesChoice {
+  readonly number: string;
   readonly uid: string;
   readonly description: string;
-  readonly can_be_volume: boolean;
-  /** All of it on one line. */
-  readonly shown: string;
+  readonly modality: string;
+  readonly images: number;
+  /** Voxels along i, j, k, and their sizes (mm); null where the images form no stack. */
+  readonly size: readonly number[] | null;
+  readonly spacing: readonly number[] | null;
+  /** Why the images form no angiography volume, empty where they may. */
+  readonly trouble: string;
 }
 
 /** Errors in the words of the whole of Lumencut: what is wrong, what was found, what was expected, what mends it. */

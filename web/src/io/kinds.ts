@@ -1,5 +1,5 @@
 /** What a file is: by its content, by its name only where the content does not tell. */
-import { isDicom } from './dicom/parsing';
+import { isDicom } from './dicom/recognising';
 import { firstBytes } from './inflating';
 import { niftiKind } from './nifti-header';
 import { fileName, type Source } from './source';

@@ -57,7 +57,7 @@ function refuseShort(source: Source, held: number, needed: number): void {
 
 /** Unpacks a stream that would have to grow much once only to count it. */
 async function count(place: Place, needed: number, steps: Steps): Promise<void> {
-  for await (const piece of voxelBytes(place, needed, 'uint8')) {
+  for await (const piece of voxelBytes({ ...place, skip: 0 }, place.skip + needed, 'uint8')) {
     await steps.step('Checking the volume', piece.length, null);
   }
 }

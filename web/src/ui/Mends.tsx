@@ -1,5 +1,5 @@
 /** What can be done at once about a DICOM folder that was refused. */
-import type { Failure } from '../core/failure';
+import type { Failure, SeriesChoice } from '../core/failure';
 import type { SeriesWish } from '../core/messages';
 import { engine } from '../core/shared';
 import { openAgain } from '../state/opening';
@@ -18,7 +18,7 @@ export function Mends({ failure }: { readonly failure: Failure }) {
           {failure.series.map((one) => (
             <li key={one.uid}>
               <button type="button" onClick={() => void openAgain(engine, { series: one.uid })}>
-                {one.shown}
+                {wordsOf(one)}
               </button>
             </li>
           ))}
@@ -31,4 +31,12 @@ export function Mends({ failure }: { readonly failure: Failure }) {
       ))}
     </>
   );
+}
+
+/** A series on one line. */
+function wordsOf({ number, description, modality, images, size, spacing, trouble }: SeriesChoice): string {
+  const steps = spacing?.map((step) => Number(step.toPrecision(3)));
+  const extent = size && steps ? [size.join(' × '), `${steps.join(' × ')} mm`] : [`${images} images`];
+  const parts = [description || 'no description', modality, ...extent, trouble];
+  return `${number || '–'}: ${parts.filter((part) => part !== '').join(' · ')}`;
 }

@@ -1,7 +1,7 @@
 /** Loads a study of the same origin: the stream of voxels that `lumencut view` serves or a file, and centerlines. */
 import { Failure } from '../core/failure';
 import type { Progress, States } from '../core/messages';
-import { ALL_OF_IT } from '../io/dicom/judging';
+import { ALL_OF_IT } from '../io/dicom/wanted';
 import { type Beside, BlobSource, fileName } from '../io/source';
 import type { Study } from '../io/study';
 import { openFiles, openLines } from '../io/study';

@@ -18,7 +18,7 @@ import type {
   Window,
 } from '../core/messages';
 import { Engine, judge, loadModule } from '../core/module';
-import { ALL_OF_IT } from '../io/dicom/judging';
+import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
 import { openFiles } from '../io/study';

@@ -1,5 +1,5 @@
 /** The members of a zip archive, unpacked into memory one at a time and no further than they claim. */
-import { configure, type FileEntry, Reader, ZipReader } from '@zip.js/zip.js';
+import { configure, type FileEntry, Reader, ZipReader } from '@zip.js/zip.js/lib/zip-core-custom.js';
 import { Failure } from '../../core/failure';
 import type { Bytes } from '../payload';
 import type { Source } from '../source';

@@ -3,7 +3,8 @@ import { Failure } from '../../core/failure';
 import type { Source } from '../source';
 import { fileName } from '../source';
 import { damaged, printable } from '../words';
-import { isDicom, type Parsed, type PixelElement, parsed } from './parsing';
+import { type Parsed, type PixelElement, parsed } from './parsing';
+import { isDicom } from './recognising';
 import type { HeaderRecord, Recorder } from './records';
 import { bytesIn } from './values';
 

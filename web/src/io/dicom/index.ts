@@ -3,9 +3,10 @@ import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';
 import type { Sink } from '../volume-file';
 import { type LookedInto, lookInto } from './headers';
-import { asked, type Judge, judged, type Wanted } from './judging';
+import { asked, judged } from './judging';
 import { Recorder } from './records';
 import { loadStack } from './stack';
+import type { Judge, Wanted } from './wanted';
 
 /** What the files are: named together, and what of them is wanted. */
 export interface Series {

@@ -3,24 +3,7 @@ import { Failure, type SeriesChoice } from '../../core/failure';
 import type { LookedInto } from './headers';
 import { TRANSFER_SYNTAXES } from './pixels';
 import type { Asked } from './records';
-
-/** The judgements of the crate `lumencut-dicom`, with JSON in and out. */
-export interface Judge {
-  dicom_attributes(): string;
-  judge_dicom(headers: string, wanted: string): string;
-}
-
-/** What of the files is to be read. */
-export interface Wanted {
-  /** The number or UID of a series. */
-  readonly series: string | null;
-  /** The value of an attribute that one phase has. */
-  readonly phase: string | null;
-  readonly fill_gaps: boolean;
-  readonly resample_slices: boolean;
-}
-
-export const ALL_OF_IT: Wanted = { series: null, phase: null, fill_gaps: false, resample_slices: false };
+import type { Judge, Wanted } from './wanted';
 
 /** The volume that a series becomes. */
 export interface Plan {

@@ -4,6 +4,7 @@ import { Part } from '../inflating';
 import type { Bytes } from '../payload';
 import { formatFailure } from '../words';
 import { TAGS } from './attributes';
+import { lettersAt, PREAMBLE } from './recognising';
 
 export const SYNTAXES = {
   implicit: '1.2.840.10008.1.2',
@@ -39,17 +40,9 @@ const PIXELS: Readonly<Record<string, PixelElement['keyword']>> = {
   '7fe00008': 'FloatPixelData',
   '7fe00009': 'DoubleFloatPixelData',
 };
-const PREAMBLE = 132;
 const DEFLATE_FLOOR = 64 << 20;
 const DEFLATE_RATIO = 20;
 const PIECE = 1 << 20;
-
-/** Whether the first bytes of a file are those of DICOM: the preamble, or a bare identifying group. */
-export function isDicom(head: Uint8Array): boolean {
-  return (
-    lettersAt(head, 128, 4) === 'DICM' || ((head[0] === 8 || head[0] === 2) && head[1] === 0 && head[3] === 0)
-  );
-}
 
 /** Parses bytes, the first of a file or all of them; throws where they are cut off before the pixels. */
 export function parsed(path: string, given: Bytes): Parsed {
@@ -78,10 +71,6 @@ function metaOf(given: Bytes): { meta: Elements; start: number; syntax: string }
   const named = stated ? lettersAt(given, stated.dataOffset, stated.length).replace(/[\0 ]+$/, '') : '';
   const isExplicit = /^[A-Z]{2}$/.test(lettersAt(given, start + 4, 2));
   return { meta, start, syntax: named || (isExplicit ? SYNTAXES.explicit : SYNTAXES.implicit) };
-}
-
-function lettersAt(bytes: Uint8Array, at: number, count: number): string {
-  return String.fromCharCode(...bytes.subarray(at, at + count));
 }
 
 interface Found {
