@@ -34,6 +34,7 @@ SCRIPTS = tuple(
         *("settings", "toolchain", "wheel", "window_table"),
     )
 )
+TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
 
@@ -90,7 +91,7 @@ def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     cargo = ("cargo", "--quiet")
     return [
-        Check("toolchain", (sys.executable, "scripts/toolchain.py", "python", "rust", "targets", "vulkan", "page", "browser")),
+        Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
         Check("licences", (sys.executable, "scripts/licences.py", "--check")),
         Check("tools", ("make", "--no-print-directory", "tools")),

@@ -1,4 +1,6 @@
-"""Says clearly what of the toolchain is missing: Python, Rust, a target that Rust compiles for, Vulkan, Node or Chromium.
+"""Says clearly what of the toolchain is missing.
+
+That may be Python, Rust, a target that Rust compiles for, Vulkan, Node or Chromium.
 
 Needs nothing but Python itself: it runs before there is an environment.
 """
@@ -193,7 +195,14 @@ def add_vulkan() -> None:
 
 def main() -> None:
     """Check what the command line asks for."""
-    checks = {"python": check_python, "rust": check_rust, "targets": add_targets, "vulkan": add_vulkan, "page": add_page, "browser": add_browser}
+    checks = {
+        "python": check_python,
+        "rust": check_rust,
+        "targets": add_targets,
+        "vulkan": add_vulkan,
+        "page": add_page,
+        "browser": add_browser,
+    }
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("what", choices=checks, nargs="+")
     for what in parser.parse_args().what:
