@@ -31,12 +31,12 @@ SCRIPTS = tuple(
     f"scripts/{name}.py"
     for name in (
         *("build_backend", "check", "frames", "fuzz", "licences", "notices", "page", "render_phantom"),
-        *("settings", "toolchain", "wasm_size", "wheel", "window_table"),
+        *("settings", "toolchain", "wheel", "window_table"),
     )
 )
+TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
-WEB = "target/wasm32-unknown-unknown/wasm/examples/web.wasm"
 
 
 @dataclass(frozen=True)
@@ -81,11 +81,17 @@ def count_python(text: str) -> Count:
     return count
 
 
+def count_page(text: str) -> Count:
+    """The tests of Vitest and Playwright, which their script counts in its last line."""
+    found = re.findall(r"^(\d+) passed, (\d+) failed$", text, re.MULTILINE)
+    return Count(*map(int, found[-1])) if found else Count(failed=1)
+
+
 def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     cargo = ("cargo", "--quiet")
     return [
-        Check("toolchain", (sys.executable, "scripts/toolchain.py", "python", "rust", "targets", "vulkan")),
+        Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
         Check("licences", (sys.executable, "scripts/licences.py", "--check")),
         Check("tools", ("make", "--no-print-directory", "tools")),
@@ -106,14 +112,9 @@ def lint_checks() -> list[Check]:
             (*cargo, "check", *CHECKS, *PORTABLE, *(f"--target={target}" for target in TARGETS)),
             {"CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS": "-C target-feature=+simd128"},
         ),
-        Check(
-            "WebAssembly of the GPU",
-            (
-                *(*cargo, "build", "--locked", "--package", "lumencut-gpu", "--example", "web"),
-                *("--profile", "wasm", "--target", "wasm32-unknown-unknown", "--target-dir", "target"),
-            ),
-        ),
-        Check("size of the WebAssembly", (sys.executable, "scripts/wasm_size.py", WEB)),
+        Check("page of the viewer", ("make", "--no-print-directory", "page")),
+        Check("lint of the page", ("npm", "run", "lint", "--silent", "--prefix", "web")),
+        Check("size of the page", ("npm", "run", "size", "--silent", "--prefix", "web")),
         Check("package", ("make", "--no-print-directory", "develop", "PROFILE=checks")),
         Check("types", (f"{BIN}/mypy",)),
         Check("types of the scripts", (f"{BIN}/mypy", *SCRIPTS)),
@@ -139,6 +140,7 @@ def test_checks(report: str) -> list[Check]:
             count=count_python,
             report=report,
         ),
+        Check("tests of the page", ("npm", "run", "check", "--silent", "--prefix", "web"), count=count_page),
         Check("fuzzing", (sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS))),
     ]
 

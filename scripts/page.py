@@ -21,7 +21,7 @@ from pathlib import Path
 
 import notices
 from licences import LicenceError
-from toolchain import WASM, missing_of_node, missing_of_wasm
+from toolchain import add_wasm, missing_of_node, missing_of_wasm
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
@@ -58,12 +58,6 @@ def missing() -> str:
     if not (WEB / "package-lock.json").is_file():
         return f"no sources of the page in {WEB}"
     return missing_of_node() or missing_of_wasm()
-
-
-def add_wasm() -> None:
-    """Have rustup install what Rust needs for WebAssembly, where it is missing."""
-    if missing_of_wasm() and shutil.which("rustup"):
-        subprocess.run(["rustup", "target", "add", WASM], check=False, cwd=ROOT)
 
 
 def build() -> None:

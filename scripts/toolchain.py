@@ -1,4 +1,6 @@
-"""Says clearly what of the toolchain is missing: Python, Rust, a target that Rust compiles for, or Vulkan.
+"""Says clearly what of the toolchain is missing.
+
+That may be Python, Rust, a target that Rust compiles for, Vulkan, Node or Chromium.
 
 Needs nothing but Python itself: it runs before there is an environment.
 """
@@ -117,9 +119,47 @@ def missing_of_wasm() -> str:
     """What Rust lacks for WebAssembly, in words; nothing where it can compile it."""
     if shutil.which("rustc") is None:
         return "no rustc on the PATH"
-    command = ["rustc", "--print", "target-libdir", "--target", WASM]
+    command = ["rustc", "--print", "sysroot"]
     said = subprocess.run(command, check=False, capture_output=True, text=True, cwd=ROOT).stdout.strip()
-    return "" if said and Path(said).is_dir() else f"no {WASM} for Rust (rustup target add {WASM})"
+    libraries = Path(said) / "lib/rustlib"
+    if not (libraries / WASM / "lib").is_dir():
+        return f"no {WASM} for Rust (rustup target add {WASM})"
+    # Threads of a browser need a standard library of their own, compiled from its source.
+    has_source = (libraries / "src/rust/library/std/Cargo.toml").is_file()
+    return "" if has_source else "no source of Rust's standard library (rustup component add rust-src)"
+
+
+def add_page() -> None:
+    """Node is there, and what Rust needs for WebAssembly; rustup adds what it can."""
+    if missing := missing_of_node():
+        refuse(missing, f"Node {NODE} or newer", "install it, as from nodejs.org or your distribution")
+    add_wasm()
+    if missing := missing_of_wasm():
+        refuse(missing, "what compiles the viewer's module", "check the network connection")
+
+
+def add_wasm() -> None:
+    """Have rustup install what Rust lacks for WebAssembly."""
+    if missing_of_wasm() and shutil.which("rustup"):
+        subprocess.run(["rustup", "target", "add", WASM], check=False, cwd=ROOT)
+        subprocess.run(["rustup", "component", "add", "rust-src"], check=False, cwd=ROOT)
+
+
+def add_browser() -> None:
+    """Chromium is there for the tests of the page; on Debian, root adds it."""
+    if shutil.which("chromium"):
+        return
+    install = ["apt-get", "install", "--yes", "--no-install-recommends", "chromium"]
+    if shutil.which("apt-get") is None or os.geteuid() != 0:
+        refuse("no chromium on the PATH", "the browser of the tests", f"as root: {' '.join(install)}")
+    quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
+    for command in (install, ["apt-get", "update"], install):
+        print(" ".join(command), flush=True)
+        done = subprocess.run(command, check=False, env=quiet, stdin=subprocess.DEVNULL).returncode == 0
+        if done and command is install:
+            break
+    if shutil.which("chromium") is None:
+        refuse("no chromium after apt-get", "the browser of the tests", "check the network connection")
 
 
 def missing_of_vulkan() -> str:
@@ -155,7 +195,14 @@ def add_vulkan() -> None:
 
 def main() -> None:
     """Check what the command line asks for."""
-    checks = {"python": check_python, "rust": check_rust, "targets": add_targets, "vulkan": add_vulkan}
+    checks = {
+        "python": check_python,
+        "rust": check_rust,
+        "targets": add_targets,
+        "vulkan": add_vulkan,
+        "page": add_page,
+        "browser": add_browser,
+    }
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("what", choices=checks, nargs="+")
     for what in parser.parse_args().what:

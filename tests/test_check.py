@@ -98,8 +98,32 @@ def test_ci_leaves_no_test_of_the_gpu_out(check, monkeypatch, ci):
     monkeypatch.setenv("CI", ci)
     wanted = {"LUMENCUT_REQUIRE_GPU": "1"} if ci else {}
     counted = [one for one in check.test_checks("report.xml") if one.count]
-    assert [one.environment for one in counted] == [wanted] * 2
-    assert check.lint_checks()[0].command[-1] == "vulkan"
+    assert [one.environment for one in counted if one.name != "tests of the page"] == [wanted] * 2
+    assert "vulkan" in check.lint_checks()[0].command
+
+
+def test_the_count_of_the_page_is_its_last_one(check):
+    assert check.count_page("noise\n3 passed, 1 failed\n41 passed, 2 failed\n") == check.Count(41, 2)
+    assert check.count_page("41 tests passed\n") == check.Count(failed=1)
+
+
+def test_a_missing_browser_is_installed_by_root_and_else_refused(toolchain, monkeypatch):
+    there, ran = {"apt-get"}, []
+    monkeypatch.setattr(toolchain.shutil, "which", lambda name: name if name in there else None)
+
+    def installs(command, **_):
+        ran.append(command[1])
+        there.add("chromium")
+        return subprocess.CompletedProcess(command, 0)
+
+    monkeypatch.setattr(toolchain.subprocess, "run", installs)
+    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 1000)
+    with pytest.raises(SystemExit, match="no chromium on the PATH"):
+        toolchain.add_browser()
+    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
+    toolchain.add_browser()
+    toolchain.add_browser()
+    assert ran == ["install"]
 
 
 def test_a_missing_vulkan_is_installed_by_root_and_else_refused(toolchain, monkeypatch, tmp_path):

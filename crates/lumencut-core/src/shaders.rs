@@ -10,9 +10,18 @@ pub struct Shader {
     pub text: &'static str,
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 macro_rules! shaders {
     ($($room:literal),* $(,)?) => {
         &[$(Shader { room: $room, text: include_str!(concat!($room, ".wgsl")) }),*]
+    };
+}
+
+/// What a browser loads has no comments in it (`build.rs`).
+#[cfg(target_arch = "wasm32")]
+macro_rules! shaders {
+    ($($room:literal),* $(,)?) => {
+        &[$(Shader { room: $room, text: include_str!(concat!(env!("OUT_DIR"), "/", $room, ".wgsl")) }),*]
     };
 }
 

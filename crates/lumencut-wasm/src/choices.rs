@@ -87,24 +87,25 @@ fn slab(json: &Json) -> Result<Option<Slab>> {
 mod tests {
     use super::*;
 
-    fn of(json: Json) -> Result<Settings> {
+    fn of(json: &Json) -> Result<Settings> {
         settings(Vec::new(), json.as_object().expect("an object"))
     }
 
     #[test]
     fn names_and_values_become_settings() {
-        let made = of(json!({"levels": 3, "context": "mip", "window": [300.0, 900.0], "slab": [5.0, "max"]}))
-            .expect("settings");
+        let made =
+            of(&json!({"levels": 3, "context": "mip", "window": [300.0, 900.0], "slab": [5.0, "max"]}))
+                .expect("settings");
         assert_eq!((made.levels, made.window), (3, Window { level: 300.0, width: 900.0 }));
         assert_eq!(made.slab.map(|slab| slab.thickness), Some(5.0));
-        assert!(of(json!({"context": null})).expect("settings").context.is_none());
+        assert!(of(&json!({"context": null})).expect("settings").context.is_none());
     }
 
     #[test]
     fn odd_values_are_refused_with_their_name() {
-        assert_eq!(of(json!({"levels": "three"})).expect_err("a text").subject, "levels");
-        assert_eq!(of(json!({"levels": 99})).expect_err("too many").kind, "settings");
-        assert!(of(json!({"no_such_setting": true})).is_err());
+        assert_eq!(of(&json!({"levels": "three"})).expect_err("a text").subject, "levels");
+        assert_eq!(of(&json!({"levels": 99})).expect_err("too many").kind, "settings");
+        assert!(of(&json!({"no_such_setting": true})).is_err());
     }
 
     #[test]

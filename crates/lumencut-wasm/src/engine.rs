@@ -45,13 +45,13 @@ fn answer<T>(result: Result<T>) -> Answer<T> {
 /// What succeeded, as JSON.
 fn told<T: Serialize>(result: Result<T>) -> Answer<String> {
     let text = result.and_then(|value| {
-        serde_json::to_string(&value).map_err(|error| Failure::of_message("answer", error, "JSON"))
+        serde_json::to_string(&value).map_err(|error| Failure::of_message("answer", &error, "JSON"))
     });
     answer(text)
 }
 
 fn read<'a, T: serde::Deserialize<'a>>(what: &str, text: &'a str) -> Result<T> {
-    serde_json::from_str(text).map_err(|error| Failure::of_message(what, error, "JSON"))
+    serde_json::from_str(text).map_err(|error| Failure::of_message(what, &error, "JSON"))
 }
 
 /// What computes on a device of this name.
@@ -151,8 +151,9 @@ impl Engine {
     ///
     /// # Errors
     /// `format` for a file that is damaged or holds none.
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str) -> Answer<String> {
-        told(self.session.open_centerlines(bytes, name))
+    #[allow(clippy::needless_pass_by_value)]
+    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, space: Option<String>) -> Answer<String> {
+        told(self.session.open_centerlines(bytes, name, space.as_deref()))
     }
 
     /// Closes the study.
@@ -257,7 +258,8 @@ impl Engine {
     /// # Errors
     /// `settings` where none was shown.
     pub fn pick_straightened(&self, column: f64, row: f64) -> Answer<String> {
-        let laid = self.session.laid().ok_or_else(|| Failure::of_message("CPR", "none", "one that is shown"));
+        let laid =
+            self.session.laid().ok_or_else(|| Failure::of_message("CPR", &"none", "one that is shown"));
         told(laid.map(|laid| {
             let at = self.session.at(laid.world([column, row]));
             json!({"point": at.point, "value": at.value, "vessel": laid.vessel(), "arc_length": laid.arc_length(row)})

@@ -24,7 +24,7 @@ pub type Result<T> = std::result::Result<T, Failure>;
 
 impl Failure {
     /// A message of the page that is not what it should be: a mistake of the page, never of its user.
-    pub fn of_message(subject: &str, found: impl ToString, expected: &str) -> Self {
+    pub fn of_message(subject: &str, found: &impl ToString, expected: &str) -> Self {
         Error::new(ErrorKind::Settings, subject, found.to_string(), expected).into()
     }
 }

@@ -1,7 +1,7 @@
 //! What files become here: the header of a stream of voxels, and centerlines in world space.
 
 use glam::{DAffine3, DMat4, DVec3, DVec4};
-use lumencut::centerlines::{self, Unit, junctions};
+use lumencut::centerlines::{self, Space, Unit, junctions};
 use lumencut::extent::Extent;
 use lumencut::lumen_points::{Lines, lumen_count};
 use lumencut::placement::{Judge, Known, placement};
@@ -30,7 +30,7 @@ impl VolumeHeader {
     pub fn read(text: &str) -> Result<Self> {
         let expected = "size, dtype and world_from_index as JSON";
         serde_json::from_str(text)
-            .map_err(|error| Failure::of_message("header of the volume", error, expected))
+            .map_err(|error| Failure::of_message("header of the volume", &error, expected))
     }
 
     /// The number of voxels, where it can be counted.
@@ -58,14 +58,20 @@ pub struct Read {
     pub notes: Vec<String>,
 }
 
-/// The vessels of the file `name` in world space; what it does not say of its space and unit the volume decides.
+/// The vessels of the file `name` in world space, read in `space` (`lps` or `ras`) where one is named; what neither the file nor
+/// the caller says of space and unit the volume decides.
 ///
 /// # Errors
 /// `format` for a file that is damaged or holds no centerlines, and where nothing tells where they lie.
-pub fn read_centerlines(bytes: &[u8], name: &str, volume: Option<&Volume>) -> Result<Read> {
+pub fn read_centerlines(
+    bytes: &[u8],
+    name: &str,
+    space: Option<&str>,
+    volume: Option<&Volume>,
+) -> Result<Read> {
     let lines = centerlines::read(bytes, name)?;
     let known = Known {
-        asked_space: None,
+        asked_space: Space::ALL.into_iter().find(|known| Some(known.name()) == space),
         asked_unit: None,
         stated_space: lines.space,
         stated_unit: lines.unit,

@@ -3,21 +3,21 @@
 //!
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
-mod choices;
+pub mod choices;
 #[cfg(target_arch = "wasm32")]
 mod dicom;
 #[cfg(target_arch = "wasm32")]
 mod engine;
-mod failure;
-mod files;
-mod histogram;
-mod planes;
+pub mod failure;
+pub mod files;
+pub mod histogram;
+pub mod planes;
 pub mod session;
-mod sides;
-mod study;
+pub mod sides;
+pub mod study;
 #[cfg(test)]
 mod tests;
 #[cfg(target_arch = "wasm32")]
 mod threads;
-mod view;
-mod voxels;
+pub mod view;
+pub mod voxels;

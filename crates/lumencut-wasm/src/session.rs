@@ -2,9 +2,10 @@
 
 use glam::{DVec2, DVec3};
 use lumencut::camera::Camera;
+use lumencut::feature_aggregation::{Feature, feature_aggregation};
 use lumencut::frame::Frame;
 use lumencut::geometry::Geometry;
-use lumencut::pipeline::{CpuRenderer, Request};
+use lumencut::pipeline::{self, CpuRenderer, Request};
 use lumencut::positions::world_from_pixel;
 use lumencut::settings::{Settings, Window};
 use lumencut::stages::{Image, ImageSet};
@@ -87,7 +88,7 @@ impl Session {
         let end = offset.saturating_add(count);
         bytes.get_mut(offset..end).ok_or_else(|| Failure {
             kind: "volume",
-            ..Failure::of_message("bytes of the volume", end, &expected)
+            ..Failure::of_message("bytes of the volume", &end, &expected)
         })
     }
 
@@ -111,13 +112,14 @@ impl Session {
         Ok(())
     }
 
-    /// Opens centerlines beside the volume, in the place of those before; tells what was odd about them.
+    /// Opens centerlines beside the volume, in the place of those before, in the space (`lps` or `ras`) that is named; tells what
+    /// was odd about them.
     ///
     /// # Errors
     /// `format` for a file that is damaged or holds none; the tree before stays then.
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str) -> Result<Vec<String>> {
+    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, space: Option<&str>) -> Result<Vec<String>> {
         let volume = self.study.held.as_ref().map(Held::volume).transpose()?;
-        let read = read_centerlines(bytes, name, volume.as_ref())?;
+        let read = read_centerlines(bytes, name, space, volume.as_ref())?;
         self.laid = None;
         self.study.show_tree(Some((read.tree, read.names)));
         Ok(read.notes)
@@ -215,7 +217,10 @@ impl Session {
     /// `vessel tree` for a vessel that there is not, and those of the layout.
     pub fn straightened(&mut self, message: CprMessage, window: [f64; 2]) -> Result<Picture> {
         let laid = Laid::new(message, self.vessel(message.vessel)?, self.laid.as_ref())?;
-        let picture = self.shown(Geometry::Curved(laid.cpr.curved()?), window)?;
+        let picture = match message.feature {
+            Some(feature) => self.aggregated(&laid, message.pixel_spacing, feature.into(), window)?,
+            None => self.shown(Geometry::Curved(laid.cpr.curved()?), window)?,
+        };
         self.laid = Some(laid);
         Ok(picture)
     }
@@ -228,23 +233,37 @@ impl Session {
     fn vessel(&self, number: usize) -> Result<&Vessel> {
         let vessels = self.study.tree().map_or(&[][..], |tree| tree.tree().vessels());
         vessels.get(number).ok_or_else(|| {
-            Failure::of_message("number of the vessel", number, &format!("a number below {}", vessels.len()))
+            Failure::of_message("number of the vessel", &number, &format!("a number below {}", vessels.len()))
         })
     }
 
-    fn shown(&self, geometry: Geometry, [level, width]: [f64; 2]) -> Result<Picture> {
+    fn aggregated(&self, laid: &Laid, spacing: f64, feature: Feature, window: [f64; 2]) -> Result<Picture> {
+        let volume = self.study.scene()?.volume.ok_or_else(no_volume)?;
+        let (camera, settings) = shown_flat(window)?;
+        let request = Request::new(&camera, &settings);
+        let value = feature_aggregation(&volume, &laid.cpr, spacing, feature, &request)?;
+        let size = laid.cpr.size();
+        Ok(Picture { size, bytes: pipeline::picture(&value, size, &settings)?.into_flattened() })
+    }
+
+    fn shown(&self, geometry: Geometry, window: [f64; 2]) -> Result<Picture> {
         let size = geometry.size();
         let volume = self.study.scene()?.volume.ok_or_else(no_volume)?;
-        let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0)?;
-        let settings = Settings { window: Window { level, width }, context: None, ..Settings::default() };
+        let (camera, settings) = shown_flat(window)?;
         let request = Request { images: ImageSet::of(&[Image::Picture]), ..Request::new(&camera, &settings) };
         let frame = self.cpu.look(&volume, Frame::of(geometry), &request)?;
         Ok(Picture { size, bytes: frame.image.into_flattened() })
     }
 }
 
+/// The settings of a flat picture in a window, and a camera, which it does not ask for.
+fn shown_flat([level, width]: [f64; 2]) -> Result<(Camera, Settings)> {
+    let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0)?;
+    Ok((camera, Settings { window: Window { level, width }, context: None, ..Settings::default() }))
+}
+
 fn no_volume() -> Failure {
-    Failure { kind: "volume", ..Failure::of_message("volume", "none", "one that is open") }
+    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
 }
 
 /// The arc length (mm) on a vessel that is nearest to a point.
@@ -272,7 +291,7 @@ fn phantom(name: &str) -> Result<Phantom> {
         "y_junction" => lumencut_phantom::y_junction()?,
         other => {
             let expected = "aorta, runoff, cervical, stenosis or y_junction";
-            return Err(Failure::of_message("name of the phantom", other, expected));
+            return Err(Failure::of_message("name of the phantom", &other, expected));
         }
     })
 }

@@ -1,6 +1,7 @@
 //! The straightened CPR of one vessel, and the way between its pixels and the world.
 
 use glam::{DVec2, DVec3};
+use lumencut::feature_aggregation::Feature;
 use lumencut::reformations::cpr::{Cpr, CprMode, View};
 use lumencut::reformations::path::Path;
 use lumencut::vessel_tree::Vessel;
@@ -19,6 +20,31 @@ pub struct CprMessage {
     pub width: f64,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
+    /// Which value of a half circle a pixel shows, by CFA; without one its own.
+    #[serde(default)]
+    pub feature: Option<Aggregated>,
+}
+
+/// The features of CFA by their names.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum Aggregated {
+    /// The largest value.
+    Max,
+    /// The mean.
+    Mean,
+    /// The smallest value.
+    Min,
+}
+
+impl From<Aggregated> for Feature {
+    fn from(feature: Aggregated) -> Self {
+        match feature {
+            Aggregated::Max => Self::Max,
+            Aggregated::Mean => Self::Mean,
+            Aggregated::Min => Self::Min,
+        }
+    }
 }
 
 /// The layout of the vessel that was straightened last.
@@ -35,7 +61,9 @@ impl Laid {
     /// # Errors
     /// `camera` for an angle, a width or a spacing that is none.
     pub fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
-        let same = |laid: &&Self| CprMessage { angle: message.angle, ..laid.message } == message;
+        let same = |laid: &&Self| {
+            CprMessage { angle: message.angle, feature: message.feature, ..laid.message } == message
+        };
         if let Some(laid) = before.filter(same) {
             return Ok(Self { message, cpr: laid.cpr.rotated(message.angle)? });
         }

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::planes::Plane;
 use crate::session::Session;
-use crate::sides::CprMessage;
+use crate::sides::{Aggregated, CprMessage};
 use crate::view::ViewMessage;
 
 fn opened(phantom: &str) -> Session {
@@ -37,8 +37,7 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
     let scene = session.study.scene().expect("a scene");
     let request = Request::new(&view.camera, &view.settings);
     let (mut backend, _) = pollster::block_on(Backend::new(Wanted::Cpu)).expect("a CPU");
-    let (frame, _) =
-        pollster::block_on(backend.render_by(view.method, &scene, &request)).expect("a frame");
+    let (frame, _) = pollster::block_on(backend.render_by(view.method, &scene, &request)).expect("a frame");
     let (depth, vessel) = (frame.depth().to_vec(), frame.vessel.clone());
     for (x, y) in [(48, 40), (10, 12), (90, 70), (50, 8)] {
         let pick = session.pick(&view, [x as f64, y as f64]).expect("a pick");
@@ -89,7 +88,7 @@ fn a_slice_shows_the_voxels_of_its_plane() {
 #[test]
 fn the_straightened_vessel_runs_down_the_middle() {
     let mut session = opened("stenosis");
-    let message = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5 };
+    let message = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None };
     let picture = session.straightened(message, [300.0, 900.0]).expect("a CPR");
     let [width, height] = picture.size;
     let laid = session.laid().expect("the layout");
@@ -122,13 +121,16 @@ fn voxels_come_in_parts_and_must_fit() {
 #[test]
 fn a_broken_file_of_centerlines_leaves_the_tree() {
     let mut session = opened("y_junction");
-    let error = session.open_centerlines(b"<VTKFile", "tree.vtp").expect_err("broken");
+    let error = session.open_centerlines(b"<VTKFile", "tree.vtp", None).expect_err("broken");
     assert_eq!(error.kind, "format");
     assert!(session.study.tree().is_some());
     let points = session.study.tree().expect("a tree").tree().vessels()[0].points().to_vec();
     let rows = points.iter().map(|p| format!("{},{},{},1.5\n", p.x, p.y, p.z)).collect::<String>();
     let text = format!("x,y,z,radius\n{rows}");
-    session.open_centerlines(text.as_bytes(), "line.csv").expect("a line");
+    // The phantom is as good a place for them mirrored.
+    let mend = session.open_centerlines(text.as_bytes(), "line.csv", None).expect_err("no space").mend;
+    assert!(mend.contains("coordinates"));
+    session.open_centerlines(text.as_bytes(), "line.csv", Some("lps")).expect("a line");
     assert_eq!(session.study.tree().map(|tree| tree.tree().vessels().len()), Some(1));
 }
 
@@ -148,4 +150,22 @@ fn messages_that_are_none_are_refused() {
     let odd = ViewMessage { method: "xyz".into(), ..view(&session, [8, 8]) };
     assert_eq!(odd.view().expect_err("no method").subject, "method");
     assert!(Session::default().open_phantom("heart").is_err());
+}
+
+#[test]
+fn a_feature_aggregation_is_as_bright_as_its_circles() {
+    let mut session = opened("stenosis");
+    let plain = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None };
+    let shown =
+        |session: &mut Session, message| session.straightened(message, [300.0, 900.0]).expect("a CPR");
+    let (least, most) = (CprMessage { feature: Some(Aggregated::Min), ..plain }, Some(Aggregated::Max));
+    let [least, own, most] =
+        [least, plain, CprMessage { feature: most, ..plain }].map(|m| shown(&mut session, m));
+    assert_eq!((least.size, most.size), (own.size, own.size));
+    // A sample of the circle lies beside the pixel itself, by half an angle at most.
+    let brighter = |a: &[u8], b: &[u8]| a.iter().zip(b).all(|(a, b)| i32::from(*a) + 2 >= i32::from(*b));
+    assert!(brighter(&most.bytes, &least.bytes));
+    let middle = own.size[0] / 2 + own.size[0] * (own.size[1] / 2);
+    assert_eq!(least.bytes[4 * middle..][..4], own.bytes[4 * middle..][..4]);
+    assert_eq!(most.bytes[4 * middle..][..4], own.bytes[4 * middle..][..4]);
 }

@@ -72,7 +72,7 @@ impl ViewMessage {
     /// # Errors
     /// `settings` for a text that is no view.
     pub fn read(text: &str) -> Result<Self> {
-        serde_json::from_str(text).map_err(|error| Failure::of_message("view", error, "a view as JSON"))
+        serde_json::from_str(text).map_err(|error| Failure::of_message("view", &error, "a view as JSON"))
     }
 
     /// The same, checked.
@@ -84,7 +84,7 @@ impl ViewMessage {
             "csr" | "csr-paper" => Method::CutSurface,
             "mpcpr" => Method::MpCpr,
             "cr" => Method::Cr(CrParameters::default()),
-            other => return Err(Failure::of_message("method", other, "csr, csr-paper, mpcpr or cr")),
+            other => return Err(Failure::of_message("method", &other, "csr, csr-paper, mpcpr or cr")),
         };
         let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
         Ok(View { camera: self.camera.camera()?, method, settings: settings(first, &self.settings)? })

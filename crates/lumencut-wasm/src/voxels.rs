@@ -44,7 +44,7 @@ impl Stored {
                 let expected = "uint8, int16, uint16 or float32";
                 return Err(Failure {
                     kind: "volume",
-                    ..Failure::of_message("type of the voxels", other, expected)
+                    ..Failure::of_message("type of the voxels", &other, expected)
                 });
             }
         })

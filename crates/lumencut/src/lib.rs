@@ -8,6 +8,7 @@ pub mod backend;
 mod choice;
 pub mod devices;
 pub mod extent;
+pub mod feature_aggregation;
 mod fused;
 pub mod lumen_points;
 pub mod method;

@@ -66,7 +66,11 @@ export interface Cpr {
   /** Width of the picture (mm). */
   readonly width: number;
   readonly pixel_spacing: number;
+  /** Which value of the half circle on its side a pixel shows (CFA); none is its own. */
+  readonly feature: Feature | null;
 }
+
+export type Feature = 'max' | 'mean' | 'min';
 
 /** Level and width. */
 export type Window = Pair;

@@ -3,6 +3,7 @@ import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import type {
   Camera,
+  Feature,
   Histogram,
   Method,
   Progress,
@@ -57,6 +58,8 @@ export const pickedVessel = signal<number | null>(null);
 export const pickedPlace = signal(0);
 /** Rotation of the CPR about its vessel (radians). */
 export const cprAngle = signal(0);
+/** Which value of a half circle the CPR shows (CFA). */
+export const cprFeature = signal<Feature | null>(null);
 
 export const layout = signal<Layout>('strip');
 export const maximised = signal<ViewName | null>(null);

@@ -1,6 +1,6 @@
 /** The straightened CPR of the picked vessel. */
 import { useCallback, useState } from 'preact/hooks';
-import type { Cpr, Pair } from '../core/messages';
+import type { Cpr, Feature, Pair } from '../core/messages';
 import { engine } from '../core/shared';
 import { placeCrossHair } from '../link/cross-hair';
 import { dragWindow, windowBack } from '../state/actions';
@@ -15,13 +15,14 @@ const STEP = Math.PI / 36;
 export function CprView() {
   const vessel = store.pickedVessel.value;
   const angle = store.cprAngle.value;
+  const feature = store.cprFeature.value;
   const window = store.window_.value;
   const [size, setSize] = useState<Pair | null>(null);
   const length = vessel === null ? 0 : (store.report.value?.vessels?.[vessel]?.length ?? 0);
   const spacing = size && length > 0 ? Math.max(length / size[1], 0.05) : null;
   const cpr: Cpr | null =
     vessel !== null && spacing && size
-      ? { vessel, angle, width: Math.min(WIDTH, size[0] * spacing), pixel_spacing: spacing }
+      ? { vessel, angle, width: Math.min(WIDTH, size[0] * spacing), pixel_spacing: spacing, feature }
       : null;
   const text = cpr && JSON.stringify(cpr);
   const [shown, setShown] = useState<Pair | null>(null);
@@ -66,7 +67,40 @@ export function CprView() {
       style={{ margin: '0 auto' }}
     >
       {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
-      {cpr && <span class="edge bottom">{`${((angle * 180) / Math.PI).toFixed(0)}°`}</span>}
+      {cpr && <CprControls />}
     </FlatPicture>
+  );
+}
+
+/** The rotation about the vessel, and which value a pixel shows. */
+function CprControls() {
+  const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
+  return (
+    <div class="pane-controls">
+      <input
+        type="range"
+        min="-180"
+        max="180"
+        step="5"
+        value={String(((((degrees + 180) % 360) + 360) % 360) - 180)}
+        aria-label="Rotation about the vessel (degrees)"
+        onInput={(event) => {
+          store.cprAngle.value = (Number(event.currentTarget.value) * Math.PI) / 180;
+        }}
+      />
+      <output>{`${degrees}°`}</output>
+      <select
+        aria-label="What a pixel shows"
+        value={store.cprFeature.value ?? ''}
+        onChange={(event) => {
+          store.cprFeature.value = (event.currentTarget.value || null) as Feature | null;
+        }}
+      >
+        <option value="">CPR</option>
+        <option value="max">CFA, largest</option>
+        <option value="mean">CFA, mean</option>
+        <option value="min">CFA, smallest</option>
+      </select>
+    </div>
   );
 }

@@ -1,0 +1,94 @@
+//! Curvicircular feature aggregation (CFA) of a straightened vessel: a pixel beside the vessel stands for the half circle on
+//! its side, so that whatever lies around the vessel shows without turning it (Mistelbauer et al. 2013,
+//! DOI 10.1111/cgf.12110, in our reading).
+
+use std::f64::consts::PI;
+
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::frame::Frame;
+use lumencut_core::geometry::Geometry;
+use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::reformations::cpr::Cpr;
+use lumencut_core::scene::SharedVolume;
+use lumencut_core::stages::{Image, ImageSet};
+
+/// Which value of a half circle is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// The largest.
+    Max,
+    /// The mean.
+    Mean,
+    /// The smallest.
+    Min,
+}
+
+impl Feature {
+    /// The feature of this name: `max`, `mean` or `min`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for another name.
+    pub fn named(name: &str) -> Result<Self> {
+        match name {
+            "max" => Ok(Self::Max),
+            "mean" => Ok(Self::Mean),
+            "min" => Ok(Self::Min),
+            other => {
+                let found = format!("'{other}'");
+                Err(Error::new(ErrorKind::Settings, "feature of the CFA", found, "max, mean or min"))
+            }
+        }
+    }
+
+    fn gathered(self, before: f64, value: f64) -> f64 {
+        match self {
+            Self::Max => before.max(value),
+            Self::Mean => before + value,
+            Self::Min => before.min(value),
+        }
+    }
+
+    fn first(self) -> f64 {
+        match self {
+            Self::Max => f64::MIN,
+            Self::Mean => 0.0,
+            Self::Min => f64::MAX,
+        }
+    }
+}
+
+/// The values of a CFA in the layout of `cpr`, a straightened vessel, row by row; NaN where the whole half circle lies
+/// outside the volume. Of the request settings and the way to stop count. Samples on a half circle are no farther apart than
+/// a pixel, `pixel_spacing` (mm).
+///
+/// # Errors
+/// [`ErrorKind::Interrupted`] once the request says stop, and those of the layout.
+pub fn feature_aggregation(
+    volume: &SharedVolume,
+    cpr: &Cpr,
+    pixel_spacing: f64,
+    feature: Feature,
+    request: &Request,
+) -> Result<Vec<f32>> {
+    let [width, height] = cpr.size();
+    let largest = (width / 2) as f64 * pixel_spacing;
+    let angles = ((PI * largest / pixel_spacing).ceil() as usize).max(1);
+    let request = Request { images: ImageSet::of(&[Image::Value]), ..*request };
+    let cpu = CpuRenderer::default();
+    let mut gathered = vec![(feature.first(), 0u32); width * height];
+    for n in 0..angles {
+        let turned = cpr.rotated(((n as f64 + 0.5) / angles as f64 - 0.5) * PI)?;
+        let frame = cpu.look(volume, Frame::of(Geometry::Curved(turned.curved()?)), &request)?;
+        for (kept, value) in gathered.iter_mut().zip(&frame.value) {
+            if !value.is_nan() {
+                *kept = (feature.gathered(kept.0, f64::from(*value)), kept.1 + 1);
+            }
+        }
+    }
+    let shown = |(value, count): (f64, u32)| match (count, feature) {
+        (0, _) => f32::NAN,
+        (count, Feature::Mean) => (value / f64::from(count)) as f32,
+        _ => value as f32,
+    };
+    Ok(gathered.into_iter().map(shown).collect())
+}

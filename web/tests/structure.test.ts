@@ -1,0 +1,67 @@
+/** What holds of all files of the page: they are short, need each other in no circle, and one file alone touches the wasm. */
+import { readdirSync, readFileSync } from 'node:fs';
+import { dirname, join, normalize } from 'node:path';
+import { describe, expect, test } from 'vitest';
+
+const SRC = join(import.meta.dirname, '../src');
+const LONGEST = 300;
+
+const files = readdirSync(SRC, { recursive: true, encoding: 'utf8' }).filter(
+  (name) => /\.tsx?$/.test(name) && !name.startsWith('core/pkg'),
+);
+
+/** The files of the page that a file imports, also for its types alone. */
+function imported(name: string): string[] {
+  const text = readFileSync(join(SRC, name), 'utf8');
+  const found = [...text.matchAll(/(?:from|import)\s*\(?['"](\.[^'"]*)['"]/g)].map((match) => match[1] ?? '');
+  const paths = found.map((path) => normalize(join(dirname(name), path)));
+  return paths.flatMap((path) => files.filter((file) => [path, `${path}.ts`, `${path}.tsx`].includes(file)));
+}
+
+/** A circle of files that need each other; none where there is none. */
+function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
+  const done = new Set<string>();
+  const walk = (name: string, way: string[]): string[] => {
+    if (way.includes(name)) {
+      return [...way.slice(way.indexOf(name)), name];
+    }
+    if (done.has(name)) {
+      return [];
+    }
+    for (const next of graph.get(name) ?? []) {
+      const found = walk(next, [...way, name]);
+      if (found.length > 0) {
+        return found;
+      }
+    }
+    done.add(name);
+    return [];
+  };
+  return [...graph.keys()].map((name) => walk(name, [])).find((found) => found.length > 0) ?? [];
+}
+
+describe('the files of the page', () => {
+  test('are read', () => expect(files.length).toBeGreaterThan(20));
+
+  test.each(files)('%s is short', (name) => {
+    expect(readFileSync(join(SRC, name), 'utf8').split('\n').length).toBeLessThanOrEqual(LONGEST);
+  });
+
+  test('need each other in no circle', () => {
+    expect(circle(new Map(files.map((name) => [name, imported(name)])))).toEqual([]);
+  });
+
+  test('a circle would be found', () => {
+    const graph = new Map([
+      ['a', ['b']],
+      ['b', ['c']],
+      ['c', ['a']],
+    ]);
+    expect(circle(graph)).toEqual(['a', 'b', 'c', 'a']);
+  });
+
+  test('touch the wasm in one place', () => {
+    const touching = files.filter((name) => readFileSync(join(SRC, name), 'utf8').includes('/pkg/'));
+    expect(touching).toEqual(['core/module.ts']);
+  });
+});
