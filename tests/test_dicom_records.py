@@ -22,7 +22,7 @@ from dicom_cases import CASES
 from dicom_enhanced import enhanced
 from dicom_phantom import save
 from dicom_series import PLAIN_STACK, Stack
-from lumencut import read_volume
+from lumencut import FormatError, list_series, read_volume
 from lumencut._lumencut import DICOM_ATTRIBUTES, describe_dicom, judge_dicom
 from lumencut.volume_files.dicom.files import read_files
 from lumencut.volume_files.dicom.headers import header_tags
@@ -93,6 +93,23 @@ def test_records_hold_frames_as_they_are(tmp_path):
     position = [float(number) for number in frames[0]["ImagePositionPatient"]]
     np.testing.assert_allclose(position, PLAIN_STACK[0].plane[:3, 3])
     assert "PixelSpacing" in record["header"]["shared"]
+
+
+def test_a_damaged_frame_is_named_and_spoils_no_other_series(tmp_path):
+    save(enhanced(PLAIN_STACK), tmp_path / "all.dcm")
+    whole = (tmp_path / "all.dcm").read_bytes()
+    height = b"%.9f" % PLAIN_STACK[3].plane[2, 3]
+    assert whole.count(height) == 1
+    (tmp_path / "all.dcm").write_bytes(whole.replace(height, b"DOE^JOHN".ljust(len(height))))
+    with pytest.raises(FormatError) as caught:
+        read_volume(tmp_path)
+    words = "found damaged values in ImagePositionPatient; expected 3 finite numbers"
+    assert str(caught.value) == f"{tmp_path / 'all.dcm'}: {words}"
+    Stack(PLAIN_STACK, series=4)(tmp_path)
+    assert read_volume(tmp_path, series=4).size[2] == len(PLAIN_STACK)
+    troubles = {one.number: one.trouble for one in list_series(tmp_path)}
+    assert troubles["4"] == ""
+    assert "damaged values in ImagePositionPatient" in troubles.values()
 
 
 def test_letters_that_no_text_can_have_break_nothing(tmp_path):

@@ -38,7 +38,7 @@ pub struct Stack<'a> {
     pub slices: Vec<Slice<'a>>,
     /// The index k of each slice; only of resampled slices it may be a fraction.
     pub places: Vec<f64>,
-    /// Where the first voxel lies, and the vectors from voxel to voxel along i, j, k.
+    /// Where the middle of the first voxel lies (mm, LPS).
     pub origin: DVec3,
     /// The vectors from voxel to voxel along i, j, k.
     pub steps: [DVec3; 3],

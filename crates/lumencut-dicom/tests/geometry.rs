@@ -120,6 +120,30 @@ fn uneven_slices_are_named_or_resampled() {
 }
 
 #[test]
+fn a_part_with_wider_steps_is_no_row_of_holes() {
+    let heights = [even(10), vec![28.0, 38.0, 48.0]].concat();
+    let error = judged(&stack(&heights, as_they_are), json!({"fill_gaps": true})).expect_err("two parts");
+    assert_eq!(error.found, "uneven slices at mixed distances (9 of 2 mm, 3 of 10 mm)");
+    let error = refused(&stack(&heights[..12], as_they_are));
+    assert!(error.found.starts_with("8 missing slices"), "{}", error.found);
+}
+
+#[test]
+fn holes_between_uneven_slices_are_filled_only_where_that_is_asked_for() {
+    let heights = [0.0, 4.0, 8.0, 12.0, 28.0, 31.1, 34.2, 37.3, 40.4];
+    let files = stack(&heights, as_they_are);
+    let error = refused(&files);
+    assert!(error.mend.starts_with("add what is missing of 16 mm between IM3 and IM4, or"), "{}", error.mend);
+    let error = judged(&files, json!({"resample_slices": true})).expect_err("a hole");
+    assert!(error.found.ends_with("with a hole of 16 mm between IM3 and IM4"), "{}", error.found);
+    let wanted = json!({"resample_slices": true, "fill_gaps": true});
+    assert!(judged(&files, wanted.clone()).expect("a grid").is_resampled);
+    let far = heights.map(|height| if height > 20.0 { height + 40.0 } else { height });
+    let error = judged(&stack(&far, as_they_are), wanted).expect_err("mostly a hole");
+    assert_eq!(error.mend, "add the missing files");
+}
+
+#[test]
 fn fractions_of_places_weigh_their_neighbours() {
     let heights = [0.0, 4.0, 8.0, 12.0, 16.0, 19.1, 22.2, 25.3];
     let plan = judged(&stack(&heights, as_they_are), json!({"resample_slices": true})).expect("a grid");

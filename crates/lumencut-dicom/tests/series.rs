@@ -175,7 +175,7 @@ fn enhanced(heights: &[f64]) -> Value {
     let mut one = made::file("all", &attributes);
     let frame = |height: &f64| json!({"ImagePositionPatient": [0, 0, height]});
     one["header"]["frames"] = heights.iter().map(frame).collect();
-    one["header"]["shared"] = json!({"PixelSpacing": ["0.6", "0.6"]});
+    one["header"]["shared"] = json!({"PixelSpacing": ["0.6", "0.6"], "RescaleSlope": "2"});
     one
 }
 
@@ -185,7 +185,7 @@ fn frames_come_before_what_they_share_before_the_top_level() {
     one["header"]["frames"][1]["RescaleSlope"] = "3".into();
     let plan = plan(std::slice::from_ref(&one));
     assert_eq!(plan.slices.iter().map(|slice| slice.frame).collect::<Vec<_>>(), [1, 2, 0]);
-    assert_eq!(plan.slices.iter().map(|slice| slice.slope).collect::<Vec<_>>(), [3.0, 1.0, 1.0]);
+    assert_eq!(plan.slices.iter().map(|slice| slice.slope).collect::<Vec<_>>(), [3.0, 2.0, 2.0]);
     assert_eq!((plan.world_from_index[0][0], plan.details.files.as_str()), (0.6, "1"));
     one["header"]["frames"][2]["ImagePositionPatient"] = Value::Null;
     assert_eq!(

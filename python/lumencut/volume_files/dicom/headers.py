@@ -31,7 +31,7 @@ _PIXELS = {
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """One DICOM instance with rows and columns.
+    """One DICOM file, mostly an image.
 
     `pixels_at` is the byte at which the value of the element of pixels begins, None where the dataset is
     deflated; `pixel_keyword` and `pixel_vr` name that element, empty where there is none.

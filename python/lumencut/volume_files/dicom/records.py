@@ -100,5 +100,13 @@ def _of_groups(groups: Header) -> Record:
         items: Any = groups[sequence].value if sequence in groups else None
         for tag, keyword in keywords.items() if items else ():
             if keyword not in found and tag in items[0]:
-                found[keyword] = plain(items[0][tag].value)
+                found[keyword] = _of_group(items[0], tag)
     return found
+
+
+def _of_group(group: Header, tag: int) -> Any:
+    """A value of a functional group, true where it is damaged: who asks for it will hear of that."""
+    try:
+        return plain(group[tag].value)
+    except Exception:  # what pydicom raises for damaged values is nearly everything
+        return True
