@@ -17,6 +17,7 @@ _BranchArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDAr
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
+    "DICOM_ATTRIBUTES",
     "LARGEST_EXTENT",
     "MEASURING_FLAGS",
     "MEASURING_LEFT_OUT",
@@ -46,12 +47,14 @@ __all__ = [
     "contains",
     "correspondence",
     "cross_section",
+    "describe_dicom",
     "devices",
     "fits_nowhere",
     "fitted",
     "fitted_turn",
     "frame_angles",
     "full_window",
+    "judge_dicom",
     "levels",
     "make_phantom",
     "measure",
@@ -105,6 +108,9 @@ class Setting:
 @final
 class Settings:
     def __new__(cls, attributes: Any) -> Settings: ...
+
+# The attributes that DICOM series are judged by, and the functional groups that may have each.
+DICOM_ATTRIBUTES: dict[str, list[str]]
 
 # The views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
@@ -252,6 +258,8 @@ def correspondence(
 def cross_section(
     volume: Any, measured: _Arrays, at: float, size: float, pixel_spacing: float
 ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float64], list[float]]: ...
+def judge_dicom(headers: bytes, wanted: bytes, /) -> str: ...
+def describe_dicom(headers: bytes, /) -> str: ...
 def devices() -> list[dict[str, Any]]: ...
 def fitted(camera: Any, points: npt.NDArray[np.float64]) -> dict[str, Any]: ...
 def fitted_turn(

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lumencut._wording import counted
-
 
 @dataclass(frozen=True)
 class SeriesReport:
@@ -25,6 +23,8 @@ class SeriesReport:
         Whether it may be an angiography volume: a stack of grey CT, MR or 3D XA slices.
     trouble : str
         Why its images form no volume, or no such volume; empty otherwise.
+    shown : str
+        All of it on one line.
     """
 
     number: str
@@ -36,14 +36,7 @@ class SeriesReport:
     spacing: tuple[float, float, float] | None
     can_be_volume: bool
     trouble: str
+    shown: str
 
     def __str__(self) -> str:
-        parts = [self.description or "no description", self.modality or "no modality"]
-        if self.size and self.spacing:
-            parts.append(" × ".join(map(str, self.size)))
-            parts.append(" × ".join(f"{step:.4g}" for step in self.spacing) + " mm")
-        else:
-            parts.append(counted(self.images, "image"))
-        parts.append(f"UID {self.uid or 'not stated'}")
-        tail = f": {self.trouble}" if self.trouble else ""
-        return f"number {self.number or 'not stated'} ({', '.join(parts)}{tail})"
+        return self.shown

@@ -6,6 +6,7 @@ mod camera;
 mod centerlines;
 mod cpr;
 mod device;
+mod dicom;
 mod errors;
 mod mask_tracing;
 mod measuring;
@@ -29,6 +30,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     settings::add_table(module)?;
     placement::add_names(module)?;
+    dicom::add_names(module)?;
     views::add_names(module)?;
     measuring::add_names(module)?;
     module.add_class::<centerlines::CenterlineFile>()?;
@@ -40,6 +42,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<tracing::Tracer>()?;
     module.add_function(wrap_pyfunction!(cpr::picture, module)?)?;
     module.add_function(wrap_pyfunction!(device::devices, module)?)?;
+    module.add_function(wrap_pyfunction!(dicom::describe_dicom, module)?)?;
+    module.add_function(wrap_pyfunction!(dicom::judge_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::cross_section, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measure, module)?)?;

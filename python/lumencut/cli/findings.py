@@ -65,7 +65,7 @@ def of_series(path: Path, error: SeriesError) -> dict[str, Any]:
         "file": str(path),
         "kind": "series",
         "format": "DICOM",
-        "series": [asdict(one) | {"shown": str(one)} for one in error.series],
+        "series": [asdict(one) for one in error.series],
         "notes": [f"{len(error.series)} series; --series NUMBER|UID chooses one"],
     }
 

@@ -10,8 +10,8 @@ from typing import Any, BinaryIO
 
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom import Wanted, opened
-from lumencut.volume_files.dicom.headers import Header, Image, header_tags, refuse_damage
-from lumencut.volume_files.dicom.series import with_pixels_alone
+from lumencut.volume_files.dicom.files import File, recorded
+from lumencut.volume_files.dicom.headers import Header, Image, header_tags
 from lumencut.volume_files.dicom.sources import Source
 from lumencut.volume_files.opened import VolumeFile, refusing
 
@@ -62,12 +62,13 @@ def open_datasets(datasets: Sequence[Any]) -> VolumeFile:
     return opened(_SUBJECT, Wanted(), lambda notes: _images(datasets, notes))
 
 
-def _images(datasets: Sequence[Any], notes: list[str]) -> list[Image]:
+def _images(datasets: Sequence[Any], notes: list[str]) -> list[File]:
     found = []
     for number, dataset in enumerate(datasets):
         with refusing(f"{_SUBJECT}: dataset {number}", "DICOM", notes):
-            found.append(_image(number, dataset))
-    return with_pixels_alone(_SUBJECT, [(image.source, image) for image in found], notes)
+            image = _image(number, dataset)
+            found.append(recorded(image.source, image))
+    return found
 
 
 def _image(number: int, dataset: Any) -> Image:
@@ -80,9 +81,7 @@ def _image(number: int, dataset: Any) -> Image:
     # Before a dataset is written, the type of its pixels may be open.
     vr = element.VR if element and len(element.VR) == 2 else "OW"
     source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels)
-    image = Image(source, _header(dataset), 0, keyword, vr)
-    refuse_damage(image)
-    return image
+    return Image(source, _header(dataset), 0, keyword, vr)
 
 
 def _header(dataset: Any) -> Header:

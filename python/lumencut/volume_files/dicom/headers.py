@@ -1,4 +1,4 @@
-"""The header of one DICOM file: the attributes that geometry, values and the choice of a series need."""
+"""The header of one DICOM file: the attributes that series are judged by and that pixels are read with."""
 
 from __future__ import annotations
 
@@ -8,26 +8,17 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
 
+from lumencut._lumencut import DICOM_ATTRIBUTES
 from lumencut.volume_files.dicom.sources import Source, refuse_deflate_bomb
-from lumencut.volume_files.opened import refusing
 
 Header = Any
 """A pydicom Dataset that holds the attributes below, without pixels."""
 
-# fmt: off
-_KEYWORDS = (
-    "SpecificCharacterSet", "SOPClassUID", "SOPInstanceUID", "ImageType", "Modality",
-    "SeriesDescription", "SeriesInstanceUID", "SeriesNumber", "Rows", "Columns", "NumberOfFrames",
-    "SamplesPerPixel", "PlanarConfiguration", "PhotometricInterpretation", "BitsAllocated", "BitsStored",
-    "HighBit", "PixelRepresentation", "PixelPaddingValue", "RescaleSlope", "RescaleIntercept",
-    "ModalityLUTSequence", "LossyImageCompression", "PixelSpacing", "ImagePositionPatient",
-    "ImageOrientationPatient", "SliceThickness", "SpacingBetweenSlices", "GantryDetectorTilt",
-    "SharedFunctionalGroupsSequence", "PerFrameFunctionalGroupsSequence", "AcquisitionNumber",
-    "AcquisitionTime", "ContentTime", "TriggerTime", "NominalPercentageOfCardiacPhase",
-    "TemporalPositionIdentifier", "EchoNumbers", "EchoTime", "ConvolutionKernel", "ExtendedOffsetTable",
-    "ExtendedOffsetTableLengths",
+_OWN_KEYWORDS = (
+    *("SpecificCharacterSet", "SOPClassUID", "PlanarConfiguration", "ExtendedOffsetTable"),
+    *("ExtendedOffsetTableLengths", "SharedFunctionalGroupsSequence", "PerFrameFunctionalGroupsSequence"),
 )
-# fmt: on
+"""What is read beside the attributes that the core judges by."""
 _HEAD = 1 << 17
 """Bytes that hold the header of nearly every single-frame image: parsing memory is fast and bounded."""
 _DEFLATED = "1.2.840.10008.1.2.1.99"
@@ -40,7 +31,7 @@ _PIXELS = {
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """One DICOM instance with rows and columns.
+    """One DICOM file, mostly an image.
 
     `pixels_at` is the byte at which the value of the element of pixels begins, None where the dataset is
     deflated; `pixel_keyword` and `pixel_vr` name that element, empty where there is none.
@@ -62,17 +53,6 @@ class Image:
         """How the pixels are written."""
         return transfer_syntax(self.header)
 
-    @cached_property
-    def shared_groups(self) -> Any:
-        """The functional groups of all frames, None where the image has none."""
-        groups = self.header.get("SharedFunctionalGroupsSequence")
-        return groups[0] if groups else None
-
-    @cached_property
-    def frame_groups(self) -> Any:
-        """The functional groups of each frame, None where the image has none."""
-        return self.header.get("PerFrameFunctionalGroupsSequence") or None
-
 
 def is_dicom(head: bytes) -> bool:
     """Tell DICOM by the first bytes (at least 132) of a file: the preamble, or a bare identifying group."""
@@ -87,23 +67,12 @@ def transfer_syntax(header: Header) -> Any:
     return stated or (ImplicitVRLittleEndian if header.original_encoding[0] else ExplicitVRLittleEndian)
 
 
-def read_header(source: Source, notes: list[str]) -> Image | None:
+def read_header(source: Source) -> Image | None:
     """Read the attributes of one file, None if it is no DICOM."""
-    with refusing(source, "DICOM", notes):
-        head = source.head(_HEAD)
-        if not is_dicom(head):
-            return None
-        found = _within(source, head) or _whole(source)
-        refuse_damage(found)
-        return found
-
-
-def refuse_damage(image: Image) -> None:
-    """Read every value once: damaged ones are to show here, where the file is known."""
-    for tag in tuple(image.header.keys()):
-        image.header[tag]
-    for keyword in ("NumberOfFrames", "SamplesPerPixel"):
-        int(image.header.get(keyword) or 1)
+    head = source.head(_HEAD)
+    if not is_dicom(head):
+        return None
+    return _within(source, head) or _whole(source)
 
 
 def _within(source: Source, head: bytes) -> Image | None:
@@ -143,7 +112,8 @@ def header_tags() -> list[int]:
     """The tags of the attributes that are asked for."""
     from pydicom.datadict import tag_for_keyword
 
-    return [tag for keyword in _KEYWORDS if (tag := tag_for_keyword(keyword)) is not None]
+    keywords = (*_OWN_KEYWORDS, *DICOM_ATTRIBUTES)
+    return [tag for keyword in keywords if (tag := tag_for_keyword(keyword)) is not None]
 
 
 def _with_pixels(source: Source, header: Header, element: bytes, start: int) -> Image:

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from lumencut.errors import FormatError
 from lumencut.volume_files.dicom.decoding import PLUGINS, decode_frame, decode_native
 from lumencut.volume_files.dicom.headers import Image
-from lumencut.volume_files.dicom.slices import Slice
+from lumencut.volume_files.dicom.stack import Slice
 from lumencut.volume_files.dicom.workers import Request, Workers
 from lumencut.volume_files.opened import refusing
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.volume_files.dicom.geometry import Stack
 from lumencut.volume_files.dicom.pixels import PixelReader
+from lumencut.volume_files.dicom.stack import Stack
 from lumencut.volume_files.opened import Filled, Progress, refusing, unfollowed
 from lumencut.volume_files.rescale import holding, is_integral, rescaled
 
@@ -18,15 +17,21 @@ _INT32 = np.iinfo(np.int32)
 
 def load(stack: Stack, notes: list[str], progress: Progress, filled: Filled) -> npt.NDArray[Any]:
     """Read slice after slice, and fill in between them what the grid asks for."""
-    if not (stack.places % 1).any():
-        places = stack.places.astype(np.int64)
+    places = np.array([one.place for one in stack.slices])
+    whole = np.flatnonzero(places % 1 == 0)
+    if len(whole) == len(places):
+        rows = places.astype(np.int64)
         # Missing slices are interpolated only once all others are there.
-        is_whole = len(places) == places[-1] + 1
-        volume = _read(stack, places, notes, progress, filled if is_whole else unfollowed)
-        _interpolate(volume, places)
-        return volume
-    measured = _read(stack, np.arange(len(stack.slices)), notes, progress, unfollowed)
-    return _between(measured, stack.places)
+        followed = filled if len(rows) == rows[-1] + 1 else unfollowed
+        volume = measured = _read(stack, rows, notes, progress, followed)
+    else:
+        rows = np.arange(len(places))
+        measured = _read(stack, rows, notes, progress, unfollowed)
+        volume = np.empty((stack.size[2], *measured.shape[1:]), measured.dtype)
+        volume[places[whole].astype(np.int64)] = measured[whole]
+    for fill in stack.fills:
+        volume[fill.k] = _mixed(measured[rows[fill.before]], measured[rows[fill.after]], fill.part)
+    return volume
 
 
 def settled_type(stack: Stack) -> np.dtype[Any] | None:
@@ -105,23 +110,6 @@ def _widened(
     for place in filled:
         wider[place] = volume[place]
     return wider
-
-
-def _interpolate(volume: npt.NDArray[Any], places: npt.NDArray[np.int64]) -> None:
-    """Fill the slices between neighbouring places linearly, rounded to the nearest value in integers."""
-    for before, after in itertools.pairwise(places):
-        for k in range(before + 1, after):
-            volume[k] = _mixed(volume[before], volume[after], (k - before) / (after - before))
-
-
-def _between(measured: npt.NDArray[Any], places: npt.NDArray[np.float64]) -> npt.NDArray[Any]:
-    """Slices at all whole places, each linearly between its neighbours among the measured ones."""
-    volume = np.empty((int(places[-1]) + 1, *measured.shape[1:]), measured.dtype)
-    for k in range(len(volume)):
-        after = max(int(np.searchsorted(places, k)), 1)
-        low, high = places[after - 1], places[after]
-        volume[k] = _mixed(measured[after - 1], measured[after], (k - low) / (high - low))
-    return volume
 
 
 def _mixed(before: npt.NDArray[Any], after: npt.NDArray[Any], part: float) -> npt.NDArray[Any]:

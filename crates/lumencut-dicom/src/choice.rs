@@ -1,0 +1,53 @@
+//! The one series of several that is read.
+
+use crate::describing::described;
+use crate::error::{Error, ErrorKind, Result};
+use crate::report::Report;
+use crate::series::{Series, plain};
+use crate::wording::{listed, quoted};
+
+/// The series that is asked for, the only one, or the only one that can be an angiography volume.
+pub fn chosen<'s, 'a>(
+    every: &'s [Series<'a>],
+    wanted: Option<&str>,
+    notes: &mut Vec<String>,
+) -> Result<&'s Series<'a>> {
+    if let Some(wanted) = wanted {
+        return asked_for(every, wanted);
+    }
+    if let [only] = every {
+        return Ok(only);
+    }
+    let reports: Vec<Report> = every.iter().map(described).collect();
+    let (volumes, others): (Vec<usize>, Vec<usize>) =
+        (0..every.len()).partition(|&n| reports[n].can_be_volume);
+    let [one] = volumes[..] else {
+        return Err(not_one(reports, "one series"));
+    };
+    let others: Vec<String> = others.iter().map(|&n| reports[n].to_string()).collect();
+    notes.push(format!("of {} series the only angiography volume is read: {}", every.len(), reports[one]));
+    notes.push(format!("other series: {}", listed(&others)));
+    Ok(&every[one])
+}
+
+/// The series of this number or UID.
+fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series<'a>> {
+    let is_meant = |one: &&Series| {
+        let number = one.number();
+        wanted == one.uid || wanted == number || plain(wanted) == number
+    };
+    let meant: Vec<&Series> = every.iter().filter(is_meant).collect();
+    if let [one] = meant[..] {
+        return Ok(one);
+    }
+    let of: Vec<&Series> = if meant.is_empty() { every.iter().collect() } else { meant };
+    let expected = format!("one series with the number or UID {}", quoted(wanted));
+    Err(not_one(of.into_iter().map(described).collect(), &expected))
+}
+
+fn not_one(series: Vec<Report>, expected: &str) -> Error {
+    let told: Vec<String> = series.iter().map(ToString::to_string).collect();
+    let error = Error::new(format!("{} series: {}", series.len(), told.join("; ")), expected);
+    let error = error.mended_by("give the folder of one series, or its number or UID as `series`");
+    Error { kind: ErrorKind::Series, series, ..error }
+}

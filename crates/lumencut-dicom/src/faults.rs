@@ -1,0 +1,102 @@
+//! What keeps slices from being one stack, named with the slices it concerns.
+
+use crate::error::{Error, Result};
+use crate::keyword::Keyword;
+use crate::phases::phases;
+use crate::slices::Slice;
+use crate::spacing::median;
+use crate::wording::{bracketed, counted, listed, rounded};
+
+/// Slices closer than this (mm) are at one place.
+const ONE_PLACE: f64 = 0.01;
+/// Spacings may differ by this part of them.
+const RELATIVE: f64 = 1e-3;
+/// Orientations are alike within this per cosine.
+const COSINE: f64 = 1e-3;
+
+/// Refuses a series whose images differ in anything that all slices of one stack share.
+pub fn require_alike(slices: &[Slice]) -> Result<()> {
+    let size = |one: &Slice| one.size.map(|length| length as f64).to_vec();
+    let along_i = |one: &Slice| one.along_i.to_array().to_vec();
+    let along_j = |one: &Slice| one.along_j.to_array().to_vec();
+    alike(slices, "size", size, |a, b| a == b)?;
+    alike(slices, "spacing", |one| one.spacing.to_vec(), |a, b| (a - b).abs() <= RELATIVE * b)?;
+    alike(slices, "orientation", along_i, |a, b| (a - b).abs() < COSINE)?;
+    alike(slices, "orientation", along_j, |a, b| (a - b).abs() < COSINE)
+}
+
+/// Compares the numbers that `value` gives of each slice with those of the first, one by one.
+fn alike(
+    slices: &[Slice],
+    what: &str,
+    value: impl Fn(&Slice) -> Vec<f64>,
+    same: impl Fn(f64, f64) -> bool,
+) -> Result<()> {
+    let Some(first) = slices.first() else { return Ok(()) };
+    let expected = value(first);
+    let is_odd = |one: &&Slice| !value(one).iter().zip(&expected).all(|(&a, &b)| same(a, b));
+    let odd: Vec<&Slice> = slices.iter().filter(is_odd).collect();
+    let Some(other) = odd.first() else { return Ok(()) };
+    let names: Vec<String> = odd.iter().map(|one| one.name()).collect();
+    let found = format!(
+        "slices of different {what}: {} in {} and {} more, {} in {}",
+        bracketed(&expected),
+        first.name(),
+        slices.len() - odd.len() - 1,
+        bracketed(&value(other)),
+        listed(&names),
+    );
+    let error = Error::new(found, "one stack of equal slices");
+    Err(error.mended_by("move the others to a folder of their own"))
+}
+
+/// Refuses several slices at one place: phases if anything tells them apart, copies otherwise.
+pub fn refuse_duplicates(ordered: &[Slice], gaps: &[f64]) -> Result<()> {
+    let neighbours = gaps.iter().zip(ordered.iter().zip(&ordered[1..]));
+    let pairs: Vec<(&Slice, &Slice)> =
+        neighbours.filter(|(gap, _)| **gap < ONE_PLACE).map(|(_, pair)| pair).collect();
+    if pairs.is_empty() {
+        return Ok(());
+    }
+    let places = counted((ordered.len() - pairs.len()) as i64, "place");
+    let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{} and {}", a.name(), b.name())).collect();
+    let found = format!("{} slices at {places}: {}", ordered.len(), listed(&names));
+    if let Some(phases) = phases(ordered, &pairs) {
+        let error = Error::new(format!("{found}; {phases}"), "one slice per place");
+        return Err(error.mended_by("give the value of the one to read as `phase`"));
+    }
+    let are_copies = pairs.iter().all(|(a, b)| are_copies(a, b));
+    let copies = if are_copies { ", copies of one image each" } else { "" };
+    let error = Error::new(format!("{found}{copies}"), "one slice per place");
+    Err(error.mended_by("remove all but one slice at each place"))
+}
+
+fn are_copies(a: &Slice, b: &Slice) -> bool {
+    a.get(Keyword::SOPInstanceUID) == b.get(Keyword::SOPInstanceUID) && a.frame == b.frame
+}
+
+/// Refuses a stack with holes; `steps` are the gaps in usual distances, 1 where there is no hole.
+pub fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()> {
+    let missing: i64 = steps.iter().map(|step| step - 1).sum();
+    if missing == 0 {
+        return Ok(());
+    }
+    let holes = (0..steps.len()).filter(|&n| steps[n] > 1).map(|n| {
+        let (before, after) = (&ordered[n], &ordered[n + 1]);
+        let apart = format!("{} mm apart at {}", rounded(gaps[n], 4), bracketed(&before.position.to_array()));
+        format!("{} between {} and {} ({apart})", steps[n] - 1, before.name(), after.name())
+    });
+    let found = format!("{}: {}", counted(missing, "missing slice"), listed(&holes.collect::<Vec<_>>()));
+    let filled = if is_mostly_missing(ordered, steps) {
+        ""
+    } else {
+        ", or have them interpolated with fill_gaps=True"
+    };
+    let error = Error::new(found, format!("slices every {} mm", rounded(median(gaps), 4)));
+    Err(error.mended_by(format!("add the missing files{filled}")))
+}
+
+/// Whether more slices are missing than there are: more made up than measured would be no mending.
+pub fn is_mostly_missing(ordered: &[Slice], steps: &[i64]) -> bool {
+    steps.iter().map(|step| step - 1).sum::<i64>() > ordered.len() as i64
+}

@@ -1,0 +1,177 @@
+//! Where the slices of one series lie: one affine for the whole stack, shear kept, or a refusal by name.
+//!
+//! Tolerances: orientations alike within 1e-3 per cosine, spacings within 0.1 %, every slice within 0.01 mm or
+//! 1 % of the slice distance (whichever is larger) of its place on an evenly spaced straight line, unless the
+//! caller asks for uneven slices to be put on one.
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+use crate::faults::{is_mostly_missing, refuse_duplicates, refuse_gaps, require_alike};
+use crate::keyword::Keyword;
+use crate::phases::refuse_interleaved;
+use crate::slices::Slice;
+use crate::spacing::{has_run, median, tolerance};
+use crate::uneven::Uneven;
+use crate::wording::rounded;
+
+/// Neighbours farther apart than this many usual distances have a hole between them.
+const HOLE: f64 = 1.5;
+/// Usual distances; damaged positions may lie any distance apart.
+const FARTHEST: f64 = 1e9;
+/// A stated tilt (degrees) that counts as one.
+const TILT: f64 = 0.1;
+
+/// What is mended of a stack where the caller asks for it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Mending {
+    /// Places that no slice has are kept free instead of being refused.
+    pub fill_gaps: bool,
+    /// Uneven slices get places on a regular grid.
+    pub resample_slices: bool,
+}
+
+/// Slices on an even, straight grid.
+#[derive(Debug)]
+pub struct Stack<'a> {
+    /// The slices, sorted along their normal.
+    pub slices: Vec<Slice<'a>>,
+    /// The index k of each slice; only of resampled slices it may be a fraction.
+    pub places: Vec<f64>,
+    /// Where the middle of the first voxel lies (mm, LPS).
+    pub origin: DVec3,
+    /// The vectors from voxel to voxel along i, j, k.
+    pub steps: [DVec3; 3],
+    /// Whether uneven slices were put on a grid.
+    pub is_resampled: bool,
+}
+
+impl Stack<'_> {
+    /// The number of voxels along i, j, k.
+    pub fn size(&self) -> [i64; 3] {
+        let [columns, rows] = self.slices[0].size;
+        [columns, rows, self.places[self.places.len() - 1] as i64 + 1]
+    }
+
+    /// The indices k that have no slice.
+    pub fn missing(&self) -> Vec<i64> {
+        let mut measured = self.places.iter().filter(|place| place.fract() == 0.0).peekable();
+        let is_missing = |&k: &i64| measured.next_if(|place| **place == k as f64).is_none();
+        (0..self.size()[2]).filter(is_missing).collect()
+    }
+}
+
+/// Sorts slices along their normal and finds the affine of the stack.
+pub fn stacked<'a>(
+    mut slices: Vec<Slice<'a>>,
+    mending: Mending,
+    notes: &mut Vec<String>,
+) -> Result<Stack<'a>> {
+    require_alike(&slices)?;
+    let Some(normal) = slices.first().map(Slice::normal) else {
+        return Err(Error::new("no slices", "a stack of slices"));
+    };
+    // Names decide the order of slices at one place.
+    let height = |one: &Slice| one.position.dot(normal);
+    slices.sort_by_cached_key(Slice::name);
+    slices.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    let (places, step, is_resampled) =
+        if slices.len() > 1 { on_a_line(&slices, mending, notes)? } else { alone(&slices[0], notes)? };
+    let first = &slices[0];
+    let steps = [first.along_i * first.spacing[0], first.along_j * first.spacing[1], step];
+    let origin = first.position;
+    Ok(Stack { slices, places, origin, steps, is_resampled })
+}
+
+/// The index of each slice, the vector from index to index, and whether slices are resampled.
+type Places = (Vec<f64>, DVec3, bool);
+
+fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Result<Places> {
+    let normal = ordered[0].normal();
+    let heights: Vec<f64> = ordered.iter().map(|one| one.position.dot(normal)).collect();
+    let gaps: Vec<f64> = heights.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    refuse_duplicates(ordered, &gaps)?;
+    refuse_interleaved(ordered)?;
+    let steps = steps(&gaps);
+    let places = summed(&steps);
+    let step = step(ordered, &places);
+    if is_line(ordered, &places, step) && !has_run(&steps) {
+        if !mending.fill_gaps || is_mostly_missing(ordered, &steps) {
+            refuse_gaps(ordered, &gaps, &steps)?;
+        }
+        note_tilt(ordered, &places, step, notes)?;
+        return Ok((places, step, false));
+    }
+    let uneven = Uneven { ordered, gaps };
+    if !mending.resample_slices {
+        return Err(uneven.refused());
+    }
+    let places = uneven.places(mending.fill_gaps)?;
+    let step = self::step(ordered, &places);
+    note_tilt(ordered, &places, step, notes)?;
+    notes.push(uneven.note(&places));
+    Ok((places, step, true))
+}
+
+/// Distances in usual ones, 1 where there is no hole.
+fn steps(gaps: &[f64]) -> Vec<i64> {
+    let usual = median(gaps);
+    let step =
+        |&gap: &f64| if gap > HOLE * usual { (gap / usual).round_ties_even().min(FARTHEST) } else { 1.0 };
+    gaps.iter().map(|gap| step(gap) as i64).collect()
+}
+
+/// The indices that steps lead to.
+fn summed(steps: &[i64]) -> Vec<f64> {
+    let mut place = 0;
+    let after = steps.iter().map(|step| {
+        place += step;
+        place as f64
+    });
+    std::iter::once(0.0).chain(after).collect()
+}
+
+/// The vector from index to index of slices at these places.
+fn step(ordered: &[Slice], places: &[f64]) -> DVec3 {
+    let last = ordered.len() - 1;
+    (ordered[last].position - ordered[0].position) / places[last]
+}
+
+/// Whether every slice is at its place.
+fn is_line(ordered: &[Slice], places: &[f64], step: DVec3) -> bool {
+    let (origin, allowed) = (ordered[0].position, tolerance(step.length()));
+    let mut pairs = ordered.iter().zip(places);
+    pairs.all(|(one, place)| (one.position - origin - *place * step).length() <= allowed)
+}
+
+/// A single slice, as thick as it says.
+fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
+    for keyword in [Keyword::SpacingBetweenSlices, Keyword::SliceThickness] {
+        let stated = only.image.number(only.frame, keyword)?;
+        if let Some(thickness) = stated.filter(|thickness| thickness.is_finite() && *thickness > 0.0) {
+            let (name, words) = (keyword.name(), only.get(keyword));
+            notes.push(format!("a single slice: {name} {words} mm taken as its thickness"));
+            return Ok((vec![0.0], thickness * only.normal(), false));
+        }
+    }
+    let error = Error::new("a single slice without SliceThickness", "a stack of slices");
+    Err(error.of(only.image.file))
+}
+
+/// Notes a sheared stack (gantry tilt), read as it is, and a stated tilt that the positions lack.
+fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<String>) -> Result<()> {
+    let normal = ordered[0].normal();
+    let along = step.dot(normal);
+    let drift = (step - along * normal).length();
+    let stated = ordered[0].image.number(ordered[0].frame, Keyword::GantryDetectorTilt)?;
+    if drift * places[places.len() - 1] > tolerance(step.length()) {
+        let angle = drift.atan2(along).to_degrees();
+        notes.push(format!("the stack is sheared by {angle:.2} degrees (gantry tilt): kept, not resampled"));
+    } else if let Some(tilt) = stated.filter(|tilt| tilt.abs() > TILT) {
+        let tilt = rounded(tilt, 6);
+        notes.push(format!(
+            "GantryDetectorTilt says {tilt} degrees, the positions show none: positions are used"
+        ));
+    }
+    Ok(())
+}

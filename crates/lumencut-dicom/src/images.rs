@@ -1,0 +1,48 @@
+//! Which of the files are images.
+
+use crate::error::{Error, Result};
+use crate::headers::{Header, Headers};
+use crate::image::{Image, kind};
+use crate::keyword::Keyword;
+use crate::wording::{listed, printable};
+
+/// What a directory of a disc calls itself.
+const DIRECTORY: &str = "Media Storage Directory";
+
+/// The images among the files; the others are noted.
+pub fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {
+    let (mut images, mut foreign) = (Vec::new(), Vec::new());
+    for (number, file) in headers.files.iter().enumerate() {
+        match &file.header {
+            Some(header) if has_size(header) => {
+                let is_decodable = headers.transfer_syntaxes.contains(&header.transfer_syntax);
+                images.push(Image::new(number, file, header, is_decodable)?);
+            }
+            Some(_) if kind(file).ends_with("Image Storage") => {
+                let error = Error::new("an image without rows and columns", "a whole file");
+                return Err(error.of(number).mended_by("copy the file again"));
+            }
+            _ => foreign.push(format!("{} ({})", printable(&file.name), printable(kind(file)))),
+        }
+    }
+    if images.is_empty() {
+        return Err(no_image(&foreign));
+    }
+    if !foreign.is_empty() {
+        notes.push(format!("left out, no images: {}", listed(&foreign)));
+    }
+    Ok(images)
+}
+
+fn has_size(header: &Header) -> bool {
+    let states = |keyword| header.attributes.get(keyword).is_some_and(|value| !value.is_nothing());
+    states(Keyword::Rows) && states(Keyword::Columns)
+}
+
+fn no_image(foreign: &[String]) -> Error {
+    let Some(first) = foreign.first() else {
+        return Error::new("nothing in it", "DICOM images");
+    };
+    let error = Error::new(format!("no image: {}", listed(foreign)), "DICOM images");
+    if first.contains(DIRECTORY) { error.mended_by("give the folder that it is in") } else { error }
+}

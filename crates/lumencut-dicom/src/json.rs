@@ -1,0 +1,50 @@
+//! The same judgements with JSON in and out, for hosts of other languages.
+//!
+//! What goes in are [`Headers`] and [`Wanted`]; what comes out is one object, `{"plan": …}` with a [`Plan`],
+//! `{"series": […]}` with [`Report`]s, or `{"error": …}` with an [`Error`].
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::{Error, Result};
+use crate::headers::Headers;
+use crate::judging::{self, Wanted};
+use crate::plan::Plan;
+use crate::report::Report;
+
+#[derive(Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Answer<'a> {
+    Plan(&'a Plan),
+    Series(&'a [Report]),
+    Error(&'a Error),
+}
+
+/// How images become one volume, or why they do not.
+pub fn judge(headers: &[u8], wanted: &[u8]) -> String {
+    let judged = || judging::judge(&read::<Headers>(headers, "headers")?, &read::<Wanted>(wanted, "wishes")?);
+    match judged() {
+        Ok(plan) => written(&Answer::Plan(&plan)),
+        Err(error) => written(&Answer::Error(&error)),
+    }
+}
+
+/// Describes all series.
+pub fn describe(headers: &[u8]) -> String {
+    match read::<Headers>(headers, "headers").and_then(|headers| judging::describe(&headers)) {
+        Ok(series) => written(&Answer::Series(&series)),
+        Err(error) => written(&Answer::Error(&error)),
+    }
+}
+
+/// Reads a document; what is wrong with it is told by its place, as the words of the parser quote values.
+fn read<T: DeserializeOwned>(document: &[u8], what: &str) -> Result<T> {
+    serde_json::from_slice(document).map_err(|error| {
+        let found = format!("{what} of another form at line {}, column {}", error.line(), error.column());
+        Error::new(found, "a document as lumencut-dicom describes it")
+    })
+}
+
+fn written(answer: &Answer) -> String {
+    serde_json::to_string(answer).unwrap_or_default()
+}

@@ -1,0 +1,50 @@
+//! The order of the judgements, from headers to a plan.
+
+use serde::Deserialize;
+
+use crate::choice::chosen;
+use crate::describing::described;
+use crate::error::Result;
+use crate::geometry::{Mending, stacked};
+use crate::headers::Headers;
+use crate::images::images;
+use crate::oddities::note_oddities;
+use crate::phases::of_phase;
+use crate::plan::Plan;
+use crate::report::Report;
+use crate::series::grouped;
+
+/// What is to be read: which series and phase, and what is mended of it.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default)]
+pub struct Wanted {
+    /// The number or UID of a series.
+    pub series: Option<String>,
+    /// The value of an attribute that one phase has.
+    pub phase: Option<String>,
+    /// Whether missing slices are interpolated instead of being refused.
+    pub fill_gaps: bool,
+    /// Whether uneven slices are put on a regular grid instead of being refused.
+    pub resample_slices: bool,
+}
+
+/// How images become one volume, or why they do not.
+pub fn judge(headers: &Headers, wanted: &Wanted) -> Result<Plan> {
+    let mut notes = Vec::new();
+    let every = grouped(images(headers, &mut notes)?);
+    let series = chosen(&every, wanted.series.as_deref(), &mut notes)?;
+    let mut slices = series.slices(&mut notes)?;
+    if let Some(phase) = &wanted.phase {
+        slices = of_phase(&slices, phase)?;
+    }
+    let mending = Mending { fill_gaps: wanted.fill_gaps, resample_slices: wanted.resample_slices };
+    let stack = stacked(slices, mending, &mut notes)?;
+    note_oddities(&stack, &mut notes);
+    Ok(Plan::new(series, &stack, notes))
+}
+
+/// Describes all series.
+pub fn describe(headers: &Headers) -> Result<Vec<Report>> {
+    let every = grouped(images(headers, &mut Vec::new())?);
+    Ok(every.iter().map(described).collect())
+}

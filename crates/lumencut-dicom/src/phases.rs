@@ -1,0 +1,104 @@
+//! What tells phases apart whose slices lie at the same places.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::error::{Error, Result};
+use crate::keyword::Keyword;
+use crate::slices::Slice;
+use crate::value::Value;
+use crate::wording::{counted, listed, quoted, shown};
+
+/// What may tell phases apart, the surest first.
+const PHASE_KEYWORDS: [Keyword; 17] = [
+    Keyword::TemporalPositionIdentifier,
+    Keyword::TemporalPositionIndex,
+    Keyword::NominalPercentageOfCardiacPhase,
+    Keyword::NominalCardiacTriggerDelayTime,
+    Keyword::TriggerTime,
+    Keyword::EchoNumbers,
+    Keyword::EchoTime,
+    Keyword::EffectiveEchoTime,
+    Keyword::StackID,
+    Keyword::ConvolutionKernel,
+    Keyword::AcquisitionNumber,
+    Keyword::FrameAcquisitionNumber,
+    Keyword::ImageType,
+    Keyword::FrameType,
+    Keyword::AcquisitionTime,
+    Keyword::FrameAcquisitionDateTime,
+    Keyword::ContentTime,
+];
+
+/// Those of them that belong to a whole phase and never alternate from slice to slice within one. A
+/// two-dimensional MR acquisition may take the odd slices first: its acquisition number does not count.
+const WHOLE_PHASE: [Keyword; 3] = [
+    Keyword::TemporalPositionIdentifier,
+    Keyword::TemporalPositionIndex,
+    Keyword::NominalPercentageOfCardiacPhase,
+];
+
+/// Which attribute tells slices at one place apart, and how many slices have which value of it.
+pub fn phases(ordered: &[Slice], pairs: &[(&Slice, &Slice)]) -> Option<String> {
+    let differs = |keyword| move |pair: &(&Slice, &Slice)| told(pair.0, keyword) != told(pair.1, keyword);
+    let keyword = PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))?;
+    let mixed = if keyword == Keyword::ConvolutionKernel { "kernels" } else { "phases" };
+    Some(format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword)))
+}
+
+/// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
+pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str) -> Result<Vec<Slice<'a>>> {
+    for keyword in PHASE_KEYWORDS {
+        let is_of = |one: &&Slice| is_called(one.get(keyword), phase);
+        let count = slices.iter().filter(is_of).count();
+        if 0 < count && count < slices.len() {
+            return Ok(slices.iter().filter(is_of).cloned().collect());
+        }
+    }
+    let separates = |&keyword: &Keyword| {
+        let values: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
+        1 < values.len() && values.len() < slices.len()
+    };
+    let is = |keyword: Keyword| format!("{} is {}", keyword.name(), values_of(slices, keyword));
+    let told: Vec<String> = PHASE_KEYWORDS.into_iter().filter(separates).map(is).collect();
+    let told = if told.is_empty() { "nothing tells phases apart".to_owned() } else { told.join("; ") };
+    let found = format!("no phase {}: {told}", quoted(phase));
+    Err(Error::new(found, "the value of an attribute that some slices have"))
+}
+
+/// Refuses phases whose slices lie between each other's at places of their own.
+pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
+    for keyword in WHOLE_PHASE {
+        let values: Vec<String> = ordered.iter().map(|one| told(one, keyword)).collect();
+        let changes = values.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        let different = values.iter().collect::<BTreeSet<_>>().len();
+        if different > 1 && changes >= different {
+            let counts = values_of(ordered, keyword);
+            let found = format!("slices that alternate between phases: {} is {counts}", keyword.name());
+            let error = Error::new(found, "one phase");
+            return Err(error.mended_by("give the value of the one to read as `phase`"));
+        }
+    }
+    Ok(())
+}
+
+/// A value as a text, by which phases are told apart.
+fn told(one: &Slice, keyword: Keyword) -> String {
+    one.get(keyword).to_string()
+}
+
+/// Which values slices have, and how many have each.
+fn values_of(slices: &[Slice], keyword: Keyword) -> String {
+    let mut counts = BTreeMap::new();
+    for one in slices {
+        *counts.entry(told(one, keyword)).or_insert(0) += 1;
+    }
+    let counts =
+        counts.iter().map(|(value, &count)| format!("{} in {}", shown(value), counted(count, "slice")));
+    listed(&counts.collect::<Vec<_>>())
+}
+
+/// Whether a value is what somebody calls it: 400 is 400.0, as a text or a number.
+fn is_called(value: &Value, phase: &str) -> bool {
+    let meant: Option<f64> = phase.trim().parse().ok();
+    value.to_string() == phase || meant.is_some_and(|number| value.number() == Some(number))
+}

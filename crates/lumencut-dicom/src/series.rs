@@ -1,0 +1,122 @@
+//! Images of one series, and their slices.
+
+use std::collections::HashMap;
+
+use crate::error::{Error, Result};
+use crate::grey::require_grey;
+use crate::image::Image;
+use crate::keyword::Keyword;
+use crate::slices::{Slice, slices_of};
+use crate::wording::{counted, listed};
+
+/// The images of one series.
+#[derive(Debug)]
+pub struct Series<'a> {
+    /// Its unique identifier, empty where it is not stated.
+    pub uid: String,
+    /// Its images, of which there is at least one.
+    pub images: Vec<Image<'a>>,
+}
+
+impl Series<'_> {
+    /// Its number, empty where it is not stated.
+    pub fn number(&self) -> String {
+        plain(&self.text(Keyword::SeriesNumber))
+    }
+
+    /// Its description, empty where it is not stated.
+    pub fn description(&self) -> String {
+        self.text(Keyword::SeriesDescription)
+    }
+
+    /// Its modality, empty where it is not stated.
+    pub fn modality(&self) -> String {
+        self.text(Keyword::Modality)
+    }
+
+    /// How many images (frames) it states to have.
+    pub fn image_count(&self) -> i64 {
+        self.images.iter().fold(0, |sum, image| sum.saturating_add(image.frame_count))
+    }
+
+    /// All slices of the series; localisers among them are left out where others are there.
+    pub fn slices(&self, notes: &mut Vec<String>) -> Result<Vec<Slice<'_>>> {
+        let is_scout = |image: &&Image| image.frame_count == 1 && image.is_localizer(0);
+        let (scouts, mut images): (Vec<&Image>, Vec<&Image>) = self.images.iter().partition(is_scout);
+        if images.is_empty() {
+            images = scouts;
+        } else if !scouts.is_empty() {
+            let names: Vec<&str> = scouts.iter().map(|image| image.name.as_str()).collect();
+            notes.push(format!("left out, localisers: {}", listed(&names)));
+        }
+        images.iter().try_for_each(|image| require_grey(image))?;
+        require_positions(&images)?;
+        let slices: Result<Vec<Vec<Slice>>> = images.into_iter().map(slices_of).collect();
+        Ok(slices?.into_iter().flatten().collect())
+    }
+
+    fn text(&self, keyword: Keyword) -> String {
+        self.images.first().map(|image| image.text(keyword)).unwrap_or_default()
+    }
+}
+
+/// Puts images of one series together, in the order in which the series appear.
+pub fn grouped(images: Vec<Image>) -> Vec<Series> {
+    let mut places = HashMap::new();
+    let mut groups: Vec<Series> = Vec::new();
+    for image in images {
+        let uid = image.text(Keyword::SeriesInstanceUID);
+        let place = *places.entry(uid.clone()).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Series { uid, images: Vec::new() });
+        }
+        groups[place].images.push(image);
+    }
+    groups
+}
+
+/// A number without the zeros or the plus sign before it; other texts as they are.
+pub fn plain(number: &str) -> String {
+    let digits = number.strip_prefix(['+', '-']).unwrap_or(number);
+    if digits.is_empty() || digits.len() > 64 || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+        return number.to_owned();
+    }
+    match digits.trim_start_matches('0') {
+        "" => "0".to_owned(),
+        value if number.starts_with('-') => format!("-{value}"),
+        value => value.to_owned(),
+    }
+}
+
+fn require_positions(images: &[&Image]) -> Result<()> {
+    let mut missing = Vec::new();
+    for image in images {
+        let frames = 0..usize::try_from(image.frame_count).unwrap_or_default();
+        missing
+            .extend(frames.filter(|&frame| !image.has_position(frame)).map(|frame| image.frame_name(frame)));
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let total = images.iter().map(|image| image.frame_count).sum();
+    let without = format!("{} of {}", missing.len(), counted(total, "image"));
+    let error = Error::new(
+        format!("no ImagePositionPatient in {without}: {}", listed(&missing)),
+        "a position for each slice",
+    );
+    Err(error.mended_by("leave those images out"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn numbers_of_series_are_numbers() {
+        for (stated, number) in
+            [("0003", "3"), ("+5", "5"), ("-07", "-7"), ("-0", "0"), ("", ""), ("1.2", "1.2"), ("x", "x")]
+        {
+            assert_eq!(plain(stated), number);
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! One image → its slices: a single-frame image is one, an enhanced multi-frame image one per frame.
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+use crate::grey::plane_size;
+use crate::image::Image;
+use crate::keyword::Keyword;
+use crate::value::Value;
+
+/// Directions may be this far (per cosine, and in length) from orthogonal unit vectors.
+const COSINE: f64 = 1e-3;
+
+/// One grey image and its place, in mm of LPS.
+#[derive(Debug, Clone)]
+pub struct Slice<'a> {
+    /// The image that it is a frame of.
+    pub image: &'a Image<'a>,
+    /// The number of the frame, from 0.
+    pub frame: usize,
+    /// The number of columns and rows.
+    pub size: [i64; 2],
+    /// The middle of the first pixel.
+    pub position: DVec3,
+    /// The unit vector along a row.
+    pub along_i: DVec3,
+    /// The unit vector along a column.
+    pub along_j: DVec3,
+    /// The distance between columns, then between rows.
+    pub spacing: [f64; 2],
+    /// Slope and intercept from stored numbers to values.
+    pub scaling: (f64, f64),
+}
+
+impl<'a> Slice<'a> {
+    /// The name of its file, and the number of its frame (from 1) where the file has several.
+    pub fn name(&self) -> String {
+        self.image.frame_name(self.frame)
+    }
+
+    /// Unit normal of the slice; slices are sorted along it.
+    pub fn normal(&self) -> DVec3 {
+        self.along_i.cross(self.along_j)
+    }
+
+    /// The value of an attribute as it holds for this frame.
+    pub fn get(&self, keyword: Keyword) -> &'a Value {
+        self.image.of_frame(self.frame, keyword)
+    }
+}
+
+/// Reads where the frames of a grey image lie; localisers among them are left out if others are there.
+pub fn slices_of<'a>(image: &'a Image<'a>) -> Result<Vec<Slice<'a>>> {
+    let frames = 0..usize::try_from(image.frame_count).unwrap_or_default();
+    let mut wanted: Vec<usize> = frames.clone().filter(|&frame| !image.is_localizer(frame)).collect();
+    if wanted.is_empty() {
+        wanted = frames.collect();
+    }
+    let placed = wanted.into_iter().map(|frame| placed(image, frame));
+    placed.collect::<Result<_>>().map_err(|error| error.of(image.file))
+}
+
+fn placed<'a>(image: &'a Image<'a>, frame: usize) -> Result<Slice<'a>> {
+    let position = DVec3::from_array(numbers(image, frame, Keyword::ImagePositionPatient)?);
+    let cosines = numbers::<6>(image, frame, Keyword::ImageOrientationPatient)?;
+    let spacing = numbers::<2>(image, frame, Keyword::PixelSpacing)?;
+    let (row, column) = (DVec3::from_slice(&cosines[..3]), DVec3::from_slice(&cosines[3..]));
+    let is_unit = |vector: DVec3| (vector.length() - 1.0).abs() < COSINE;
+    if !(is_unit(row) && is_unit(column) && row.dot(column).abs() < COSINE) {
+        let found = format!("ImageOrientationPatient {cosines:?}");
+        return Err(Error::new(found, "two orthogonal unit vectors"));
+    }
+    if !spacing.iter().all(|&distance| distance > 0.0) {
+        return Err(Error::new(format!("PixelSpacing {spacing:?}"), "2 positive distances in mm"));
+    }
+    Ok(Slice {
+        image,
+        frame,
+        size: plane_size(image).unwrap_or_default(),
+        position,
+        along_i: row / row.length(),
+        along_j: column / column.length(),
+        // It is stated as (between rows, between columns); i runs along a row, hence between columns.
+        spacing: [spacing[1], spacing[0]],
+        scaling: scaling(image, frame)?,
+    })
+}
+
+fn scaling(image: &Image, frame: usize) -> Result<(f64, f64)> {
+    let slope = image.number(frame, Keyword::RescaleSlope)?.unwrap_or(1.0);
+    let intercept = image.number(frame, Keyword::RescaleIntercept)?.unwrap_or(0.0);
+    if !(slope.is_finite() && intercept.is_finite()) {
+        let told = |number: f64| format!("{number:?}").replace("NaN", "nan");
+        let found = format!("slope and intercept ({}, {})", told(slope), told(intercept));
+        return Err(Error::new(found, "finite numbers"));
+    }
+    if slope == 0.0 {
+        let error = Error::new("RescaleSlope 0, which makes all values one", "any other slope");
+        return Err(error.mended_by("export the series again"));
+    }
+    Ok((slope, intercept))
+}
+
+fn numbers<const COUNT: usize>(image: &Image, frame: usize, keyword: Keyword) -> Result<[f64; COUNT]> {
+    let stated = image.of_frame(frame, keyword);
+    let read: Vec<Option<f64>> = stated.all().iter().map(Value::number).collect();
+    let values: Option<Vec<f64>> =
+        read.iter().map(|value| value.filter(|number| number.is_finite())).collect();
+    // A damaged value may be any text, a patient's name too: it is not told.
+    let odd =
+        values.as_ref().map_or_else(|| "damaged values".to_owned(), |all| format!("{} numbers", all.len()));
+    values.and_then(|all| all.try_into().ok()).ok_or_else(|| {
+        let name = keyword.name();
+        let found = if stated.is_empty() { format!("no {name}") } else { format!("{odd} in {name}") };
+        Error::new(found, format!("{COUNT} finite numbers"))
+    })
+}

@@ -1,0 +1,82 @@
+//! Distances between slices, and how far slices may be off their places.
+
+use crate::wording::rounded;
+
+/// Slices may be this far (mm) off their places, or this part of the distance between them.
+const MILLIMETRE: f64 = 0.01;
+const OF_STEP: f64 = 0.01;
+/// So many wide distances in a row are those of a part of the scan.
+const RUN: usize = 3;
+/// How many different distances are told one by one.
+const TOLD: usize = 4;
+
+/// How far a slice may be off its place (mm).
+pub fn tolerance(step: f64) -> f64 {
+    MILLIMETRE.max(OF_STEP * step)
+}
+
+/// The middle of some numbers, the mean of the middle two where they are even; NaN if any number is.
+pub fn median(numbers: &[f64]) -> f64 {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    match sorted.last() {
+        Some(last) if last.is_nan() => f64::NAN,
+        Some(_) if sorted.len() % 2 == 1 => sorted[middle],
+        Some(_) => f64::midpoint(sorted[middle - 1], sorted[middle]),
+        None => f64::NAN,
+    }
+}
+
+/// The smallest and the largest of some numbers.
+pub fn ends(numbers: &[f64]) -> (f64, f64) {
+    numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &n| (low.min(n), high.max(n)))
+}
+
+/// Whether wide steps of one length follow each other: a part scanned so, with nothing missing.
+pub fn has_run(steps: &[i64]) -> bool {
+    steps.windows(RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
+}
+
+/// Distances as words: each with its count where they are few, in the order in which they come.
+pub fn told(gaps: &[f64]) -> String {
+    let allowed = tolerance(median(gaps));
+    let mut groups: Vec<(f64, usize)> = Vec::new();
+    for &gap in gaps {
+        match groups.iter_mut().find(|(first, _)| (gap - first).abs() <= allowed) {
+            Some((_, count)) => *count += 1,
+            None => groups.push((gap, 1)),
+        }
+        if groups.len() > TOLD {
+            let (smallest, largest) = ends(gaps);
+            return format!("{} to {} mm", rounded(smallest, 4), rounded(largest, 4));
+        }
+    }
+    let words = groups.iter().map(|&(gap, count)| format!("{count} of {} mm", rounded(gap, 4)));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middle_of_numbers() {
+        assert_eq!(median(&[3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), 2.5);
+        assert!(median(&[1.0, f64::NAN, 2.0]).is_nan());
+    }
+
+    #[test]
+    fn runs_are_wide_steps_of_one_length() {
+        assert!(has_run(&[1, 5, 5, 5, 1]));
+        assert!(!has_run(&[1, 1, 1, 1, 5, 5]));
+        assert!(!has_run(&[2, 3, 2, 3]));
+    }
+
+    #[test]
+    fn distances_are_told_in_their_order() {
+        assert_eq!(told(&[4.0, 4.01, 1.08, 7.0, 4.0]), "3 of 4 mm, 1 of 1.08 mm, 1 of 7 mm");
+        assert_eq!(told(&[2.0, 2.2, 2.5, 2.9, 3.4, 4.0]), "2 to 4 mm");
+    }
+}

@@ -1,0 +1,211 @@
+//! Uneven distances between slices: named, or put on a regular grid where the caller asks for it.
+//!
+//! The grid has the largest distance of which all distances are multiples, where that makes no more than four
+//! times as many slices as there are: each slice then keeps its place. Otherwise it has the smallest distance, or
+//! what makes four times as many slices.
+
+use crate::error::{Error, Result};
+use crate::slices::Slice;
+use crate::spacing::{ends, median, told, tolerance};
+use crate::wording::{counted, rounded};
+
+/// A grid has at most this many times as many slices as the series.
+const MOST_SLICES: usize = 4;
+/// A distance more than this many times as long as those beside it is a hole.
+const HOLE: f64 = 3.0;
+/// What rounding leaves of a whole number of steps, or of equal distances (mm).
+const ROUNDING: f64 = 1e-6;
+
+/// Slices at uneven distances, sorted along their normal.
+#[derive(Debug)]
+pub struct Uneven<'s, 'a> {
+    /// The slices.
+    pub ordered: &'s [Slice<'a>],
+    /// The distances between them along their normal (mm).
+    pub gaps: Vec<f64>,
+}
+
+impl Uneven<'_, '_> {
+    /// The error for whoever did not ask for a grid.
+    pub fn refused(&self) -> Error {
+        if let Err(error) = self.require_line() {
+            return error;
+        }
+        let grid = "resample_slices=True puts them on a regular grid";
+        let mend = self.hole().map_or_else(
+            || grid.to_owned(),
+            |hole| format!("add what is missing {hole}, or {grid} together with fill_gaps=True"),
+        );
+        Error::new(self.found(), "one distance between all slices").mended_by(mend)
+    }
+
+    /// The index of each slice on a regular grid, whole where it is measured there.
+    ///
+    /// Refused are slices beside a straight line, and holes unless they may be filled and the slices hold most of
+    /// the stack.
+    pub fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
+        self.require_line()?;
+        if let Some(hole) = self.hole().filter(|_| !(fill_gaps && self.is_mostly_measured())) {
+            let filled = if fill_gaps { "" } else { ", or have it filled with fill_gaps=True" };
+            let found = format!("{}, with a hole {hole}", self.found());
+            let error = Error::new(found, "a series without holes");
+            return Err(error.mended_by(format!("add the missing files{filled}")));
+        }
+        if self.gaps.len() < 2 {
+            return Ok(vec![0.0, 1.0]);
+        }
+        Ok(places_on_grid(&self.heights(), ends(&self.gaps).0))
+    }
+
+    /// What became of the slices.
+    pub fn note(&self, places: &[f64]) -> String {
+        let last = places.last().copied().unwrap_or_default();
+        let kept = places.iter().filter(|place| place.fract() == 0.0).count();
+        let whole =
+            if kept == places.len() { format!("all {kept}") } else { format!("{kept} of {}", places.len()) };
+        let every = rounded(self.gaps.iter().sum::<f64>() / last, 4);
+        format!(
+            "{}: resampled to {} slices every {every} mm, linearly between neighbours; {whole} measured slices \
+             keep their values; the largest gap is {}",
+            self.found(),
+            last as i64 + 1,
+            self.gap(self.widest()),
+        )
+    }
+
+    fn found(&self) -> String {
+        format!("uneven slices at mixed distances ({})", told(&self.gaps))
+    }
+
+    /// Refuses slices that are shifted against each other: no distance along their normal mends that.
+    fn require_line(&self) -> Result<()> {
+        let (heights, first) = (self.heights(), self.ordered[0].position);
+        let way = self.ordered[self.ordered.len() - 1].position - first;
+        let total = heights[heights.len() - 1];
+        let off: Vec<f64> = (self.ordered.iter().zip(&heights))
+            .map(|(one, height)| (one.position - (first + height / total * way)).length())
+            .collect();
+        let worst = largest(&off);
+        let allowed = tolerance(median(&self.gaps));
+        // Positions that are too large to be compared are off as well.
+        if off[worst] <= allowed {
+            return Ok(());
+        }
+        let (name, by) = (self.ordered[worst].name(), rounded(off[worst], 3));
+        let found = format!("uneven slices: {name} is {by} mm off the line of the others");
+        Err(Error::new(found, format!("slices on a straight line within {} mm", rounded(allowed, 3))))
+    }
+
+    fn heights(&self) -> Vec<f64> {
+        let mut height = 0.0;
+        let above = self.gaps.iter().map(|gap| {
+            height += gap;
+            height
+        });
+        std::iter::once(0.0).chain(above).collect()
+    }
+
+    /// The distances that are much longer than those beside them.
+    fn wide(&self) -> Vec<usize> {
+        let beside = |n: Option<usize>| n.and_then(|n| self.gaps.get(n)).copied().unwrap_or_default();
+        let is_wide = |&n: &usize| self.gaps[n] > HOLE * beside(n.checked_sub(1)).max(beside(Some(n + 1)));
+        if self.gaps.len() > 1 { (0..self.gaps.len()).filter(is_wide).collect() } else { Vec::new() }
+    }
+
+    fn is_mostly_measured(&self) -> bool {
+        let wide: f64 = self.wide().iter().map(|&n| self.gaps[n]).sum();
+        wide < self.gaps.iter().sum::<f64>() / 2.0
+    }
+
+    /// The first hole, and how many more there are.
+    fn hole(&self) -> Option<String> {
+        let wide = self.wide();
+        let first = self.gap(*wide.first()?);
+        let others = wide.len() as i64 - 1;
+        let more = if others > 0 { format!(" and {}", counted(others, "more hole")) } else { String::new() };
+        Some(format!("of {first}{more}"))
+    }
+
+    /// The first of the widest distances, which may be equal but for rounding.
+    fn widest(&self) -> usize {
+        let widest = ends(&self.gaps).1;
+        self.gaps.iter().position(|gap| gap + ROUNDING >= widest).unwrap_or_default()
+    }
+
+    fn gap(&self, n: usize) -> String {
+        let (before, after) = (self.ordered[n].name(), self.ordered[n + 1].name());
+        format!("{} mm between {before} and {after}", rounded(self.gaps[n], 4))
+    }
+}
+
+/// The place of the first of the largest numbers; one that is none (NaN) is larger than all.
+fn largest(numbers: &[f64]) -> usize {
+    let mut largest = 0;
+    for (n, number) in numbers.iter().enumerate() {
+        if number.total_cmp(&numbers[largest]).is_gt() {
+            largest = n;
+        }
+    }
+    largest
+}
+
+/// Indices on the grid that the module describes; the first and last slice are its ends.
+fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
+    let (total, most) = (heights[heights.len() - 1], (MOST_SLICES * heights.len() - 1) as f64);
+    let mut parts = 1.0;
+    while parts <= most {
+        let steps = (total * parts / smallest).round_ties_even();
+        if steps > most {
+            break;
+        }
+        let places: Vec<f64> =
+            heights.iter().map(|height| (height / total * steps).round_ties_even()).collect();
+        if holds(&places, heights, total / steps) {
+            return places;
+        }
+        parts += 1.0;
+    }
+    let steps = most.min((total / smallest - ROUNDING).ceil());
+    let whole_where_rounded = |place: f64| {
+        let whole = place.round_ties_even();
+        if (place - whole).abs() < ROUNDING { whole } else { place }
+    };
+    heights.iter().map(|height| whole_where_rounded(height / total * steps)).collect()
+}
+
+/// Whether every slice is at a place of its own on a grid of this distance.
+fn holds(places: &[f64], heights: &[f64], step: f64) -> bool {
+    let is_there = |(place, height): (&f64, &f64)| (height - place * step).abs() <= tolerance(step);
+    places.windows(2).all(|pair| pair[0] < pair[1]) && places.iter().zip(heights).all(is_there)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(gaps: &[f64]) -> Vec<f64> {
+        let heights: Vec<f64> = (0..=gaps.len()).map(|n| gaps[..n].iter().sum()).collect();
+        places_on_grid(&heights, ends(gaps).0)
+    }
+
+    #[test]
+    fn a_common_distance_keeps_every_slice() {
+        assert_eq!(grid(&[2.0, 2.0, 3.0]), [0.0, 2.0, 4.0, 7.0]);
+        assert_eq!(grid(&[1.0, 1.0, 1.5]), [0.0, 2.0, 4.0, 7.0]);
+    }
+
+    #[test]
+    fn without_one_it_is_the_smallest_or_four_times_as_many() {
+        let places = grid(&[4.0, 4.0, 4.0, 3.1, 3.1]);
+        assert_eq!((places[0], places[5]), (0.0, 6.0));
+        assert!((places[1] - 6.0 * 4.0 / 18.2).abs() < 1e-12);
+        let places = grid(&[4.0, 4.0, 1.0 / 7.0, 4.0]);
+        assert_eq!(places[4], 19.0);
+    }
+
+    #[test]
+    fn the_first_of_the_largest() {
+        assert_eq!(largest(&[1.0, 3.0, 3.0]), 1);
+        assert_eq!(largest(&[1.0, f64::NAN, f64::INFINITY]), 1);
+    }
+}

@@ -1,0 +1,28 @@
+//! Headers of DICOM and what is made of them, as JSON.
+
+use lumencut_dicom::{Keyword, json};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Adds the attributes that headers are asked for: keyword → the functional groups that may have it.
+pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let attributes = PyDict::new(module.py());
+    for keyword in Keyword::ALL {
+        attributes.set_item(keyword.name(), keyword.groups())?;
+    }
+    module.add("DICOM_ATTRIBUTES", attributes)
+}
+
+/// How images become one volume, or why they do not.
+#[pyfunction]
+#[pyo3(signature = (headers, wanted, /))]
+pub fn judge_dicom(py: Python<'_>, headers: &[u8], wanted: &[u8]) -> String {
+    py.detach(|| json::judge(headers, wanted))
+}
+
+/// Describes all series.
+#[pyfunction]
+#[pyo3(signature = (headers, /))]
+pub fn describe_dicom(py: Python<'_>, headers: &[u8]) -> String {
+    py.detach(|| json::describe(headers))
+}

@@ -1,0 +1,42 @@
+"""The files below a folder, in an archive or alone, each with its header as it is and as it is judged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from lumencut.volume_files.dicom.headers import Image, read_header
+from lumencut.volume_files.dicom.records import Record, header_record
+from lumencut.volume_files.dicom.sources import Source, not_dicom, sources
+from lumencut.volume_files.opened import Progress, refusing
+
+
+@dataclass(frozen=True, eq=False)
+class File:
+    """A file that was looked into: its header if it is DICOM, and the record that it is judged by."""
+
+    source: Source
+    image: Image | None
+    record: Record
+
+
+def read_files(path: Path, notes: list[str], progress: Progress | None = None) -> list[File]:
+    """Read the headers of all files below a folder, in a zip archive, or of a single file.
+
+    `progress` is called with (files looked into, files in all).
+    """
+    found = sources(path)
+    files = []
+    for number, source in enumerate(found, 1):
+        with refusing(source, "DICOM", notes):
+            files.append(recorded(source, read_header(source)))
+        if progress is not None:
+            progress(number, len(found))
+    return files
+
+
+def recorded(source: Source, image: Image | None) -> File:
+    """Give a file its record, for which every value of its header is read."""
+    if image is None:
+        return File(source, None, {"name": source.name, "kind": not_dicom(source)})
+    return File(source, image, {"name": source.name, "header": header_record(image)})

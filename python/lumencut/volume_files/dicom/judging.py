@@ -1,0 +1,102 @@
+"""What the core makes of headers: one series as a stack of slices, or why there is none.
+
+The judgements are those of the crate ``lumencut-dicom``, which every host shares; here its answers become
+objects and errors of Python.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lumencut._lumencut import describe_dicom, judge_dicom
+from lumencut.errors import FormatError, SeriesError
+from lumencut.series_report import SeriesReport
+from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
+from lumencut.volume_files.dicom.files import File
+from lumencut.volume_files.dicom.records import Record
+from lumencut.volume_files.dicom.stack import Fill, Slice, Stack
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What of a DICOM folder is to be read: which series and phase, and what is mended of it."""
+
+    series: str | None = None
+    phase: str | None = None
+    fill_gaps: bool = False
+    resample_slices: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """One series that can be read."""
+
+    stack: Stack
+    stored: np.dtype[Any]
+    details: dict[str, str]
+
+
+def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) -> Judged:
+    """Choose one series and find where its slices lie; `path` names all files together."""
+    answer = judge_dicom(headers_document(files), wanted_document(wanted))
+    plan = _answer(path, files, answer)["plan"]
+    notes += plan["notes"]
+    slices = []
+    for one in plan["slices"]:
+        image = files[one["file"]].image
+        assert image is not None, "a plan names files with a header"
+        slices.append(Slice(image, one["frame"], one["place"], (one["slope"], one["intercept"])))
+    fills = [Fill(**fill) for fill in plan["fills"]]
+    affine = np.array(plan["world_from_index"], np.float64)
+    ni, nj, nk = plan["size"]
+    stack = Stack(slices, fills, (ni, nj, nk), affine)
+    return Judged(stack, np.dtype(plan["stored_type"]), plan["details"])
+
+
+def described(path: Path, files: Sequence[File]) -> list[SeriesReport]:
+    """Describe all series."""
+    answer = describe_dicom(headers_document(files))
+    return [_report(one) for one in _answer(path, files, answer)["series"]]
+
+
+def headers_document(files: Sequence[File]) -> bytes:
+    """Give the headers of files as the core takes them."""
+    records = [file.record for file in files]
+    return _document({"transfer_syntaxes": [*NATIVE, *PLUGINS], "files": records})
+
+
+def wanted_document(wanted: Wanted) -> bytes:
+    """Give what is to be read as the core takes it."""
+    return _document(asdict(wanted))
+
+
+def _document(record: Record) -> bytes:
+    # Letters that UTF-8 cannot write stand in no value that is judged by.
+    return json.dumps(record, ensure_ascii=False, allow_nan=False).encode("utf-8", "replace")
+
+
+def _answer(path: Path, files: Sequence[File], answer: str) -> Record:
+    told: Record = json.loads(answer)
+    if "error" in told:
+        raise _error(path, files, told["error"])
+    return told
+
+
+def _error(path: Path, files: Sequence[File], error: Record) -> FormatError:
+    subject = str(path if error["file"] is None else files[error["file"]].source)
+    words = subject, error["found"], error["expected"], error["mend"]
+    if error["kind"] != "series":
+        return FormatError(*words)
+    several = SeriesError(*words)
+    several.series = tuple(_report(one) for one in error["series"])
+    return several
+
+
+def _report(one: Record) -> SeriesReport:
+    return SeriesReport(**one | {key: one[key] and tuple(one[key]) for key in ("size", "spacing")})

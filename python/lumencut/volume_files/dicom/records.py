@@ -1,0 +1,112 @@
+"""Headers as plain records, in the form of the crate ``lumencut-dicom``, which judges series by them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from datetime import date, time
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from lumencut._lumencut import DICOM_ATTRIBUTES
+from lumencut.volume_files.dicom.headers import Header, Image
+
+Record = dict[str, Any]
+
+
+def header_record(image: Image) -> Record:
+    """Give a header as a record; every value is read, and one that is damaged raises what pydicom raises."""
+    header, keywords = image.header, _keywords()
+    attributes = {}
+    for tag in tuple(header.keys()):
+        value = header[tag].value
+        if (keyword := keywords.get(tag)) is not None:
+            attributes[keyword] = plain(value)
+    shared = header.get("SharedFunctionalGroupsSequence") or ()
+    frames = header.get("PerFrameFunctionalGroupsSequence") or ()
+    return {
+        "sop_class": str(header.get("SOPClassUID") or header.file_meta.get("MediaStorageSOPClassUID") or ""),
+        "transfer_syntax": str(image.transfer_syntax),
+        "pixels": image.pixel_keyword,
+        "attributes": attributes,
+        "shared": _of_groups(shared[0]) if shared else {},
+        "frames": [_of_groups(groups) for groups in frames],
+    }
+
+
+def plain(value: Any) -> Any:
+    """Give a value in a form that JSON has, true where there is none; DS and IS are the texts of the file."""
+    if value is None or isinstance(value, str):
+        return value
+    if isinstance(value, _as_text()):
+        return str(value)
+    if isinstance(value, float):
+        return value if math.isfinite(value) else str(value)
+    if isinstance(value, int):
+        return value
+    return _several(value)
+
+
+def _several(value: Any) -> Any:
+    from pydicom.multival import MultiValue
+    from pydicom.sequence import Sequence
+
+    if isinstance(value, Sequence):
+        return len(value)
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return [plain(one) for one in value] if isinstance(value, (MultiValue, list, tuple)) else True
+
+
+@cache
+def _as_text() -> tuple[type, ...]:
+    """Types of values that a file writes as texts."""
+    from pydicom.valuerep import IS, DSdecimal, DSfloat
+
+    return DSfloat, DSdecimal, IS, date, time
+
+
+@cache
+def _keywords() -> Mapping[int, str]:
+    """The attributes that series are judged by, by their tags."""
+    return {_tag(keyword): keyword for keyword in DICOM_ATTRIBUTES}
+
+
+@cache
+def _groups() -> tuple[tuple[int, dict[int, str]], ...]:
+    """The functional groups, and the attributes that are looked for in each."""
+    groups: dict[int, dict[int, str]] = {}
+    for keyword, sequences in DICOM_ATTRIBUTES.items():
+        for sequence in sequences:
+            groups.setdefault(_tag(sequence), {})[_tag(keyword)] = keyword
+    return tuple(groups.items())
+
+
+def _tag(keyword: str) -> int:
+    from pydicom.datadict import tag_for_keyword
+    from pydicom.tag import Tag
+
+    tag = tag_for_keyword(keyword)
+    assert tag is not None, f"{keyword} is an attribute of the standard"
+    return Tag(tag)
+
+
+def _of_groups(groups: Header) -> Record:
+    """The attributes of functional groups side by side."""
+    found: Record = {}
+    for sequence, keywords in _groups():
+        items: Any = groups[sequence].value if sequence in groups else None
+        for tag, keyword in keywords.items() if items else ():
+            if keyword not in found and tag in items[0]:
+                found[keyword] = _of_group(items[0], tag)
+    return found
+
+
+def _of_group(group: Header, tag: int) -> Any:
+    """A value of a functional group, true where it is damaged: who asks for it will hear of that."""
+    try:
+        return plain(group[tag].value)
+    except Exception:  # what pydicom raises for damaged values is nearly everything
+        return True

@@ -1,0 +1,71 @@
+"""Write the DICOM cases of the tests with what Lumencut makes of each, for other hosts of its judge.
+
+Each case becomes a folder of files and, beside it, a JSON document: the name of the case, the path of what is
+to be read, the headers and wishes as they went into the core, the answer that came out, and of a volume its
+type, its size and the SHA-256 of its voxels as little-endian 32-bit floats (i fastest). Of files that cannot
+be read it has the error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import sys
+import warnings
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tests"))
+
+from dicom_cases import CASES  # noqa: E402
+from dicom_series import Case  # noqa: E402
+from lumencut import FormatError, read_volume  # noqa: E402
+from lumencut._lumencut import judge_dicom  # noqa: E402
+from lumencut.volume_files.dicom import Wanted  # noqa: E402
+from lumencut.volume_files.dicom.files import read_files  # noqa: E402
+from lumencut.volume_files.dicom.judging import headers_document, wanted_document  # noqa: E402
+
+
+def document(case: Case, path: Path) -> dict[str, Any]:
+    """What Lumencut makes of a case that was written to a path."""
+    found: dict[str, Any] = {"name": case.name}
+    try:
+        headers = headers_document(read_files(path, []))
+        wanted = wanted_document(Wanted(series=case.series, resample_slices=case.resample_slices))
+        found |= {"headers": json.loads(headers), "wanted": json.loads(wanted)}
+        found |= {"answer": json.loads(judge_dicom(headers, wanted))}
+        volume = read_volume(path, series=case.series, resample_slices=case.resample_slices)
+    except FormatError as error:
+        return found | {"error": {"found": error.found, "expected": error.expected, "mend": error.mend}}
+    digest = hashlib.sha256(volume.array.astype("<f4").tobytes()).hexdigest()
+    told = {"type": volume.array.dtype.name, "size": volume.size, "sha256": digest}
+    return found | {"volume": told}
+
+
+def write(case: Case, place: Path) -> None:
+    """Write a case into the folder `place`, and its document beside it."""
+    place.mkdir(parents=True)
+    with warnings.catch_warnings():
+        # Some cases are meant to break rules that the writer knows.
+        warnings.simplefilter("ignore")
+        path = case.write(place).path
+    told = document(case, path) | {"path": path.relative_to(place.parent).as_posix()}
+    place.with_suffix(".json").write_text(json.dumps(told, ensure_ascii=False), "utf-8")
+
+
+def main() -> None:
+    """Write all cases."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path, help="a folder that is not there yet")
+    folder = parser.parse_args().folder
+    for number, case in enumerate(CASES):
+        try:
+            write(case, folder / f"{number:03}")
+        except ImportError as missing:
+            print(f"left out: {case.name} ({missing})")
+
+
+if __name__ == "__main__":
+    main()
