@@ -5,6 +5,8 @@
 
 pub mod choices;
 #[cfg(target_arch = "wasm32")]
+mod dicom;
+#[cfg(target_arch = "wasm32")]
 mod engine;
 pub mod failure;
 pub mod files;

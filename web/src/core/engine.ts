@@ -6,6 +6,7 @@ import type {
   Camera,
   Cpr,
   Drawn,
+  GivenFile,
   Histogram,
   Pair,
   Pick,
@@ -13,6 +14,7 @@ import type {
   Plane,
   Progress,
   Report,
+  SeriesWish,
   Started,
   States,
   Vector,
@@ -69,6 +71,15 @@ export class EngineClient {
 
   openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<Opened> {
     return heard(this.host.openAddresses(volume, centerlines, proxy(told)));
+  }
+
+  openFiles(files: readonly GivenFile[], wish: SeriesWish, told: Told): Promise<Opened> {
+    return heard(this.host.openFiles(files, wish, proxy(told)));
+  }
+
+  /** What is open. */
+  report(): Promise<Report> {
+    return heard(this.host.whatIsOpen());
   }
 
   openCenterlines(bytes: Uint8Array, name: string): Promise<Opened> {

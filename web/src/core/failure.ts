@@ -1,3 +1,17 @@
+/** A DICOM series that can be chosen. */
+export interface SeriesChoice {
+  readonly number: string;
+  readonly uid: string;
+  readonly description: string;
+  readonly modality: string;
+  readonly images: number;
+  /** Voxels along i, j, k, and their sizes (mm); null where the images form no stack. */
+  readonly size: readonly number[] | null;
+  readonly spacing: readonly number[] | null;
+  /** Why the images form no angiography volume, empty where they may. */
+  readonly trouble: string;
+}
+
 /** Errors in the words of the whole of Lumencut: what is wrong, what was found, what was expected, what mends it. */
 export class Failure extends Error {
   constructor(
@@ -6,6 +20,8 @@ export class Failure extends Error {
     readonly found: string,
     readonly expected: string,
     readonly mend = '',
+    /** The DICOM series of which none was chosen. */
+    readonly series: readonly SeriesChoice[] = [],
   ) {
     const words = [`${subject}: found ${found}`, `expected ${expected}`, mend];
     super(words.filter((part) => part !== '').join('; '));
@@ -20,7 +36,8 @@ export class Failure extends Error {
     const text = thrown instanceof Error ? thrown.message : String(thrown);
     const fields = parsed(text);
     if (fields) {
-      return new Failure(fields.kind, fields.subject, fields.found, fields.expected, fields.mend);
+      const { kind, subject, found, expected, mend, series } = fields;
+      return new Failure(kind, subject, found, expected, mend, series ?? []);
     }
     return new Failure(
       'unexpected',
@@ -33,8 +50,8 @@ export class Failure extends Error {
 
   /** As a text that survives the way between worker and page; `of` reads it again. */
   get text(): string {
-    const { kind, subject, found, expected, mend } = this;
-    return JSON.stringify({ kind, subject, found, expected, mend });
+    const { kind, subject, found, expected, mend, series } = this;
+    return JSON.stringify({ kind, subject, found, expected, mend, series });
   }
 }
 
@@ -44,6 +61,7 @@ interface Fields {
   found: string;
   expected: string;
   mend: string;
+  series?: readonly SeriesChoice[];
 }
 
 function parsed(text: string): Fields | null {

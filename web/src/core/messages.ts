@@ -102,6 +102,20 @@ export interface States {
   readonly orientation: boolean;
 }
 
+/** A file that was dropped or chosen, with the folders that it came with. */
+export interface GivenFile {
+  readonly path: string;
+  readonly file: File;
+}
+
+/** What of the files of a DICOM folder is to be read, where that is not clear. */
+export interface SeriesWish {
+  /** The number or UID of a series. */
+  readonly series?: string;
+  readonly fill_gaps?: boolean;
+  readonly resample_slices?: boolean;
+}
+
 /** How many voxels are in each of equally wide bins between two values. */
 export interface Histogram {
   readonly low: number;

@@ -1,7 +1,17 @@
 /** The WebAssembly module: the only file that touches it. */
-import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.js';
+import init, {
+  dicom_attributes,
+  Engine,
+  initSync,
+  judge_dicom,
+  run_thread,
+  use_threads,
+} from './pkg/lumencut.js';
 
 export { Engine };
+
+/** What judges DICOM series by their headers. */
+export const judge = { dicom_attributes, judge_dicom };
 
 /** What a worker needs to compute in the memory of another one. */
 export interface Shared {

@@ -23,10 +23,17 @@ export async function open(engine: EngineClient, load: () => Promise<Opened>, na
     if (!isCancelled(failure)) {
       store.problem.value = failure;
     }
-    await engine.close();
-    batch(forget);
+    await forgetWhatIsClosed(engine);
   } finally {
     store.progress.value = null;
+  }
+}
+
+/** What was open stays where others were refused before they took its place. */
+async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
+  const { volume, vessels } = await engine.report();
+  if (!volume && !vessels) {
+    batch(forget);
   }
 }
 

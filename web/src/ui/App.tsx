@@ -1,5 +1,6 @@
 /** The page. */
 import { report } from '../state/store';
+import { DropZone } from './DropZone';
 import { Help } from './Help';
 import { Layout } from './Layout';
 import { Messages } from './Messages';
@@ -14,6 +15,7 @@ export function App() {
       {isOpen ? <Toolbar /> : null}
       {isOpen ? <Layout /> : <StartPage />}
       <Messages />
+      <DropZone />
       <StatusBar />
       <Help />
     </>

@@ -1,7 +1,9 @@
 /** What went wrong, and how far long work is. */
+import type { Failure } from '../core/failure';
 import { engine } from '../core/shared';
 import { perform } from '../state/actions';
 import { problem, progress } from '../state/store';
+import { Mends } from './Mends';
 
 export function Messages() {
   return (
@@ -37,8 +39,12 @@ function Problem() {
   return (
     <div class="message problem" role="alert">
       <strong>{failure.subject}</strong>
-      <span>{`Found ${failure.found}; expected ${failure.expected}.`}</span>
-      {failure.mend && <span>{`${failure.mend[0]?.toUpperCase() ?? ''}${failure.mend.slice(1)}.`}</span>}
+      {failure.series.length > 0 ? (
+        <span>{`Found ${failure.series.length} series. Which of them is to be read?`}</span>
+      ) : (
+        <Sentences failure={failure} />
+      )}
+      <Mends failure={failure} />
       <button
         type="button"
         onClick={() => {
@@ -48,5 +54,15 @@ function Problem() {
         Close
       </button>
     </div>
+  );
+}
+
+function Sentences({ failure }: { readonly failure: Failure }) {
+  const { found, expected, mend } = failure;
+  return (
+    <>
+      <span>{`Found ${found}; expected ${expected}.`}</span>
+      {mend && <span>{`${mend[0]?.toUpperCase() ?? ''}${mend.slice(1)}.`}</span>}
+    </>
   );
 }

@@ -2,6 +2,7 @@
 import { engine } from '../core/shared';
 import { started } from '../state/store';
 import { openPhantom } from '../state/study';
+import { OpenButtons } from './OpenButtons';
 
 const PHANTOMS: readonly (readonly [string, string])[] = [
   ['aorta', 'Aorta and its branches'],
@@ -16,6 +17,10 @@ export function StartPage() {
       <h1>Lumencut</h1>
       <p>See the inside of all vessels of a CT or MR angiography in one view that turns freely.</p>
       <p>The scan stays in this browser: nothing leaves your machine.</p>
+      <section class="open-here" aria-label="Open a scan">
+        <p>Drop a scan here: a DICOM folder or zip archive, NIfTI, NRRD or MetaImage, and its centerlines.</p>
+        <OpenButtons />
+      </section>
       <h2>Try it with a phantom</h2>
       <ul class="phantoms">
         {PHANTOMS.map(([name, words]) => (

@@ -4,6 +4,7 @@ import { engine } from '../core/shared';
 import { perform, setSetting, settingOf } from '../state/actions';
 import * as store from '../state/store';
 import { close } from '../state/study';
+import { OpenMore } from './OpenButtons';
 import { SaveMenu } from './SaveMenu';
 import { SettingsPanel } from './SettingsPanel';
 import { WindowStrip } from './WindowStrip';
@@ -105,6 +106,7 @@ export function Toolbar() {
       <SettingsPanel />
       <SaveMenu />
       <span class="spring" />
+      <OpenMore />
       <button type="button" onClick={() => perform(engine, 'help')} aria-label="Keys and mouse">
         ?
       </button>

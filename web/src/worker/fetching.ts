@@ -1,9 +1,13 @@
-/** Loads a study of the same origin: the stream of voxels that `lumencut view` serves, and a file of centerlines. */
+/** Loads a study of the same origin: the stream of voxels that `lumencut view` serves or a file, and centerlines. */
 import { Failure } from '../core/failure';
 import type { Progress, States } from '../core/messages';
-import type { Engine } from '../core/module';
+import { ALL_OF_IT } from '../io/dicom/wanted';
+import { type Beside, BlobSource, fileName } from '../io/source';
+import type { Study } from '../io/study';
+import { openFiles, openLines } from '../io/study';
 import { ByteReader } from './byte-reader';
 import { narrowed } from './narrowed';
+import type { Means } from './replacing';
 
 export type Told = (progress: Progress) => void;
 
@@ -29,37 +33,25 @@ interface Header {
 
 /** What is told of a study beside what the engine knows. */
 export interface Fetched {
-  readonly notes: string[];
+  readonly notes: readonly string[];
   readonly name: string;
   readonly states: States;
 }
 
 /** Loads volume and centerlines one after the other; tells what was odd, and the name of the volume. */
-export async function fetchStudy(
-  engine: Engine,
-  addresses: Addresses,
-  told: Told,
-  signal: AbortSignal,
-): Promise<Fetched> {
-  const notes: string[] = [];
-  let name = '';
-  let states: States = { spacing: true, orientation: true };
+export async function fetchStudy(means: Means, addresses: Addresses, told: Told): Promise<Fetched> {
+  let fetched: Fetched = { notes: [], name: '', states: { spacing: true, orientation: true } };
   if (addresses.volume !== null) {
-    const header = await fetchVolume(engine, addresses.volume, told, signal);
-    notes.push(...(header.notes ?? []));
-    name = header.name ?? '';
-    states = { spacing: header.states_spacing !== false, orientation: header.states_orientation !== false };
+    fetched = await fetchVolume(means, addresses.volume, told);
   } else {
-    engine.close();
+    means.study.close();
   }
-  if (addresses.centerlines !== null) {
-    told({ words: 'Centerlines', done: 0, total: null });
-    const response = await answered(addresses.centerlines, signal);
-    const bytes = new Uint8Array(await response.arrayBuffer());
-    const file = new URL(response.url).pathname.split('/').pop() ?? 'centerlines';
-    notes.push(...(JSON.parse(engine.open_centerlines(bytes, file)) as string[]));
+  if (addresses.centerlines === null) {
+    return fetched;
   }
-  return { notes, name, states };
+  told({ words: 'Centerlines', done: 0, total: null });
+  const lines = await fetchFile(await answered(addresses.centerlines, means.steps.signal));
+  return { ...fetched, notes: [...fetched.notes, ...(await openLines(lines, means))] };
 }
 
 async function answered(address: string, signal: AbortSignal): Promise<Response> {
@@ -80,47 +72,93 @@ async function answered(address: string, signal: AbortSignal): Promise<Response>
     : failure;
 }
 
-async function fetchVolume(
-  engine: Engine,
-  address: string,
-  told: Told,
-  signal: AbortSignal,
-): Promise<Header> {
+async function fetchVolume(means: Means, address: string, told: Told): Promise<Fetched> {
+  const { signal } = means.steps;
   const response = await answered(address, signal);
   if (!response.body) {
     throw new Failure('file', address, 'an answer without content', 'a volume');
   }
   const bytes = new ByteReader(response.body);
-  const header = await readHeader(bytes, address);
-  const total = await readVoxels(engine, bytes, header, told);
+  const start = await bytes.take(MAGIC.length + 4);
+  if (new TextDecoder().decode(start.subarray(0, MAGIC.length)) !== MAGIC) {
+    return fetchFormat(means, response, { start, bytes, told });
+  }
+  const header = await readHeader(bytes, start, address);
+  const total = await readVoxels(means.study, bytes, header, told);
   if (bytes.count < total) {
     await refuseShort(address, signal, bytes.count, total);
   }
-  return header;
+  const states = {
+    spacing: header.states_spacing !== false,
+    orientation: header.states_orientation !== false,
+  };
+  return { notes: header.notes ?? [], name: header.name ?? '', states };
 }
 
-async function readHeader(bytes: ByteReader, address: string): Promise<Header> {
-  const start = await bytes.take(12);
-  const magic = new TextDecoder().decode(start.subarray(0, 8));
+/** What came of an answer so far, and the rest of it. */
+interface Begun {
+  readonly start: Uint8Array;
+  readonly bytes: ByteReader;
+  readonly told: Told;
+}
+
+/** Reads the answer as a file of one of the formats that can be dropped too. */
+async function fetchFormat(
+  means: Means,
+  response: Response,
+  { start, bytes, told }: Begun,
+): Promise<Fetched> {
+  const total = Number(response.headers.get('Content-Length')) || null;
+  const parts: BlobPart[] = [start.slice()];
+  for (let part = await bytes.takeWhole(1); part.length > 0; part = await bytes.takeWhole(1)) {
+    parts.push(part.slice());
+    told({
+      words: 'Fetching',
+      done: bytes.count,
+      total: total === null || bytes.count > total ? null : total,
+    });
+  }
+  const name = fileName(new URL(response.url).pathname);
+  const sources = [new BlobSource(decodeURIComponent(name), new Blob(parts))];
+  const { volume, notes } = await openFiles(
+    sources,
+    besideOf(response.url, means.steps.signal),
+    ALL_OF_IT,
+    means,
+  );
+  if (!volume) {
+    throw new Failure('format', name, 'centerlines', 'a volume', 'name them as centerlines');
+  }
+  return { ...volume, notes };
+}
+
+/** Files beside an address, of the same origin. */
+function besideOf(address: string, signal: AbortSignal): Beside {
+  return async (path) => {
+    const response = await fetch(new URL(encodeURI(path), address), { signal, cache: 'no-store' });
+    return response.ok ? fetchFile(response) : null;
+  };
+}
+
+async function fetchFile(response: Response): Promise<BlobSource> {
+  const name = decodeURIComponent(fileName(new URL(response.url).pathname));
+  return new BlobSource(name || 'centerlines', await response.blob());
+}
+
+async function readHeader(bytes: ByteReader, start: Uint8Array, address: string): Promise<Header> {
   const length = start.length === 12 ? new DataView(start.buffer, start.byteOffset).getUint32(8, true) : 0;
-  if (magic !== MAGIC || length === 0 || length > LONGEST_HEADER) {
-    throw new Failure(
-      'format',
-      address,
-      'another file',
-      'a stream of voxels',
-      'drop the file on the page instead',
-    );
+  if (length === 0 || length > LONGEST_HEADER) {
+    throw new Failure('format', address, 'a stream without a header', 'a stream of voxels', 'open it again');
   }
   return JSON.parse(new TextDecoder().decode(await bytes.take(length))) as Header;
 }
 
 /** Hands the voxels to the engine as they come; tells how many bytes there should be in all. */
-async function readVoxels(engine: Engine, bytes: ByteReader, header: Header, told: Told): Promise<number> {
+async function readVoxels(study: Study, bytes: ByteReader, header: Header, told: Told): Promise<number> {
   const { dtype, narrow, bytesPerVoxel } = narrowed(header.dtype);
   const voxels = header.size[0] * header.size[1] * header.size[2];
   const total = bytes.count + voxels * bytesPerVoxel;
-  engine.begin_volume(JSON.stringify({ ...header, dtype }));
+  study.begin_volume(JSON.stringify({ ...header, dtype }));
   let offset = 0;
   for (;;) {
     const part = await bytes.takeWhole(bytesPerVoxel);
@@ -128,7 +166,7 @@ async function readVoxels(engine: Engine, bytes: ByteReader, header: Header, tol
       return total;
     }
     const stored = narrow(part);
-    engine.take_voxels(offset, stored);
+    study.take_voxels(offset, stored);
     offset += stored.length;
     told({ words: 'Volume', done: bytes.count, total });
   }

@@ -4,20 +4,27 @@ import { Failure } from '../core/failure';
 import type {
   Cpr,
   Drawn,
+  GivenFile,
   Histogram,
   Pick,
   Picture,
   Plane,
   Progress,
   Report,
+  SeriesWish,
   Started,
   Vector,
   View,
   Window,
 } from '../core/messages';
-import { Engine, loadModule } from '../core/module';
+import { Engine, judge, loadModule } from '../core/module';
+import { ALL_OF_IT } from '../io/dicom/wanted';
+import { among, BlobSource } from '../io/source';
+import { Steps } from '../io/steps';
+import { openFiles } from '../io/study';
 import { type Fetched, fetchStudy, type Told } from './fetching';
 import { Queue } from './queue';
+import { type Means, Replacing } from './replacing';
 import { startThreads } from './threads';
 
 export class EngineHost {
@@ -79,12 +86,43 @@ export class EngineHost {
     centerlines: string | null,
     told: Told,
   ): Promise<Fetched & { report: Report }> {
+    return this.load(told, (means) => fetchStudy(means, { volume, centerlines }, told));
+  }
+
+  /** Opens files that were dropped or chosen; what was open stays where they are refused at once. */
+  openFiles(
+    files: readonly GivenFile[],
+    wish: SeriesWish,
+    told: Told,
+  ): Promise<Partial<Fetched> & { report: Report; notes: readonly string[] }> {
+    const sources = files.map(({ path, file }) => new BlobSource(path, file));
+    return this.load(told, async (means) => {
+      const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...wish }, means);
+      return volume ? { name: volume.name, states: volume.states, notes } : { notes };
+    });
+  }
+
+  /** Loads in steps, until `cancel`; where that ends early and what was open is gone already, nothing is open. */
+  private load<T>(told: Told, work: (means: Means) => Promise<T>): Promise<T & { report: Report }> {
+    this.cancelled.abort();
     this.cancelled = new AbortController();
     const { signal } = this.cancelled;
     return this.run(async () => {
-      const fetched = await fetchStudy(this.ready(), { volume, centerlines }, told, signal);
-      return { ...fetched, report: this.report() };
+      const study = new Replacing(this.ready());
+      try {
+        const loaded = await work({ study, judge, steps: new Steps(told, signal) });
+        return { ...loaded, report: this.report() };
+      } catch (error) {
+        if (study.hasBegun) {
+          study.close();
+        }
+        throw error;
+      }
     });
+  }
+
+  whatIsOpen(): Promise<Report> {
+    return this.run(() => this.report());
   }
 
   /** Opens centerlines beside the volume. */
@@ -95,7 +133,7 @@ export class EngineHost {
     });
   }
 
-  /** Stops loading; what is open then is nothing. */
+  /** Stops loading. */
   cancel(): void {
     this.cancelled.abort();
   }

@@ -1,0 +1,91 @@
+/** The members of a zip archive, unpacked into memory one at a time and no further than they claim. */
+import { configure, type FileEntry, Reader, ZipReader } from '@zip.js/zip.js/lib/zip-core-custom.js';
+import { Failure } from '../../core/failure';
+import type { Bytes } from '../payload';
+import type { Source } from '../source';
+import { damaged, formatFailure, printable } from '../words';
+
+/** Unpacked bytes that any archive may claim; real slices beyond that pack far less than the ratio below. */
+const ALWAYS_ALLOWED = 2 ** 30;
+const RATIO = 200;
+
+// Workers of blobs are what the page's policy forbids, and this is a worker already.
+configure({ useWebWorkers: false });
+
+/** The files of an archive in the order of their names. */
+export async function membersOf(archive: Source): Promise<Source[]> {
+  const entries = (await entriesOf(archive)).filter((entry): entry is FileEntry => !entry.directory);
+  if (entries.some((entry) => entry.encrypted)) {
+    throw formatFailure(archive.path, 'an encrypted archive', 'one without a password', 'unpack it first');
+  }
+  const claimed = entries.reduce((sum, entry) => sum + entry.uncompressedSize, 0);
+  if (claimed > Math.max(ALWAYS_ALLOWED, RATIO * archive.size)) {
+    const found = `${archive.size} bytes that claim to unpack to ${claimed}`;
+    throw formatFailure(archive.path, found, `at most ${RATIO} times the archive`, 'unpack it first');
+  }
+  const members = entries.map((entry) => new Member(archive.path, entry));
+  return members.sort((one, other) => (one.path < other.path ? -1 : 1));
+}
+
+async function entriesOf(archive: Source) {
+  try {
+    return await new ZipReader(new SourceReader(archive)).getEntries();
+  } catch (error) {
+    throw error instanceof Failure
+      ? error
+      : damaged(archive.path, 'an archive that is damaged', 'a whole one');
+  }
+}
+
+class SourceReader extends Reader<Source> {
+  constructor(private readonly source: Source) {
+    super(source);
+    this.size = source.size;
+  }
+
+  override readUint8Array(index: number, length: number): Promise<Uint8Array> {
+    return this.source.slice(index, index + length);
+  }
+}
+
+/** One file of an archive. */
+class Member implements Source {
+  readonly path: string;
+
+  constructor(
+    archive: string,
+    private readonly entry: FileEntry,
+  ) {
+    this.path = `${archive}/${printable(entry.filename)}`;
+  }
+
+  get size(): number {
+    return this.entry.uncompressedSize;
+  }
+
+  async slice(start: number, end: number): Promise<Bytes> {
+    const wanted = new Uint8Array(Math.max(Math.min(end, this.size), 0));
+    const stop = new AbortController();
+    let count = 0;
+    const sink = new WritableStream<Uint8Array>({
+      write: (chunk) => {
+        wanted.set(chunk.subarray(0, Math.max(wanted.length - count, 0)), Math.min(count, wanted.length));
+        count += chunk.length;
+        if (count >= wanted.length && wanted.length < this.size) {
+          stop.abort();
+        }
+        if (count > this.size) {
+          throw new Error('more than the archive claims');
+        }
+      },
+    });
+    try {
+      await this.entry.getData(sink, { checkSignature: true, signal: stop.signal });
+    } catch {
+      if (!stop.signal.aborted) {
+        throw damaged(this.path, 'a member of an archive that is damaged', 'a whole one');
+      }
+    }
+    return wanted.subarray(start, Math.min(count, wanted.length));
+  }
+}

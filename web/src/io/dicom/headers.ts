@@ -1,0 +1,104 @@
+/** The header of one DICOM file: the record that it is judged by, and what its pixels are read with. */
+import { Failure } from '../../core/failure';
+import type { Source } from '../source';
+import { fileName } from '../source';
+import { damaged, printable } from '../words';
+import { type Parsed, type PixelElement, parsed } from './parsing';
+import { isDicom } from './recognising';
+import type { HeaderRecord, Recorder } from './records';
+import { bytesIn } from './values';
+
+/** Bytes that hold the headers of nearly all images, then those of most multi-frame ones, before all of the file is read. */
+const HEADS = [1 << 17, 1 << 23];
+
+/** One DICOM file with its pixels still in it. */
+export interface Image {
+  readonly source: Source;
+  readonly header: HeaderRecord;
+  readonly pixels: PixelElement | null;
+  readonly isBig: boolean;
+  readonly isDeflated: boolean;
+  /** Where each frame begins and how long it is, where the file has such a table. */
+  readonly extended: readonly (readonly [number, number])[] | null;
+}
+
+/** A file that was looked into. */
+export interface LookedInto {
+  readonly source: Source;
+  readonly image: Image | null;
+  readonly record: { readonly name: string; readonly kind: string; readonly header?: HeaderRecord };
+}
+
+/** Reads the header of a file where it is DICOM. */
+export async function lookInto(source: Source, recorder: Recorder): Promise<LookedInto> {
+  const name = printable(fileName(source.path));
+  const head = await source.slice(0, HEADS[0] ?? 0);
+  if (!isDicom(head)) {
+    return { source, image: null, record: { name, kind: otherKind(head) } };
+  }
+  const image = imageOf(source, await header(source, head), recorder);
+  return { source, image, record: { name, kind: '', header: image.header } };
+}
+
+/** Parses as much of the file as its header needs; pixels must follow unless all of it was read. */
+async function header(source: Source, head: Uint8Array<ArrayBuffer>): Promise<Parsed> {
+  for (const length of [...HEADS, source.size]) {
+    const isWhole = length >= source.size;
+    try {
+      const found = parsed(source.path, length === HEADS[0] ? head : await source.slice(0, length));
+      if (found.pixels || isWhole) {
+        return found;
+      }
+    } catch (error) {
+      if (isWhole || error instanceof Failure) {
+        throw error instanceof Failure ? error : unreadable(source);
+      }
+    }
+    if (isWhole) {
+      break;
+    }
+  }
+  throw unreadable(source);
+}
+
+function unreadable(source: Source): Failure {
+  return damaged(source.path, 'a header that is damaged or breaks off', 'a sound DICOM file');
+}
+
+function imageOf(source: Source, file: Parsed, recorder: Recorder): Image {
+  try {
+    const { pixels, isBig, isDeflated } = file;
+    return {
+      source,
+      header: recorder.record(file),
+      pixels,
+      isBig,
+      isDeflated,
+      extended: extendedTable(file),
+    };
+  } catch {
+    throw unreadable(source);
+  }
+}
+
+/** The extended offset table, null where there is none. */
+function extendedTable(file: Parsed): Image['extended'] {
+  const [offsets, lengths] = ['x7fe00001', 'x7fe00002'].map((tag) => {
+    const element = file.elements[tag];
+    if (!element) {
+      return [];
+    }
+    const bytes = bytesIn(file, element);
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    const count = Math.floor(bytes.length / 8);
+    return Array.from({ length: count }, (_, i) => Number(view.getBigUint64(8 * i, !file.isBig)));
+  });
+  return offsets?.length ? offsets.map((offset, i) => [offset, lengths?.[i] ?? 0] as const) : null;
+}
+
+/** What a file is that is no DICOM as it lies there. */
+function otherKind(head: Uint8Array): string {
+  const isZip = head[0] === 0x50 && head[1] === 0x4b && (head[2] === 3 || head[2] === 5);
+  const packed = isZip ? 'zip archive' : head[0] === 0x1f && head[1] === 0x8b ? 'gzipped' : '';
+  return packed ? `${packed}; unpack it first` : 'no DICOM';
+}

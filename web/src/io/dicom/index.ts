@@ -1,0 +1,39 @@
+/** DICOM: one series of grey images, of a folder, a zip archive or single files, becomes one volume. */
+import { inOrder, type Source } from '../source';
+import type { Steps } from '../steps';
+import type { Sink } from '../volume-file';
+import { type LookedInto, lookInto } from './headers';
+import { asked, judged } from './judging';
+import { Recorder } from './records';
+import { loadStack } from './stack';
+import type { Judge, Wanted } from './wanted';
+
+/** What the files are: named together, and what of them is wanted. */
+export interface Series {
+  readonly subject: string;
+  readonly sources: readonly Source[];
+  readonly wanted: Wanted;
+}
+
+/** Reads a series into the engine; gives what was odd. */
+export async function openDicom(
+  series: Series,
+  judge: Judge,
+  sink: Sink,
+  steps: Steps,
+): Promise<readonly string[]> {
+  const files = await lookIntoAll(series.sources, judge, steps);
+  const plan = judged(judge, series.subject, files, series.wanted);
+  await loadStack(series.subject, plan, files, sink, steps);
+  return plan.notes;
+}
+
+async function lookIntoAll(sources: readonly Source[], judge: Judge, steps: Steps): Promise<LookedInto[]> {
+  const recorder = new Recorder(asked(judge));
+  const files: LookedInto[] = [];
+  for (const source of inOrder(sources)) {
+    files.push(await lookInto(source, recorder));
+    await steps.step('Looking into files', files.length, sources.length);
+  }
+  return files;
+}

@@ -1,0 +1,95 @@
+/** The bits of a JPEG scan, and the Huffman codes in them. */
+import type { Bytes } from '../payload';
+
+/** Bits that a decoder may look at beyond the end of a scan. */
+const LOOK_AHEAD = 32;
+const CODE_BITS = 16;
+
+export class DamagedScan extends Error {}
+
+/** The bits of a scan, up to the next marker. */
+export class Bits {
+  private held = 0;
+  private count = 0;
+  private missing = 0;
+
+  constructor(
+    private readonly bytes: Bytes,
+    public at: number,
+  ) {}
+
+  /** The next 16 bits, which stay. */
+  peek(): number {
+    this.fill(CODE_BITS);
+    return (this.held >>> (this.count - CODE_BITS)) & 0xffff;
+  }
+
+  skip(count: number): void {
+    this.count -= count;
+    if (this.missing > this.count + LOOK_AHEAD) {
+      throw new DamagedScan();
+    }
+  }
+
+  /** The next bits as a number, at most 16 of them. */
+  take(count: number): number {
+    this.fill(count);
+    const value = (this.held >>> (this.count - count)) & ((1 << count) - 1);
+    this.skip(count);
+    return value;
+  }
+
+  /** Goes on behind a restart marker. */
+  restart(): void {
+    [this.held, this.count, this.missing] = [0, 0, 0];
+    const isMarker = this.bytes[this.at] === 0xff && ((this.bytes[this.at + 1] ?? 0) & 0xf8) === 0xd0;
+    if (!isMarker) {
+      throw new DamagedScan();
+    }
+    this.at += 2;
+  }
+
+  private fill(count: number): void {
+    while (this.count < count) {
+      this.held = ((this.held << 8) | this.nextByte()) & 0xffffff;
+      this.count += 8;
+    }
+  }
+
+  /** The next byte; zeros behind the end, which is damage where too many of them are used. */
+  private nextByte(): number {
+    const byte = this.bytes[this.at];
+    if (byte === undefined || (byte === 0xff && this.bytes[this.at + 1] !== 0)) {
+      this.missing += 8;
+      return 0;
+    }
+    this.at += byte === 0xff ? 2 : 1;
+    return byte;
+  }
+}
+
+/** A table of Huffman codes: for every 16 bits the length of the code that they begin with, and what it stands for. */
+export class Codes {
+  private readonly table = new Uint16Array(1 << CODE_BITS);
+
+  constructor(counts: Bytes, symbols: Bytes) {
+    let [code, next] = [0, 0];
+    for (let length = 1; length <= CODE_BITS; length += 1) {
+      const step = 1 << (CODE_BITS - length);
+      for (let i = 0; i < (counts[length - 1] ?? 0); i += 1) {
+        this.table.fill((length << 8) | (symbols[next] ?? 0), code, code + step);
+        code += step;
+        next += 1;
+      }
+    }
+  }
+
+  read(bits: Bits): number {
+    const found = this.table[bits.peek()] ?? 0;
+    if (found === 0) {
+      throw new DamagedScan();
+    }
+    bits.skip(found >> 8);
+    return found & 0xff;
+  }
+}

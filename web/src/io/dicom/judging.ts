@@ -1,0 +1,57 @@
+/** What the judge makes of headers: a plan of the volume, or why there is none. */
+import { Failure, type SeriesChoice } from '../../core/failure';
+import type { LookedInto } from './headers';
+import { TRANSFER_SYNTAXES } from './pixels';
+import type { Asked } from './records';
+import type { Judge, Wanted } from './wanted';
+
+/** The volume that a series becomes. */
+export interface Plan {
+  readonly size: readonly [number, number, number];
+  readonly world_from_index: readonly (readonly number[])[];
+  readonly slices: readonly PlannedSlice[];
+  readonly fills: readonly Fill[];
+  readonly notes: readonly string[];
+}
+
+export interface PlannedSlice {
+  readonly file: number;
+  readonly frame: number;
+  /** The index k at which it lies. */
+  readonly place: number;
+  readonly slope: number;
+  readonly intercept: number;
+}
+
+/** A slice that is made of two that are read: (1 - part) × before + part × after. */
+export interface Fill {
+  readonly k: number;
+  readonly before: number;
+  readonly after: number;
+  readonly part: number;
+}
+
+interface Trouble {
+  readonly kind: 'format' | 'series';
+  readonly file: number | null;
+  readonly found: string;
+  readonly expected: string;
+  readonly mend: string;
+  readonly series: readonly SeriesChoice[];
+}
+
+export function asked(judge: Judge): Asked {
+  return JSON.parse(judge.dicom_attributes());
+}
+
+/** Finds the one series that is to be read, and how; `subject` names all files together. */
+export function judged(judge: Judge, subject: string, files: readonly LookedInto[], wanted: Wanted): Plan {
+  const headers = { transfer_syntaxes: TRANSFER_SYNTAXES, files: files.map((file) => file.record) };
+  const answer = JSON.parse(judge.judge_dicom(JSON.stringify(headers), JSON.stringify(wanted)));
+  if (answer.plan) {
+    return answer.plan;
+  }
+  const trouble: Trouble = answer.error;
+  const named = trouble.file === null ? subject : (files[trouble.file]?.source.path ?? subject);
+  throw new Failure('format', named, trouble.found, trouble.expected, trouble.mend, trouble.series);
+}

@@ -1,0 +1,142 @@
+/** The stored numbers of a slice. */
+import { type Kind, type Numbers, numbersOf } from '../numbers';
+import type { Bytes } from '../payload';
+import { damaged, formatFailure } from '../words';
+import { CODECS, type CodecName, decoderOf } from './codecs';
+import type { Decoded } from './decoded';
+import { Frames, frameBytes, NATIVE, type Shape, shapeOf } from './frames';
+import type { Image } from './headers';
+import { unpackRle } from './rle';
+import { codestreamSize, jpegSize } from './stream-size';
+
+export const RLE = '1.2.840.10008.1.2.5';
+/** All that is decoded here. */
+export const TRANSFER_SYNTAXES: readonly string[] = [...NATIVE, RLE, ...Object.keys(CODECS)];
+
+/** Bytes that any frame may become: an empty one of 2048 × 2048 pixels is packed to a hundred bytes. */
+const ALWAYS_ALLOWED = 16 << 20;
+/** Beyond, no codec makes a real slice this much smaller; a header that claims more lies. */
+const COMPRESSION_LIMIT = 10_000;
+
+/** Reads slices one after the other; the file of the last one is kept at hand. */
+export class PixelReader {
+  private frames: Frames | null = null;
+
+  /** The numbers of a frame, as many as it has pixels. */
+  async read(image: Image, frame: number): Promise<Numbers> {
+    if (this.frames?.image !== image) {
+      this.frames = new Frames(image);
+    }
+    const { frames } = this;
+    const shape = shapeOf(image);
+    const bytes = await frames.frame(frame);
+    const syntax = image.header.transfer_syntax;
+    if (NATIVE.includes(syntax)) {
+      return nativeNumbers(image, shape, bytes);
+    }
+    if (frameBytes(shape) > Math.max(ALWAYS_ALLOWED, bytes.length * COMPRESSION_LIMIT)) {
+      throw frames.tooShort(bytes.length);
+    }
+    const path = image.source.path;
+    const stored =
+      syntax === RLE ? unpackedRle(path, shape, bytes) : await decoded(path, syntax, shape, bytes);
+    return used(stored, shape);
+  }
+}
+
+/** The type of stored numbers. */
+export function kindOf(image: Image, shape: Shape): Kind {
+  const bits = shape.bitsAllocated;
+  if (image.pixels?.keyword !== 'PixelData') {
+    return bits === 64 ? 'float64' : 'float32';
+  }
+  return `${shape.isSigned ? '' : 'u'}int${bits}` as Kind;
+}
+
+function nativeNumbers(image: Image, shape: Shape, bytes: Bytes): Numbers {
+  const kind = kindOf(image, shape);
+  if (image.isBig && shape.bitsAllocated === 8 && image.pixels?.vr === 'OW') {
+    // Two bytes make a word, whose higher one comes first.
+    const swapped = numbersOf({ kind: 'uint16', isBig: true }, bytes);
+    return used(numbersOf({ kind, isBig: false }, new Uint8Array(swapped.buffer as ArrayBuffer)), shape);
+  }
+  return used(numbersOf({ kind, isBig: image.isBig }, bytes), shape);
+}
+
+/** Numbers without the bits that are not used; the highest that is used is the sign. */
+function used(numbers: Numbers, { bitsAllocated, bitsStored }: Shape): Numbers {
+  const unused = bitsAllocated - bitsStored;
+  if (unused <= 0 || unused >= bitsAllocated || !(numbers instanceof Int8Array || isSmall(numbers))) {
+    return numbers;
+  }
+  const result = numbers as Int16Array<ArrayBuffer>;
+  for (let i = 0; i < result.length; i += 1) {
+    // An array of its type drops what was shifted out, and shifts the sign in.
+    result[i] = (result[i] ?? 0) << unused;
+    result[i] = (result[i] ?? 0) >> unused;
+  }
+  return result;
+}
+
+function isSmall(numbers: Numbers): boolean {
+  return [Uint8Array, Int16Array, Uint16Array, Int32Array].some((type) => numbers instanceof type);
+}
+
+function unpackedRle(path: string, shape: Shape, frame: Bytes): Numbers {
+  const unit = shape.bitsAllocated / 8;
+  const bytes = unpackRle(frame, shape.rows * shape.columns, unit);
+  if (!bytes) {
+    throw damaged(path, 'damaged pixels', 'pixels that can be decoded');
+  }
+  return numbersOf({ kind: `${shape.isSigned ? '' : 'u'}int${8 * unit}` as Kind, isBig: false }, bytes);
+}
+
+async function decoded(path: string, syntax: string, shape: Shape, frame: Bytes): Promise<Numbers> {
+  const name = CODECS[syntax];
+  if (!name) {
+    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'one that is read here');
+  }
+  requireSize(path, name, shape, frame);
+  const decode = await decoderOf(name);
+  let made: Decoded;
+  try {
+    made = decode(frame);
+  } catch {
+    throw damaged(path, 'damaged pixels', 'pixels that can be decoded');
+  }
+  if (made.bytes.length !== shape.rows * shape.columns * made.unit) {
+    throw damaged(path, 'damaged pixels', 'pixels that can be decoded');
+  }
+  const sign = shape.isSigned ? '' : 'u';
+  const numbers = numbersOf({ kind: `${sign}int${8 * made.unit}` as Kind, isBig: false }, made.bytes);
+  return made.unit === 1 && shape.bitsAllocated > 8
+    ? new (shape.isSigned ? Int16Array : Uint16Array)(made.bytes)
+    : numbers;
+}
+
+/** Refuses a frame of another size than the header's before its decoder sets memory aside. */
+function requireSize(path: string, name: CodecName, shape: Shape, frame: Bytes): void {
+  const isCodestream = name === 'jpeg2000' || name === 'highThroughput';
+  const size = isCodestream ? codestreamSize(frame) : jpegSize(frame);
+  if (!size) {
+    throw damaged(
+      path,
+      `pixels without a ${isCodestream ? 'codestream' : 'frame'}`,
+      isCodestream ? 'JPEG 2000' : 'JPEG',
+    );
+  }
+  if (size.columns !== shape.columns || size.rows !== shape.rows || size.components !== 1) {
+    const what = isCodestream ? 'codestream' : 'frame';
+    const found = `a ${what} of ${size.columns} × ${size.rows} pixels, ${size.components} values each`;
+    throw formatFailure(path, found, `${shape.columns} × ${shape.rows} as the header says`);
+  }
+  if (name === 'jpeg' && size.bits > 8) {
+    const mend = 'write the series without compression, or convert it by the Python package';
+    throw formatFailure(
+      path,
+      `JPEG Extended of ${size.bits} bits`,
+      'one of 8 bits, or another compression',
+      mend,
+    );
+  }
+}

@@ -1,0 +1,54 @@
+/** The size that a compressed frame states itself, before a decoder sets memory aside for it. */
+import type { Bytes } from '../payload';
+
+export interface StreamSize {
+  readonly columns: number;
+  readonly rows: number;
+  readonly components: number;
+  readonly bits: number;
+}
+
+/** The size of a codestream of JPEG 2000, null where there is none. */
+export function codestreamSize(frame: Bytes): StreamSize | null {
+  const view = new DataView(frame.buffer, frame.byteOffset, frame.byteLength);
+  for (let at = 0; at + 43 <= frame.length; at += 1) {
+    if (view.getUint32(at) === 0xff4fff51) {
+      const [right, bottom, left, top] = [8, 12, 16, 20].map((place) => view.getUint32(at + place));
+      return {
+        columns: (right ?? 0) - (left ?? 0),
+        rows: (bottom ?? 0) - (top ?? 0),
+        components: view.getUint16(at + 40),
+        bits: (view.getUint8(at + 42) & 0x7f) + 1,
+      };
+    }
+  }
+  return null;
+}
+
+/** The size of a frame of JPEG or JPEG-LS, null where there is none. */
+export function jpegSize(frame: Bytes): StreamSize | null {
+  const view = new DataView(frame.buffer, frame.byteOffset, frame.byteLength);
+  let at = 2;
+  while (at + 10 <= frame.length) {
+    const marker = view.getUint8(at + 1);
+    if (view.getUint8(at) !== 0xff) {
+      return null;
+    }
+    if (isFrameHeader(marker)) {
+      return {
+        bits: view.getUint8(at + 4),
+        rows: view.getUint16(at + 5),
+        columns: view.getUint16(at + 7),
+        components: view.getUint8(at + 9),
+      };
+    }
+    at += marker === 0xff ? 1 : 2 + view.getUint16(at + 2);
+  }
+  return null;
+}
+
+/** Whether a marker begins the header of a frame: all from SOF0 on but tables, and that of JPEG-LS. */
+function isFrameHeader(marker: number): boolean {
+  const isOfJpeg = marker >= 0xc0 && marker <= 0xcf && ![0xc4, 0xc8, 0xcc].includes(marker);
+  return isOfJpeg || marker === 0xf7;
+}

@@ -1,0 +1,88 @@
+/** Stored numbers: their types, and bytes of a file as arrays of them. */
+
+export const ARRAYS = {
+  int8: Int8Array,
+  uint8: Uint8Array,
+  int16: Int16Array,
+  uint16: Uint16Array,
+  int32: Int32Array,
+  uint32: Uint32Array,
+  int64: BigInt64Array,
+  uint64: BigUint64Array,
+  float32: Float32Array,
+  float64: Float64Array,
+} as const;
+
+/** A type of numbers, as NumPy calls it. */
+export type Kind = keyof typeof ARRAYS;
+
+export type Numbers = InstanceType<(typeof ARRAYS)[Kind]>;
+
+/** A type of numbers in a file. */
+export interface StoredKind {
+  readonly kind: Kind;
+  /** Whether the highest byte comes first. */
+  readonly isBig: boolean;
+}
+
+/** The types that the engine computes with. */
+const OF_THE_ENGINE: readonly Kind[] = ['uint8', 'int16', 'uint16', 'float32'];
+
+/** The type that the engine has for numbers of another one: bytes exactly, wide numbers to 24 bits. */
+export function inTheEngine(kind: Kind): Kind {
+  return OF_THE_ENGINE.includes(kind) ? kind : kind === 'int8' ? 'int16' : 'float32';
+}
+
+export function byteCount(kind: Kind): number {
+  return ARRAYS[kind].BYTES_PER_ELEMENT;
+}
+
+export function isInteger(kind: Kind): boolean {
+  return !kind.startsWith('float');
+}
+
+/** Whole numbers that the bytes hold; they may become the array's own. */
+export function numbersOf({ kind, isBig }: StoredKind, bytes: Uint8Array<ArrayBuffer>): Numbers {
+  const unit = byteCount(kind);
+  const aligned = bytes.byteOffset % unit === 0 && !isBig ? bytes : bytes.slice();
+  if (isBig && unit > 1) {
+    swapBytes(aligned, unit);
+  }
+  const count = Math.floor(aligned.length / unit);
+  return new ARRAYS[kind](aligned.buffer, aligned.byteOffset, count);
+}
+
+/** The bytes of an array. */
+export function bytesOf(numbers: Numbers): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(numbers.buffer as ArrayBuffer, numbers.byteOffset, numbers.byteLength);
+}
+
+function swapBytes(bytes: Uint8Array, unit: number): void {
+  for (let start = 0; start + unit <= bytes.length; start += unit) {
+    bytes.subarray(start, start + unit).reverse();
+  }
+}
+
+/** The type of an array. */
+export function kindName(numbers: Numbers): Kind {
+  const found = (Object.keys(ARRAYS) as Kind[]).find((kind) => numbers instanceof ARRAYS[kind]);
+  return found ?? 'float64';
+}
+
+/** The limits of an integer type. */
+export function limits(kind: Kind): readonly [bigint, bigint] {
+  const bits = BigInt(8 * byteCount(kind));
+  return kind.startsWith('u') ? [0n, (1n << bits) - 1n] : [-(1n << (bits - 1n)), (1n << (bits - 1n)) - 1n];
+}
+
+const HOLDING: readonly Kind[] = ['int16', 'uint16', 'int32', 'uint32', 'int64'];
+
+/** The first integer type that holds every value from `low` to `high`, null where there is none. */
+export function holding(low: number, high: number, first?: Kind): Kind | null {
+  const candidates = first === undefined ? HOLDING : [first, ...HOLDING];
+  const holds = (kind: Kind) => {
+    const [least, most] = limits(kind);
+    return Number(least) <= low && high <= Number(most);
+  };
+  return candidates.find(holds) ?? null;
+}

@@ -1,0 +1,183 @@
+/** What was dropped, chosen or fetched becomes the study: one volume, its centerlines, or both. */
+import type { States } from '../core/messages';
+import type { Judge, Wanted } from './dicom/wanted';
+import { type Known, known } from './kinds';
+import { openMetaImage } from './metaimage';
+import { openNifti } from './nifti';
+import { openNrrd } from './nrrd';
+import { type Beside, fileName, type Source } from './source';
+import type { Steps } from './steps';
+import { load, type Sink } from './volume-file';
+import { formatFailure } from './words';
+
+/** What takes a study: the engine, or a test. */
+export interface Study extends Sink {
+  /** Gives notes as JSON. */
+  open_centerlines(bytes: Uint8Array, name: string): string;
+}
+
+/** What files are opened with. */
+export interface Means {
+  readonly study: Study;
+  readonly judge: Judge;
+  readonly steps: Steps;
+}
+
+export interface Opened {
+  /** What is told of the volume, null where there was none. */
+  readonly volume: Volume | null;
+  readonly notes: readonly string[];
+}
+
+interface Volume {
+  readonly name: string;
+  readonly notes: readonly string[];
+  readonly states: States;
+}
+
+/** DICOM states both, or is refused. */
+const STATED: States = { spacing: true, orientation: true };
+const VOLUMES =
+  'a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)';
+const LINES = 'centerlines (.vtp, .vtk, .mrk.json, .fcsv, .swc, .csv, .pth)';
+
+/** What the files are, one by one. */
+interface Sorted {
+  readonly volumes: readonly Known[];
+  readonly dicom: readonly Source[];
+  readonly archives: readonly Source[];
+  readonly lines: readonly Known[];
+  readonly others: readonly Known[];
+}
+
+/** Opens files: a volume in the place of all that is open, centerlines beside it. */
+export async function openFiles(
+  sources: readonly Source[],
+  beside: Beside,
+  wanted: Wanted,
+  means: Means,
+): Promise<Opened> {
+  const sorted = await sort(sources, means.steps);
+  requireOne(sorted);
+  const volume = await openVolume(sorted, sources, { beside, wanted, ...means });
+  const [lines] = sorted.lines;
+  const notes = lines ? await openLines(lines.source, means) : [];
+  return { volume, notes: [...(volume?.notes ?? []), ...notes] };
+}
+
+/** Opens centerlines beside the volume; gives notes. */
+export async function openLines(source: Source, { study, steps }: Means): Promise<readonly string[]> {
+  const found = await known(source);
+  if (['nifti', 'nrrd', 'metaimage', 'dicom', 'zip'].includes(found.kind)) {
+    const mend = 'trace the lines of a mask by `lumencut trace` and open what it writes';
+    throw formatFailure(source.path, found.words, LINES, mend);
+  }
+  if (found.kind === 'empty') {
+    throw formatFailure(source.path, found.words, LINES, 'copy or export it again');
+  }
+  await steps.step('Centerlines', 0, null);
+  return JSON.parse(study.open_centerlines(await source.slice(0, source.size), fileName(source.path)));
+}
+
+async function sort(sources: readonly Source[], steps: Steps): Promise<Sorted> {
+  const every: Known[] = [];
+  for (const source of sources) {
+    every.push(await known(source));
+    await steps.step('Looking into files', every.length, sources.length);
+  }
+  const of = (...kinds: readonly string[]) => every.filter((one) => kinds.includes(one.kind));
+  return {
+    volumes: of('nifti', 'nrrd', 'metaimage').filter((one) => !isVoxelsOf(one, every)),
+    dicom: of('dicom').map((one) => one.source),
+    archives: of('zip').map((one) => one.source),
+    lines: of('centerlines'),
+    others: of('other', 'empty'),
+  };
+}
+
+/** Whether a file is the second one of a pair, whatever its voxels look like. */
+function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
+  const stem = /^(.*)\.img(\.gz)?$/i.exec(source.path)?.[1];
+  return (
+    stem !== undefined &&
+    every.some((one) => one.source.path.toLowerCase().startsWith(`${stem.toLowerCase()}.hdr`))
+  );
+}
+
+/** Refuses what would leave open which file is meant. */
+function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
+  const every = [...volumes.map((one) => one.source), ...archives, ...dicom.slice(0, 1)];
+  const [first, second] = every;
+  if (first && second) {
+    const found = `${every.length} volumes, ${fileName(first.path)} and ${fileName(second.path)}${every.length > 2 ? ' among them' : ''}`;
+    const mend = 'choose the scan alone; the lines of a mask are traced by `lumencut trace`';
+    throw formatFailure('files', found, 'one volume and its centerlines', mend);
+  }
+  if (lines.length > 1) {
+    const found = `${lines.length} files of centerlines`;
+    throw formatFailure('files', found, 'one volume and its centerlines', 'choose one of them');
+  }
+  if (every.length + lines.length === 0) {
+    throw unknown(others);
+  }
+}
+
+function unknown(others: readonly Known[]): Error {
+  const [first] = others;
+  if (!first) {
+    return formatFailure('files', 'none', VOLUMES, 'choose at least one file');
+  }
+  const mend = first.kind === 'empty' ? 'copy or export it again' : first.mend;
+  const hasMore = others.length > 1 ? ` (and ${others.length - 1} more)` : '';
+  return formatFailure(first.source.path, `${first.words}${hasMore}`, `${VOLUMES}, or ${LINES}`, mend);
+}
+
+interface Asked extends Means {
+  readonly beside: Beside;
+  readonly wanted: Wanted;
+}
+
+async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked): Promise<Volume | null> {
+  const [volume] = sorted.volumes;
+  if (volume) {
+    return openFile(volume, asked);
+  }
+  const [archive] = sorted.archives;
+  if (!archive && sorted.dicom.length === 0) {
+    return null;
+  }
+  const { openDicom } = await import('./dicom');
+  const lines = sorted.lines.map((one) => one.source);
+  const sources = archive ? await membersOf(archive) : every.filter((source) => !lines.includes(source));
+  const subject = archive?.path ?? commonName(sources);
+  const series = { subject, sources, wanted: asked.wanted };
+  const notes = await openDicom(series, asked.judge, asked.study, asked.steps);
+  return { name: fileName(subject), notes, states: STATED };
+}
+
+async function membersOf(archive: Source): Promise<Source[]> {
+  const zip = await import('./dicom/archive');
+  return zip.membersOf(archive);
+}
+
+async function openFile({ source, kind }: Known, { beside, study, steps }: Asked): Promise<Volume> {
+  const open = kind === 'nrrd' ? openNrrd : kind === 'metaimage' ? openMetaImage : openNifti;
+  const file = await open(source, beside);
+  await load(file, study, steps);
+  return { name: fileName(source.path), notes: file.notes, states: file.states };
+}
+
+/** The folder in which all files are; the name of a single one. */
+function commonName(sources: readonly Source[]): string {
+  const [first] = sources;
+  if (!first || sources.length === 1) {
+    return first?.path ?? 'files';
+  }
+  const folders = first.path.split('/').slice(0, -1);
+  const isShared = (count: number) => {
+    const start = `${folders.slice(0, count).join('/')}/`;
+    return sources.every((source) => source.path.startsWith(start));
+  };
+  const count = folders.findLastIndex((_, i) => isShared(i + 1)) + 1;
+  return count > 0 ? folders.slice(0, count).join('/') : 'files';
+}

@@ -1,0 +1,107 @@
+/** A volume whose header is read, and the way of its voxels into the engine. */
+import { Failure } from '../core/failure';
+import type { States } from '../core/messages';
+import { byteCount, numbersOf, type StoredKind } from './numbers';
+import { type Bytes, type Place, requireRoom, voxelBytes } from './payload';
+import { conversion, needsRange, type Scaling } from './rescale';
+import type { Steps } from './steps';
+import { formatFailure } from './words';
+
+export type Size = readonly [number, number, number];
+/** World (LPS, mm) from voxel indices, row by row. */
+export type Affine = readonly (readonly number[])[];
+
+/** What takes the voxels: the engine, or a test. */
+export interface Sink {
+  begin_volume(header: string): void;
+  take_voxels(offset: number, bytes: Uint8Array): void;
+}
+
+/** A volume whose header is read and checked and whose voxels are still in their file. */
+export interface VolumeFile {
+  readonly path: string;
+  readonly format: string;
+  readonly size: Size;
+  readonly worldFromIndex: Affine;
+  readonly stored: StoredKind;
+  readonly scaling: Scaling;
+  readonly place: Place;
+  readonly notes: readonly string[];
+  readonly states: States;
+}
+
+/** Makes room for a volume; what is no grid is refused in the name of its file. */
+export function begin(sink: Sink, path: string, size: Size, affine: Affine, dtype: string): void {
+  try {
+    sink.begin_volume(JSON.stringify({ size, dtype, world_from_index: affine }));
+  } catch (error) {
+    const failure = Failure.of(error);
+    const { subject, found, expected, mend } = failure;
+    throw failure.kind === 'volume' ? formatFailure(path, `${subject} ${found}`, expected, mend) : failure;
+  }
+}
+
+/** Reads the voxels of a file into the engine. */
+export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<void> {
+  requireNumbers(file);
+  const needed = file.size.reduce((count, side) => count * side, byteCount(file.stored.kind));
+  await requireRoom(file.place, needed, file.stored.kind, steps);
+  const isWanted = needsRange(file.stored.kind, file.scaling);
+  const range = isWanted ? await rangeOf(file, needed, steps) : null;
+  const { kind, convert } = conversion(orderInMemory(file), file.scaling, range);
+  begin(sink, file.path, file.size, file.worldFromIndex, kind);
+  let offset = 0;
+  for await (const bytes of wholeVoxels(file, needed)) {
+    const voxels = convert(bytes);
+    sink.take_voxels(offset, voxels);
+    offset += voxels.length;
+    await steps.step('Volume', (offset / byteCount(kind)) * byteCount(file.stored.kind), needed);
+  }
+}
+
+/** JSON has no number that is none: without this it would become 0. */
+function requireNumbers(file: VolumeFile): void {
+  if (!file.worldFromIndex.flat().every(Number.isFinite)) {
+    const found = 'world_from_index with numbers that are not finite';
+    throw formatFailure(file.path, found, 'finite numbers', 'state another placement');
+  }
+}
+
+/** Numbers that stand as text in a file are in the order of this machine once they are parsed. */
+function orderInMemory({ stored, place }: VolumeFile): StoredKind {
+  return place.codec === 'text' ? { ...stored, isBig: false } : stored;
+}
+
+async function rangeOf(file: VolumeFile, needed: number, steps: Steps): Promise<readonly [number, number]> {
+  let [low, high, done] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY, 0];
+  for await (const bytes of wholeVoxels(file, needed)) {
+    done += bytes.length;
+    for (const value of numbersOf(orderInMemory(file), bytes)) {
+      low = Math.min(low, Number(value));
+      high = Math.max(high, Number(value));
+    }
+    await steps.step('Checking the volume', done, needed);
+  }
+  return [low, high];
+}
+
+/** The bytes of voxels in pieces of whole ones. */
+async function* wholeVoxels(file: VolumeFile, needed: number): AsyncGenerator<Bytes> {
+  const unit = byteCount(file.stored.kind);
+  let begun: Bytes = new Uint8Array();
+  for await (const piece of voxelBytes(file.place, needed, file.stored.kind)) {
+    const bytes = begun.length === 0 ? piece : joined(begun, piece);
+    const whole = bytes.length - (bytes.length % unit);
+    begun = bytes.slice(whole);
+    if (whole > 0) {
+      yield bytes.subarray(0, whole);
+    }
+  }
+}
+
+export function joined(first: Uint8Array, second: Uint8Array): Bytes {
+  const both = new Uint8Array(first.length + second.length);
+  both.set(first);
+  both.set(second, first.length);
+  return both;
+}

@@ -1,0 +1,57 @@
+/** All of the page takes files that are dropped on it, and shows so while they are over it. */
+import { useSignal, useSignalEffect } from '@preact/signals';
+import { engine } from '../core/shared';
+import { dropped } from '../input/dropped';
+import { openFiles } from '../state/opening';
+import { hasVolume, started } from '../state/store';
+
+export function DropZone() {
+  const isOver = useSignal(false);
+  useSignalEffect(() => {
+    const ended = new AbortController();
+    listen(ended.signal, (value) => {
+      isOver.value = value;
+    });
+    return () => ended.abort();
+  });
+  if (!isOver.value) {
+    return null;
+  }
+  const words = hasVolume.value
+    ? 'Drop centerlines to add them, or another scan'
+    : 'Drop a scan here, and its centerlines';
+  return <div class="drop-zone">{words}</div>;
+}
+
+function listen(signal: AbortSignal, show: (isOver: boolean) => void): void {
+  const hasFiles = (event: DragEvent) => Boolean(event.dataTransfer?.types.includes('Files'));
+  const over = (event: DragEvent) => {
+    if (hasFiles(event)) {
+      event.preventDefault();
+      show(true);
+    }
+  };
+  const leave = (event: DragEvent) => {
+    if (event.relatedTarget === null) {
+      show(false);
+    }
+  };
+  const drop = (event: DragEvent) => {
+    show(false);
+    if (event.dataTransfer && hasFiles(event)) {
+      event.preventDefault();
+      void open(event.dataTransfer);
+    }
+  };
+  window.addEventListener('dragenter', over, { signal });
+  window.addEventListener('dragover', over, { signal });
+  window.addEventListener('dragleave', leave, { signal });
+  window.addEventListener('drop', drop, { signal });
+}
+
+async function open(transfer: DataTransfer): Promise<void> {
+  const files = await dropped(transfer);
+  if (files.length > 0 && started.value) {
+    await openFiles(engine, files);
+  }
+}

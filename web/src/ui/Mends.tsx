@@ -1,0 +1,42 @@
+/** What can be done at once about a DICOM folder that was refused. */
+import type { Failure, SeriesChoice } from '../core/failure';
+import type { SeriesWish } from '../core/messages';
+import { engine } from '../core/shared';
+import { openAgain } from '../state/opening';
+
+const WISHES: readonly (readonly [keyof SeriesWish, string])[] = [
+  ['fill_gaps', 'Interpolate the missing slices'],
+  ['resample_slices', 'Put the slices on a regular grid'],
+];
+
+export function Mends({ failure }: { readonly failure: Failure }) {
+  const wishes = WISHES.filter(([name]) => failure.mend.includes(`${name}=True`));
+  return (
+    <>
+      {failure.series.length > 0 && (
+        <ul class="series" aria-label="Series">
+          {failure.series.map((one) => (
+            <li key={one.uid}>
+              <button type="button" onClick={() => void openAgain(engine, { series: one.uid })}>
+                {wordsOf(one)}
+              </button>
+            </li>
+          ))}
+        </ul>
+      )}
+      {wishes.map(([name, words]) => (
+        <button key={name} type="button" onClick={() => void openAgain(engine, { [name]: true })}>
+          {words}
+        </button>
+      ))}
+    </>
+  );
+}
+
+/** A series on one line. */
+function wordsOf({ number, description, modality, images, size, spacing, trouble }: SeriesChoice): string {
+  const steps = spacing?.map((step) => Number(step.toPrecision(3)));
+  const extent = size && steps ? [size.join(' × '), `${steps.join(' × ')} mm`] : [`${images} images`];
+  const parts = [description || 'no description', modality, ...extent, trouble];
+  return `${number || '–'}: ${parts.filter((part) => part !== '').join(' · ')}`;
+}

@@ -1,0 +1,53 @@
+/** Buttons that open files, and a folder of DICOM. */
+import { useRef } from 'preact/hooks';
+import { engine } from '../core/shared';
+import { chosen } from '../input/dropped';
+import { openFiles } from '../state/opening';
+import { started } from '../state/store';
+
+export function OpenButtons() {
+  return (
+    <>
+      <Chooser words="Choose files" isFolder={false} />
+      <Chooser words="Choose a folder" isFolder={true} />
+    </>
+  );
+}
+
+/** Opens files beside or in the place of what is open. */
+export function OpenMore() {
+  return <Chooser words="Open" isFolder={false} />;
+}
+
+interface ChooserProps {
+  readonly words: string;
+  readonly isFolder: boolean;
+}
+
+function Chooser({ words, isFolder }: ChooserProps) {
+  const input = useRef<HTMLInputElement>(null);
+  const open = (element: HTMLInputElement) => {
+    const files = chosen(element.files ?? new DataTransfer().files);
+    // The same files can be chosen again.
+    element.value = '';
+    if (files.length > 0) {
+      void openFiles(engine, files);
+    }
+  };
+  return (
+    <>
+      <button type="button" disabled={started.value === null} onClick={() => input.current?.click()}>
+        {words}
+      </button>
+      <input
+        ref={input}
+        hidden
+        type="file"
+        multiple
+        aria-label={words}
+        {...(isFolder ? { webkitdirectory: true } : {})}
+        onChange={(event) => open(event.currentTarget)}
+      />
+    </>
+  );
+}

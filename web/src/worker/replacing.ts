@@ -1,0 +1,32 @@
+/** The engine as readers of files have it: it tells whether they began to replace what was open. */
+import type { Engine } from '../core/module';
+import type { Study, Means as StudyMeans } from '../io/study';
+
+export class Replacing implements Study {
+  hasBegun = false;
+
+  constructor(private readonly engine: Engine) {}
+
+  close(): void {
+    this.hasBegun = true;
+    this.engine.close();
+  }
+
+  begin_volume(header: string): void {
+    this.hasBegun = true;
+    this.engine.begin_volume(header);
+  }
+
+  take_voxels(offset: number, bytes: Uint8Array): void {
+    this.engine.take_voxels(offset, bytes);
+  }
+
+  open_centerlines(bytes: Uint8Array, name: string): string {
+    return this.engine.open_centerlines(bytes, name);
+  }
+}
+
+/** What a study is loaded with. */
+export interface Means extends StudyMeans {
+  readonly study: Replacing;
+}

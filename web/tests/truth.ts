@@ -1,0 +1,102 @@
+/** What Python made of the same files, and how the page's readers are compared with it. */
+import { spawnSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { expect } from 'vitest';
+import type { Wanted } from '../src/io/dicom/wanted';
+import type { Result } from './opened';
+
+export interface Expected {
+  readonly name: string;
+  readonly kind: 'volume' | 'series';
+  /** The file or folder that Python read, and the folder of all files that belong to it. */
+  readonly path: string;
+  readonly folder: string;
+  readonly wanted?: Partial<Wanted>;
+  readonly size: readonly number[];
+  readonly affine: readonly (readonly number[])[];
+  readonly dtype: string;
+  readonly sha256: string;
+  /** A file of the values, where decoders round what was compressed with loss each in its own way. */
+  readonly values?: string;
+  readonly notes: readonly string[];
+  readonly states: { readonly spacing: boolean; readonly orientation: boolean };
+  readonly found?: string;
+  readonly expected: string;
+  readonly mend: string;
+  readonly series: readonly string[];
+}
+
+const here = fileURLToPath(new URL('.', import.meta.url));
+
+/** The truth about all files; none where there is no Python that has the package. */
+export function everyTruth(): readonly Expected[] {
+  const folder = process.env.LUMENCUT_SAMPLES ?? written();
+  const path = folder === null ? '' : join(folder, 'expected.json');
+  return existsSync(path) ? JSON.parse(readFileSync(path, 'utf-8')) : [];
+}
+
+/** Lets Python write the files, and what it makes of them. */
+function written(): string | null {
+  const python = join(here, '../../.venv/bin/python');
+  if (!existsSync(python)) {
+    return null;
+  }
+  const folder = mkdtempSync(join(tmpdir(), 'lumencut-samples-'));
+  const done = spawnSync(python, [join(here, 'samples.py'), folder], {
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
+  if (done.status !== 0) {
+    throw new Error(`samples.py ended with ${done.status}`);
+  }
+  return folder;
+}
+
+/** The type that the page has for one of NumPy. */
+function inThePage(dtype: string): string {
+  return ['int8', 'uint8', 'int16', 'uint16'].includes(dtype) ? dtype : 'float32';
+}
+
+export function sameVolume({ memory, failure, notes, states }: Result, truth: Expected): void {
+  expect(failure?.message ?? '').toBe('');
+  expect(memory.header?.size).toEqual(truth.size);
+  expect(states).toEqual(truth.states);
+  expect(memory.header?.dtype).toBe(inThePage(truth.dtype));
+  const largest = Math.max(...truth.affine.flat().map(Math.abs));
+  memory.header?.world_from_index.flat().forEach((value, i) => {
+    expect(Math.abs(value - (truth.affine.flat()[i] ?? 0))).toBeLessThanOrEqual(1e-12 * largest);
+  });
+  sameValues(memory.values, truth);
+  // What is told of scaling is no note of the page.
+  expect(notes).toEqual(truth.notes.filter((note) => !note.startsWith('values are scaled')));
+}
+
+function sameValues(values: Float32Array, truth: Expected): void {
+  if (truth.values !== undefined) {
+    const bytes = readFileSync(truth.values);
+    const own = new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4);
+    expect(own.length).toBe(values.length);
+    expect(
+      own.reduce((apart, value, i) => Math.max(apart, Math.abs(value - (values[i] ?? 0))), 0),
+    ).toBeLessThanOrEqual(1);
+    return;
+  }
+  const sum = createHash('sha256').update(
+    new Uint8Array(values.buffer, values.byteOffset, values.byteLength),
+  );
+  expect(sum.digest('hex')).toBe(truth.sha256);
+}
+
+export function refusedLike({ failure }: Result, truth: Expected): void {
+  expect(failure).not.toBeNull();
+  const { found, expected, mend } = failure ?? {};
+  expect({ found, expected, mend }).toEqual({
+    found: truth.found,
+    expected: truth.expected,
+    mend: truth.mend,
+  });
+  expect(failure?.series.map((one) => one.uid)).toEqual(truth.series);
+}
