@@ -152,7 +152,7 @@ describe('what cannot be read is left out', () => {
     expect(stateOf(`#v1=${encodeURIComponent(text)}`)).toEqual({});
   });
 
-  test.each([
+  test.each<Record<string, unknown>>([
     { window: [1, 0] },
     { window: [1, -5] },
     { window: ['1', '2'] },
@@ -179,7 +179,7 @@ describe('what cannot be read is left out', () => {
     expect(stateOfJson(broken)).toEqual({});
   });
 
-  test.each([
+  test.each<Record<string, unknown>>([
     { step: 'fine' },
     { step: 1e9 },
     { step: null },

@@ -161,11 +161,10 @@ describe('while something changes', () => {
       loop.want(other(n));
       await vi.advanceTimersByTimeAsync(100);
     }
-    const learnt = lastMoving(engine).camera.size;
     await vi.advanceTimersByTimeAsync(10_000);
     expect(stages().at(-1)).toBe('full');
     loop.want(other(99));
-    expect(lastMoving(engine).camera.size).toEqual(learnt);
+    expect(engine.time(lastMoving(engine))).toBeLessThan(80);
   });
 
   test('a picture with all pixels is stopped for a new view', async () => {

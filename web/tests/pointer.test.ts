@@ -238,7 +238,7 @@ describe('wheel', () => {
     expect(wheel(-100).defaultPrevented).toBe(true);
     wheel(2);
     wheel(100_000);
-    const [[near], [trackpad], [far]] = handlers.zoom.mock.calls as [[number], [number], [number]];
+    const [[near], [trackpad], [far]] = handlers.zoom.mock.calls as unknown as [[number], [number], [number]];
     expect(near).toBeGreaterThan(1.1);
     expect(trackpad).toBeGreaterThan(0.99);
     expect(far).toBeGreaterThan(0.8);

@@ -15,7 +15,7 @@ import type {
   View,
   Window,
 } from '../core/messages';
-import { Engine, loadModule } from '../core/module';
+import { Engine, loadModule, memorySize } from '../core/module';
 import { fetchStudy, type Told } from './fetching';
 import { Queue } from './queue';
 import { startThreads } from './threads';
@@ -59,6 +59,11 @@ export class EngineHost {
   /** Simulates the loss of the GPU, for tests. */
   loseDevice(): Promise<void> {
     return this.run(() => this.ready().lose_device());
+  }
+
+  /** How large the memory of the module is (bytes). */
+  memory(): Promise<number> {
+    return this.run(memorySize);
   }
 
   /** Draws the turning view on this canvas from now on. */
