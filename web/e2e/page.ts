@@ -109,8 +109,7 @@ export class Viewer {
 
   /** CSS pixels of a pane. */
   async size(name: PaneName = 'turning'): Promise<Pair> {
-    const box = await this.box(name);
-    return [Math.floor(box.width), Math.floor(box.height)];
+    return this.pane(name).evaluate((pane) => [pane.clientWidth, pane.clientHeight]);
   }
 
   async box(name: PaneName = 'turning') {
@@ -165,6 +164,25 @@ export class Viewer {
     for (const key of keys) {
       await this.page.keyboard.press(key);
     }
+  }
+
+  /** A field of the toolbar by its words. */
+  field(words: string): Locator {
+    const label = this.page.locator('header > label', { hasText: new RegExp(`^${words}`) });
+    return label.locator('select, input');
+  }
+
+  /** Presses a key that shows a named view, and waits for it: the letters at the left and the top tell it. */
+  async look(key: string, left: string, top: string): Promise<void> {
+    await this.press(key);
+    await expect(this.pane().locator('.edge.left')).toHaveText(left);
+    await expect(this.pane().locator('.edge.top')).toHaveText(top);
+    await this.rest();
+  }
+
+  /** Views and window as they were at first. */
+  reset(): Promise<void> {
+    return this.look('r', 'R', 'S');
   }
 
   /** What a canvas shows. */

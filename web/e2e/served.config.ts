@@ -1,8 +1,8 @@
 /** Serves the built page for the tests, and a volume that comes slowly. */
 import type { ServerResponse } from 'node:http';
 import { defineConfig, type Plugin } from 'vite';
-import page from '../vite.config';
-import { header, type StreamParts, VOLUME } from './streams';
+import page from '../vite.config.ts';
+import { header, type StreamParts, VOLUME } from './streams.ts';
 
 /** How long it takes from one slice of the slow volume to the next (ms). */
 const PAUSE = 250;
