@@ -82,6 +82,13 @@ export class Viewer {
 
   /** Waits until the turning view is complete. */
   async rest(): Promise<void> {
+    // What a change asks for is known only after the next frame.
+    await this.page.evaluate(
+      () =>
+        new Promise((resolve) =>
+          requestAnimationFrame(() => setTimeout(() => requestAnimationFrame(resolve), 30)),
+        ),
+    );
     await this.page.waitForFunction((slow) => {
       const stage = document.querySelector<HTMLElement>('canvas.picture')?.dataset.stage;
       const time = Number.parseFloat(document.querySelector('.frame-time')?.textContent ?? '');

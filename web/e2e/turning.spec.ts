@@ -235,6 +235,7 @@ test('the help lists every row of the table of bindings', async () => {
   await viewer.screenshot('help');
   await viewer.press('Escape');
   await expect(help).toBeHidden();
+  await viewer.page.waitForTimeout(100);
   await viewer.press('?');
   await expect(help).toBeVisible();
   await viewer.press('?');

@@ -7,6 +7,7 @@ import {
   pixelOn,
   planeOf,
   pointOn,
+  resizedLook,
   type SliceName,
   sliceDistance,
   zoomedLook,
@@ -68,6 +69,12 @@ describe.each(NAMES)('%s', (name) => {
     const [x, y] = pixelOn(plane, kept);
     expectNear(pixelOn(moved, kept), [x + 12, y - 5]);
   });
+});
+
+test('in a pane of another size as much is seen along the shorter side', () => {
+  const look = { center: THROUGH, spacing: 0.5 };
+  expect(resizedLook(look, [300, 200], [800, 400])).toEqual({ center: THROUGH, spacing: 0.25 });
+  expect(resizedLook(resizedLook(look, [300, 200], [7, 9]), [7, 9], [300, 200])).toEqual(look);
 });
 
 describe('orientation', () => {
