@@ -36,7 +36,7 @@ export default defineConfig({
   reporter: 'list',
   use: {
     baseURL: `http://127.0.0.1:${port}/`,
-    viewport: { width: 960, height: 640 },
+    viewport: { width: 800, height: 560 },
     colorScheme: 'dark',
     actionTimeout: 10_000,
     navigationTimeout: 20_000,

@@ -8,13 +8,13 @@ export interface StreamParts {
   readonly name: string;
 }
 
-/** A volume of 40 × 36 × 32 voxels of 1 mm, its middle at the origin. */
+/** A volume of 96 × 88 × 32 voxels of 1 mm; mirrored, its centerline would lie outside. */
 export const VOLUME: StreamParts = {
-  size: [40, 36, 32],
+  size: [96, 88, 32],
   dtype: 'int16',
   world_from_index: [
-    [1, 0, 0, -20],
-    [0, 1, 0, -18],
+    [1, 0, 0, 10],
+    [0, 1, 0, 20],
     [0, 0, 1, -16],
     [0, 0, 0, 1],
   ],
@@ -31,12 +31,12 @@ export function header(parts: object, magic = 'LCVOLUME', text = JSON.stringify(
   return Buffer.concat([Buffer.from(magic, 'latin1'), length, padded]);
 }
 
-/** A tube of 350 HU along the z axis, in fat. */
+/** A tube of 350 HU along the z axis, in fat, and bone far from it. */
 export function voxels({ size: [columns, rows, slices] }: StreamParts): Buffer {
   const values = new Int16Array(columns * rows * slices);
   for (let n = 0; n < values.length; n++) {
     const [x, y] = [(n % columns) - columns / 2, (Math.floor(n / columns) % rows) - rows / 2];
-    values[n] = Math.hypot(x, y) < 5 ? 350 : -100;
+    values[n] = Math.hypot(x, y) < 5 ? 350 : x > 32 ? 900 + 3 * y : -100;
   }
   return Buffer.from(values.buffer);
 }
@@ -49,7 +49,7 @@ axis
 ASCII
 DATASET POLYDATA
 POINTS 3 float
-0 0 -15 0 0 0 0 0 14
+58 64 -15 58 64 0 58 64 14
 LINES 1 4
 3 0 1 2
 `;

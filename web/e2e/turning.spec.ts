@@ -151,15 +151,13 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   await viewer.reset();
 });
 
-test('context, silhouettes and inversion change the picture, and come back', async () => {
+test('silhouettes and inversion change the picture, and come back', async () => {
   await showOverlap();
   const first = await viewer.picture();
-  for (const key of ['c', 's']) {
-    await viewer.press(key);
-    expect(differs(await viewer.picture(), first)).toBe(true);
-    await viewer.press(key);
-    expect(differs(await viewer.picture(), first)).toBe(false);
-  }
+  await viewer.press('s');
+  expect(differs(await viewer.picture(), first)).toBe(true);
+  await viewer.press('s');
+  expect(differs(await viewer.picture(), first)).toBe(false);
   await viewer.press('i');
   await expect(viewer.pane().locator('canvas')).toHaveClass(/inverted/);
   await viewer.press('i');
@@ -202,25 +200,6 @@ test('each method shows another picture', async () => {
   }
   await list.selectOption('csr');
   await expect(viewer.problem).toHaveCount(0);
-});
-
-test('each context and a slab show another picture', async () => {
-  await showOverlap();
-  const pictures: Pixels[] = [];
-  const list = viewer.field('Context');
-  for (const context of ['mida', 'dvr', 'mip', 'minip', 'average', '']) {
-    await list.selectOption(context);
-    const picture = await viewer.picture();
-    expect(pictures.every((other) => differs(picture, other))).toBe(true);
-    pictures.push(picture);
-  }
-  await viewer.field('Slab').fill('8');
-  await viewer.press('Enter');
-  const thick = await viewer.picture();
-  expect(differs(thick, pictures.at(-1) ?? thick)).toBe(true);
-  await viewer.field('Slab').fill('0');
-  await viewer.press('Enter');
-  await list.selectOption('mida');
 });
 
 test('the help lists every row of the table of bindings', async () => {

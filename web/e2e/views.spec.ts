@@ -1,6 +1,6 @@
 /** Slices, straightened vessel, section and layouts: the cross-hair links them, and each of them can fill the page. */
 import { expect, test } from '@playwright/test';
-import { difference, isEmpty, SAME_CODE } from './compare';
+import { difference, isEmpty, OTHER_DEVICE, SAME_CODE } from './compare';
 import { type PaneName, Viewer } from './page';
 
 const READ_OUT = /^[LR] \d+\.\d [AP] \d+\.\d [SI] \d+\.\d · -?\d+(\.\d)?( · \S.* · \d+\.\d mm)?$/;
@@ -210,14 +210,14 @@ test('a divider moves the border between views, and views keep their middle', as
 
 test('in a window of another size all views fill their panes', async () => {
   await layOut('four');
-  await viewer.page.setViewportSize({ width: 760, height: 560 });
+  await viewer.page.setViewportSize({ width: 700, height: 480 });
   await viewer.rest();
   for (const pane of LAYOUTS.four ?? []) {
     const size = await viewer.size(pane);
     await expect.poll(async () => (await viewer.pixels(pane)).width).toBe(size[0]);
     await expect.poll(async () => (await viewer.pixels(pane)).height).toBe(size[1]);
   }
-  await viewer.page.setViewportSize({ width: 960, height: 640 });
+  await viewer.page.setViewportSize({ width: 800, height: 560 });
   await viewer.rest();
 });
 
@@ -235,7 +235,8 @@ test('a page that is loaded again shows the same view', async () => {
   await viewer.page.reload();
   await viewer.rest();
   expect(await viewer.state()).toEqual(state);
-  expect(difference(await viewer.picture(), picture, SAME_CODE)).toBeNull();
-  await expect.poll(async () => difference(await viewer.pixels('axial'), axial, SAME_CODE)).toBeNull();
+  // The address tells the middle to a thousandth of a mm, which moves some edges by a step.
+  expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();
+  await expect.poll(async () => difference(await viewer.pixels('axial'), axial, OTHER_DEVICE)).toBeNull();
   expect(decodeURIComponent(viewer.page.url())).not.toContain('trunk');
 });

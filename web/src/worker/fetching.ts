@@ -100,7 +100,31 @@ async function readHeader(bytes: ByteReader, address: string): Promise<Header> {
       'drop the file on the page instead',
     );
   }
-  return JSON.parse(new TextDecoder().decode(await bytes.take(length))) as Header;
+  return checkedHeader(new TextDecoder().decode(await bytes.take(length)));
+}
+
+/** The header of a text of JSON; the engine checks the numbers in it. */
+function checkedHeader(text: string): Header {
+  const read = parsed(text);
+  const isWhole =
+    Array.isArray(read?.size) &&
+    read.size.length === 3 &&
+    typeof read.dtype === 'string' &&
+    read.world_from_index;
+  if (!read || !isWhole) {
+    const found = read ? `only ${Object.keys(read).join(', ') || 'an empty one'}` : 'a text that is no JSON';
+    const expected = 'size, dtype and world_from_index as JSON';
+    throw new Failure('format', 'header of the volume', found, expected, 'open it again');
+  }
+  return read;
+}
+
+function parsed(text: string): Header | null {
+  try {
+    return JSON.parse(text) as Header | null;
+  } catch {
+    return null;
+  }
 }
 
 /** Hands the voxels to the engine as they come; tells how many bytes there should be in all. */
