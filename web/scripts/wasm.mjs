@@ -1,7 +1,8 @@
-// Compiles crates/lumencut-wasm for the browser, and writes its module and types to src/core/pkg.
+// Compiles the crates of the page for the browser, and writes their modules and types to src/core/pkg: the engine,
+// and in `dicom/` the judge of DICOM series, which the page loads with the first DICOM file.
 //
-// Workers share the module's memory, for which Rust's standard library is compiled anew: that is what RUSTC_BOOTSTRAP
-// and `build-std` are for. Without `panic=immediate-abort` the module is a quarter larger.
+// Workers share the engine's memory, for which Rust's standard library is compiled anew: that is what RUSTC_BOOTSTRAP
+// and `build-std` are for. Without `panic=immediate-abort` the modules are a quarter larger.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, renameSync, rmSync, statSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -11,7 +12,6 @@ const web = dirname(dirname(fileURLToPath(import.meta.url)));
 const root = dirname(web);
 const target = 'wasm32-unknown-unknown';
 const pkg = join(web, 'src/core/pkg');
-const compiled = join(root, 'target', target, 'wasm/lumencut_wasm.wasm');
 const exported = ['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'];
 const linking = [
   '--shared-memory',
@@ -19,11 +19,14 @@ const linking = [
   '--max-memory=4294967296',
   ...exported.map((name) => `--export=${name}`),
 ];
-const flags = [
-  '-Zunstable-options',
-  '-Cpanic=immediate-abort',
+const small = ['-Zunstable-options', '-Cpanic=immediate-abort'];
+const sharing = [
   '-Ctarget-feature=+atomics,+bulk-memory,+simd128',
   ...linking.map((argument) => `-Clink-arg=${argument}`),
+];
+const modules = [
+  { crate: 'lumencut-wasm', flags: [...small, ...sharing], folder: pkg, name: 'lumencut' },
+  { crate: 'lumencut-dicom-wasm', flags: small, folder: join(pkg, 'dicom'), name: 'lumencut_dicom' },
 ];
 
 /** Runs a command in the repository; the build ends where it fails. */
@@ -39,14 +42,31 @@ function run(command, commandArguments, environment = {}) {
   }
 }
 
-run(
-  'cargo',
-  [
-    ...['build', '--locked', '--quiet', '--package', 'lumencut-wasm', '--lib', '--profile', 'wasm'],
-    ...['--target', target, '--target-dir', 'target', '-Z', 'build-std=std'],
-  ],
-  { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') },
-);
+/** Compiles a crate for the browser, and writes its module to a folder. */
+function build({ crate, flags, folder, name }) {
+  run(
+    'cargo',
+    [
+      ...['build', '--locked', '--quiet', '--package', crate, '--lib', '--profile', 'wasm'],
+      ...['--target', target, '--target-dir', 'target', '-Z', 'build-std=std'],
+    ],
+    { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') },
+  );
+  const compiled = join(root, 'target', target, 'wasm', `${crate.replaceAll('-', '_')}.wasm`);
+  const fresh = join(root, 'target/page-module');
+  rmSync(fresh, { recursive: true, force: true });
+  mkdirSync(fresh, { recursive: true });
+  run('cargo', [...bindings, '--', compiled, fresh, name]);
+  rmSync(folder, { recursive: true, force: true });
+  renameSync(fresh, folder);
+  const module = join(folder, `${name}_bg.wasm`);
+  if (!existsSync(module)) {
+    console.error(`wasm: found no ${module} after the build`);
+    process.exit(1);
+  }
+  console.log(`wasm: ${crate} ${(statSync(module).size / 1e6).toFixed(2)} MB`);
+}
+
 const bindings = [
   'run',
   '--locked',
@@ -56,15 +76,4 @@ const bindings = [
   '--target-dir',
   'target/xtask',
 ];
-const fresh = join(root, 'target/page-module');
-rmSync(fresh, { recursive: true, force: true });
-mkdirSync(fresh, { recursive: true });
-run('cargo', [...bindings, '--', compiled, fresh]);
-rmSync(pkg, { recursive: true, force: true });
-renameSync(fresh, pkg);
-const module = join(pkg, 'lumencut_bg.wasm');
-if (!existsSync(module)) {
-  console.error(`wasm: found no ${module} after the build`);
-  process.exit(1);
-}
-console.log(`wasm: ${(statSync(module).size / 1e6).toFixed(2)} MB`);
+modules.forEach(build);

@@ -5,7 +5,7 @@ import { fileURLToPath } from 'node:url';
 import { vi } from 'vitest';
 import { Failure } from '../src/core/failure';
 import type { States } from '../src/core/messages';
-import { dicom_attributes, initSync, judge_dicom } from '../src/core/pkg/lumencut.js';
+import { dicom_attributes, initSync, judge_dicom } from '../src/core/pkg/dicom/lumencut_dicom.js';
 import { ALL_OF_IT, type Wanted } from '../src/io/dicom/wanted';
 import type { Kind } from '../src/io/numbers';
 import { ARRAYS, byteCount } from '../src/io/numbers';
@@ -60,7 +60,7 @@ vi.stubGlobal('fetch', async (address: string) => {
   return new Response(readFileSync(address.replace(/^\/node_modules/, modules)));
 });
 
-initSync({ module: readFileSync(new URL('../src/core/pkg/lumencut_bg.wasm', import.meta.url)) });
+initSync({ module: readFileSync(new URL('../src/core/pkg/dicom/lumencut_dicom_bg.wasm', import.meta.url)) });
 
 export function sourceOf(path: string, name: string): Source {
   return new BlobSource(name, new Blob([readFileSync(path)]));
@@ -81,7 +81,7 @@ export async function openSources(
   const memory = new Memory();
   const means = {
     study: memory,
-    judge: { dicom_attributes, judge_dicom },
+    loadJudge: async () => ({ dicom_attributes, judge_dicom }),
     steps: new Steps(() => {}, signal),
   };
   try {

@@ -1,5 +1,5 @@
-//! `xtask MODULE FOLDER`: makes of a module that cargo compiled for WebAssembly what a browser loads, in a folder:
-//! the module `lumencut.wasm` and its JavaScript and types, `lumencut.js` and `lumencut.d.ts`.
+//! `xtask MODULE FOLDER NAME`: makes of a module that cargo compiled for WebAssembly what a browser loads, in a folder:
+//! the module `NAME_bg.wasm` and its JavaScript and types, `NAME.js` and `NAME.d.ts`.
 
 use std::process::ExitCode;
 
@@ -7,12 +7,12 @@ use wasm_bindgen_cli_support::Bindgen;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [module, folder] = &arguments[..] else {
-        eprintln!("xtask: found {} arguments; expected the module and the folder", arguments.len());
+    let [module, folder, name] = &arguments[..] else {
+        eprintln!("xtask: found {} arguments; expected the module, the folder and the name", arguments.len());
         return ExitCode::FAILURE;
     };
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(module).out_name("lumencut").typescript(true).omit_default_module_path(false);
+    bindgen.input_path(module).out_name(name).typescript(true).omit_default_module_path(false);
     let web = bindgen.web(true).map(|web| web.remove_name_section(true).remove_producers_section(true));
     match web.and_then(|web| web.generate(folder)) {
         Ok(()) => ExitCode::SUCCESS,

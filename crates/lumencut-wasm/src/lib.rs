@@ -5,8 +5,6 @@
 
 pub mod choices;
 #[cfg(target_arch = "wasm32")]
-mod dicom;
-#[cfg(target_arch = "wasm32")]
 mod engine;
 pub mod failure;
 pub mod files;

@@ -1,17 +1,15 @@
 /** The WebAssembly module: the only file that touches it. */
-import init, {
-  dicom_attributes,
-  Engine,
-  initSync,
-  judge_dicom,
-  run_thread,
-  use_threads,
-} from './pkg/lumencut.js';
+import type { Judge } from '../io/dicom/wanted';
+import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.js';
 
 export { Engine };
 
-/** What judges DICOM series by their headers. */
-export const judge = { dicom_attributes, judge_dicom };
+/** What judges DICOM series by their headers: a module of its own, loaded when it is needed. */
+export async function loadJudge(): Promise<Judge> {
+  const module = await import('./pkg/dicom/lumencut_dicom.js');
+  await module.default({ module_or_path: new URL('./pkg/dicom/lumencut_dicom_bg.wasm', import.meta.url) });
+  return module;
+}
 
 /** What a worker needs to compute in the memory of another one. */
 export interface Shared {

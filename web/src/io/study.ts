@@ -19,7 +19,7 @@ export interface Study extends Sink {
 /** What files are opened with. */
 export interface Means {
   readonly study: Study;
-  readonly judge: Judge;
+  readonly loadJudge: () => Promise<Judge>;
   readonly steps: Steps;
 }
 
@@ -146,12 +146,12 @@ async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked
   if (!archive && sorted.dicom.length === 0) {
     return null;
   }
-  const { openDicom } = await import('./dicom');
+  const [{ openDicom }, judge] = await Promise.all([import('./dicom'), asked.loadJudge()]);
   const lines = sorted.lines.map((one) => one.source);
   const sources = archive ? await membersOf(archive) : every.filter((source) => !lines.includes(source));
   const subject = archive?.path ?? commonName(sources);
   const series = { subject, sources, wanted: asked.wanted };
-  const notes = await openDicom(series, asked.judge, asked.study, asked.steps);
+  const notes = await openDicom(series, judge, asked.study, asked.steps);
   return { name: fileName(subject), notes, states: STATED };
 }
 

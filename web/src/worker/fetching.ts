@@ -4,7 +4,6 @@ import type { Progress, States } from '../core/messages';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { type Beside, BlobSource, fileName } from '../io/source';
 import type { Study } from '../io/study';
-import { openFiles, openLines } from '../io/study';
 import { ByteReader } from './byte-reader';
 import { narrowed } from './narrowed';
 import type { Means } from './replacing';
@@ -51,6 +50,7 @@ export async function fetchStudy(means: Means, addresses: Addresses, told: Told)
   }
   told({ words: 'Centerlines', done: 0, total: null });
   const lines = await fetchFile(await answered(addresses.centerlines, means.steps.signal));
+  const { openLines } = await import('../io/study');
   return { ...fetched, notes: [...fetched.notes, ...(await openLines(lines, means))] };
 }
 
@@ -120,6 +120,7 @@ async function fetchFormat(
   }
   const name = fileName(new URL(response.url).pathname);
   const sources = [new BlobSource(decodeURIComponent(name), new Blob(parts))];
+  const { openFiles } = await import('../io/study');
   const { volume, notes } = await openFiles(
     sources,
     besideOf(response.url, means.steps.signal),

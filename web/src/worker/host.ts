@@ -17,11 +17,10 @@ import type {
   View,
   Window,
 } from '../core/messages';
-import { Engine, judge, loadModule, memorySize } from '../core/module';
+import { Engine, loadJudge, loadModule, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
-import { openFiles } from '../io/study';
 import { type Fetched, fetchStudy, type Told } from './fetching';
 import { Queue } from './queue';
 import { type Means, Replacing } from './replacing';
@@ -102,6 +101,7 @@ export class EngineHost {
   ): Promise<Partial<Fetched> & { report: Report; notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
     return this.load(told, async (means) => {
+      const { openFiles } = await import('../io/study');
       const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...wish }, means);
       return volume ? { name: volume.name, states: volume.states, notes } : { notes };
     });
@@ -115,7 +115,7 @@ export class EngineHost {
     return this.run(async () => {
       const study = new Replacing(this.ready());
       try {
-        const loaded = await work({ study, judge, steps: new Steps(told, signal) });
+        const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });
         return { ...loaded, report: this.report() };
       } catch (error) {
         if (study.hasBegun) {

@@ -1,4 +1,7 @@
-//! DICOM series, judged by the values of their headers: the documents are those of [`lumencut_dicom::json`].
+//! DICOM series in a browser, judged by the values of their headers: the documents are those of `lumencut_dicom::json`.
+//!
+//! A module of its own: most visits open no DICOM, and need not load it.
+#![cfg(target_arch = "wasm32")]
 
 use lumencut_dicom::{Keyword, json};
 use serde_json::{Map, Value};
