@@ -47,4 +47,10 @@ if (root) {
   render(<App />, root);
 }
 listenToKeys();
+if (asked.has('test')) {
+  // What the tests of the page need and no user: the loss of a GPU, and the size of the memory.
+  Object.assign(window, {
+    lumencutTest: { loseDevice: () => engine.loseDevice(), memory: () => engine.memory() },
+  });
+}
 void begin();

@@ -17,12 +17,15 @@ const PROJECTION: &str = "math/projection";
 const MOST_STORAGE: usize = 8;
 
 fn parse(room: &str) -> (Module, ModuleInfo) {
-    let text = assemble(room);
-    let module = naga::front::wgsl::parse_str(&text)
-        .unwrap_or_else(|error| panic!("{room}: {}", error.emit_to_string(&text)));
+    parsed(room, &assemble(room))
+}
+
+fn parsed(room: &str, text: &str) -> (Module, ModuleInfo) {
+    let module = naga::front::wgsl::parse_str(text)
+        .unwrap_or_else(|error| panic!("{room}: {}", error.emit_to_string(text)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
-        .unwrap_or_else(|error| panic!("{room}: {}", error.emit_to_string(&text)));
+        .unwrap_or_else(|error| panic!("{room}: {}", error.emit_to_string(text)));
     (module, info)
 }
 
@@ -50,6 +53,47 @@ fn every_shader_is_valid() {
     for shader in SHADERS {
         parse(shader.room);
     }
+}
+
+/// Drawing on a canvas is no stage: its shader is this crate's own.
+#[test]
+fn the_shader_of_the_screen_is_valid() {
+    parsed("screen", include_str!("../src/screen.wgsl"));
+}
+
+/// The compilers of browsers ask for parentheses where an operator of bits stands beside a shift; naga does not.
+#[test]
+fn shifts_stand_in_parentheses() {
+    let screen = include_str!("../src/screen.wgsl");
+    for text in SHADERS.iter().map(|shader| shader.text).chain([screen]) {
+        for line in text.lines().map(|line| line.split("//").next().unwrap_or(line)) {
+            assert!(!mixes_bits_and_shifts(line), "{line}");
+        }
+    }
+    assert!(mixes_bits_and_shifts("a | b << 8u"));
+    assert!(!mixes_bits_and_shifts("a | (b << 8u)") && !mixes_bits_and_shifts("a |= f(b, c) << (d + 1u)"));
+}
+
+/// Whether one pair of parentheses holds a shift and `&`, `|` or `^` beside each other.
+fn mixes_bits_and_shifts(line: &str) -> bool {
+    let words = line.replace("&&", " ").replace("||", " ").replace("|=", " ").replace("&=", " ");
+    let mut open = vec![(false, false)];
+    let mut before = ' ';
+    for sign in words.chars() {
+        match sign {
+            '(' | '[' => open.push((false, false)),
+            ')' | ']' if open.len() > 1 => drop(open.pop()),
+            ',' | ';' => open.last_mut().map_or((), |level| *level = (false, false)),
+            '&' | '|' | '^' => open.last_mut().map_or((), |level| level.0 = true),
+            '<' | '>' if before == sign => open.last_mut().map_or((), |level| level.1 = true),
+            _ => {}
+        }
+        if open.last().is_some_and(|level| level.0 && level.1) {
+            return true;
+        }
+        before = sign;
+    }
+    false
 }
 
 #[test]

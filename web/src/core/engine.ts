@@ -61,6 +61,10 @@ export class EngineClient {
     return heard(this.host.loseDevice());
   }
 
+  memory(): Promise<number> {
+    return heard(this.host.memory());
+  }
+
   drawOn(canvas: OffscreenCanvas): Promise<void> {
     return heard(this.host.drawOn(transfer(canvas, [canvas])));
   }

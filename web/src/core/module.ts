@@ -17,11 +17,18 @@ export interface Shared {
   readonly memory: WebAssembly.Memory;
 }
 
+/** The memory of the module in this worker, once it is loaded. */
+let held: WebAssembly.Memory | null = null;
+
+/** How large that memory is (bytes); it never shrinks. */
+export const memorySize = (): number => held?.buffer.byteLength ?? 0;
+
 /** Loads the module into this worker. */
 export async function loadModule(): Promise<Shared> {
   const address = new URL('./pkg/lumencut_bg.wasm', import.meta.url);
   const module = await WebAssembly.compileStreaming(fetch(address));
   const { memory } = await init({ module_or_path: module });
+  held = memory;
   return { module, memory };
 }
 

@@ -146,9 +146,10 @@ export function actionOf(
   return BINDINGS.find(fits)?.action ?? null;
 }
 
-/** What a key does; capitals are other keys than small letters. */
+/** What a key does; a capital without a row of its own does what the small letter does. */
 export function actionOfKey(name: string): Action | null {
-  return BINDINGS.find((row) => row.gesture === 'key' && row.key === name)?.action ?? null;
+  const rowOf = (key: string) => BINDINGS.find((row) => row.gesture === 'key' && row.key === key);
+  return (rowOf(name) ?? rowOf(name.toLowerCase()))?.action ?? null;
 }
 
 /** How a row's input is called in the help. */

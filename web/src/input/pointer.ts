@@ -80,7 +80,8 @@ class Pointers {
     if (event.button === 1) {
       event.preventDefault();
     }
-    if (this.held.size === 2) {
+    if (this.held.size > 1) {
+      // The distance of two fingers counts; a third one only rests there.
       this.beginTwo();
       return;
     }
@@ -116,7 +117,7 @@ class Pointers {
       return;
     }
     const by: Place = [at[0] - before[0], at[1] - before[1]];
-    if (this.held.size === 2) {
+    if (this.held.size > 1) {
       this.held.set(event.pointerId, at);
       this.moveTwo(by);
       return;

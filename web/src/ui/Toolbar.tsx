@@ -1,4 +1,5 @@
 /** The bar at the top: method, context, silhouettes, slab, presets, layout. */
+import { batch } from '@preact/signals';
 import type { Method } from '../core/messages';
 import { engine } from '../core/shared';
 import { perform, setSetting, settingOf } from '../state/actions';
@@ -93,7 +94,10 @@ export function Toolbar() {
         <select
           value={store.layout.value}
           onChange={(event) => {
-            store.layout.value = event.currentTarget.value as store.Layout;
+            batch(() => {
+              store.layout.value = event.currentTarget.value as store.Layout;
+              store.maximised.value = null;
+            });
           }}
         >
           {store.LAYOUTS.map((name) => (

@@ -3,7 +3,8 @@
  * a voxel. What cannot be read is left out.
  */
 import { batch, effect } from '@preact/signals';
-import type { Camera, Method, Settings, Vector } from '../core/messages';
+import type { Camera, Method, SettingRow, Settings, Vector } from '../core/messages';
+import { dot, length } from '../core/vectors';
 import * as store from '../state/store';
 
 /** How long nothing changes before the address does (ms). */
@@ -43,19 +44,27 @@ export function stateOf(fragment: string): ViewState | null {
   }
 }
 
-const isNumber = (value: unknown): value is number => typeof value === 'number' && Number.isFinite(value);
+/** Beyond this neither a place (mm) nor a value of a scan lies; arithmetic with it is still exact enough. */
+const LARGEST = 1e6;
+/** Of axes that are unit vectors at right angles, by how much their products may be off. */
+const ROUNDING = 1e-3;
+
+const isNumber = (value: unknown): value is number => typeof value === 'number' && Math.abs(value) <= LARGEST;
+const isPositive = (value: unknown): value is number => isNumber(value) && value > 0;
 const isVector = (value: unknown): value is Vector =>
   Array.isArray(value) && value.length === 3 && value.every(isNumber);
+const isObject = (value: unknown): value is Record<string, unknown> =>
+  value !== null && typeof value === 'object' && !Array.isArray(value);
 
 function checked(read: Record<string, unknown>): ViewState {
   const { camera, window, method, settings, layout, inverted, vessel, place, angle, hair } = read;
   const isWindow =
-    Array.isArray(window) && window.length === 2 && window.every(isNumber) && Number(window[1]) > 0;
+    Array.isArray(window) && window.length === 2 && isNumber(window[0]) && isPositive(window[1]);
   return {
     ...(isCamera(camera) && { camera }),
     ...(isWindow && { window: window as unknown as [number, number] }),
     ...(METHODS.includes(method as Method) && { method: method as Method }),
-    ...(settings !== null && typeof settings === 'object' && { settings: settings as Settings }),
+    ...(isObject(settings) && { settings: settings as Settings }),
     ...(store.LAYOUTS.includes(layout as store.Layout) && { layout: layout as store.Layout }),
     ...(typeof inverted === 'boolean' && { inverted }),
     ...(isNumber(vessel) && { vessel }),
@@ -66,10 +75,23 @@ function checked(read: Record<string, unknown>): ViewState {
 }
 
 function isCamera(value: unknown): value is NonNullable<ViewState['camera']> {
-  const camera = value as NonNullable<ViewState['camera']> | null;
-  const isWhole =
-    camera !== null && typeof camera === 'object' && isVector(camera.center) && isVector(camera.direction);
-  return isWhole && isVector(camera.up) && camera.pixel_spacing > 0 && camera.height > 0;
+  if (!isObject(value)) {
+    return false;
+  }
+  const { center, direction, up, pixel_spacing, height } = value;
+  return isVector(center) && areAxes(direction, up) && isPositive(pixel_spacing) && isPositive(height);
+}
+
+/** Whether two vectors can be the axes of a camera. */
+function areAxes(direction: unknown, up: unknown): boolean {
+  const isZero = (number: number) => Math.abs(number) < ROUNDING;
+  return (
+    isVector(direction) &&
+    isVector(up) &&
+    isZero(length(direction) - 1) &&
+    isZero(length(up) - 1) &&
+    isZero(dot(direction, up))
+  );
 }
 
 /** The view as it is now. */
@@ -135,10 +157,35 @@ export function restore(state: ViewState): void {
   });
 }
 
-/** The settings that the table knows. */
+/** The settings that the table knows, where their values are of their kind and within their range. */
 function knownSettings(settings: Settings): Settings {
-  const names = new Set(store.started.value?.table.map((row) => row.name));
-  return Object.fromEntries(Object.entries(settings).filter(([name]) => names.has(name)));
+  const rows = new Map(store.started.value?.table.map((row) => [row.name, row]));
+  const fits = ([name, value]: [string, unknown]) => {
+    const row = rows.get(name);
+    return row !== undefined && isValueOf(row, value);
+  };
+  return Object.fromEntries(Object.entries(settings).filter(fits));
+}
+
+function isValueOf(row: SettingRow, value: unknown): boolean {
+  if (value === null) {
+    return row.optional;
+  }
+  const isWithin = isNumber(value) && value >= (row.low ?? -LARGEST) && value <= (row.high ?? LARGEST);
+  switch (row.kind) {
+    case 'flag':
+      return typeof value === 'boolean';
+    case 'number':
+      return isWithin;
+    case 'count':
+      return isWithin && Number.isInteger(value);
+    case 'slab':
+      return (
+        Array.isArray(value) && value.length === 2 && isPositive(value[0]) && typeof value[1] === 'string'
+      );
+    default:
+      return typeof value === 'string' && row.choices.includes(value);
+  }
 }
 
 /** Writes the view into the address from now on, some time after it changed. */

@@ -1,5 +1,5 @@
 /** An axial, coronal or sagittal slice through the cross-hair. */
-import { useCallback, useEffect, useState } from 'preact/hooks';
+import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
 import type { Pair, Plane, Window } from '../core/messages';
 import { engine } from '../core/shared';
 import { add, cross, scale } from '../core/vectors';
@@ -17,6 +17,7 @@ import {
   pixelOn,
   planeOf,
   pointOn,
+  resizedLook,
   type SliceName,
   sliceDistance,
   zoomedLook,
@@ -33,6 +34,15 @@ export function SliceView({ name }: { readonly name: SliceName }) {
   useEffect(() => {
     setLook(volume && size ? fittedLook(volume, name, size) : null);
   }, [volume, name, Boolean(size), store.resets.value]);
+
+  const before = useRef<Pair | null>(null);
+  useEffect(() => {
+    const from = before.current;
+    before.current = size;
+    if (from && size) {
+      setLook((seen) => seen && resizedLook(seen, from, size));
+    }
+  }, [size]);
 
   const plane = look && point && size ? planeOf(name, look, point, size) : null;
   const ask = useAsked(plane, window);
@@ -75,6 +85,7 @@ function sliceHandlers(
       void engine.at(pointOn(plane, at)).then((pick) => placeCrossHair(pick, name));
     }
   };
+  const window = windowBack();
   return {
     drag: (action, by) => {
       if (action === 'window') {
@@ -101,9 +112,23 @@ function sliceHandlers(
         point(at);
       }
     },
-    ...windowBack(),
+    ...window,
+    begin: () => {
+      window.begin();
+      atFirst[name] = look;
+    },
+    putBack: () => {
+      window.putBack();
+      const kept = atFirst[name];
+      if (kept) {
+        setLook(kept);
+      }
+    },
   };
 }
+
+/** Where the slices were looked at as the drag began that is under way, so that Escape puts it back. */
+const atFirst: Partial<Record<SliceName, Look | null>> = {};
 
 /** Moves the cross-hair by slices: downwards on the wheel goes towards the feet, the back and the right. */
 function scrollSlices(name: SliceName, steps: number): void {

@@ -49,6 +49,9 @@ export function TurningView() {
   useSignalEffect(() => {
     const view = wantedView();
     if (view) {
+      if (canvas.current) {
+        canvas.current.dataset.stage = 'wanted';
+      }
       loop.current?.want(view);
     }
   });

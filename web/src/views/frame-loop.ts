@@ -111,9 +111,12 @@ export class FrameLoop {
       : { ...view, camera };
   }
 
-  /** As many pixels as take the wanted time, judged by the picture before; by no more than a half at once. */
+  /**
+   * As many pixels as take the wanted time, judged by the picture before; by no more than a half at once. Pictures at rest
+   * say nothing of it: they take longer, and what was learnt before stays for the next change.
+   */
   private adapt(asked: View, view: View, milliseconds: number, stage: Stage): void {
-    if (stage === 'samples') {
+    if (stage !== 'moving') {
       return;
     }
     const used = asked.camera.size[1] / view.camera.size[1];

@@ -1,4 +1,4 @@
-/** The size of a pane in CSS pixels, whole numbers; none before it is laid out. */
+/** The size of a pane in CSS pixels, whole numbers; none before it is laid out. One that is hidden keeps its last one. */
 import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import type { Pair } from '../core/messages';
@@ -12,6 +12,9 @@ export function usePaneSize(pane: RefObject<HTMLElement | null>): Pair | null {
     }
     const observer = new ResizeObserver(() => {
       const [width, height] = [Math.floor(element.clientWidth), Math.floor(element.clientHeight)];
+      if (width === 0 || height === 0) {
+        return;
+      }
       setSize((before) => (before && before[0] === width && before[1] === height ? before : [width, height]));
     });
     observer.observe(element);

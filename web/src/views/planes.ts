@@ -27,6 +27,11 @@ export function fittedLook(volume: VolumeReport, name: SliceName, size: Pair): L
   return { center, spacing: spacing * 1.02 };
 }
 
+/** The look in a pane of another size; as much is seen along the shorter side. */
+export function resizedLook(look: Look, from: Pair, to: Pair): Look {
+  return { ...look, spacing: (look.spacing * Math.min(...from)) / Math.min(...to) };
+}
+
 /** The slice through a point. */
 export function planeOf(name: SliceName, look: Look, through: Vector, size: Pair): Plane {
   const { right, down } = AXES[name];

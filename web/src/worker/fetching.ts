@@ -151,7 +151,31 @@ async function readHeader(bytes: ByteReader, start: Uint8Array, address: string)
   if (length === 0 || length > LONGEST_HEADER) {
     throw new Failure('format', address, 'a stream without a header', 'a stream of voxels', 'open it again');
   }
-  return JSON.parse(new TextDecoder().decode(await bytes.take(length))) as Header;
+  return checkedHeader(new TextDecoder().decode(await bytes.take(length)));
+}
+
+/** The header of a text of JSON; the engine checks the numbers in it. */
+function checkedHeader(text: string): Header {
+  const read = parsed(text);
+  const isWhole =
+    Array.isArray(read?.size) &&
+    read.size.length === 3 &&
+    typeof read.dtype === 'string' &&
+    read.world_from_index;
+  if (!read || !isWhole) {
+    const found = read ? `only ${Object.keys(read).join(', ') || 'an empty one'}` : 'a text that is no JSON';
+    const expected = 'size, dtype and world_from_index as JSON';
+    throw new Failure('format', 'header of the volume', found, expected, 'open it again');
+  }
+  return read;
+}
+
+function parsed(text: string): Header | null {
+  try {
+    return JSON.parse(text) as Header | null;
+  } catch {
+    return null;
+  }
 }
 
 /** Hands the voxels to the engine as they come; tells how many bytes there should be in all. */

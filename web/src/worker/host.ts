@@ -17,7 +17,7 @@ import type {
   View,
   Window,
 } from '../core/messages';
-import { Engine, loadJudge, loadModule } from '../core/module';
+import { Engine, loadJudge, loadModule, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
@@ -65,6 +65,11 @@ export class EngineHost {
   /** Simulates the loss of the GPU, for tests. */
   loseDevice(): Promise<void> {
     return this.run(() => this.ready().lose_device());
+  }
+
+  /** How large the memory of the module is (bytes). */
+  memory(): Promise<number> {
+    return this.run(memorySize);
   }
 
   /** Draws the turning view on this canvas from now on. */

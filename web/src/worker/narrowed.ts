@@ -20,11 +20,11 @@ const OTHERS = {
 } as const;
 
 export function narrowed(dtype: string): Narrowed {
-  const bytesPerVoxel = AS_THEY_ARE[dtype];
+  const bytesPerVoxel = Object.hasOwn(AS_THEY_ARE, dtype) ? AS_THEY_ARE[dtype] : undefined;
   if (bytesPerVoxel !== undefined) {
     return { dtype, bytesPerVoxel, narrow: (bytes) => bytes };
   }
-  if (!(dtype in OTHERS)) {
+  if (!Object.hasOwn(OTHERS, dtype)) {
     const expected = [...Object.keys(AS_THEY_ARE), ...Object.keys(OTHERS)].join(', ');
     throw new Failure('volume', 'type of the voxels', dtype, expected);
   }

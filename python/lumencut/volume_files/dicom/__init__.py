@@ -16,14 +16,8 @@ from lumencut.volume_files.dicom.files import File, read_files
 from lumencut.volume_files.dicom.headers import is_dicom
 from lumencut.volume_files.dicom.judging import Wanted, described, judged
 from lumencut.volume_files.dicom.sources import is_zip
-<<<<<<< HEAD
-from lumencut.volume_files.dicom.values import load
-from lumencut.volume_files.opened import Progress, VolumeFile, refusing
-=======
 from lumencut.volume_files.dicom.values import load, settled_type
-from lumencut.volume_files.opened import Filled, Progress, VolumeFile, refusing, shown
-from lumencut.volume_files.rescale import is_integral
->>>>>>> main
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile, refusing
 
 __all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
 
@@ -44,13 +38,8 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
         return load(stack, notes, progress, filled)
 
     return VolumeFile(
-<<<<<<< HEAD
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
-        filled=stack.missing, details=series.details,
-=======
-        path, "DICOM", stack.size, stored, "LPS (as every DICOM)", stack.world_from_index, voxels, notes,
-        filled=stack.missing, details=details, settled_type=settled_type(stack),
->>>>>>> main
+        filled=stack.missing, details=series.details, settled_type=settled_type(stack),
     )  # fmt: skip
 
 

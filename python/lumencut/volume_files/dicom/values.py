@@ -8,12 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.volume_files.dicom.pixels import PixelReader
-<<<<<<< HEAD
 from lumencut.volume_files.dicom.stack import Stack
-from lumencut.volume_files.opened import Progress, refusing
-=======
 from lumencut.volume_files.opened import Filled, Progress, refusing, unfollowed
->>>>>>> main
 from lumencut.volume_files.rescale import holding, is_integral, rescaled
 
 _INT32 = np.iinfo(np.int32)
@@ -21,31 +17,21 @@ _INT32 = np.iinfo(np.int32)
 
 def load(stack: Stack, notes: list[str], progress: Progress, filled: Filled) -> npt.NDArray[Any]:
     """Read slice after slice, and fill in between them what the grid asks for."""
-<<<<<<< HEAD
     places = np.array([one.place for one in stack.slices])
     whole = np.flatnonzero(places % 1 == 0)
     if len(whole) == len(places):
         rows = places.astype(np.int64)
-        volume = measured = _read(stack, rows, notes, progress)
+        # Missing slices are interpolated only once all others are there.
+        followed = filled if len(rows) == rows[-1] + 1 else unfollowed
+        volume = measured = _read(stack, rows, notes, progress, followed)
     else:
         rows = np.arange(len(places))
-        measured = _read(stack, rows, notes, progress)
+        measured = _read(stack, rows, notes, progress, unfollowed)
         volume = np.empty((stack.size[2], *measured.shape[1:]), measured.dtype)
         volume[places[whole].astype(np.int64)] = measured[whole]
     for fill in stack.fills:
         volume[fill.k] = _mixed(measured[rows[fill.before]], measured[rows[fill.after]], fill.part)
     return volume
-=======
-    if not (stack.places % 1).any():
-        places = stack.places.astype(np.int64)
-        # Missing slices are interpolated only once all others are there.
-        is_whole = len(places) == places[-1] + 1
-        volume = _read(stack, places, notes, progress, filled if is_whole else unfollowed)
-        _interpolate(volume, places)
-        return volume
-    measured = _read(stack, np.arange(len(stack.slices)), notes, progress, unfollowed)
-    return _between(measured, stack.places)
->>>>>>> main
 
 
 def settled_type(stack: Stack) -> np.dtype[Any] | None:

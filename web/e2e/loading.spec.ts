@@ -1,0 +1,263 @@
+/** Opening, cancelling and closing: whole streams, broken ones, slow ones, many one after the other. */
+import { spawnSync } from 'node:child_process';
+import { existsSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { expect, type Page, test } from '@playwright/test';
+import { difference, isEmpty, type Pixels, SAME_CODE } from './compare';
+import { Viewer } from './page';
+import { CENTERLINE, header, VOLUME, voxels, WHOLE } from './streams';
+
+const ADDRESSES = '?volume=made/volume&centerlines=made/axis.vtk&device=cpu&test=1';
+const MEGABYTE = 1 << 20;
+
+/** What the addresses of the page answer. */
+async function serve(page: Page, volume: Buffer | number, axis = CENTERLINE): Promise<void> {
+  await page.route('**/made/volume', (route) =>
+    typeof volume === 'number' ? route.fulfill({ status: volume }) : route.fulfill({ body: volume }),
+  );
+  await page.route('**/made/axis.vtk', (route) => route.fulfill({ body: axis }));
+}
+
+test.describe('streams', () => {
+  let viewer: Viewer;
+
+  test.beforeAll(async ({ browser }) => {
+    viewer = await Viewer.open(browser, '?device=cpu');
+  });
+  test.beforeEach(() => {
+    viewer.faults.length = 0;
+  });
+  test.afterEach(async () => {
+    await viewer.page.unrouteAll({ behavior: 'ignoreErrors' });
+  });
+  test.afterAll(() => viewer.close());
+
+  test('a volume and its centerlines are shown', async () => {
+    await serve(viewer.page, WHOLE);
+    await viewer.page.goto(`./${ADDRESSES}`);
+    await viewer.rest();
+    expect(isEmpty(await viewer.pixels())).toBe(false);
+    await viewer.click([0.5, 0.5]);
+    await expect(viewer.readOut).toHaveText(/ · 350 · vessel 1 · \d+\.\d mm$/);
+    viewer.expectNoFault();
+  });
+
+  test('each context and a slab show another picture', async () => {
+    const pictures: Pixels[] = [];
+    const expectNew = async () => {
+      const picture = await viewer.picture();
+      for (const before of pictures) {
+        expect(difference(picture, before, SAME_CODE)).not.toBeNull();
+      }
+      pictures.push(picture);
+    };
+    for (const context of ['mida', 'dvr', 'mip', 'minip', 'average', '']) {
+      await viewer.field('Context').selectOption(context);
+      await expectNew();
+    }
+    await viewer.field('Slab').fill('6');
+    await viewer.press('Enter');
+    await expectNew();
+    await viewer.field('Slab').fill('0');
+    await viewer.press('Enter');
+    const without = await viewer.picture();
+    await viewer.page.locator('body').click({ position: { x: 2, y: 2 } });
+    await viewer.press('c');
+    expect(difference(await viewer.picture(), without, SAME_CODE)).not.toBeNull();
+    await expect(viewer.field('Context')).toHaveValue('mida');
+    await viewer.press('c');
+    expect(difference(await viewer.picture(), without, SAME_CODE)).toBeNull();
+    viewer.expectNoFault();
+  });
+
+  test('a scan is closed, and the start page is back', async () => {
+    await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
+    await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
+    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.rest();
+    expect(isEmpty(await viewer.pixels())).toBe(false);
+    viewer.expectNoFault();
+  });
+
+  const short = WHOLE.subarray(0, WHOLE.length - 1000);
+  const broken: readonly (readonly [string, Buffer | number, RegExp])[] = [
+    [
+      'is cut off',
+      short,
+      new RegExp(`Found ${short.length} bytes; expected ${WHOLE.length}\\.Open it again`),
+    ],
+    [
+      'is another file',
+      Buffer.from('not a stream at all'),
+      /Found another file; expected a stream of voxels\.Drop/,
+    ],
+    ['is empty', Buffer.alloc(0), /Found another file; expected a stream of voxels/],
+    ['has voxels of no known type', anotherType(), /type of the voxels.*Found complex64; expected uint8/],
+    [
+      'has a header that is none',
+      header({}, 'LCVOLUME', '{"size":[1,'),
+      /header of the volumeFound a text that is no JSON; expected size, dtype/,
+    ],
+    [
+      'has a header without a size',
+      header({ dtype: 'int16' }),
+      /header of the volumeFound only dtype; expected size, dtype/,
+    ],
+    [
+      'is larger than all memory',
+      header({ ...VOLUME, size: [90_000, 90_000, 90_000] }),
+      /Found .*; expected /,
+    ],
+    ['is not there', 404, /Found an answer 404; expected a file\.Look at the program/],
+  ];
+  for (const [what, volume, words] of broken) {
+    test(`a volume that ${what} is refused in words, and the page goes on`, async () => {
+      await serve(viewer.page, volume);
+      await viewer.page.goto(`./${ADDRESSES}`);
+      await expect(viewer.problem).toHaveText(words);
+      await expect(viewer.problem).not.toContainText('undefined');
+      await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
+      await viewer.screenshot(`broken-${what.replaceAll(' ', '-')}`);
+      await viewer.problem.getByRole('button', { name: 'Close' }).click();
+      await expect(viewer.problem).toHaveCount(0);
+      await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+      await viewer.rest();
+      // The browser itself reports an answer that is an error.
+      expect(viewer.faults.filter((fault) => !fault.includes('404'))).toEqual([]);
+    });
+  }
+
+  test('a file of centerlines that is none is refused in words', async () => {
+    await serve(viewer.page, WHOLE, 'nothing of the kind');
+    await viewer.page.goto(`./${ADDRESSES}`);
+    await expect(viewer.problem).toHaveText(/Found .*; expected .*/);
+    viewer.expectNoFault();
+  });
+
+  test('a load is cancelled by its button and by Escape', async () => {
+    for (const how of ['button', 'Escape']) {
+      await viewer.page.goto('./?volume=slow/volume&device=cpu');
+      await expect(viewer.page.getByText(/^Volume: \d+ %$/)).toBeVisible();
+      await viewer.screenshot('loading');
+      if (how === 'button') {
+        await viewer.page.getByRole('button', { name: 'Cancel' }).click();
+      } else {
+        await viewer.press('Escape');
+      }
+      await expect(viewer.page.getByRole('progressbar')).toHaveCount(0);
+      await expect(viewer.problem).toHaveCount(0);
+    }
+    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.rest();
+    viewer.expectNoFault();
+  });
+
+  test('addresses of another origin are not asked', async () => {
+    await viewer.page.goto('./?volume=https://example.org/volume&device=cpu');
+    await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
+    viewer.expectNoFault();
+  });
+
+  for (const fragment of [
+    '#v1=%7Bbroken',
+    '#v1=%7B%22camera%22%3A5%2C%22settings%22%3A%7B%22levels%22%3A%22x%22%7D%7D',
+  ]) {
+    test(`an address with ${fragment} shows the first view`, async () => {
+      await viewer.page.goto(`./?phantom=y_junction&device=cpu${fragment}`);
+      await viewer.rest();
+      expect(isEmpty(await viewer.pixels())).toBe(false);
+      await expect(viewer.problem).toHaveCount(0);
+    });
+  }
+});
+
+function anotherType(): Buffer {
+  return Buffer.concat([header({ ...VOLUME, dtype: 'complex64' }), voxels(VOLUME)]);
+}
+
+/** Opens the small phantom so many times, waits for its view each time, and closes it. */
+function openAndClose(page: Page, times: number): Promise<void> {
+  return page.evaluate(async (count) => {
+    const until = async <T>(found: () => T | null | undefined | false): Promise<T> => {
+      for (;;) {
+        const what = found();
+        if (what) {
+          return what;
+        }
+        await new Promise((resolve) => setTimeout(resolve, 10));
+      }
+    };
+    for (let n = 0; n < count; n++) {
+      const phantom = () => [...document.querySelectorAll<HTMLButtonElement>('.phantoms button')].at(-1);
+      (await until(phantom)).click();
+      await until(() => document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels);
+      (await until(() => document.querySelector<HTMLButtonElement>('[aria-label="Close the scan"]'))).click();
+    }
+    await until(() => document.querySelector('.phantoms'));
+  }, times);
+}
+
+test('50 opens of a phantom do not grow the memory', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?device=cpu&test=1');
+  await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
+  await openAndClose(viewer.page, 10);
+  const before = await viewer.memory();
+  await openAndClose(viewer.page, 40);
+  expect(before).toBeGreaterThan(MEGABYTE);
+  // The first opens decide how much memory there is; later ones find room in it.
+  expect((await viewer.memory()) - before).toBeLessThan(MEGABYTE);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('without cross-origin isolation one thread computes, and the page says so', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?device=cpu');
+  await viewer.page.route(
+    ({ pathname }) => pathname === '/',
+    async (route) => {
+      const {
+        'cross-origin-opener-policy': _,
+        'cross-origin-embedder-policy': __,
+        ...headers
+      } = (await route.fetch()).headers();
+      await route.fulfill({ response: await route.fetch(), headers });
+    },
+  );
+  await viewer.page.goto('./?phantom=stenosis&device=cpu');
+  await expect(viewer.device).toHaveText('CPU: 1 thread, as the page is not cross-origin isolated');
+  await viewer.rest();
+  expect(isEmpty(await viewer.pixels())).toBe(false);
+  const before = await viewer.camera();
+  await viewer.drag([0.5, 0.5], [30, 10]);
+  await viewer.rest();
+  expect(await viewer.camera()).not.toEqual(before);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a real scan is shown and turned', async ({ browser }, testInfo) => {
+  const root = join(import.meta.dirname, '../..');
+  const shared = join(root, '../shared/data');
+  const python = process.env.LUMENCUT_PYTHON ?? join(root, '.venv/bin/python');
+  test.skip(!existsSync(shared) || !existsSync(python), 'there are no real scans beside the repository');
+  const [volume, axis] = [testInfo.outputPath('volume'), testInfo.outputPath('axis.vtp')];
+  const made = spawnSync(python, [join(import.meta.dirname, 'stream.py'), shared, volume, axis], {
+    encoding: 'utf-8',
+  });
+  expect(made.stderr).toBe('');
+  const viewer = await Viewer.open(browser, '?device=cpu');
+  await viewer.page.route('**/made/volume', (route) => route.fulfill({ path: volume }));
+  await viewer.page.route('**/made/axis.vtp', (route) => route.fulfill({ body: readFileSync(axis) }));
+  await viewer.page.goto('./?volume=made/volume&centerlines=made/axis.vtp&device=cpu');
+  await viewer.rest();
+  expect(isEmpty(await viewer.pixels())).toBe(false);
+  await viewer.screenshot('scan');
+  await viewer.drag([0.4, 0.5], [120, 10]);
+  await viewer.click([0.5, 0.5]);
+  await expect(viewer.readOut).toHaveText(/^[LR] \d+\.\d [AP] \d+\.\d [SI] \d+\.\d · -?\d+/);
+  await viewer.field('Layout').selectOption('four');
+  await viewer.rest();
+  await viewer.screenshot('scan-four');
+  viewer.expectNoFault();
+  await viewer.close();
+});

@@ -1,0 +1,263 @@
+/** The page as a user sees it: what can be done with it, and what it shows. It notes everything that must not happen. */
+import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
+import type { Camera, Pair } from '../src/core/messages';
+import { stateOf, type ViewState } from '../src/url/fragment';
+import type { Pixels } from './compare';
+
+export type PaneName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straightened' | 'section';
+
+/** Above this the page makes no picture with samples at rest (ms). */
+const NO_SAMPLES = 700;
+/** After this the address tells the view (ms); the page waits for 250. */
+const WRITTEN = 400;
+
+interface TestHook {
+  loseDevice(): Promise<void>;
+  memory(): Promise<number>;
+}
+
+export class Viewer {
+  /** Requests to other origins, and errors: there must be none. */
+  readonly faults: string[] = [];
+
+  private constructor(readonly page: Page) {}
+
+  /** The page in a context of its own; `query` is what follows its address, with `?` or `#`. */
+  static async open(browser: Browser, query = '', options: BrowserContextOptions = {}): Promise<Viewer> {
+    const context = await browser.newContext(options);
+    const page = await context.newPage();
+    const viewer = new Viewer(page);
+    await viewer.guard();
+    await page.goto(`./${query}`);
+    return viewer;
+  }
+
+  private async guard(): Promise<void> {
+    const context = this.page.context();
+    const own = new URL(pageAddress()).origin;
+    const isForeign = ({ origin, protocol }: URL) => /^(http|ws)s?:$/.test(protocol) && origin !== own;
+    await context.route(isForeign, (route) => {
+      this.faults.push(`request to ${route.request().url()}`);
+      return route.abort();
+    });
+    await context.routeWebSocket(isForeign, (socket) => {
+      this.faults.push(`socket to ${socket.url()}`);
+    });
+    context.on('weberror', (error) => this.faults.push(`error: ${error.error().message}`));
+    context.on('console', (message) => {
+      if (message.type() === 'error') {
+        this.faults.push(`console: ${message.text()}`);
+      }
+    });
+  }
+
+  /** Refuses whatever went wrong unseen. */
+  expectNoFault(): void {
+    expect(this.faults).toEqual([]);
+  }
+
+  async close(): Promise<void> {
+    await this.page.context().close();
+  }
+
+  pane(name: PaneName = 'turning'): Locator {
+    return this.page.getByTestId(name);
+  }
+
+  get readOut(): Locator {
+    return this.page.getByTestId('readout');
+  }
+
+  get window(): Locator {
+    return this.page.getByTestId('window');
+  }
+
+  get device(): Locator {
+    return this.page.getByTestId('device');
+  }
+
+  get problem(): Locator {
+    return this.page.getByRole('alert');
+  }
+
+  /** Waits until the turning view is complete. */
+  async rest(): Promise<void> {
+    // What a change asks for is known only after the next frame.
+    await this.page.evaluate(
+      () =>
+        new Promise((resolve) =>
+          requestAnimationFrame(() => setTimeout(() => requestAnimationFrame(resolve), 30)),
+        ),
+    );
+    await this.page.waitForFunction((slow) => {
+      const stage = document.querySelector<HTMLElement>('canvas.picture')?.dataset.stage;
+      const time = Number.parseFloat(document.querySelector('.frame-time')?.textContent ?? '');
+      return stage === 'samples' || (stage === 'full' && time > slow);
+    }, NO_SAMPLES);
+  }
+
+  /** The view as the address tells it. */
+  async state(): Promise<ViewState> {
+    await this.page.waitForTimeout(WRITTEN);
+    const state = stateOf(new URL(this.page.url()).hash);
+    expect(state).not.toBeNull();
+    return state ?? {};
+  }
+
+  /** The camera as the page has it. */
+  async camera(): Promise<Camera> {
+    const { camera } = await this.state();
+    const size = await this.size();
+    if (!camera) {
+      throw new Error('the address tells no camera');
+    }
+    return { ...camera, size, pixel_spacing: (camera.pixel_spacing * camera.height) / Math.min(...size) };
+  }
+
+  /** CSS pixels of a pane. */
+  async size(name: PaneName = 'turning'): Promise<Pair> {
+    return this.pane(name).evaluate((pane) => [pane.clientWidth, pane.clientHeight]);
+  }
+
+  async box(name: PaneName = 'turning') {
+    const box = await this.pane(name).boundingBox();
+    if (!box) {
+      throw new Error(`the view ${name} is not shown`);
+    }
+    return box;
+  }
+
+  /** A place in a pane, from its top left, in CSS pixels; parts of its size where `x` and `y` are below 1. */
+  async place([x, y]: Pair, name: PaneName = 'turning'): Promise<Pair> {
+    const box = await this.box(name);
+    return [
+      box.x + (x < 1 ? Math.round(x * box.width) : x),
+      box.y + (y < 1 ? Math.round(y * box.height) : y),
+    ];
+  }
+
+  /** Drags from a place by so many pixels, in steps, and lets go. */
+  async drag(from: Pair, [dx, dy]: Pair, options: DragOptions = {}): Promise<void> {
+    const { mouse, keyboard } = this.page;
+    const [x, y] = await this.place(from, options.pane);
+    if (options.modifier) {
+      await keyboard.down(options.modifier);
+    }
+    await mouse.move(x, y);
+    await mouse.down({ button: options.button ?? 'left' });
+    await mouse.move(x + dx, y + dy, { steps: 4 });
+    if (!options.isHeld) {
+      await mouse.up({ button: options.button ?? 'left' });
+    }
+    if (options.modifier) {
+      await keyboard.up(options.modifier);
+    }
+  }
+
+  async click(at: Pair, name: PaneName = 'turning'): Promise<void> {
+    const [x, y] = await this.place(at, name);
+    await this.page.mouse.click(x, y);
+    // Two clicks in a row are no double click.
+    await this.page.waitForTimeout(400);
+  }
+
+  async wheel(at: Pair, by: number, name: PaneName = 'turning'): Promise<void> {
+    const [x, y] = await this.place(at, name);
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.wheel(0, by);
+  }
+
+  async press(...keys: readonly string[]): Promise<void> {
+    for (const key of keys) {
+      await this.page.keyboard.press(key);
+    }
+  }
+
+  /** A field of the toolbar by its words. */
+  field(words: string): Locator {
+    const label = this.page.locator('header > label', { hasText: new RegExp(`^${words}`) });
+    return label.locator('select, input');
+  }
+
+  /** Presses a key that shows a named view, and waits for it: the letters at the left and the top tell it. */
+  async look(key: string, left: string, top: string): Promise<void> {
+    await this.press(key);
+    await expect(this.pane().locator('.edge.left')).toHaveText(left);
+    await expect(this.pane().locator('.edge.top')).toHaveText(top);
+    await this.rest();
+  }
+
+  /** Views and window as they were at first. */
+  reset(): Promise<void> {
+    return this.look('r', 'R', 'S');
+  }
+
+  /** What a canvas shows. */
+  async pixels(name: PaneName = 'turning'): Promise<Pixels> {
+    const { width, height, text } = await this.pane(name).locator('canvas').evaluate(readCanvas);
+    return { width, height, bytes: Buffer.from(text, 'base64') };
+  }
+
+  /** What the turning view shows once it is complete. */
+  async picture(): Promise<Pixels> {
+    await this.rest();
+    return this.pixels();
+  }
+
+  /** The middle of the cross-hair in a pane (CSS pixels from its top left). */
+  async hair(name: PaneName): Promise<Pair> {
+    return this.pane(name)
+      .locator('.hair')
+      .evaluate((hair: SVGElement) => [
+        Number.parseFloat(hair.style.left),
+        Number.parseFloat(hair.style.top),
+      ]);
+  }
+
+  /** Calls what the page has for its tests. */
+  loseDevice(): Promise<void> {
+    return this.page.evaluate(() =>
+      (window as unknown as { lumencutTest: TestHook }).lumencutTest.loseDevice(),
+    );
+  }
+
+  /** Bytes of the memory of the module. */
+  memory(): Promise<number> {
+    return this.page.evaluate(() => (window as unknown as { lumencutTest: TestHook }).lumencutTest.memory());
+  }
+
+  screenshot(name: string): Promise<Buffer> {
+    return this.page.screenshot({ path: `test-results/screens/${name}.png` });
+  }
+}
+
+interface DragOptions {
+  readonly pane?: PaneName;
+  readonly button?: 'left' | 'middle' | 'right';
+  readonly modifier?: 'Shift' | 'Control' | 'Alt';
+  /** The button stays down. */
+  readonly isHeld?: boolean;
+}
+
+/** Runs in the page. */
+function readCanvas(canvas: HTMLElement | SVGElement): { width: number; height: number; text: string } {
+  const { width, height } = canvas as HTMLCanvasElement;
+  const copy = new OffscreenCanvas(width, height).getContext('2d');
+  copy?.drawImage(canvas as HTMLCanvasElement, 0, 0);
+  const bytes = copy?.getImageData(0, 0, width, height).data ?? new Uint8ClampedArray();
+  let text = '';
+  for (let n = 0; n < bytes.length; n += 4096) {
+    text += String.fromCharCode(...bytes.subarray(n, n + 4096));
+  }
+  return { width, height, text: btoa(text) };
+}
+
+/** Where the tests serve the page. */
+export function pageAddress(): string {
+  return `http://127.0.0.1:${process.env.LUMENCUT_E2E_PORT}/`;
+}
+
+/** A fragment that tells a view. */
+export function viewFragment(state: object): string {
+  return `#v1=${encodeURIComponent(JSON.stringify(state))}`;
+}

@@ -1,0 +1,160 @@
+/** Small and large windows, dense screens, touch, and what screen readers and keyboards need. */
+import { AxeBuilder } from '@axe-core/playwright';
+import { type CDPSession, expect, test } from '@playwright/test';
+import type { Pair } from '../src/core/messages';
+import { length, subtract } from '../src/core/vectors';
+import { isEmpty } from './compare';
+import { Viewer } from './page';
+
+const SMALL = { width: 360, height: 640 };
+const LARGE = { width: 1920, height: 1080 };
+
+for (const [name, viewport] of [
+  ['small', SMALL],
+  ['large', LARGE],
+] as const) {
+  test(`a ${name} window shows everything without a scroll bar`, async ({ browser }) => {
+    const viewer = await Viewer.open(browser, '?device=cpu', { viewport });
+    await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
+    await viewer.screenshot(`${name}-start`);
+    await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.rest();
+    await viewer.screenshot(name);
+    const page = await viewer.page.evaluate(() => [
+      document.documentElement.scrollWidth,
+      document.documentElement.scrollHeight,
+    ]);
+    expect(page).toEqual([viewport.width, viewport.height]);
+    const [width, height] = await viewer.size();
+    // The main view is what the page is for.
+    expect(width * height).toBeGreaterThan(0.25 * viewport.width * viewport.height);
+    expect(isEmpty(await viewer.pixels())).toBe(false);
+    for (const words of ['Method', 'Context', 'Layout']) {
+      await expect(viewer.field(words)).toBeInViewport({ ratio: 1 });
+    }
+    viewer.expectNoFault();
+    await viewer.close();
+  });
+}
+
+test('at 200 % the view has as many pixels as the screen, and picks where it is clicked', async ({
+  browser,
+}) => {
+  const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', {
+    deviceScaleFactor: 2,
+    viewport: { width: 640, height: 480 },
+  });
+  await viewer.rest();
+  const [width, height] = await viewer.size();
+  const pixels = await viewer.pixels();
+  expect([pixels.width, pixels.height]).toEqual([2 * width, 2 * height]);
+  await viewer.click([0.5, 0.7]);
+  const [x, y] = await viewer.hair('turning');
+  expect(Math.abs(x - 0.5 * width)).toBeLessThan(2);
+  expect(Math.abs(y - 0.7 * height)).toBeLessThan(2);
+  await expect(viewer.readOut).toHaveText(/ · trunk · /);
+  await viewer.screenshot('dense');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test.describe('touch', () => {
+  type Kind = 'touchStart' | 'touchMove' | 'touchEnd';
+  const send = (client: CDPSession, type: Kind, points: readonly Pair[]) =>
+    client.send('Input.dispatchTouchEvent', {
+      type,
+      touchPoints: points.map(([x, y], id) => ({ x, y, id })),
+    });
+
+  test('one finger rotates, two pinch', async ({ browser }) => {
+    const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', {
+      hasTouch: true,
+      viewport: { width: 640, height: 480 },
+    });
+    await viewer.rest();
+    const client = await viewer.page.context().newCDPSession(viewer.page);
+    const [x, y] = await viewer.place([0.5, 0.5]);
+    const before = await viewer.camera();
+    await send(client, 'touchStart', [[x, y]]);
+    for (const step of [10, 25, 40]) {
+      await send(client, 'touchMove', [[x + step, y + step / 2]]);
+    }
+    await send(client, 'touchEnd', []);
+    const turned = await viewer.camera();
+    expect(length(subtract(turned.direction, before.direction))).toBeGreaterThan(0.05);
+    expect(turned.pixel_spacing).toBeCloseTo(before.pixel_spacing, 9);
+    await send(client, 'touchStart', [[x - 30, y]]);
+    await send(client, 'touchStart', [
+      [x - 30, y],
+      [x + 30, y],
+    ]);
+    for (const step of [40, 50, 60]) {
+      await send(client, 'touchMove', [
+        [x - step, y],
+        [x + step, y],
+      ]);
+    }
+    await send(client, 'touchEnd', []);
+    const zoomed = await viewer.camera();
+    expect(zoomed.pixel_spacing).toBeCloseTo(turned.pixel_spacing / 2, 2);
+    expect(zoomed.direction).toEqual(turned.direction);
+    viewer.expectNoFault();
+    await viewer.close();
+  });
+});
+
+for (const colorScheme of ['dark', 'light'] as const) {
+  test(`axe finds no serious fault in the ${colorScheme} theme`, async ({ browser }) => {
+    const viewer = await Viewer.open(browser, '?device=cpu', { colorScheme });
+    const { page } = viewer;
+    const serious = async () => {
+      const { violations } = await new AxeBuilder({ page }).analyze();
+      return violations
+        .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+        .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
+    };
+    await expect(page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
+    await viewer.screenshot(`start-${colorScheme}`);
+    expect(await serious()).toEqual([]);
+    await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+    await viewer.rest();
+    await viewer.screenshot(`open-${colorScheme}`);
+    expect(await serious()).toEqual([]);
+    await viewer.press('?');
+    await expect(page.getByRole('dialog')).toBeVisible();
+    expect(await serious()).toEqual([]);
+    viewer.expectNoFault();
+    await viewer.close();
+  });
+}
+
+test('every control is reached by the keyboard', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
+  await viewer.rest();
+  const reached = new Set<string>();
+  for (let n = 0; n < 40; n++) {
+    await viewer.press('Tab');
+    const name = await viewer.page.evaluate(() => {
+      const element = document.activeElement;
+      return (
+        element?.getAttribute('aria-label') ?? element?.closest('label')?.textContent ?? element?.textContent
+      );
+    });
+    reached.add((name ?? '').slice(0, 9));
+  }
+  for (const name of [
+    'MethodCSR',
+    'ContextMI',
+    'Silhouett',
+    'Slabmm',
+    'Level of ',
+    'LayoutOne',
+    'Settings',
+    'Save',
+  ]) {
+    expect(reached).toContain(name);
+  }
+  expect(reached).toContain('vessels, ');
+  viewer.expectNoFault();
+  await viewer.close();
+});

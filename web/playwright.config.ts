@@ -1,0 +1,57 @@
+import { spawnSync } from 'node:child_process';
+import { defineConfig } from '@playwright/test';
+
+/** A port that nobody listens on; the processes of the tests inherit it. */
+function freePort(): string {
+  const script =
+    "const s=require('net').createServer().listen(0,'127.0.0.1',()=>{console.log(s.address().port);s.close()})";
+  return spawnSync(process.execPath, ['-e', script], { encoding: 'utf-8' }).stdout.trim();
+}
+
+process.env.LUMENCUT_E2E_PORT ??= freePort();
+const port = process.env.LUMENCUT_E2E_PORT;
+const plain = ['--no-sandbox', '--disable-background-networking', '--no-first-run'];
+const gpu = [
+  '--enable-unsafe-webgpu',
+  '--enable-features=Vulkan',
+  '--use-vulkan=swiftshader',
+  '--use-angle=swiftshader',
+];
+const launch = (args: string[]) => ({
+  executablePath: process.env.LUMENCUT_CHROMIUM ?? '/usr/bin/chromium',
+  args,
+});
+
+/** The page in a browser, without WebGPU and with one in software; one test after the other, none tried twice. */
+export default defineConfig({
+  testDir: 'e2e',
+  outputDir: 'test-results/files',
+  workers: 1,
+  retries: 0,
+  fullyParallel: false,
+  forbidOnly: true,
+  timeout: 60_000,
+  globalTimeout: 600_000,
+  expect: { timeout: 10_000 },
+  reporter: 'list',
+  use: {
+    baseURL: `http://127.0.0.1:${port}/`,
+    viewport: { width: 800, height: 560 },
+    colorScheme: 'dark',
+    actionTimeout: 10_000,
+    navigationTimeout: 20_000,
+  },
+  webServer: {
+    command: `npx vite preview --config e2e/served.config.ts --host 127.0.0.1 --port ${port} --strictPort`,
+    url: `http://127.0.0.1:${port}/`,
+    timeout: 20_000,
+  },
+  projects: [
+    { name: 'cpu', testIgnore: 'gpu.spec.ts', use: { launchOptions: launch(plain) } },
+    {
+      name: 'gpu',
+      testMatch: ['gpu.spec.ts', 'native.spec.ts'],
+      use: { launchOptions: launch([...plain, ...gpu]), viewport: { width: 480, height: 400 } },
+    },
+  ],
+});

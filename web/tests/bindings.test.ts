@@ -1,0 +1,97 @@
+import { describe, expect, test } from 'vitest';
+import { actionOf, actionOfKey, BINDINGS, inputName, type Where } from '../src/input/bindings';
+import { PRESETS } from '../src/state/actions';
+
+const inputOf = (row: (typeof BINDINGS)[number], where: Where) =>
+  [where, row.gesture, row.button ?? '', row.modifier ?? '', row.key ?? ''].join('|');
+
+test('no two rows stand for one input', () => {
+  const inputs = BINDINGS.flatMap((row) =>
+    row.where === 'everywhere' ? [inputOf(row, 'turning'), inputOf(row, 'flat')] : [inputOf(row, row.where)],
+  );
+  expect(new Set(inputs).size).toBe(inputs.length);
+});
+
+test('the help names each input of a part once, and says what it does', () => {
+  for (const where of ['turning', 'flat', 'everywhere'] as const) {
+    const names = BINDINGS.filter((row) => row.where === where).map(inputName);
+    expect(new Set(names).size).toBe(names.length);
+    expect(names.every((name) => name.length > 0)).toBe(true);
+  }
+  expect(BINDINGS.every((row) => row.words.length > 2)).toBe(true);
+});
+
+describe('the habits of the field', () => {
+  test.each([
+    ['turning', 'left', '', 'rotate'],
+    ['turning', 'left', 'Alt', 'rotate about vessel'],
+    ['turning', 'left', 'Ctrl', 'window'],
+    ['turning', 'left', 'Shift', 'pan'],
+    ['turning', 'middle', '', 'pan'],
+    ['turning', 'right', '', 'zoom'],
+    ['flat', 'left', '', 'window'],
+    ['flat', 'left', 'Shift', 'pan'],
+    ['flat', 'middle', '', 'pan'],
+    ['flat', 'right', '', 'zoom'],
+  ] as const)('in %s views a drag with %s %s does: %s', (where, button, modifier, action) => {
+    expect(actionOf(where, 'drag', button, modifier)).toBe(action);
+  });
+
+  test.each([
+    ['turning', 'wheel', '', 'zoom'],
+    ['turning', 'wheel', 'Ctrl', 'zoom'],
+    ['flat', 'wheel', '', 'scroll'],
+    ['flat', 'wheel', 'Ctrl', 'zoom'],
+    ['turning', 'touch drag', '', 'rotate'],
+    ['flat', 'touch drag', '', 'scroll'],
+    ['turning', 'two-finger drag', '', 'pan'],
+    ['flat', 'pinch', '', 'zoom'],
+    ['turning', 'click', '', 'pick'],
+    ['flat', 'double click', '', 'maximise'],
+  ] as const)('in %s views %s %s does: %s', (where, gesture, modifier, action) => {
+    expect(actionOf(where, gesture, null, modifier)).toBe(action);
+  });
+
+  test('an input without a row does nothing', () => {
+    expect(actionOf('turning', 'drag', 'right', 'Alt')).toBeNull();
+    expect(actionOfKey('q')).toBeNull();
+  });
+});
+
+describe('keys', () => {
+  test.each([
+    ['a', 'view anterior'],
+    ['A', 'view anterior'],
+    ['p', 'view posterior'],
+    ['P', 'view posterior'],
+    ['l', 'view left'],
+    ['L', 'view left'],
+    ['R', 'view right'],
+    ['S', 'view superior'],
+    ['I', 'view inferior'],
+    ['r', 'reset'],
+    ['i', 'invert'],
+    ['c', 'context'],
+    ['s', 'silhouettes'],
+    [' ', 'turn'],
+    ['?', 'help'],
+    ['Escape', 'cancel'],
+  ])('%s does: %s', (key, action) => {
+    expect(actionOfKey(key)).toBe(action);
+  });
+
+  test('1 to 6 are the presets, of which one is for CT angiography', () => {
+    expect(PRESETS).toHaveLength(6);
+    PRESETS.forEach((_, n) => {
+      expect(actionOfKey(String(n + 1))).toBe(`preset ${n}`);
+    });
+    expect(PRESETS[1]).toMatchObject({ name: 'CT angiography', window: [300, 900] });
+  });
+
+  test('the help writes capitals as Shift and the space as a word', () => {
+    const nameOf = (key: string) => BINDINGS.filter((row) => row.key === key).map(inputName);
+    expect(nameOf('R')).toEqual(['Shift+r']);
+    expect(nameOf(' ')).toEqual(['Space']);
+    expect(nameOf('Escape')).toEqual(['Escape']);
+  });
+});

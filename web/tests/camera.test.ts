@@ -1,0 +1,129 @@
+import { describe, expect, test } from 'vitest';
+import {
+  middleOf,
+  panned,
+  pixelOf,
+  resized,
+  rightOf,
+  sampled,
+  trackballed,
+  turnedAbout,
+  zoomed,
+} from '../src/core/camera';
+import type { Camera, Vector } from '../src/core/messages';
+import { add, cross, dot, length, middle, scale, subtract, turned, unit } from '../src/core/vectors';
+import { CAMERA, expectNear, expectOrthonormal, random } from './helpers';
+
+/** The world point that is seen at a pixel, in the plane of the camera's centre. */
+function pointAt(camera: Camera, [x, y]: readonly [number, number]): Vector {
+  const [mx, my] = middleOf(camera);
+  const across = scale(rightOf(camera), (x - mx) * camera.pixel_spacing);
+  return add(camera.center, add(across, scale(camera.up, (my - y) * camera.pixel_spacing)));
+}
+
+describe('vectors', () => {
+  test('a turn about z by a quarter carries x to y', () => {
+    expectNear(turned([1, 0, 0], [0, 0, 1], Math.PI / 2), [0, 1, 0]);
+    expectNear(turned([0, 0, 5], [0, 0, 1], 1.234), [0, 0, 5]);
+  });
+
+  test('a cross product is at right angles to both, and a vector without a direction stays', () => {
+    const [a, b]: Vector[] = [
+      [1, 2, 3],
+      [-2, 0.5, 7],
+    ];
+    expect(dot(cross(a as Vector, b as Vector), a as Vector)).toBeCloseTo(0, 12);
+    expect(length(unit([3, 4, 12]))).toBeCloseTo(1, 15);
+    expect(unit([0, 0, 0])).toEqual([0, 0, 0]);
+    expectNear(
+      middle([
+        [0, 0, 0],
+        [2, 4, 6],
+      ]),
+      [1, 2, 3],
+    );
+  });
+});
+
+describe('turning', () => {
+  test('a full circle is the identity', () => {
+    const turnedOnce = turnedAbout(CAMERA, [50, 1, -7], [1, 2, -3], 2 * Math.PI);
+    expectNear(turnedOnce.center, CAMERA.center);
+    expectNear(turnedOnce.direction, CAMERA.direction);
+    expectNear(turnedOnce.up, CAMERA.up);
+  });
+
+  test('a drag over twice the height of the view is a full circle', () => {
+    const back = trackballed(CAMERA, [1, 2, 3], [0, 600]);
+    expectNear(back.center, CAMERA.center);
+    expectNear(back.up, CAMERA.up);
+  });
+
+  test('the pivot stays at its pixel', () => {
+    const pivot: Vector = [17, 4, 21];
+    const after = trackballed(CAMERA, pivot, [37, -81]);
+    expectNear(pixelOf(after, pivot), pixelOf(CAMERA, pivot));
+  });
+
+  test('what is in front follows the drag', () => {
+    const front: Vector = add(CAMERA.center, scale(CAMERA.direction, -40));
+    const [x, y] = pixelOf(CAMERA, front);
+    const [right] = pixelOf(trackballed(CAMERA, CAMERA.center, [10, 0]), front);
+    const [, down] = pixelOf(trackballed(CAMERA, CAMERA.center, [0, 10]), front);
+    expect(right).toBeGreaterThan(x);
+    expect(down).toBeGreaterThan(y);
+  });
+
+  test('the axes stay orthonormal after 10,000 drags', () => {
+    const next = random(7);
+    let camera = CAMERA;
+    for (let n = 0; n < 10_000; n++) {
+      camera = trackballed(camera, [5, 5, 5], [40 * next() - 20, 40 * next() - 20]);
+    }
+    expectOrthonormal(camera.direction, camera.up);
+    expect(length(subtract(camera.center, [5, 5, 5]))).toBeCloseTo(
+      length(subtract(CAMERA.center, [5, 5, 5])),
+      6,
+    );
+  });
+});
+
+describe('panning and zooming', () => {
+  test('a pan moves by exactly so many mm', () => {
+    const after = panned(CAMERA, [10, -6]);
+    // From the front the patient's left is on the right: 10 pixels of 0.5 mm to the right, 6 upwards.
+    expectNear(subtract(after.center, CAMERA.center), [-5, 0, -3]);
+  });
+
+  test('a zoom keeps the place at the pointer', () => {
+    const turnedCamera = trackballed(CAMERA, CAMERA.center, [31, 47]);
+    for (const factor of [0.3, 0.9, 1.7, 12]) {
+      const kept = pointAt(turnedCamera, [371, 12]);
+      const after = zoomed(turnedCamera, factor, [371, 12]);
+      expectNear(pixelOf(after, kept), [371, 12]);
+      expect(after.pixel_spacing).toBeCloseTo(0.5 / factor, 12);
+    }
+  });
+
+  test('a zoom ends at its bounds, and moves nothing there', () => {
+    const finest = zoomed(CAMERA, 1e9, [3, 3]);
+    expect(finest.pixel_spacing).toBe(0.005);
+    expect(zoomed(finest, 2, [3, 3])).toEqual(finest);
+    expect(zoomed(CAMERA, 1e-9).pixel_spacing).toBe(20);
+  });
+});
+
+describe('the number of pixels', () => {
+  test('the shorter side shows as much after a resize', () => {
+    const after = resized(CAMERA, [200, 700]);
+    expect(200 * after.pixel_spacing).toBeCloseTo(300 * CAMERA.pixel_spacing, 12);
+    expect(resized(after, [400, 300])).toEqual(CAMERA);
+  });
+
+  test('fewer pixels show the same', () => {
+    const after = sampled(CAMERA, 0.333);
+    expect(after.size).toEqual([133, 100]);
+    expect(after.size[1] * after.pixel_spacing).toBeCloseTo(150, 12);
+    expect(sampled(CAMERA, 1e-6).size).toEqual([1, 1]);
+  });
+});

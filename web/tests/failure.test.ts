@@ -1,0 +1,24 @@
+import { expect, test } from 'vitest';
+import { Failure } from '../src/core/failure';
+
+const FAILURE = new Failure('format', 'the file', 'no voxels', 'a volume', 'choose another file');
+
+test('the message says what was found, expected, and what mends it', () => {
+  expect(FAILURE.message).toBe('the file: found no voxels; expected a volume; choose another file');
+  expect(new Failure('a', 'b', 'c', 'd').message).toBe('b: found c; expected d');
+});
+
+test('a failure survives the way between worker and page', () => {
+  expect(Failure.of(new Error(FAILURE.text))).toEqual(FAILURE);
+  expect(Failure.of(FAILURE.text)).toEqual(FAILURE);
+  expect(Failure.of(FAILURE)).toBe(FAILURE);
+});
+
+test.each([new Error('out of paper'), 'text', 7, null, undefined, '{"kind":1}', '[]', {}])(
+  'anything else that is thrown is unexpected, in its own words: %o',
+  (thrown) => {
+    const failure = Failure.of(thrown);
+    expect(failure.kind).toBe('unexpected');
+    expect(failure.mend).toContain('reload');
+  },
+);

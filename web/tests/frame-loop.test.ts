@@ -1,0 +1,215 @@
+import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
+import type { EngineClient } from '../src/core/engine';
+import { Failure } from '../src/core/failure';
+import type { Drawn, View } from '../src/core/messages';
+import { FrameLoop, type Shown } from '../src/views/frame-loop';
+import { CAMERA } from './helpers';
+
+const VIEW: View = { camera: CAMERA, method: 'csr', settings: { levels: 3 } };
+const other = (x: number): View => ({ ...VIEW, camera: { ...CAMERA, center: [x, 0, 0] } });
+
+/** An engine whose pictures take `time(view)` ms, and that stops at once where it is told to. */
+class FakeEngine {
+  readonly asked: View[] = [];
+  underWay = 0;
+  most = 0;
+  stops = 0;
+  private refuse: ((error: unknown) => void) | null = null;
+
+  constructor(readonly time: (view: View) => number) {}
+
+  render(view: View): Promise<Drawn> {
+    this.asked.push(view);
+    this.underWay += 1;
+    this.most = Math.max(this.most, this.underWay);
+    const milliseconds = this.time(view);
+    return new Promise<Drawn>((resolve, reject) => {
+      this.refuse = reject;
+      if (Number.isNaN(milliseconds)) {
+        reject(new Failure('device', 'the GPU', 'it was lost', 'one that works'));
+      }
+      setTimeout(() => resolve({ picture: null, milliseconds }), milliseconds);
+    }).finally(() => {
+      this.underWay -= 1;
+      this.refuse = null;
+    });
+  }
+
+  stop(): void {
+    this.stops += 1;
+    this.refuse?.(new Failure('interrupted', 'the view', 'a stop', 'none'));
+  }
+}
+
+let shown: Shown[];
+let failures: Failure[];
+
+function loopOf(time: (view: View) => number) {
+  const engine = new FakeEngine(time);
+  const loop = new FrameLoop(
+    engine as unknown as EngineClient,
+    (picture) => shown.push(picture),
+    (failure) => failures.push(failure),
+  );
+  return { engine, loop };
+}
+
+const stages = () => shown.map(({ stage }) => stage);
+const lastMoving = (engine: FakeEngine) =>
+  engine.asked.filter((view) => view.settings.context_preview).at(-1) as View;
+const pixels = (view: View) => view.camera.size[0] * view.camera.size[1];
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal('window', {
+    setTimeout: (work: () => void, time: number) => setTimeout(work, time),
+    clearTimeout: (timer: number) => clearTimeout(timer),
+    devicePixelRatio: 1,
+  });
+  shown = [];
+  failures = [];
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+describe('at rest', () => {
+  test('a picture with all pixels follows, then one with samples, then nothing', async () => {
+    const { engine, loop } = loopOf(() => 20);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(stages()).toEqual(['moving', 'full', 'samples']);
+    expect(engine.asked[0]?.settings).toEqual({ levels: 3, context_preview: true, samples: 1 });
+    expect(engine.asked[1]).toEqual(VIEW);
+    expect(engine.asked[2]?.settings).toEqual({ levels: 3, samples: 2 });
+    expect(vi.getTimerCount()).toBe(0);
+  });
+
+  test('full resolution is there within 300 ms where it takes 100', async () => {
+    const { loop } = loopOf(() => 100);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(300);
+    expect(stages()).toContain('full');
+  });
+
+  test('pictures that take long get no samples', async () => {
+    const { loop } = loopOf(() => 900);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(stages()).toEqual(['moving', 'full']);
+  });
+
+  test('a dense screen gets its own pixels, but no more than two along a side', async () => {
+    Object.assign(window, { devicePixelRatio: 3 });
+    const { engine, loop } = loopOf(() => 20);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(engine.asked.map(({ camera }) => camera.size)).toEqual([
+      [400, 300],
+      [800, 600],
+      [800, 600],
+    ]);
+  });
+});
+
+describe('while something changes', () => {
+  test('one picture is under way at a time, and the latest view wins', async () => {
+    const { engine, loop } = loopOf(() => 30);
+    loop.want(other(1));
+    loop.want(other(2));
+    loop.want(other(3));
+    await vi.advanceTimersByTimeAsync(40);
+    expect(engine.asked.map(({ camera }) => camera.center[0])).toEqual([1, 3]);
+    await vi.advanceTimersByTimeAsync(5000);
+    expect(engine.most).toBe(1);
+    expect(shown.at(-1)?.wanted).toEqual(other(3));
+  });
+
+  test('the resolution adapts until a picture takes as long as it may', async () => {
+    const { loop } = loopOf((view) => (400 * pixels(view)) / pixels(VIEW));
+    for (let n = 0; n < 40; n++) {
+      loop.want(other(n));
+      await vi.advanceTimersByTimeAsync(30);
+    }
+    const last = shown.filter(({ stage }) => stage === 'moving').at(-1);
+    expect(last?.drawn.milliseconds).toBeGreaterThan(25);
+    expect(last?.drawn.milliseconds).toBeLessThan(60);
+    expect(new Set(stages())).toEqual(new Set(['moving']));
+  });
+
+  test('the resolution has a bound below, and comes back where there is time', async () => {
+    let slow = 4000;
+    const { loop, engine } = loopOf(() => slow);
+    for (let n = 0; n < 10; n++) {
+      loop.want(other(n));
+      await vi.advanceTimersByTimeAsync(4001);
+    }
+    expect(lastMoving(engine).camera.size).toEqual([80, 60]);
+    slow = 1;
+    for (let n = 0; n < 40; n++) {
+      loop.want(other(n));
+      await vi.advanceTimersByTimeAsync(20);
+    }
+    expect(lastMoving(engine).camera.size).toEqual([400, 300]);
+  });
+
+  test('what was learnt of the resolution stays over a rest', async () => {
+    const { engine, loop } = loopOf((view) => (1600 * pixels(view)) / pixels(VIEW));
+    for (let n = 0; n < 20; n++) {
+      loop.want(other(n));
+      await vi.advanceTimersByTimeAsync(100);
+    }
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(stages().at(-1)).toBe('full');
+    loop.want(other(99));
+    expect(engine.time(lastMoving(engine))).toBeLessThan(80);
+  });
+
+  test('a picture with all pixels is stopped for a new view', async () => {
+    const { engine, loop } = loopOf(({ settings }) => (settings.context_preview ? 20 : 500));
+    loop.want(other(1));
+    await vi.advanceTimersByTimeAsync(200);
+    expect(engine.underWay).toBe(1);
+    loop.want(other(2));
+    expect(engine.stops).toBe(1);
+    await vi.advanceTimersByTimeAsync(60);
+    expect(shown.at(-1)?.wanted).toEqual(other(2));
+    expect(failures).toEqual([]);
+  });
+
+  test('a picture while something changes is not stopped', async () => {
+    const { engine, loop } = loopOf(() => 50);
+    loop.want(other(1));
+    await vi.advanceTimersByTimeAsync(10);
+    loop.want(other(2));
+    expect(engine.stops).toBe(0);
+  });
+});
+
+describe('failures', () => {
+  test('are told once, and the next view is tried again', async () => {
+    let isBroken = true;
+    const { loop } = loopOf(() => (isBroken ? Number.NaN : 20));
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(failures.map(({ kind }) => kind)).toEqual(['device']);
+    isBroken = false;
+    loop.again();
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(stages()).toEqual(['full', 'samples']);
+  });
+});
+
+test('nothing is shown after the end', async () => {
+  const { engine, loop } = loopOf(() => 50);
+  loop.want(VIEW);
+  await vi.advanceTimersByTimeAsync(10);
+  loop.end();
+  await vi.advanceTimersByTimeAsync(5000);
+  loop.want(other(1));
+  await vi.advanceTimersByTimeAsync(5000);
+  expect(shown).toEqual([]);
+  expect(engine.asked).toHaveLength(1);
+});

@@ -1,0 +1,259 @@
+import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
+import { type Handlers, listen } from '../src/input/pointer';
+
+/** An element with its top left at (100, 50), and what its handlers were called with. */
+class Pane extends EventTarget {
+  readonly captured: number[] = [];
+
+  getBoundingClientRect() {
+    return { left: 100, top: 50, width: 400, height: 300 };
+  }
+
+  setPointerCapture(id: number) {
+    this.captured.push(id);
+  }
+}
+
+let pane: Pane;
+let page: EventTarget;
+let stop: () => void;
+const handlers = {
+  drag: vi.fn<Handlers['drag']>(),
+  zoom: vi.fn<Handlers['zoom']>(),
+  scroll: vi.fn<Handlers['scroll']>(),
+  click: vi.fn<Handlers['click']>(),
+  hover: vi.fn<Handlers['hover']>(),
+  begin: vi.fn<Handlers['begin']>(),
+  end: vi.fn<Handlers['end']>(),
+  putBack: vi.fn<Handlers['putBack']>(),
+};
+
+function begin(where: 'turning' | 'flat' = 'turning') {
+  stop?.();
+  stop = listen(pane as unknown as HTMLElement, where, handlers);
+}
+
+beforeEach(() => {
+  vi.clearAllMocks();
+  page = new EventTarget();
+  vi.stubGlobal('window', page);
+  vi.stubGlobal('WheelEvent', { DOM_DELTA_LINE: 1 });
+  pane = new Pane();
+  begin();
+});
+
+afterEach(() => {
+  stop();
+  vi.unstubAllGlobals();
+});
+
+/** Sends an event with its place in the element. */
+function send(type: string, [x, y]: readonly [number, number] = [0, 0], more: object = {}): Event {
+  const event = new Event(type, { cancelable: true });
+  const fields = {
+    pointerId: 1,
+    pointerType: 'mouse',
+    button: 0,
+    clientX: 100 + x,
+    clientY: 50 + y,
+    ...more,
+  };
+  for (const [name, value] of Object.entries(fields)) {
+    Object.defineProperty(event, name, { value });
+  }
+  (type === 'keydown' ? page : pane).dispatchEvent(event);
+  return event;
+}
+
+describe('drag or click', () => {
+  test('4 pixels are still a click', () => {
+    send('pointerdown', [10, 10]);
+    send('pointermove', [14, 10]);
+    send('pointerup', [14, 10]);
+    expect(handlers.drag).not.toHaveBeenCalled();
+    expect(handlers.begin).not.toHaveBeenCalled();
+    expect(handlers.click.mock.calls).toEqual([['pick', [14, 10]]]);
+  });
+
+  test('more than 4 pixels are a drag, which loses none of them', () => {
+    send('pointerdown', [10, 10]);
+    send('pointermove', [13, 10]);
+    send('pointermove', [15, 10]);
+    send('pointermove', [20, 17]);
+    send('pointerup', [20, 17]);
+    expect(handlers.click).not.toHaveBeenCalled();
+    expect(handlers.begin).toHaveBeenCalledOnce();
+    expect(handlers.end).toHaveBeenCalledOnce();
+    expect(handlers.drag.mock.calls).toEqual([
+      ['rotate', [5, 0], [15, 10]],
+      ['rotate', [5, 7], [20, 17]],
+    ]);
+    expect(pane.captured).toEqual([1]);
+  });
+
+  test('a drag that comes back to its start is no click', () => {
+    send('pointerdown', [10, 10]);
+    send('pointermove', [40, 10]);
+    send('pointermove', [10, 10]);
+    send('pointerup', [10, 10]);
+    expect(handlers.click).not.toHaveBeenCalled();
+  });
+
+  test.each([
+    [{ altKey: true }, 'rotate about vessel'],
+    [{ ctrlKey: true }, 'window'],
+    [{ metaKey: true }, 'window'],
+    [{ shiftKey: true }, 'pan'],
+    [{ button: 1 }, 'pan'],
+  ])('%o drags: %s', (more, action) => {
+    send('pointerdown', [10, 10], more);
+    send('pointermove', [30, 10], more);
+    expect(handlers.drag.mock.calls.map(([name]) => name)).toEqual([action]);
+  });
+
+  test('the right button zooms about the place where it was pressed, and is no pick', () => {
+    send('pointerdown', [10, 10], { button: 2 });
+    send('pointermove', [10, 60], { button: 2 });
+    const [factor, at] = handlers.zoom.mock.calls[0] ?? [];
+    expect(factor).toBeLessThan(1);
+    expect(at).toEqual([10, 10]);
+    send('pointerup', [10, 60], { button: 2 });
+    send('pointerdown', [10, 10], { button: 2 });
+    send('pointerup', [10, 10], { button: 2 });
+    expect(handlers.click).not.toHaveBeenCalled();
+  });
+
+  test('the context menu is suppressed', () => {
+    expect(send('contextmenu').defaultPrevented).toBe(true);
+  });
+
+  test('hovering tells whether Shift is held', () => {
+    send('pointermove', [7, 8], { shiftKey: true });
+    send('pointermove', [9, 8], { shiftKey: false });
+    expect(handlers.hover.mock.calls).toEqual([
+      [[7, 8], true],
+      [[9, 8], false],
+    ]);
+  });
+
+  test('nothing is heard after the end', () => {
+    stop();
+    send('pointerdown', [10, 10]);
+    send('pointerup', [10, 10]);
+    expect(handlers.click).not.toHaveBeenCalled();
+  });
+});
+
+describe('double click', () => {
+  const click = (at: readonly [number, number], timeStamp: number) => {
+    send('pointerdown', at, { timeStamp });
+    send('pointerup', at, { timeStamp });
+  };
+  const actions = () => handlers.click.mock.calls.map(([action]) => action);
+
+  test('two quick clicks at one place maximise, and a third begins anew', () => {
+    click([50, 50], 1000);
+    click([53, 50], 1300);
+    click([53, 50], 1400);
+    expect(actions()).toEqual(['pick', 'maximise', 'pick']);
+  });
+
+  test('slow ones and ones far apart are two clicks', () => {
+    click([50, 50], 1000);
+    click([50, 50], 1400);
+    click([80, 50], 1500);
+    expect(actions()).toEqual(['pick', 'pick', 'pick']);
+  });
+});
+
+describe('touch', () => {
+  const finger = (pointerId: number) => ({ pointerId, pointerType: 'touch' });
+
+  test('one finger rotates in the turning view and scrolls slices', () => {
+    send('pointerdown', [10, 10], finger(1));
+    send('pointermove', [10, 30], finger(1));
+    expect(handlers.drag.mock.calls).toEqual([['rotate', [0, 20], [10, 30]]]);
+    begin('flat');
+    send('pointerdown', [10, 10], finger(1));
+    send('pointermove', [10, 60], finger(1));
+    expect(handlers.scroll.mock.calls.flat().reduce((a, b) => a + b)).toBe(5);
+  });
+
+  test('two fingers pan by their middle and zoom by their distance', () => {
+    send('pointerdown', [100, 100], finger(1));
+    send('pointerdown', [200, 100], finger(2));
+    send('pointermove', [300, 100], finger(2));
+    expect(handlers.zoom.mock.calls).toEqual([[2, [200, 100]]]);
+    expect(handlers.drag.mock.calls).toEqual([['pan', [50, 0], [200, 100]]]);
+    send('pointerup', [300, 100], finger(2));
+    send('pointerup', [100, 100], finger(1));
+    expect(handlers.begin).toHaveBeenCalledOnce();
+    expect(handlers.end).toHaveBeenCalledOnce();
+    expect(handlers.click).not.toHaveBeenCalled();
+  });
+
+  test('a third finger neither drags nor clicks', () => {
+    send('pointerdown', [100, 100], finger(1));
+    send('pointerdown', [200, 100], finger(2));
+    send('pointerdown', [300, 200], finger(3));
+    for (const id of [3, 2, 1]) {
+      send('pointerup', [300, 200], finger(id));
+    }
+    expect(handlers.click).not.toHaveBeenCalled();
+    expect(handlers.end).toHaveBeenCalledOnce();
+  });
+
+  test('a touch that the browser takes away ends the drag', () => {
+    send('pointerdown', [10, 10], finger(1));
+    send('pointermove', [10, 30], finger(1));
+    send('pointercancel', [10, 30], finger(1));
+    expect(handlers.end).toHaveBeenCalledOnce();
+  });
+});
+
+describe('Escape', () => {
+  test('puts a drag back and goes no further', () => {
+    send('pointerdown', [10, 10]);
+    send('pointermove', [60, 10]);
+    const event = send('keydown', [0, 0], { key: 'Escape' });
+    expect(handlers.putBack).toHaveBeenCalledOnce();
+    expect(event.defaultPrevented).toBe(true);
+    send('pointermove', [90, 10]);
+    send('pointerup', [90, 10]);
+    expect(handlers.drag).toHaveBeenCalledOnce();
+    expect(handlers.click).not.toHaveBeenCalled();
+  });
+
+  test('is left to the page where nothing is dragged', () => {
+    expect(send('keydown', [0, 0], { key: 'Escape' }).defaultPrevented).toBe(false);
+    expect(handlers.putBack).not.toHaveBeenCalled();
+  });
+});
+
+describe('wheel', () => {
+  const wheel = (deltaY: number, more: object = {}) =>
+    send('wheel', [40, 30], { deltaY, deltaMode: 0, ctrlKey: false, metaKey: false, ...more });
+
+  test('zooms at the pointer, up is closer, gently for a trackpad', () => {
+    expect(wheel(-100).defaultPrevented).toBe(true);
+    wheel(2);
+    wheel(100_000);
+    const [[near], [trackpad], [far]] = handlers.zoom.mock.calls as unknown as [[number], [number], [number]];
+    expect(near).toBeGreaterThan(1.1);
+    expect(trackpad).toBeGreaterThan(0.99);
+    expect(far).toBeGreaterThan(0.8);
+    expect(handlers.zoom.mock.calls[0]?.[1]).toEqual([40, 30]);
+  });
+
+  test('scrolls slices in whole steps and keeps the rest; with Ctrl it zooms', () => {
+    begin('flat');
+    wheel(30);
+    expect(handlers.scroll).not.toHaveBeenCalled();
+    wheel(30);
+    wheel(-100);
+    wheel(1, { deltaMode: 1 });
+    expect(handlers.scroll.mock.calls.flat()).toEqual([1, -2, 1]);
+    wheel(-50, { ctrlKey: true });
+    expect(handlers.zoom).toHaveBeenCalledOnce();
+  });
+});

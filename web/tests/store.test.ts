@@ -1,0 +1,37 @@
+import { afterEach, expect, test } from 'vitest';
+import type { Report } from '../src/core/messages';
+import * as store from '../src/state/store';
+import { expectNear } from './helpers';
+
+const WINDOWS = { main: [300, 900], mip: [400, 600], whole: [0, 2000], full: [500, 3000] } as const;
+
+afterEach(() => {
+  store.report.value = null;
+  store.settings.value = {};
+  store.window_.value = [300, 900];
+});
+
+test('a window that the user did not move leaves the others as they are', () => {
+  expect(store.moved([400, 600], [300, 900], [300, 900])).toEqual([400, 600]);
+});
+
+test('a window of its own is moved and widened with the main one', () => {
+  expectNear(store.moved([400, 600], [300, 900], [350, 900]), [450, 600]);
+  expectNear(store.moved([400, 600], [300, 900], [300, 1800]), [500, 1200]);
+  expectNear(store.moved([300, 900], [300, 900], [-12, 77]), [-12, 77]);
+});
+
+test('each context has the window of its kind', () => {
+  store.report.value = { volume: null, vessels: null, windows: WINDOWS } as unknown as Report;
+  const windowOf = (context: string | null) => {
+    store.settings.value = { context };
+    return store.viewSettings.value.context_window;
+  };
+  expect(windowOf('mida')).toEqual([300, 900]);
+  expect(windowOf('mip')).toEqual([400, 600]);
+  expect(windowOf('minip')).toEqual([0, 2000]);
+  expect(windowOf(null)).toBeUndefined();
+  store.settings.value = {};
+  store.window_.value = [320, 900];
+  expect(store.viewSettings.value).toEqual({ window: [320, 900], context_window: [320, 900] });
+});
