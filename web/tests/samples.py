@@ -245,7 +245,11 @@ def shared() -> Iterator[dict[str, Any]]:
     for path in (*files, *sorted((DATA / "dicom").glob("ct-*"))):
         kind = "series" if path.is_dir() else "volume"
         name = str(path.relative_to(DATA))
-        yield {"name": name, "kind": kind, "path": str(path), "folder": str(path.parent), **read(path)}
+        named = {"name": name, "kind": kind, "path": str(path), "folder": str(path.parent)}
+        yield named | read(path)
+        if "missing" in name:
+            wanted = {"fill_gaps": True}
+            yield named | {"name": f"{name}, filled", "wanted": wanted} | read(path, **wanted)
 
 
 def main() -> None:
