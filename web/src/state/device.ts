@@ -8,9 +8,12 @@ import * as store from './store';
 const SOON = 20_000;
 let lastLoss = Number.NEGATIVE_INFINITY;
 let isChanging = false;
+/** The device that was asked for, which is asked for again. */
+let wanted = 'auto';
 
 /** Starts the engine: on `gpu`, `any` GPU, `cpu`, or `auto`. */
 export async function start(device: string): Promise<void> {
+  wanted = device;
   try {
     const started = await engine.start(device);
     batch(() => {
@@ -28,7 +31,7 @@ export function recover(error: unknown): void {
   if (failure.kind === 'device' && store.started.value?.isGpu) {
     const isAgain = performance.now() - lastLoss < SOON;
     lastLoss = performance.now();
-    void change(isAgain ? 'cpu' : 'any', failure);
+    void change(isAgain ? 'cpu' : wanted, failure);
   } else if (failure.kind !== 'interrupted') {
     store.problem.value = failure;
   }

@@ -31,7 +31,10 @@ export function StartPage() {
           </li>
         ))}
       </ul>
-      <p class="notice">Lumencut is not a medical device. Do not use it for diagnosis.</p>
+      <p class="notice">
+        Lumencut is not a medical device. Do not use it for diagnosis.{' '}
+        <a href="./THIRD-PARTY-NOTICES.txt">Licences of third parties</a>
+      </p>
     </main>
   );
 }

@@ -10,7 +10,7 @@ export function StatusBar() {
       </output>
       <span class="spring" />
       <Notes />
-      <span data-testid="window">{`W ${round(store.window_.value[1])} L ${round(store.window_.value[0])}`}</span>
+      <span data-testid="window">{windowText()}</span>
       <span data-testid="device">{deviceText()}</span>
       <span class="frame-time">
         {store.frameTime.value === null ? '' : `${store.frameTime.value.toFixed(0)} ms`}
@@ -18,6 +18,12 @@ export function StatusBar() {
       <span class="notice">Not a medical device</span>
     </footer>
   );
+}
+
+/** Width and level, as radiologists write them. */
+function windowText(): string {
+  const [level, width] = store.window_.value;
+  return store.hasVolume.value ? `W ${round(width)} L ${round(level)}` : '';
 }
 
 function round(value: number): string {
