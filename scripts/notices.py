@@ -21,7 +21,14 @@ NOTICES = WEB / "public/THIRD-PARTY-NOTICES.txt"
 CRATE = "lumencut-wasm"
 TARGET = "wasm32-unknown-unknown"
 #: Packages that ship no licence text, so that theirs is the standard text.
-WITHOUT_TEXT: frozenset[str] = frozenset()
+WITHOUT_TEXT: frozenset[str] = frozenset({"@cornerstonejs/codec-openjpeg"})
+#: Packages that hold a compiled library, whose licence they do not ship, and texts in `web/licences` for it.
+COMPILED = {
+    "@cornerstonejs/codec-charls": ("charls",),
+    "@cornerstonejs/codec-libjpeg-turbo-8bit": ("isc", "libjpeg-turbo"),
+    "@cornerstonejs/codec-openjpeg": ("openjpeg",),
+    "@cornerstonejs/codec-openjph": ("openjph",),
+}
 HEADING = """\
 Licences of third parties
 
@@ -49,13 +56,15 @@ def package_of(folder: Path, told: dict[str, Any]) -> Crate:
     name = folder.as_posix().rpartition("node_modules/")[2]
     licence = told.get("license") or "none stated"
     texts = shipped_texts(folder) if folder.is_dir() else []
-    if not texts and name not in WITHOUT_TEXT:
+    if not texts and name not in WITHOUT_TEXT | COMPILED.keys():
         raise LicenceError(
             f"{name} {told.get('version')}: found no licence text; expected one in {folder}; if the standard "
             f"text of {licence!r} will do, add the package to WITHOUT_TEXT in scripts/notices.py"
         )
     ships_none = not texts
-    texts = texts or [standard_text(licence, f"the authors of {name}")]
+    if name in WITHOUT_TEXT:
+        texts = [standard_text(licence, f"the authors of {name}")]
+    texts += [(WEB / f"licences/{text}.txt").read_text("utf-8") for text in COMPILED.get(name, ())]
     return Crate(name, str(told.get("version", "")), licence, tuple(texts), is_standard=ships_none)
 
 

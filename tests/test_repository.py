@@ -341,7 +341,7 @@ def test_circles_of_imports_are_found(tmp_path, first, second):
 )
 def test_no_files_of_a_crate_need_each_other_in_a_circle(crate):
     graph = rust_graph(ROOT / "crates" / crate / "src")
-    assert any(graph.values())
+    assert any(graph.values()) or len(graph) == 1
     assert " needs ".join(circle(graph)) == ""
 
 

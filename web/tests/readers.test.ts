@@ -19,7 +19,10 @@ function opened({ path, folder, kind, wanted = {} }: Expected): Promise<Result> 
   return openSources(sources, { others: kind === 'volume' ? below(folder) : sources, wanted });
 }
 
-describe.skipIf(truths.length === 0)('read as Python reads', () => {
+/** A series of real size takes seconds where the machine is busy. */
+const LONGEST = 60_000;
+
+describe.skipIf(truths.length === 0)('read as Python reads', { timeout: LONGEST }, () => {
   test.each(truths.map((truth) => ({ truth, name: truth.name })))('$name', async ({ truth }) => {
     const result = await opened(truth);
     const words = NOT_READ[truth.name];

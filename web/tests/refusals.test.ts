@@ -11,7 +11,7 @@ async function refusal(...sources: Parameters<typeof openSources>[0]): Promise<s
   return failure?.message ?? '';
 }
 
-describe('volumes', () => {
+describe('volumes', { timeout: 60_000 }, () => {
   test('a whole file is read', async () => {
     const { memory, failure } = await openSources([file('v.nii.gz', gzipped(nifti()))]);
     expect(failure).toBeNull();
@@ -69,7 +69,7 @@ describe('volumes', () => {
   });
 });
 
-describe('DICOM', () => {
+describe('DICOM', { timeout: 60_000 }, () => {
   const series = [0, 1, 2].map((z) => file(`scan/IM${z}`, slice({}, z)));
 
   test('a plain series is read', async () => {
@@ -124,7 +124,7 @@ describe('DICOM', () => {
   });
 });
 
-describe('what is given', () => {
+describe('what is given', { timeout: 60_000 }, () => {
   test('a mask beside the scan is refused with a sentence', async () => {
     const words = await refusal(file('ct.nii', nifti()), file('mask.nii', nifti()));
     expect(words).toContain('2 volumes, ct.nii and mask.nii');

@@ -2,8 +2,9 @@
 
     python samples.py FOLDER
 
-writes the made series of ``tests/dicom_cases.py`` and small volumes of every other format to the folder, reads
-them and the volumes of ``../shared/data`` (where they are), and writes what came of each to ``expected.json``.
+writes the made series of ``tests/dicom_cases.py`` and small volumes of every other format to the folder,
+reads them and the volumes of ``../shared/data`` (where they are), and writes what came of each to
+``expected.json``.
 """
 
 from __future__ import annotations
@@ -25,10 +26,9 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
 from dicom_cases import CASES  # noqa: E402
-from volume_samples import DATA, coded, oblique  # noqa: E402
-
 from lumencut.errors import LumencutError  # noqa: E402
 from lumencut.volume_files import inspected_volume, read_volume  # noqa: E402
+from volume_samples import DATA, coded, oblique  # noqa: E402
 
 Writer = Callable[[Path], Path]
 
@@ -93,7 +93,8 @@ def nrrd_of(name: str = "v.nrrd", dtype: str = "i2", **header: Any) -> Writer:
 
     def write(folder: Path) -> Path:
         affine = oblique()
-        stated = {"space": "RAS", "space directions": affine[:3, :3].T, "space origin": affine[:3, 3]} | header
+        placed = {"space": "RAS", "space directions": affine[:3, :3].T, "space origin": affine[:3, 3]}
+        stated = placed | header
         nrrd.write(str(folder / name), coded(dtype=dtype).T, stated, detached_header=name.endswith("nhdr"))
         return folder / name
 
@@ -229,8 +230,8 @@ def made(folder: Path) -> Iterator[dict[str, Any]]:
         place.mkdir()
         path = case.write(place).path
         wanted = {"series": case.series, "resample_slices": case.resample_slices}
-        named = {"name": case.name, "kind": "series", "path": str(path), "folder": str(place), "wanted": wanted}
-        truth = named | read(path, **wanted)
+        named = {"name": case.name, "kind": "series", "path": str(path), "folder": str(place)}
+        truth = named | {"wanted": wanted} | read(path, **wanted)
         if case.loss:
             truth["values"] = str(folder / f"series-{number}.f32")
             np.ascontiguousarray(read_volume(path).array, np.float32).tofile(truth["values"])
@@ -244,7 +245,11 @@ def shared() -> Iterator[dict[str, Any]]:
     for path in (*files, *sorted((DATA / "dicom").glob("ct-*"))):
         kind = "series" if path.is_dir() else "volume"
         name = str(path.relative_to(DATA))
-        yield {"name": name, "kind": kind, "path": str(path), "folder": str(path.parent), **read(path)}
+        named = {"name": name, "kind": kind, "path": str(path), "folder": str(path.parent)}
+        yield named | read(path)
+        if "missing" in name:
+            wanted = {"fill_gaps": True}
+            yield named | {"name": f"{name}, filled", "wanted": wanted} | read(path, **wanted)
 
 
 def main() -> None:

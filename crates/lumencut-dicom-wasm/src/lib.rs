@@ -16,6 +16,7 @@ pub fn judge_dicom(headers: &str, wanted: &str) -> String {
 /// The attributes that headers are asked for, and the functional groups that may have each.
 #[wasm_bindgen]
 pub fn dicom_attributes() -> String {
-    let groups = Keyword::ALL.iter().map(|keyword| (keyword.name().to_owned(), Value::from(keyword.groups())));
+    let groups =
+        Keyword::ALL.iter().map(|keyword| (keyword.name().to_owned(), Value::from(keyword.groups())));
     Value::Object(groups.collect::<Map<_, _>>()).to_string()
 }

@@ -77,6 +77,11 @@ export function decoderOf(name: CodecName): Promise<Decode> {
   return known;
 }
 
+/** Loads the decoder anew for the next frame: one that failed may be left in any state. */
+export function forgetDecoder(name: CodecName): void {
+  loaded.delete(name);
+}
+
 async function ofPackage({ glue, wasm, decoder }: Package): Promise<Decode> {
   const [made, address] = await Promise.all([glue(), wasm()]);
   const wasmBinary = await (await fetch(address.default)).arrayBuffer();

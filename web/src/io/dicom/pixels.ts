@@ -2,7 +2,7 @@
 import { type Kind, type Numbers, numbersOf } from '../numbers';
 import type { Bytes } from '../payload';
 import { damaged, formatFailure } from '../words';
-import { CODECS, type CodecName, decoderOf } from './codecs';
+import { CODECS, type CodecName, decoderOf, forgetDecoder } from './codecs';
 import type { Decoded } from './decoded';
 import { Frames, frameBytes, NATIVE, type Shape, shapeOf } from './frames';
 import type { Image } from './headers';
@@ -102,6 +102,7 @@ async function decoded(path: string, syntax: string, shape: Shape, frame: Bytes)
   try {
     made = decode(frame);
   } catch {
+    forgetDecoder(name);
     throw damaged(path, 'damaged pixels', 'pixels that can be decoded');
   }
   if (made.bytes.length !== shape.rows * shape.columns * made.unit) {
