@@ -43,6 +43,9 @@ test.describe('streams', () => {
   });
 
   test('each context and a slab show another picture', async () => {
+    await serve(viewer.page, WHOLE);
+    await viewer.page.goto(`./${ADDRESSES}`);
+    await viewer.rest();
     const pictures: Pixels[] = [];
     const expectNew = async () => {
       const picture = await viewer.picture();
@@ -71,6 +74,8 @@ test.describe('streams', () => {
   });
 
   test('a scan is closed, and the start page is back', async () => {
+    await viewer.page.goto('./?phantom=stenosis&device=cpu');
+    await viewer.rest();
     await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
     await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
     await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
