@@ -46,11 +46,17 @@ test.describe('streams', () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
+    // What is around the vessel comes into view.
+    await viewer.pane().focus();
+    await viewer.press('-', '-', '-', '-', '-');
     const pictures: Pixels[] = [];
     const expectNew = async () => {
       const picture = await viewer.picture();
       for (const before of pictures) {
-        expect(difference(picture, before, SAME_CODE)).not.toBeNull();
+        expect(
+          difference(picture, before, SAME_CODE),
+          await viewer.field('Context').inputValue(),
+        ).not.toBeNull();
       }
       pictures.push(picture);
     };

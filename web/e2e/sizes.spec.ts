@@ -32,6 +32,7 @@ for (const [name, viewport] of [
     for (const words of ['Method', 'Context', 'Layout']) {
       await expect(viewer.field(words)).toBeInViewport({ ratio: 1 });
     }
+    await expect(viewer.page.getByLabel('Window preset')).toBeInViewport({ ratio: 1 });
     viewer.expectNoFault();
     await viewer.close();
   });
