@@ -46,7 +46,8 @@ test.describe('streams', () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
-    // What is around the vessel comes into view.
+    // Beyond the volume the cut surface ends, and what is behind it comes into view.
+    await viewer.drag([0.5, 0.3], [50, 60]);
     await viewer.pane().focus();
     await viewer.press('-', '-', '-', '-', '-');
     const pictures: Pixels[] = [];
