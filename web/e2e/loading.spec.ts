@@ -212,12 +212,16 @@ function openAndClose(page: Page, times: number): Promise<void> {
 test('50 opens of a phantom do not grow the memory', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
+  // What a complete view takes is taken once.
+  await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await viewer.rest();
+  await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
   await openAndClose(viewer.page, 10);
   const before = await viewer.memory();
   await openAndClose(viewer.page, 40);
   expect(before).toBeGreaterThan(MEGABYTE);
-  // The first opens decide how much memory there is; later ones find room in it.
-  expect((await viewer.memory()) - before).toBeLessThan(MEGABYTE);
+  // Whatever 40 opens left behind, a volume or a picture, would be far more.
+  expect((await viewer.memory()) - before).toBeLessThan(5 * MEGABYTE);
   viewer.expectNoFault();
   await viewer.close();
 });
