@@ -101,9 +101,9 @@ test.describe('streams', () => {
     [
       'is another file',
       Buffer.from('not a stream at all'),
-      /Found another file; expected a stream of voxels\.Drop/,
+      /Found (another file|a file of no known format); expected /,
     ],
-    ['is empty', Buffer.alloc(0), /Found another file; expected a stream of voxels/],
+    ['is empty', Buffer.alloc(0), /Found (another|an empty) file; expected /],
     ['has voxels of no known type', anotherType(), /type of the voxels.*Found complex64; expected uint8/],
     [
       'has a header that is none',
