@@ -72,6 +72,7 @@ test('every shader compiles in the browser', async ({ browser }) => {
 test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=any&test=1${ONE}`);
+  await viewer.pin([240, 180]);
   await viewer.rest();
   await expect(viewer.device).toContainText('GPU');
   await viewer.drag([0.5, 0.4], [30, 20]);

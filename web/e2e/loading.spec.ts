@@ -43,11 +43,21 @@ test.describe('streams', () => {
   });
 
   test('each context and a slab show another picture', async () => {
+    await serve(viewer.page, WHOLE);
+    await viewer.page.goto(`./${ADDRESSES}`);
+    await viewer.rest();
+    // Beyond the volume the cut surface ends, and what is behind it comes into view.
+    await viewer.drag([0.5, 0.3], [50, 60]);
+    await viewer.pane().focus();
+    await viewer.press('-', '-', '-', '-', '-');
     const pictures: Pixels[] = [];
     const expectNew = async () => {
       const picture = await viewer.picture();
       for (const before of pictures) {
-        expect(difference(picture, before, SAME_CODE)).not.toBeNull();
+        expect(
+          difference(picture, before, SAME_CODE),
+          await viewer.field('Context').inputValue(),
+        ).not.toBeNull();
       }
       pictures.push(picture);
     };
@@ -71,6 +81,8 @@ test.describe('streams', () => {
   });
 
   test('a scan is closed, and the start page is back', async () => {
+    await viewer.page.goto('./?phantom=stenosis&device=cpu');
+    await viewer.rest();
     await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
     await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
     await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
@@ -89,9 +101,9 @@ test.describe('streams', () => {
     [
       'is another file',
       Buffer.from('not a stream at all'),
-      /Found another file; expected a stream of voxels\.Drop/,
+      /Found (another file|a file of no known format); expected /,
     ],
-    ['is empty', Buffer.alloc(0), /Found another file; expected a stream of voxels/],
+    ['is empty', Buffer.alloc(0), /Found (another|an empty) file; expected /],
     ['has voxels of no known type', anotherType(), /type of the voxels.*Found complex64; expected uint8/],
     [
       'has a header that is none',
@@ -200,12 +212,16 @@ function openAndClose(page: Page, times: number): Promise<void> {
 test('50 opens of a phantom do not grow the memory', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
+  // What a complete view takes is taken once.
+  await viewer.page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await viewer.rest();
+  await viewer.page.getByRole('button', { name: 'Close the scan' }).click();
   await openAndClose(viewer.page, 10);
   const before = await viewer.memory();
   await openAndClose(viewer.page, 40);
   expect(before).toBeGreaterThan(MEGABYTE);
-  // The first opens decide how much memory there is; later ones find room in it.
-  expect((await viewer.memory()) - before).toBeLessThan(MEGABYTE);
+  // Whatever 40 opens left behind, a volume or a picture, would be far more.
+  expect((await viewer.memory()) - before).toBeLessThan(5 * MEGABYTE);
   viewer.expectNoFault();
   await viewer.close();
 });

@@ -29,13 +29,7 @@ const [WIDTH, HEIGHT] = size;
 
 /** The view in a pane of just the size of the picture. */
 async function shown(viewer: Viewer): Promise<{ found: Pixels; samples: number }> {
-  await viewer.page.addStyleTag({
-    content: `[data-testid=turning] { position: absolute; width: ${WIDTH}px; height: ${HEIGHT}px; inset: 0 auto auto 0; }`,
-  });
-  await viewer.page.waitForFunction(
-    (pixels) => document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels === pixels,
-    size.join('x'),
-  );
+  await viewer.pin(size);
   const found = await viewer.picture();
   const stage = await viewer.pane().locator('canvas').getAttribute('data-stage');
   return { found, samples: stage === 'samples' ? 2 : 1 };

@@ -173,6 +173,17 @@ export class Viewer {
     }
   }
 
+  /** Gives the turning view a size of its own, whatever the bars of the page leave to it. */
+  async pin([width, height]: Pair): Promise<void> {
+    await this.page.addStyleTag({
+      content: `[data-testid=turning] { position: absolute; width: ${width}px; height: ${height}px; inset: 0 auto auto 0; }`,
+    });
+    await this.page.waitForFunction(
+      (pixels) => document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels === pixels,
+      `${width}x${height}`,
+    );
+  }
+
   /** A field of the toolbar by its words. */
   field(words: string): Locator {
     const label = this.page.locator('header > label', { hasText: new RegExp(`^${words}`) });

@@ -32,6 +32,7 @@ for (const [name, viewport] of [
     for (const words of ['Method', 'Context', 'Layout']) {
       await expect(viewer.field(words)).toBeInViewport({ ratio: 1 });
     }
+    await expect(viewer.page.getByLabel('Window preset')).toBeInViewport({ ratio: 1 });
     viewer.expectNoFault();
     await viewer.close();
   });
@@ -49,10 +50,12 @@ test('at 200 % the view has as many pixels as the screen, and picks where it is 
   const pixels = await viewer.pixels();
   expect([pixels.width, pixels.height]).toEqual([2 * width, 2 * height]);
   await viewer.click([0.5, 0.7]);
+  await expect(viewer.readOut).toHaveText(/ · trunk · /);
+  // A longer read-out takes no room from the views.
+  expect(await viewer.size()).toEqual([width, height]);
   const [x, y] = await viewer.hair('turning');
   expect(Math.abs(x - 0.5 * width)).toBeLessThan(2);
   expect(Math.abs(y - 0.7 * height)).toBeLessThan(2);
-  await expect(viewer.readOut).toHaveText(/ · trunk · /);
   await viewer.screenshot('dense');
   viewer.expectNoFault();
   await viewer.close();

@@ -31,12 +31,12 @@ export function header(parts: object, magic = 'LCVOLUME', text = JSON.stringify(
   return Buffer.concat([Buffer.from(magic, 'latin1'), length, padded]);
 }
 
-/** A tube of 350 HU along the z axis, in fat, and bone far from it. */
+/** A tube of 350 HU along the z axis, in fat, and beside it bone that grows denser backwards. */
 export function voxels({ size: [columns, rows, slices] }: StreamParts): Buffer {
   const values = new Int16Array(columns * rows * slices);
   for (let n = 0; n < values.length; n++) {
     const [x, y] = [(n % columns) - columns / 2, (Math.floor(n / columns) % rows) - rows / 2];
-    values[n] = Math.hypot(x, y) < 5 ? 350 : x > 32 ? 900 + 3 * y : -100;
+    values[n] = Math.hypot(x, y) < 5 ? 350 : Math.abs(x) > 20 ? 100 + 6 * (y + rows / 2) : -100;
   }
   return Buffer.from(values.buffer);
 }

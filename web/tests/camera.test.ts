@@ -88,6 +88,12 @@ describe('turning', () => {
   });
 });
 
+test('axes that are not quite at right angles come back to them', () => {
+  const loose: Camera = { ...CAMERA, direction: [0.001, 1, 0], up: [0.01, 0.02, 1.003] };
+  const { direction, up } = trackballed(loose, [0, 0, 0], [3, 4]);
+  expectOrthonormal(direction, up);
+});
+
 describe('panning and zooming', () => {
   test('a pan moves by exactly so many mm', () => {
     const after = panned(CAMERA, [10, -6]);

@@ -15,6 +15,8 @@ export function Help() {
   useEffect(() => {
     if (isOpen) {
       dialog.current?.showModal();
+      // The focus is on the button at the end; the list is read from its beginning.
+      dialog.current?.scrollTo(0, 0);
     } else {
       dialog.current?.close();
     }
