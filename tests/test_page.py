@@ -196,10 +196,15 @@ def test_an_old_node_is_as_good_as_none(toolchain, tmp_path, monkeypatch, said, 
 def test_rust_without_webassembly_is_told(toolchain, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     assert toolchain.missing_of_wasm() == "no rustc on the PATH"
-    (tmp_path / "rustc").write_text(f"#!/bin/sh\necho {tmp_path}/lib\n")
+    (tmp_path / "rustc").write_text(f"#!/bin/sh\necho {tmp_path}\n")
     (tmp_path / "rustc").chmod(0o755)
     assert "rustup target add wasm32-unknown-unknown" in toolchain.missing_of_wasm()
-    (tmp_path / "lib").mkdir()
+    libraries = tmp_path / "lib/rustlib"
+    (libraries / "wasm32-unknown-unknown/lib").mkdir(parents=True)
+    assert "rustup component add rust-src" in toolchain.missing_of_wasm()
+    source = libraries / "src/rust/library/std"
+    source.mkdir(parents=True)
+    (source / "Cargo.toml").touch()
     assert toolchain.missing_of_wasm() == ""
 
 

@@ -34,6 +34,8 @@ export interface Opened {
 export class EngineClient {
   private readonly host: Remote<EngineHost>;
   private stopByte: Uint8Array | null = null;
+  /** Whether the picture under way only refines what is shown already. */
+  private isRefining = false;
 
   constructor() {
     const worker = new Worker(new URL('../worker/engine.worker.ts', import.meta.url), { type: 'module' });
@@ -70,15 +72,15 @@ export class EngineClient {
   }
 
   openPhantom(name: string): Promise<Report> {
-    return heard(this.host.openPhantom(name));
+    return this.first(this.host.openPhantom(name));
   }
 
   openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<Opened> {
-    return heard(this.host.openAddresses(volume, centerlines, proxy(told)));
+    return this.first(this.host.openAddresses(volume, centerlines, proxy(told)));
   }
 
   openFiles(files: readonly GivenFile[], wish: SeriesWish, told: Told): Promise<Opened> {
-    return heard(this.host.openFiles(files, wish, proxy(told)));
+    return this.first(this.host.openFiles(files, wish, proxy(told)));
   }
 
   /** What is open. */
@@ -87,7 +89,7 @@ export class EngineClient {
   }
 
   openCenterlines(bytes: Uint8Array, name: string): Promise<Opened> {
-    return heard(this.host.openCenterlines(bytes, name));
+    return this.first(this.host.openCenterlines(bytes, name));
   }
 
   cancel(): Promise<void> {
@@ -95,39 +97,52 @@ export class EngineClient {
   }
 
   close(): Promise<void> {
-    return heard(this.host.close());
+    return this.first(this.host.close());
   }
 
   fitted(view: string, [width, height]: Pair): Promise<Camera> {
-    return heard(this.host.fitted(view, width, height));
+    return this.first(this.host.fitted(view, width, height));
   }
 
-  render(view: View): Promise<Drawn> {
-    return heard(this.host.render(view));
+  async render(view: View): Promise<Drawn> {
+    this.isRefining = Number(view.settings.samples ?? 1) > 1;
+    try {
+      return await heard(this.host.render(view));
+    } finally {
+      this.isRefining = false;
+    }
+  }
+
+  /** What the user waits for comes before a refinement, which starts again afterwards. */
+  private first<T>(answer: Promise<T>): Promise<T> {
+    if (this.isRefining) {
+      this.stop();
+    }
+    return heard(answer);
   }
 
   pick(view: View, [column, row]: Pair): Promise<Pick> {
-    return heard(this.host.pick(view, column, row));
+    return this.first(this.host.pick(view, column, row));
   }
 
   at(point: Vector): Promise<Pick> {
-    return heard(this.host.at(point));
+    return this.first(this.host.at(point));
   }
 
   slice(plane: Plane, window: Window): Promise<Picture> {
-    return heard(this.host.slice(plane, window));
+    return this.first(this.host.slice(plane, window));
   }
 
   across(vessel: number, at: number): Promise<[Vector, Vector, Vector]> {
-    return heard(this.host.across(vessel, at));
+    return this.first(this.host.across(vessel, at));
   }
 
   straightened(cpr: Cpr, window: Window): Promise<Picture> {
-    return heard(this.host.straightened(cpr, window));
+    return this.first(this.host.straightened(cpr, window));
   }
 
   pickStraightened([column, row]: Pair): Promise<Pick> {
-    return heard(this.host.pickStraightened(column, row));
+    return this.first(this.host.pickStraightened(column, row));
   }
 
   onStraightened(point: Vector): Promise<[number, number] | null> {

@@ -70,6 +70,7 @@ async function showStudy(
   const size = store.camera.value?.size ?? FIRST_SIZE;
   const camera = await engine.fitted('anterior', size);
   const histogram = report.volume ? await engine.histogram(128) : null;
+  const hair = await firstPlace(engine, report);
   batch(() => {
     forget();
     store.report.value = report;
@@ -79,13 +80,26 @@ async function showStudy(
     store.histogram.value = histogram;
     store.window_.value = report.windows?.main ?? store.window_.value;
     store.camera.value = camera;
-    if (report.volume) {
-      const point = report.vessels?.length ? camera.center : middle(report.volume.corners);
-      store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
-    }
-    store.pickedVessel.value = report.vessels?.length ? longest(report) : null;
-    store.pickedPlace.value = 0;
+    store.crossHair.value = hair;
+    store.pickedVessel.value = hair?.vessel ?? null;
+    store.pickedPlace.value = hair?.arcLength ?? 0;
   });
+}
+
+/** Half way along the longest vessel; without vessels the middle of the volume. */
+async function firstPlace(engine: EngineClient, report: Report): Promise<store.CrossHair | null> {
+  if (report.vessels?.length) {
+    const vessel = longest(report);
+    const arcLength = (report.vessels[vessel]?.length ?? 0) / 2;
+    const [point] = await engine.across(vessel, arcLength);
+    const { value } = await engine.at(point);
+    return { point, value, vessel, arcLength };
+  }
+  if (!report.volume) {
+    return null;
+  }
+  const { point, value } = await engine.at(middle(report.volume.corners));
+  return { point, value, vessel: null, arcLength: null };
 }
 
 /** The longest vessel's number. */

@@ -76,13 +76,13 @@ class Scale {
   }
 }
 
-/** The counts as a filled line; of each the square root, as few values are most of the voxels. */
+/** The counts as a filled line; of each the logarithm, as few values are most of the voxels. */
 function outline({ low, high, counts }: Histogram, scale: Scale): string {
-  const most = Math.sqrt(Math.max(...counts, 1));
+  const most = Math.log1p(Math.max(...counts, 1));
   const step = (high - low) / counts.length;
   const points = counts.map((count, n) => {
     const x = scale.x(low + (n + 0.5) * step).toFixed(1);
-    return `${x} ${(HEIGHT * (1 - Math.sqrt(count) / most)).toFixed(1)}`;
+    return `${x} ${(HEIGHT * (1 - Math.log1p(count) / most)).toFixed(1)}`;
   });
   return `M0 ${HEIGHT}L${points.join('L')}L${WIDTH} ${HEIGHT}Z`;
 }

@@ -89,7 +89,10 @@ function wantedView(): View | null {
 }
 
 function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted }: Shown): void {
-  store.frameTime.value = drawn.milliseconds;
+  // The last picture at rest takes as long as its samples do: it says nothing of the rate.
+  if (stage !== 'samples') {
+    store.frameTime.value = drawn.milliseconds;
+  }
   if (canvas && drawn.picture) {
     paint(canvas, drawn.picture);
   }
