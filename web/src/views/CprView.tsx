@@ -58,17 +58,19 @@ export function CprView() {
   };
   const row = spacing === null ? 0 : store.pickedPlace.value / spacing;
   return (
-    <FlatPicture
-      name="straightened"
-      words="picked vessel, straightened"
-      ask={text ? ask : null}
-      handlers={handlers}
-      onSize={setSize}
-      style={{ margin: '0 auto' }}
-    >
-      {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
+    <>
+      <FlatPicture
+        name="straightened"
+        words="picked vessel, straightened"
+        ask={text ? ask : null}
+        handlers={handlers}
+        onSize={setSize}
+        style={{ margin: '0 auto' }}
+      >
+        {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
+      </FlatPicture>
       {cpr && <CprControls />}
-    </FlatPicture>
+    </>
   );
 }
 
