@@ -88,10 +88,6 @@ export class EngineClient {
     return heard(this.host.whatIsOpen());
   }
 
-  openCenterlines(bytes: Uint8Array, name: string): Promise<Opened> {
-    return this.first(this.host.openCenterlines(bytes, name));
-  }
-
   cancel(): Promise<void> {
     return heard(this.host.cancel());
   }

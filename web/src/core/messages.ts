@@ -108,12 +108,14 @@ export interface GivenFile {
   readonly file: File;
 }
 
-/** What of the files of a DICOM folder is to be read, where that is not clear. */
+/** How files are to be read, where that is not clear. */
 export interface SeriesWish {
   /** The number or UID of a series. */
   readonly series?: string;
   readonly fill_gaps?: boolean;
   readonly resample_slices?: boolean;
+  /** The space of centerlines. */
+  readonly coordinates?: 'lps' | 'ras';
 }
 
 /** How many voxels are in each of equally wide bins between two values. */

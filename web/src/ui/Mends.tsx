@@ -1,4 +1,4 @@
-/** What can be done at once about a DICOM folder that was refused. */
+/** What can be done at once about files that were refused. */
 import type { Failure, SeriesChoice } from '../core/failure';
 import type { SeriesWish } from '../core/messages';
 import { engine } from '../core/shared';
@@ -24,11 +24,26 @@ export function Mends({ failure }: { readonly failure: Failure }) {
           ))}
         </ul>
       )}
+      {failure.mend.includes('coordinates=') && <SpaceChoice />}
       {wishes.map(([name, words]) => (
         <button key={name} type="button" onClick={() => void openAgain(engine, { [name]: true })}>
           {words}
         </button>
       ))}
+    </>
+  );
+}
+
+/** The two spaces that the coordinates of centerlines can be meant in. */
+function SpaceChoice() {
+  return (
+    <>
+      <button type="button" onClick={() => void openAgain(engine, { coordinates: 'lps' })}>
+        Read as LPS
+      </button>
+      <button type="button" onClick={() => void openAgain(engine, { coordinates: 'ras' })}>
+        Read as RAS
+      </button>
     </>
   );
 }

@@ -100,20 +100,26 @@ export class EngineHost {
     told: Told,
   ): Promise<Partial<Fetched> & { report: Report; notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
-    return this.load(told, async (means) => {
+    const { coordinates, ...series } = wish;
+    const work = async (means: Means) => {
       const { openFiles } = await import('../io/study');
-      const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...wish }, means);
+      const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...series }, means);
       return volume ? { name: volume.name, states: volume.states, notes } : { notes };
-    });
+    };
+    return this.load(told, work, coordinates);
   }
 
   /** Loads in steps, until `cancel`; where that ends early and what was open is gone already, nothing is open. */
-  private load<T>(told: Told, work: (means: Means) => Promise<T>): Promise<T & { report: Report }> {
+  private load<T>(
+    told: Told,
+    work: (means: Means) => Promise<T>,
+    coordinates?: SeriesWish['coordinates'],
+  ): Promise<T & { report: Report }> {
     this.cancelled.abort();
     this.cancelled = new AbortController();
     const { signal } = this.cancelled;
     return this.run(async () => {
-      const study = new Replacing(this.ready());
+      const study = new Replacing(this.ready(), coordinates);
       try {
         const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });
         return { ...loaded, report: this.report() };
@@ -128,14 +134,6 @@ export class EngineHost {
 
   whatIsOpen(): Promise<Report> {
     return this.run(() => this.report());
-  }
-
-  /** Opens centerlines beside the volume. */
-  openCenterlines(bytes: Uint8Array, name: string): Promise<{ report: Report; notes: string[] }> {
-    return this.run(() => {
-      const notes: string[] = JSON.parse(this.ready().open_centerlines(bytes, name));
-      return { report: this.report(), notes };
-    });
   }
 
   /** Stops loading. */

@@ -1,11 +1,15 @@
 /** The engine as readers of files have it: it tells whether they began to replace what was open. */
+import type { SeriesWish } from '../core/messages';
 import type { Engine } from '../core/module';
 import type { Study, Means as StudyMeans } from '../io/study';
 
 export class Replacing implements Study {
   hasBegun = false;
 
-  constructor(private readonly engine: Engine) {}
+  constructor(
+    private readonly engine: Engine,
+    private readonly coordinates: SeriesWish['coordinates'],
+  ) {}
 
   close(): void {
     this.hasBegun = true;
@@ -22,7 +26,7 @@ export class Replacing implements Study {
   }
 
   open_centerlines(bytes: Uint8Array, name: string): string {
-    return this.engine.open_centerlines(bytes, name);
+    return this.engine.open_centerlines(bytes, name, this.coordinates);
   }
 }
 
