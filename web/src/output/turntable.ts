@@ -1,4 +1,4 @@
-/** A full turn about the patient's long axis as a film (WebM), picture by picture at full resolution. */
+/** A full turn about the patient's long axis, picture by picture at full resolution: as a film (WebM), or as PNGs in a zip archive. */
 import { turnedAbout } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera } from '../core/messages';
@@ -8,42 +8,57 @@ import { composed, saveAs } from './pictures';
 const FRAMES = 72;
 const PER_SECOND = 18;
 
+/** What becomes of the pictures of a turn. */
+interface Album {
+  add(picture: HTMLCanvasElement): Promise<void>;
+  finish(): Promise<Blob>;
+  close?(): void;
+}
+
+/** Saves a turn as a film. */
+export const saveFilm = (): Promise<void> => saveTurn(new Film(), 'lumencut.webm');
+
+/** Saves a turn as pictures. */
+export const savePictures = async (): Promise<void> => {
+  const { PictureArchive } = await import('./picture-archive');
+  return saveTurn(new PictureArchive(), 'lumencut.zip');
+};
+
 /** Renders a turn of the view and saves it; the view is as it was then. Escape ends it early and saves nothing. */
-export async function saveTurntable(): Promise<void> {
+async function saveTurn(album: Album, name: string): Promise<void> {
   const camera = store.camera.value;
   if (!camera || store.progress.value) {
     return;
   }
-  const film = new Film();
   try {
     for (let n = 0; n < FRAMES; n++) {
       store.progress.value = { words: 'Turntable', done: n, total: FRAMES };
-      await film.add(turnedAbout(camera, camera.center, [0, 0, 1], (2 * Math.PI * n) / FRAMES));
+      const turned = turnedAbout(camera, camera.center, [0, 0, 1], (2 * Math.PI * n) / FRAMES);
+      store.camera.value = turned;
+      await settled(turned);
+      await album.add(composed('labels'));
       if (store.progress.value === null) {
         return;
       }
     }
-    saveAs(await film.finish(), 'lumencut.webm');
+    saveAs(await album.finish(), name);
   } catch (error) {
     store.problem.value = Failure.of(error);
   } finally {
-    film.close();
+    album.close?.();
     store.progress.value = null;
     store.camera.value = camera;
   }
 }
 
 /** Records what a canvas shows, one frame for each picture that is added. */
-class Film {
+class Film implements Album {
   private readonly canvas = document.createElement('canvas');
   private recorder: MediaRecorder | null = null;
   private readonly parts: Blob[] = [];
   private track: CanvasCaptureMediaStreamTrack | null = null;
 
-  async add(camera: Camera): Promise<void> {
-    store.camera.value = camera;
-    await settled(camera);
-    const picture = composed('labels');
+  async add(picture: HTMLCanvasElement): Promise<void> {
     const isFirst = this.recorder === null;
     if (isFirst) {
       [this.canvas.width, this.canvas.height] = [picture.width, picture.height];

@@ -1,7 +1,7 @@
 /** What can be saved of the turning view. */
 import { Failure } from '../core/failure';
 import { savePng } from '../output/pictures';
-import { saveTurntable } from '../output/turntable';
+import { saveFilm, savePictures } from '../output/turntable';
 import { problem } from '../state/store';
 
 export function SaveMenu() {
@@ -15,8 +15,11 @@ export function SaveMenu() {
         <button type="button" onClick={() => attempt(() => savePng('plain'))}>
           Picture without labels (PNG)
         </button>
-        <button type="button" onClick={() => attempt(saveTurntable)}>
+        <button type="button" onClick={() => attempt(saveFilm)}>
           Turntable (WebM)
+        </button>
+        <button type="button" onClick={() => attempt(savePictures)}>
+          Turntable (PNGs)
         </button>
       </div>
     </details>
