@@ -180,10 +180,15 @@ def test_files_arrive_as_they_are_read_otherwise(page, tmp_path, name):
 
 
 def test_a_head_request_waits_for_no_voxels(page):
-    scene = ArrivingScene(made_file(coded(), lambda progress, filled: threading.Event().wait(60)))
+    asked = threading.Event()
+    scene = ArrivingScene(made_file(coded(), lambda progress, filled: asked.wait(60)))
     scene.stop = lambda: None
     with serving(page, scene) as client:
         answer = client.ask("data/volume", "HEAD")
+    # Whoever reads on bends the way of warnings for the tests that follow.
+    asked.set()
+    scene._thread.join(10)
+    assert not scene._thread.is_alive()
     assert (answer.status, answer.body) == (200, b"")
     assert int(answer.headers["content-length"]) > coded().nbytes
 
