@@ -35,3 +35,14 @@ test('each context has the window of its kind', () => {
   store.window_.value = [320, 900];
   expect(store.viewSettings.value).toEqual({ window: [320, 900], context_window: [320, 900] });
 });
+
+test.each([
+  ['mida', 'main'],
+  ['dvr', 'main'],
+  ['mip', 'mip'],
+  ['minip', 'whole'],
+  ['average', 'whole'],
+] as const)('the context %s has the window %s', (context, name) => {
+  const windows = { main: [1, 2], mip: [3, 4], whole: [5, 6], full: [7, 8] } as const;
+  expect(store.windowOf(context, windows)).toBe(windows[name]);
+});
