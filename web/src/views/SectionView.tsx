@@ -1,10 +1,11 @@
 /** The section across the picked vessel. */
-import { useCallback, useEffect, useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import type { Pair, Plane } from '../core/messages';
 import { engine } from '../core/shared';
 import { placeCrossHair } from '../link/cross-hair';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
+import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { FlatPicture } from './FlatPicture';
 import { pixelOn, pointOn } from './planes';
@@ -32,8 +33,7 @@ export function SectionView() {
   }, [vessel, at]);
 
   const plane = frame && size ? { ...frame, size, pixel_spacing: side / Math.min(...size) } : null;
-  const text = plane && JSON.stringify(plane);
-  const ask = useCallback(() => engine.slice(JSON.parse(text ?? '{}') as Plane, window), [text, window]);
+  const ask = useAsked(plane, window);
   const point = (place: Pair) => {
     if (plane) {
       void engine.at(pointOn(plane, place)).then((pick) => placeCrossHair(pick, 'section'));
@@ -58,7 +58,7 @@ export function SectionView() {
     <FlatPicture
       name="section"
       words="section across the picked vessel"
-      ask={text ? ask : null}
+      ask={ask}
       handlers={handlers}
       onSize={setSize}
     >

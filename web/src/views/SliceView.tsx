@@ -1,12 +1,13 @@
 /** An axial, coronal or sagittal slice through the cross-hair. */
-import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
-import type { Pair, Plane, Window } from '../core/messages';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Pair, Plane } from '../core/messages';
 import { engine } from '../core/shared';
 import { add, cross, scale } from '../core/vectors';
 import type { Handlers } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
+import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { FlatPicture } from './FlatPicture';
 import {
@@ -62,16 +63,6 @@ export function SliceView({ name }: { readonly name: SliceName }) {
       )}
     </FlatPicture>
   );
-}
-
-/** A question that changes only where the picture does. */
-export function useAsked(
-  plane: Plane | null,
-  window: Window,
-): ((size: Pair) => Promise<import('../core/messages').Picture>) | null {
-  const text = plane && JSON.stringify(plane);
-  const ask = useCallback(() => engine.slice(JSON.parse(text ?? '{}') as Plane, window), [text, window]);
-  return text ? ask : null;
 }
 
 function sliceHandlers(

@@ -79,7 +79,7 @@ export function TurningView() {
   );
 }
 
-/** What is to be shown, in CSS pixels times the density of the screen. */
+/** What is to be shown, in CSS pixels. */
 function wantedView(): View | null {
   const [camera, report] = [store.camera.value, store.report.value];
   if (!camera || !report?.volume || camera.size[0] < 2 || camera.size[1] < 2) {

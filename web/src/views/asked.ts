@@ -1,0 +1,11 @@
+/** What a flat view asks the engine for. */
+import { useCallback } from 'preact/hooks';
+import type { Picture, Plane, Window } from '../core/messages';
+import { engine } from '../core/shared';
+
+/** The question for the picture of a plane, which changes only where the picture does; none without a plane. */
+export function useAsked(plane: Plane | null, window: Window): (() => Promise<Picture>) | null {
+  const text = plane && JSON.stringify(plane);
+  const ask = useCallback(() => engine.slice(JSON.parse(text ?? '{}') as Plane, window), [text, window]);
+  return text ? ask : null;
+}
