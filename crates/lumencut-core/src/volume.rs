@@ -138,7 +138,7 @@ plain!(f32: f32);
 plain!(f64: i32, u32, i64, u64, f64);
 
 /// The voxels of a volume, borrowed in their own type. What a browser loads has the code for four types alone, which
-/// makes it a third smaller: there all others become one of these, exactly but for numbers beyond 24 bits.
+/// makes it smaller: there all others become one of these, exactly but for numbers beyond 24 bits.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub enum Voxels<'a> {
