@@ -13,8 +13,8 @@ from PIL import Image
 import lumencut
 from lumencut import Flag, FormatError, MissingPackageError, Profile, Window, measure, phantom
 from lumencut.contact_sheet import contact_sheet
-from lumencut.measured_vessel import Marked, MeasuredVessel, profiles_of
-from lumencut.profile_files import csv_text, json_text
+from lumencut.measured_vessel import Marked, MeasuredVessel, profiles_of, vessels_json
+from lumencut.profile_files import csv_text
 from lumencut.profile_plot import figure_of, write
 from lumencut.profile_sections import counts, flag_words, marks, nearest
 from lumencut.section_pictures import SectionView, fitting_size, sections_sheet
@@ -112,7 +112,12 @@ def test_json_gives_back_every_digit_and_null_for_nothing(branched):
 
 
 def test_json_of_a_stenosis_has_method_references_and_mm(marked):
-    (vessel,) = json.loads(json_text({"vessels": [marked.record()]}))["vessels"]
+    options = {"step": 0.5, "at": 30.0, "reference": (10.0, 50.0), "group": "carotid"}
+    options |= dict.fromkeys(("fwhm", "method", "original", "comparison"))
+    read = json.loads(vessels_json(options, [marked]), parse_constant=refused)
+    assert read["settings"]["reference_mm"] == [10.0, 50.0]
+    assert read["settings"]["fwhm_mm"] is None
+    (vessel,) = read["vessels"]
     graded = vessel["stenosis"]
     assert graded["method"] == "nascet"
     assert graded["percent"] == marked.stenosis.percent

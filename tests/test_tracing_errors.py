@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lumencut import Tracer, TracingError, Volume, VolumeError, trace
-from trace_scenes import BONE, FAT, LUMEN, Scene, arc, beside, room
+from trace_scenes import BONE, FAT, LUMEN, Scene, arc, away, beside, room
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +49,58 @@ def test_a_click_beside_the_lumen_is_told_what_it_hit_and_where_lumen_is(scene, 
     place = np.array([float(x) for x in nearest[1].split(",")])
     assert volume.sample([place])[0] > 200
     assert np.linalg.norm(place - click) == pytest.approx(float(nearest[2]), abs=0.15)
+
+
+@pytest.fixture(scope="module")
+def without_air():
+    """A vessel beside muscle, an air bubble, a bone and weakly enhanced tissue; no voxels of fat around."""
+    line = arc(60)
+    made = Scene(room(line, 0.6, 18), (0.6,) * 3)
+    for angle, value in ((0.5, 80.0), (1.75, 0.0), (3.0, 1600.0), (4.5, 110.0)):
+        made.paint(beside(line, 8.0, angle, 20, 40), 3.0, value)
+    made.paint(line, 2.5, LUMEN)
+    return line, made.volume(2)
+
+
+@pytest.mark.parametrize(
+    ("angle", "words"), [(0.5, "tissue"), (1.75, "tissue"), (3.0, "bone"), (4.5, "tissue")]
+)
+@pytest.mark.parametrize("before", [1, 2])
+def test_of_clicks_unlike_each_other_the_one_that_is_no_lumen_is_named(without_air, angle, words, before):
+    line, volume = without_air
+    click = beside(line, 8.0, angle, 29, 31)[2]
+    with pytest.raises(TracingError, match=words) as raised:
+        trace(volume, [*line[[5, 60][:before]], click])
+    assert f"point ({click[0]:.1f}, {click[1]:.1f}, {click[2]:.1f}) mm: found" in str(raised.value)
+
+
+@pytest.mark.parametrize("angle", [0.5, 1.75, 4.5])
+def test_a_first_click_that_is_no_brighter_than_what_is_around_is_named(without_air, angle):
+    line, volume = without_air
+    click = beside(line, 8.0, angle, 29, 31)[2]
+    with pytest.raises(TracingError) as raised:
+        trace(volume, [click, line[-6], line[60]])
+    assert f"point ({click[0]:.1f}, {click[1]:.1f}, {click[2]:.1f}) mm: found" in str(raised.value)
+
+
+def test_a_click_that_was_refused_does_not_mislead_the_next_ones(without_air):
+    line, volume = without_air
+    tracer = Tracer(volume)
+    tracer.add(line[5])
+    tracer.add(beside(line, 8.0, 0.5, 29, 31)[2])
+    with pytest.raises(TracingError, match="tissue"):
+        _ = tracer.tree
+    tracer.move(1, line[-6])
+    assert tracer.tree == trace(volume, [line[5], line[-6]])
+
+
+@pytest.mark.parametrize("end", [200.0, 150.0])
+def test_a_darker_click_is_accepted_where_contrast_fades(end):
+    line = arc(60)
+    made = Scene(room(line, 0.6, 18), (0.6,) * 3)
+    made.paint(line, 2.5, np.linspace(LUMEN, end, len(line)))
+    (vessel,) = trace(made.volume(2), [line[5], line[-6]])
+    assert away(vessel.points, line).max() < 0.3
 
 
 def test_vessels_that_do_not_meet_are_never_joined_by_a_straight_line(scene):

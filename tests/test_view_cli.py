@@ -149,6 +149,7 @@ def test_a_page_that_was_not_built_is_explained(run, built):
         (["{ct}", "--unit", "cm"], 2, "without CENTERLINES"),
         (["{empty}"], 1, "an empty file"),
         (["--demo", "{ct}"], 2, "expected one of them"),
+        (["{ct}", "--no-centerlines"], 2, "leave CENTERLINES out instead"),
         (["--port", "70000"], 2, "70000 is not in the range"),
     ],
 )
@@ -197,6 +198,8 @@ def test_the_demo_is_a_scene_too(run, monkeypatch):
     assert (header["states_spacing"], header["states_orientation"]) == (False, True)
     assert voxels == volume.array.tobytes()
     assert found[1].status == 200
+    assert run("--demo", "--no-centerlines").exit_code == 0
+    assert (found[2].status, found[3].status) == (200, 404)
 
 
 # How it ends

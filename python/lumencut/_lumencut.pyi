@@ -20,7 +20,7 @@ __all__ = [
     "DICOM_ATTRIBUTES",
     "LARGEST_EXTENT",
     "MEASURING_FLAGS",
-    "MEASURING_LEFT_OUT",
+    "MEASURING_NOTICE",
     "MILLIMETRES",
     "PAPER",
     "SETTINGS",
@@ -37,6 +37,7 @@ __all__ = [
     "Tracer",
     "__version__",
     "better_place",
+    "c_arm_words",
     "check_camera",
     "check_cr",
     "check_opacity",
@@ -52,8 +53,10 @@ __all__ = [
     "fits_nowhere",
     "fitted",
     "fitted_turn",
+    "flag_words",
     "frame_angles",
     "full_window",
+    "is_session_file",
     "judge_dicom",
     "levels",
     "make_phantom",
@@ -65,6 +68,10 @@ __all__ = [
     "picture",
     "placement",
     "positions",
+    "profile_json",
+    "profile_marks",
+    "profiles_csv",
+    "read_session_file",
     "rotated",
     "sample",
     "set_threads",
@@ -72,6 +79,7 @@ __all__ = [
     "threads",
     "trace_from",
     "trace_mask",
+    "vessels_json",
     "whole_window",
     "window_from_data",
     "write_centerlines",
@@ -119,7 +127,7 @@ VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
 MILLIMETRES: dict[Unit, float]
 SIGNS: dict[Coordinates, tuple[float, float, float]]
 MEASURING_FLAGS: list[tuple[str, int]]
-MEASURING_LEFT_OUT: int
+MEASURING_NOTICE: str
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 
@@ -183,6 +191,9 @@ class Profile:
     @property
     def flags(self) -> npt.NDArray[np.uint32]: ...
     @property
+    def counts(self) -> npt.NDArray[np.bool_]: ...
+    def nearest(self, at: float) -> int: ...
+    @property
     def center(self) -> npt.NDArray[np.float64]: ...
     @property
     def normal(self) -> npt.NDArray[np.float64]: ...
@@ -218,6 +229,7 @@ class Stenosis:
     def numbers(self) -> tuple[float, float, float, float, float]: ...
     @property
     def references(self) -> list[tuple[float, float]]: ...
+    def words(self) -> str: ...
     def group(self, vessel: str) -> str: ...
 
 @final
@@ -244,6 +256,7 @@ class Renderer:
 def better_place(
     points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64], volume: Any
 ) -> str | None: ...
+def c_arm_words(lao: float, cranial: float) -> str: ...
 def check_camera(camera: Any) -> list[list[float]]: ...
 def check_cr(radius_offset: float, arc_threshold: float) -> None: ...
 def check_opacity(transparent: float, opaque: float) -> None: ...
@@ -266,8 +279,10 @@ def fitted_turn(
     camera: Any, points: npt.NDArray[np.float64], degrees: float, axis: _Axis
 ) -> dict[str, Any]: ...
 def fits_nowhere(points: npt.NDArray[np.float64], volume: Any) -> bool: ...
+def flag_words(flags: int) -> list[str]: ...
 def frame_angles(frames: int, degrees: float) -> list[float]: ...
 def full_window(volume: Any) -> tuple[float, float]: ...
+def is_session_file(content: bytes) -> bool: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
 def measure(
     volume: Any, measured: _Arrays, step: float, fwhm: float | None = None, tree: list[_Arrays] | None = None
@@ -287,6 +302,12 @@ def placement(
     volume: Any,
 ) -> dict[str, Any]: ...
 def positions(camera: Any, depth: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]: ...
+def profile_json(profile: Profile) -> str: ...
+def profile_marks(
+    profile: Profile, at: float | None, references: Sequence[float]
+) -> list[tuple[str, float, float, bool]]: ...
+def profiles_csv(profiles: list[tuple[list[tuple[str, str]], Profile]]) -> str: ...
+def read_session_file(content: bytes, name: str) -> str: ...
 def rotated(camera: Any, angle: float, axis: _Axis) -> dict[str, Any]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
 def set_threads(count: int) -> None: ...
@@ -305,6 +326,10 @@ def trace_mask(
     lengths: tuple[float, float, float],
     told: Callable[[int, int], object] | None = None,
 ) -> _TracedMask: ...
+def vessels_json(
+    options: Mapping[str, Any],
+    measured: list[tuple[str, str | None, Profile, Stenosis | None, str | None]],
+) -> str: ...
 def whole_window(volume: Any) -> tuple[float, float]: ...
 def window_from_data(volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
 def write_centerlines(vessels: list[_WrittenArrays], kind: str) -> bytes: ...
@@ -315,8 +340,7 @@ class _TracedMask(TypedDict):
     gaps: list[
         tuple[float, tuple[int, int], tuple[tuple[float, float, float], tuple[float, float, float]], bool]
     ]
-    filled: tuple[int, int]
-    pieces: int
+    notes: list[str]
 
 class _Phantom(TypedDict):
     name: str

@@ -9,19 +9,14 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number
-from lumencut._wording import counted
 from lumencut.errors import SettingsError, VolumeError
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 
 #: Points of the result are at most so far apart (mm).
 _STEP = 0.5
-
-#: The corners of mask and volume may lie so far apart, in the smallest side of a voxel.
-_SAME_GRID = 0.1
 
 _LARGEST_LABEL = 2**53
 
@@ -95,8 +90,6 @@ def trace_mask(
         raise VolumeError("mask", f"voxels of type {grid.dtype}", "whole numbers", mend)
     names = _names(labels)
     shown = None if volume is None else as_volume(volume)
-    if shown is not None:
-        _check_grid(grid, shown)
     shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)
     listed = None if names is None else list(names)
     found = _lumencut.trace_mask(grid, shown, listed, (shortest, _STEP, widest), progress)
@@ -114,25 +107,8 @@ def trace_mask(
         for points, radius, confidence, label, bridged in found["vessels"]
     )
     tree._gaps = tuple(Gap(*parts) for parts in found["gaps"])
-    tree._notes = tuple(_notes(grid, shown, found, tree))
+    tree._notes = tuple(found["notes"])
     return tree
-
-
-def _notes(mask: Volume, shown: Volume | None, found: Mapping[str, Any], tree: VesselTree) -> Iterable[str]:
-    cavities, voxels = found["filled"]
-    if cavities:
-        holes = "1 cavity" if cavities == 1 else f"{cavities} cavities"
-        yield f"{holes} of {counted(voxels, 'voxel')} filled"
-    traced = len(tree.gaps) + 1
-    if found["pieces"] > traced:
-        left_out = found["pieces"] - traced
-        yield f"{counted(left_out, 'piece')} of the mask left out: nowhere longer than wide"
-    unseen = [vessel for vessel in tree if vessel.confidence is None]
-    if unseen:
-        some = "" if len(unseen) == len(tree) else f" of {counted(len(unseen), 'vessel')}"
-        why = "no grey values were used" if shown is None else "the volume tells no better there"
-        half = mask.spacing.max() / 2
-        yield f"middle and radius{some} are known to about half a voxel ({half:.2g} mm): {why}"
 
 
 def _names(labels: Any) -> dict[int, str | None] | None:
@@ -160,15 +136,3 @@ def _at_least_zero(name: str, value: Any) -> float:
     if not 0 <= checked < float("inf"):
         raise SettingsError(name, f"{checked:g}", "0 or more")
     return checked
-
-
-def _check_grid(mask: Volume, volume: Volume) -> None:
-    """Refuse a volume on another grid than the mask."""
-    if sorted(mask.size) != sorted(volume.size):
-        found, expected = (" × ".join(map(str, one.size)) for one in (mask, volume))
-        raise VolumeError("mask", f"{found} voxels", f"{expected} as the volume has", "resample the mask")
-    apart = np.linalg.norm(mask.corners[:, None] - volume.corners, axis=-1).min(axis=1).max()
-    if apart > _SAME_GRID * volume.spacing.min():
-        found = f"a grid whose corners lie up to {apart:.3g} mm from those of the volume"
-        expected = f"the same grid, to {_SAME_GRID} of a voxel"
-        raise VolumeError("mask", found, expected, "resample the mask onto the grid of the volume")

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from lumencut import _lumencut
 from lumencut.profile import Profile
-from lumencut.profile_files import record
 from lumencut.profile_sections import Mark, marks
 from lumencut.stenosis import METHODS, Method, Stenosis
 from lumencut.vessel import Vessel
@@ -106,29 +105,22 @@ class MeasuredVessel:
         group = [] if self.group is None else [f"group of the field: {self.group}"]
         return [str(self.stenosis), *group]
 
-    def record(self) -> dict[str, Any]:
-        """Return it as what JSON can hold."""
-        vessel = {"id": self.number, "name": self.vessel.name}
-        return {**vessel, **record(self.profile), "stenosis": _graded(self.stenosis, self.group)}
-
 
 def profiles_of(measured: Sequence[MeasuredVessel]) -> list[tuple[dict[str, str], Profile]]:
     """Return profiles with the columns that say in a table whose they are."""
     return [({"vessel": one.number, "name": one.vessel.name or ""}, one.profile) for one in measured]
 
 
-def _graded(stenosis: Stenosis | None, group: str | None) -> dict[str, Any] | None:
-    if stenosis is None:
-        return None
-    return {
-        "percent": stenosis.percent,
-        "method": stenosis.method,
-        "at_mm": stenosis.at,
-        "diameter_mm": stenosis.diameter,
-        "uncertainty_mm": stenosis.uncertainty if math.isfinite(stenosis.uncertainty) else None,
-        "reference_mm": stenosis.reference,
-        "references": [
-            {"arc_length_mm": at, "diameter_mm": diameter} for at, diameter in stenosis.references
-        ],
-        "group": group,
-    }
+def vessels_json(asked: Mapping[str, Any], measured: Sequence[MeasuredVessel]) -> str:
+    """Return vessels with their stenoses as JSON; `asked` are the options of ``lumencut measure`` by name."""
+    parts = [
+        (
+            one.number,
+            one.vessel.name,
+            one.profile._core,
+            None if one.stenosis is None else one.stenosis._graded,
+            one.group,
+        )
+        for one in measured
+    ]
+    return _lumencut.vessels_json(asked, parts)

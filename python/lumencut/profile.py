@@ -54,8 +54,7 @@ class CArm(NamedTuple):
 
     def __str__(self) -> str:
         """The angles as they stand on a C-arm."""
-        side, tilt = ("LAO" if self.lao >= 0 else "RAO", "CRAN" if self.cranial >= 0 else "CAUD")
-        return f"{side} {abs(self.lao.degrees):.0f}° {tilt} {abs(self.cranial.degrees):.0f}°"
+        return _lumencut.c_arm_words(self.lao, self.cranial)
 
 
 class Profile(ProfileOutputs):
@@ -216,7 +215,11 @@ class Profile(ProfileOutputs):
         return Stenosis(graded, method)
 
     def narrowest(self) -> Spot | None:
-        """Return where the vessel is narrowest, of the sections that count: a suggestion, not a finding."""
+        """Return where the vessel is narrowest, of the sections that count: a suggestion, not a finding.
+
+        Sections whose uncertainty is more than a third of their diameter are passed over unless all are so:
+        between the struts of a stent a fit can hold on to a gap that is no lumen.
+        """
         found = self._core.narrowest()
         return None if found is None else Spot(*found)
 
@@ -229,7 +232,8 @@ class Profile(ProfileOutputs):
         """Return places before and after an arc length (mm) that it could be compared with.
 
         Each is the nearest one, 3 to 50 mm away, whose walls are parallel over 5 mm and that is about as
-        wide as most of the vessel on its side; None where there is none. These are suggestions: a reader
+        wide as most of the vessel on its side; None where there is none. No branch lies between, unless both
+        sides would then have none. These are suggestions: a reader
         must look.
 
         Raises

@@ -37,9 +37,9 @@ class ProfileOutputs:
 
         Numbers have all their digits; what could not be measured is null.
         """
-        from lumencut.profile_files import json_text, record
+        from lumencut.profile_files import json_text
 
-        return json_text(record(self))
+        return json_text(self)
 
     def plot(self: Sections, axes: Axes | None = None) -> Axes:
         """Draw the diameter by arc length (mm) with its uncertainty, flags and suggested places.

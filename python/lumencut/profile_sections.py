@@ -1,4 +1,4 @@
-"""What files, plots and reports of a profile are made of: its columns, words of its flags, marked places."""
+"""What plots and reports of a profile are made of: words of its flags, and marked places."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ Floats = npt.NDArray[np.float64]
 
 
 class Sections(Protocol):
-    """The measured sections of a vessel: what :class:`lumencut.Profile` has of numbers."""
+    """The measured sections of a vessel: what :class:`lumencut.Profile` has of them for plots and files."""
+
+    _core: _lumencut.Profile
 
     def __len__(self) -> int: ...
 
@@ -33,66 +35,20 @@ class Sections(Protocol):
         """The longest diameter (mm), shape (n,)."""
 
     @property
-    def diameter_mean(self) -> Floats:
-        """The mean of both (mm), shape (n,)."""
-
-    @property
     def diameter_equivalent(self) -> Floats:
         """The diameter of a circle of the same area (mm), shape (n,)."""
-
-    @property
-    def area(self) -> Floats:
-        """The area (mm²), shape (n,)."""
 
     @property
     def uncertainty(self) -> Floats:
         """The standard deviation of the diameter (mm), shape (n,)."""
 
     @property
-    def inscribed_radius(self) -> Floats:
-        """The radius of the largest ball within (mm), shape (n,)."""
-
-    @property
-    def center(self) -> Floats:
-        """The middle (mm, LPS), shape (n, 3)."""
-
-    @property
-    def normal(self) -> Floats:
-        """The unit vector along the vessel, shape (n, 3)."""
-
-    @property
-    def levels(self) -> Floats:
-        """The levels of lumen and background, shape (n, 2)."""
-
-    @property
     def flags(self) -> npt.NDArray[np.uint32]:
         """Bits of :class:`lumencut.Flag`, shape (n,)."""
 
     @property
-    def noise(self) -> float:
-        """The standard deviation of a voxel."""
-
-    @property
     def fwhm(self) -> float:
         """The width of the point spread (mm)."""
-
-    @property
-    def fwhm_source(self) -> str:
-        """How that was found."""
-
-    def narrowest(self) -> tuple[float, float] | None:
-        """Return the narrowest place and its diameter (mm)."""
-
-    def widest(self) -> tuple[float, float] | None:
-        """Return the widest place and its longest diameter (mm)."""
-
-    def suggested_references(
-        self, at: float
-    ) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
-        """Return places before and after another one and their diameters (mm)."""
-
-    def diameter_at(self, at: float) -> tuple[float, float]:
-        """Return the diameter at a place and its standard deviation (mm)."""
 
 
 @dataclass(frozen=True)
@@ -126,42 +82,22 @@ class Mark:
 
 def counts(sections: Sections) -> npt.NDArray[np.bool_]:
     """Return which sections count for extrema, suggestions and references, shape (n,)."""
-    is_kept: npt.NDArray[np.bool_] = (sections.flags & _lumencut.MEASURING_LEFT_OUT) == 0
-    return is_kept & np.isfinite(sections.area)
+    return sections._core.counts
 
 
 def flag_words(flags: int) -> list[str]:
     """Return the names of flags as words, such as ``no edge``."""
-    return [word_of(flag) for flag in Flag if flags & flag]
+    return _lumencut.flag_words(flags)
 
 
 def word_of(flag: Flag) -> str:
     """Return the name of a flag as words."""
-    return str(flag.name).lower().replace("_", " ")
+    return ", ".join(flag_words(flag))
 
 
 def nearest(sections: Sections, at: float) -> int:
     """Return the number of the section that is nearest to an arc length (mm), the first of two."""
-    return int(np.argmin(np.abs(sections.arc_length - at)))
-
-
-def columns(sections: Sections) -> dict[str, Floats]:
-    """Return the numbers of sections by their names with units, each of shape (n,)."""
-    found = {
-        "arc_length_mm": sections.arc_length,
-        "diameter_equivalent_mm": sections.diameter_equivalent,
-        "uncertainty_mm": sections.uncertainty,
-        "diameter_min_mm": sections.diameter_min,
-        "diameter_max_mm": sections.diameter_max,
-        "diameter_mean_mm": sections.diameter_mean,
-        "area_mm2": sections.area,
-        "inscribed_radius_mm": sections.inscribed_radius,
-    }
-    for n, axis in enumerate("xyz"):
-        found[f"center_{axis}_lps_mm"] = sections.center[:, n]
-    for n, axis in enumerate("xyz"):
-        found[f"normal_{axis}_lps"] = sections.normal[:, n]
-    return found | {"lumen_level": sections.levels[:, 0], "background_level": sections.levels[:, 1]}
+    return sections._core.nearest(at)
 
 
 def marks(sections: Sections, at: float | None = None, references: Sequence[float] = ()) -> list[Mark]:
@@ -172,19 +108,5 @@ def marks(sections: Sections, at: float | None = None, references: Sequence[floa
     MeasuringError
         For a place beyond the vessel or where nothing was measured.
     """
-    found = []
-    if at is not None:
-        found.append(Mark("marked place", at, sections.diameter_at(at)[0], is_suggestion=False))
-    elif (narrowest := sections.narrowest()) is not None:
-        place = narrowest[0]
-        found.append(Mark("narrowest place", place, sections.diameter_at(place)[0], is_suggestion=True))
-    found += [
-        Mark("reference", place, sections.diameter_at(place)[0], is_suggestion=False) for place in references
-    ]
-    if found and not references:
-        spots = [spot for spot in sections.suggested_references(found[0].arc_length) if spot is not None]
-        # The diameter there, as of the others; references of a stenosis are medians around their place.
-        found += [
-            Mark("reference", place, sections.diameter_at(place)[0], is_suggestion=True) for place, _ in spots
-        ]
-    return found
+    found = _lumencut.profile_marks(sections._core, at, list(references))
+    return [Mark(name, place, diameter, is_suggestion) for name, place, diameter, is_suggestion in found]

@@ -81,15 +81,7 @@ class Stenosis:
 
     def __str__(self) -> str:
         """One line with method, mm and both diameters."""
-        what = "of the area" if self.method == "area" else "of the diameter"
-        against = "assumed original" if self.method == "ecst" else "reference"
-        places = ", ".join(f"{at:.1f} mm" for at, _ in self.references)
-        where = f" at {places}" if places and self.method != "ecst" else ""
-        return (
-            f"{self.percent:.0f} % {what} ({self.method.upper() if self.method != 'area' else 'area'}): "
-            f"{self.diameter:.2f} ± {self.uncertainty:.2f} mm at {self.at:.1f} mm, "
-            f"{against} {self.reference:.2f} mm{where}"
-        )
+        return self._graded.words()
 
     def __repr__(self) -> str:
         return f"Stenosis({self})"

@@ -15,7 +15,7 @@ test('centerlines whose space nothing tells are read as the user says', async ({
   await alert.getByRole('button', { name: 'Read as RAS' }).click();
   await expect(alert).toBeHidden();
   await viewer.rest();
-  await expect(viewer.readOut).toContainText('vessel 1 · 8.0 mm');
+  await expect(viewer.readOut).toContainText('vessel 2 · 8.0 mm');
   viewer.expectNoFault();
   await viewer.close();
 });

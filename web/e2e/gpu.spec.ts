@@ -1,8 +1,9 @@
 /** WebGPU: every shader compiles, the view is drawn, and a lost device is no loss. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { expect, test } from '@playwright/test';
-import { difference, isEmpty, OTHER_DEVICE_WITH_CONTEXT } from './compare';
+import { type Browser, expect, test } from '@playwright/test';
+import { difference, isEmpty, OTHER_DEVICE_WITH_CONTEXT, type Pixels } from './compare';
+import { button, startTracing, traced } from './controls';
 import { Viewer, viewFragment } from './page';
 
 const CRATES = join(import.meta.dirname, '../../crates');
@@ -98,4 +99,58 @@ test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', a
   await expect(viewer.problem).toHaveCount(0);
   viewer.expectNoFault();
   await viewer.close();
+});
+
+/** So few pixels that a GPU in software, too, has the time for all samples of each. */
+const FEW = [160, 120] as const;
+
+/** The view with all its samples, which is the same on every device. */
+async function complete(viewer: Viewer): Promise<Pixels> {
+  await viewer.rest();
+  await expect(viewer.pane().locator('canvas')).toHaveAttribute('data-stage', 'samples');
+  return viewer.pixels();
+}
+
+/** What a device shows of a junction: without vessels, with one that two clicks traced, and after that was undone. */
+async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixels, Pixels, Pixels]> {
+  const viewport = { width: 1100, height: 720 };
+  const viewer = await Viewer.open(browser, `?phantom=y_junction&device=${device}`, { viewport });
+  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU');
+  await viewer.press('v');
+  await button(viewer, 'Delete all').click();
+  await expect(viewer.pane('straightened')).toContainText('once there is one');
+  await viewer.pin(FEW);
+  await viewer.drag([0.3, 0.4], [25, 15]);
+  const before = await complete(viewer);
+  await startTracing(viewer);
+  const [width, height] = await viewer.size('coronal');
+  for (const [across, down] of [
+    [0, 0.8],
+    [-0.19, 0.22],
+  ] as const) {
+    await viewer.click([Math.round(width / 2 + across * height), Math.round(down * height)], 'coronal');
+  }
+  await traced(viewer, 1);
+  await button(viewer, 'Done').click();
+  const after = await complete(viewer);
+  await viewer.screenshot(`traced-${device}`);
+  await viewer.press('Control+z');
+  await expect(viewer.pane('straightened')).toContainText('once there is one');
+  const undone = await complete(viewer);
+  viewer.expectNoFault();
+  await viewer.close();
+  return [before, after, undone];
+}
+
+test('a vessel that two clicks trace is cut open on the GPU as on the CPU', async ({ browser }) => {
+  test.setTimeout(120_000);
+  const onGpu = await tracedOn(browser, 'any');
+  const [before, after, undone] = onGpu;
+  expect(difference(after, before, OTHER_DEVICE_WITH_CONTEXT)).not.toBeNull();
+  expect(difference(undone, before, OTHER_DEVICE_WITH_CONTEXT)).toBeNull();
+  for (const [n, picture] of (await tracedOn(browser, 'cpu')).entries()) {
+    expect(isEmpty(picture)).toBe(false);
+    expect(difference(onGpu[n] ?? picture, picture, OTHER_DEVICE_WITH_CONTEXT)).toBeNull();
+  }
 });

@@ -1,10 +1,11 @@
 /** The page as a user sees it: what can be done with it, and what it shows. It notes everything that must not happen. */
 import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
-import type { Camera, Pair } from '../src/core/messages';
+import type { Measuring } from '../src/core/measuring';
+import type { Camera, Pair, Report } from '../src/core/messages';
 import { stateOf, type ViewState } from '../src/url/fragment';
 import type { Pixels } from './compare';
 
-export type PaneName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straightened' | 'section';
+export type PaneName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straightened' | 'section' | 'profile';
 
 /** Above this the page makes no picture with samples at rest (ms). */
 const NO_SAMPLES = 700;
@@ -14,6 +15,8 @@ const WRITTEN = 400;
 interface TestHook {
   loseDevice(): Promise<void>;
   memory(): Promise<number>;
+  report(): Promise<Report>;
+  readonly measuring: Measuring;
 }
 
 export class Viewer {
@@ -235,6 +238,17 @@ export class Viewer {
   /** Bytes of the memory of the module. */
   memory(): Promise<number> {
     return this.page.evaluate(() => (window as unknown as { lumencutTest: TestHook }).lumencutTest.memory());
+  }
+
+  /** What is open. */
+  report(): Promise<Report> {
+    return this.page.evaluate(() => (window as unknown as { lumencutTest: TestHook }).lumencutTest.report());
+  }
+
+  /** Asks the measuring of the page; `ask` runs there, and sees nothing but what it is given. */
+  measuring<A, T>(ask: (measuring: Measuring, given: A) => Promise<T>, given: A): Promise<T> {
+    const run = `async (given) => (${ask})(window.lumencutTest.measuring, given)`;
+    return this.page.evaluate(`(${run})(${JSON.stringify(given)})`) as Promise<T>;
   }
 
   screenshot(name: string): Promise<Buffer> {

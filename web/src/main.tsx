@@ -1,11 +1,15 @@
 /** Starts the page: the engine, the keys, and what its address names. */
 import { render } from 'preact';
 import { engine } from './core/shared';
+import { followEdits } from './edit/following';
+import { followGuide } from './guide/steps';
 import { listenToKeys } from './input/keys';
 import { start } from './state/device';
 import { report } from './state/store';
 import { openAddresses, openPhantom } from './state/study';
 import './style/page.css';
+import './style/editing.css';
+import './style/measure.css';
 import { App } from './ui/App';
 import { followView, restore, stateOf } from './url/fragment';
 
@@ -40,6 +44,7 @@ async function begin(): Promise<void> {
     restore(state);
   }
   followView();
+  followGuide();
 }
 
 const root = document.getElementById('page');
@@ -47,10 +52,16 @@ if (root) {
   render(<App />, root);
 }
 listenToKeys();
+followEdits(engine.tracing);
 if (asked.has('test')) {
-  // What the tests of the page need and no user: the loss of a GPU, and the size of the memory.
+  // What the tests of the page need and no user: the loss of a GPU, the size of the memory, and measuring without its panel.
   Object.assign(window, {
-    lumencutTest: { loseDevice: () => engine.loseDevice(), memory: () => engine.memory() },
+    lumencutTest: {
+      loseDevice: () => engine.loseDevice(),
+      memory: () => engine.memory(),
+      report: () => engine.report(),
+      measuring: engine.measuring,
+    },
   });
 }
 void begin();

@@ -13,7 +13,7 @@ test('no two rows stand for one input', () => {
 });
 
 test('the help names each input of a part once, and says what it does', () => {
-  for (const where of ['turning', 'flat', 'everywhere'] as const) {
+  for (const where of ['turning', 'flat', 'everywhere', 'tracing', 'marks'] as const) {
     const names = BINDINGS.filter((row) => row.where === where).map(inputName);
     expect(new Set(names).size).toBe(names.length);
     expect(names.every((name) => name.length > 0)).toBe(true);
@@ -52,6 +52,19 @@ describe('the habits of the field', () => {
     expect(actionOf(where, gesture, null, modifier)).toBe(action);
   });
 
+  test.each([
+    ['click', null, 'set point'],
+    ['double click', null, 'end vessel'],
+    ['click', 'right', 'add point'],
+  ] as const)('while tracing %s with %s does: %s', (gesture, button, action) => {
+    expect(actionOf('tracing', gesture, button, '')).toBe(action);
+  });
+
+  test('while tracing all else is done as in the view', () => {
+    expect(actionOf('tracing', 'wheel', null, '')).toBeNull();
+    expect(actionOf('tracing', 'drag', 'left', '')).toBeNull();
+  });
+
   test('an input without a row does nothing', () => {
     expect(actionOf('turning', 'drag', 'right', 'Alt')).toBeNull();
     expect(actionOfKey('q')).toBeNull();
@@ -80,6 +93,29 @@ describe('keys', () => {
     expect(actionOfKey(key)).toBe(action);
   });
 
+  test.each([
+    ['t', '', 'trace'],
+    ['b', '', 'branches'],
+    ['v', '', 'vessels'],
+    ['Enter', '', 'enter'],
+    ['Delete', '', 'remove point'],
+    ['z', 'Ctrl', 'undo'],
+    ['Z', 'Ctrl', 'redo'],
+    ['y', 'Ctrl', 'redo'],
+    ['s', 'Ctrl', 'save session'],
+    ['S', 'Ctrl', 'save report'],
+    ['s', '', 'silhouettes'],
+  ] as const)('%s with %j does: %s', (key, modifier, action) => {
+    expect(actionOfKey(key, modifier)).toBe(action);
+  });
+
+  test('with Ctrl stand for nothing else, so that the browser has its own', () => {
+    expect(actionOfKey('z')).toBeNull();
+    for (const key of ['a', 'p', 'r', 't', 'c', '1', ' ', 'Enter']) {
+      expect(actionOfKey(key, 'Ctrl')).toBeNull();
+    }
+  });
+
   test('1 to 6 are the presets, of which one is for CT angiography', () => {
     expect(PRESETS).toHaveLength(6);
     PRESETS.forEach((_, n) => {
@@ -93,5 +129,7 @@ describe('keys', () => {
     expect(nameOf('R')).toEqual(['Shift+r']);
     expect(nameOf(' ')).toEqual(['Space']);
     expect(nameOf('Escape')).toEqual(['Escape']);
+    expect(nameOf('z')).toEqual(['Ctrl+z']);
+    expect(nameOf('Z')).toEqual(['Ctrl+Shift+z']);
   });
 });

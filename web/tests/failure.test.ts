@@ -14,6 +14,16 @@ test('a failure survives the way between worker and page', () => {
   expect(Failure.of(FAILURE)).toBe(FAILURE);
 });
 
+test('the place of a failure and the value there survive it too', () => {
+  const failure = new Failure('tracing', 'points', 'no lumen', 'lumen', '', {
+    place: [1, -2, 3.5],
+    value: 0,
+  });
+  expect(Failure.of(failure.text)).toEqual(failure);
+  expect([failure.place, failure.value]).toEqual([[1, -2, 3.5], 0]);
+  expect([FAILURE.place, FAILURE.value]).toEqual([null, null]);
+});
+
 test.each([new Error('out of paper'), 'text', 7, null, undefined, '{"kind":1}', '[]', {}])(
   'anything else that is thrown is unexpected, in its own words: %o',
   (thrown) => {

@@ -37,8 +37,8 @@ beforeEach(() => {
   store.report.value = {
     volume: null,
     vessels: [
-      { name: 'left renal', length: 80, has_radius: true },
-      { name: 'aorta', length: 300, has_radius: true },
+      { line: 0, name: 'left renal', length: 80, has_radius: true },
+      { line: 1, name: 'aorta', length: 300, has_radius: true },
     ],
     windows: null,
   };

@@ -188,6 +188,39 @@ describe('while something changes', () => {
   });
 });
 
+describe('a view that gives way', () => {
+  test('at rest is tried again after a pause that doubles each time', async () => {
+    const { engine, loop } = loopOf(({ settings }) => (settings.context_preview ? 20 : 500));
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(200);
+    const asked: number[] = [];
+    for (let n = 0; n < 3; n++) {
+      engine.stop();
+      const [from, before] = [Date.now(), engine.asked.length];
+      while (engine.asked.length === before) {
+        await vi.advanceTimersByTimeAsync(1);
+      }
+      asked.push(Date.now() - from);
+    }
+    expect(asked).toEqual([80, 160, 320]);
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(stages()).toEqual(['moving', 'full', 'samples']);
+    expect(failures).toEqual([]);
+  });
+
+  test('while something changes is tried again at once, with fewer pixels', async () => {
+    const { engine, loop } = loopOf((view) => (4000 * pixels(view)) / pixels(VIEW));
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(100);
+    engine.stop();
+    await vi.advanceTimersByTimeAsync(1);
+    expect(engine.asked.map(({ camera }) => camera.size)).toEqual([
+      [400, 300],
+      [200, 150],
+    ]);
+  });
+});
+
 describe('failures', () => {
   test('are told once, and the next view is tried again', async () => {
     let isBroken = true;

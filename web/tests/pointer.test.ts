@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
+import type { Where } from '../src/input/bindings';
 import { type Handlers, listen } from '../src/input/pointer';
 
 /** An element with its top left at (100, 50), and what its handlers were called with. */
@@ -255,5 +256,48 @@ describe('wheel', () => {
     expect(handlers.scroll.mock.calls.flat()).toEqual([1, -2, 1]);
     wheel(-50, { ctrlKey: true });
     expect(handlers.zoom).toHaveBeenCalledOnce();
+  });
+});
+
+describe('while a tool is in use', () => {
+  let rows: Where | null = 'tracing';
+  const withTool = { ...handlers, rows: () => rows };
+
+  beforeEach(() => {
+    rows = 'tracing';
+    stop();
+    stop = listen(pane as unknown as HTMLElement, 'flat', withTool);
+  });
+
+  const click = (button: number, timeStamp: number) => {
+    send('pointerdown', [10, 10], { button, timeStamp });
+    send('pointerup', [10, 10], { button, timeStamp });
+  };
+
+  test('a click sets a point, a second one at the same place ends the vessel', () => {
+    click(0, 100);
+    click(0, 200);
+    expect(handlers.click.mock.calls.map(([action]) => action)).toEqual(['set point', 'end vessel']);
+  });
+
+  test('a right click adds a point on a curve, and two of them are no double click', () => {
+    click(2, 100);
+    click(2, 200);
+    expect(handlers.click.mock.calls.map(([action]) => action)).toEqual(['add point', 'add point']);
+  });
+
+  test('a drag does what it does in the view', () => {
+    send('pointerdown', [10, 10]);
+    send('pointermove', [30, 10]);
+    send('pointerup', [30, 10]);
+    expect(handlers.drag.mock.calls.map(([action]) => action)).toEqual(['window']);
+    expect(handlers.click).not.toHaveBeenCalled();
+  });
+
+  test('afterwards clicks are those of the view again, and the right one is none', () => {
+    rows = null;
+    click(0, 100);
+    click(2, 900);
+    expect(handlers.click.mock.calls.map(([action]) => action)).toEqual(['pick']);
   });
 });

@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use glam::DVec3;
+
 /// The cause of an [`Error`]; each has its own exception class in Python.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorKind {
@@ -38,8 +40,17 @@ impl ErrorKind {
     ];
 }
 
+/// Where an error shows in the volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The place (mm, LPS).
+    pub point: DVec3,
+    /// What the volume has there; no number where it has none.
+    pub value: f64,
+}
+
 /// An error in one line: `subject: found …; expected …; mend`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     /// The cause.
     pub kind: ErrorKind,
@@ -51,6 +62,8 @@ pub struct Error {
     pub expected: String,
     /// What would mend it; empty where `expected` already says so.
     pub mend: String,
+    /// Where it shows in the volume: of a way without lumen the weakest place, of a point in no lumen that point.
+    pub place: Option<Box<Place>>,
 }
 
 impl Error {
@@ -67,6 +80,7 @@ impl Error {
             found: found.into(),
             expected: expected.into(),
             mend: String::new(),
+            place: None,
         }
     }
 
@@ -74,6 +88,13 @@ impl Error {
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
+        self
+    }
+
+    /// The same error with the place (mm, LPS) where it shows in the volume, and the value there.
+    #[must_use]
+    pub fn at(mut self, point: DVec3, value: f64) -> Self {
+        self.place = Some(Box::new(Place { point, value }));
         self
     }
 

@@ -69,7 +69,7 @@ fn tracing_errors() -> Vec<Error> {
     let voxels = [0i16; 27];
     let volume = Volume::new(Voxels::I16(&voxels), [3; 3], [1, 3, 9], DAffine3::IDENTITY).unwrap();
     let traced = |points: [DVec3; 2]| {
-        let clicks = Clicks { vessels: vec![points.to_vec()], stoppers: Vec::new(), bridge: false };
+        let clicks = Clicks { vessels: vec![points.to_vec()], ..Clicks::default() };
         Tracer::default().trace(&volume, &clicks, &|| false, None).unwrap_err()
     };
     vec![

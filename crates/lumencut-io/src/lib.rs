@@ -37,6 +37,7 @@ mod mrk_json;
 mod npy;
 mod poly_data;
 mod rotterdam;
+pub mod session_file;
 mod simvascular;
 mod swc;
 mod table;

@@ -73,7 +73,7 @@ impl Phantom {
         scene: &paint::Scene,
         vasculature: network::Vasculature,
     ) -> Result<Self> {
-        let voxels = paint::paint(grid, scene, &vasculature);
+        let voxels = paint::paint(grid, scene, &vasculature)?;
         let vessel_names = vasculature.vessels.iter().map(|v| v.name.clone()).collect();
         let reference_radius = vasculature.vessels.iter().map(|v| v.reference.clone()).collect();
         let vessel = |v: network::KnownVessel| Vessel::new(v.points, Some(v.lumen));

@@ -1,6 +1,7 @@
 //! Solids and vessels into voxels, slice by slice, each slice on its own thread.
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
+use lumencut_core::error::{Error, ErrorKind, Result};
 use rayon::prelude::*;
 
 use crate::lesion::Rod;
@@ -57,15 +58,26 @@ const FAR: f32 = 1e6;
 const SOFT_UNION: f32 = 3.0;
 
 /// Paints the scene; the outcome depends on nothing but the arguments.
-pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature) -> Vec<i16> {
+///
+/// # Errors
+/// [`ErrorKind::Volume`] where there is no memory for the voxels.
+pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature) -> Result<Vec<i16>> {
     let strokes = strokes(vasculature);
     let painter = Painter::new(grid, scene, &strokes);
-    let mut voxels = vec![0i16; grid.slice_length() * grid.size[2]];
+    let count = grid.slice_length() * grid.size[2];
+    let mut voxels = Vec::new();
+    if voxels.try_reserve_exact(count).is_err() {
+        let found = format!("{} MB of voxels", (2 * count).div_ceil(1_000_000));
+        let error =
+            Error::new(ErrorKind::Volume, "size of the phantom", found, "no more than there is memory for");
+        return Err(error.mend("make it at a smaller scale"));
+    }
+    voxels.resize(count, 0i16);
     voxels.par_chunks_mut(grid.slice_length()).enumerate().for_each_init(
         || Scratch::new(grid.slice_length()),
         |scratch, (k, slice)| painter.paint_slice(k, slice, scratch),
     );
-    voxels
+    Ok(voxels)
 }
 
 /// The buffers of one thread.

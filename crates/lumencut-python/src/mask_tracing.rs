@@ -2,6 +2,7 @@
 //! `lumencut.centerline_comparison`.
 
 use glam::DVec3;
+use lumencut::mask_notes::{check_same_grid, notes};
 use lumencut::progress::Progress;
 use lumencut::trace::correspondence::correspondence as connections;
 use lumencut::trace::grey_values::GreyValues;
@@ -61,6 +62,9 @@ pub fn trace_mask<'py>(
     let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
     let volume = volume.iter().zip(&borrowed).map(|(volume, borrowed)| volume.volume(borrowed)).next();
     let volume = volume.transpose()?;
+    if let Some(volume) = &volume {
+        check_same_grid(&mask, volume).map_err(to_python)?;
+    }
     let voxels = volume.as_ref().map(Voxels::new);
     let progress = Progress::default();
     let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
@@ -78,6 +82,7 @@ pub fn trace_mask<'py>(
     if let Some(watched) = watched {
         watched.tell(py, SHARES)?;
     }
+    let notes = notes(&traced, &mask, volume.is_some());
     let vessels = traced.vessels.into_iter().map(|vessel| -> TracedArrays<'py> {
         let points = Array2::from_shape_fn((vessel.points.len(), 3), |(n, axis)| vessel.points[n][axis]);
         let [radius, confidence] = [vessel.radius, vessel.confidence].map(|of| PyArray1::from_vec(py, of));
@@ -89,7 +94,6 @@ pub fn trace_mask<'py>(
     let all = PyDict::new(py);
     all.set_item("vessels", vessels.collect::<Vec<_>>())?;
     all.set_item("gaps", gaps.collect::<Vec<_>>())?;
-    all.set_item("filled", traced.filled)?;
-    all.set_item("pieces", traced.pieces)?;
+    all.set_item("notes", notes)?;
     Ok(all)
 }

@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 use lumencut::measure::cross_section::CrossSection;
-use lumencut::measure::flags::{FLAGS, LEFT_OUT};
+use lumencut::measure::flags::FLAGS;
 use lumencut::measure::groups::Territory;
 use lumencut::measure::measuring::{self, Request};
-use lumencut::measure::profile::{self, Source};
+use lumencut::measure::profile;
 use lumencut::measure::radii;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
+use lumencut::measure_words;
 use lumencut::settings::Named;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
@@ -19,9 +20,8 @@ use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 
-/// The flags of sections, for `lumencut.Flag`, and those whose sections do not count.
+/// The flags of sections, for `lumencut.Flag`.
 pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("MEASURING_LEFT_OUT", LEFT_OUT)?;
     module.add("MEASURING_FLAGS", FLAGS.to_vec())
 }
 
@@ -74,6 +74,17 @@ impl Profile {
     #[getter]
     fn flags<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u32>> {
         PyArray1::from_slice(py, &self.0.flags)
+    }
+
+    /// Which sections count for what is largest, narrowest or suggested, shape (n,).
+    #[getter]
+    fn counts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        PyArray1::from_iter(py, (0..self.0.len()).map(|n| self.0.counts(n)))
+    }
+
+    /// The number of the section that is nearest to an arc length (mm), the first of two.
+    fn nearest(&self, at: f64) -> usize {
+        self.0.nearest(at)
     }
 
     /// The middle of the lumen (mm, LPS), shape (n, 3).
@@ -176,18 +187,13 @@ impl Profile {
     /// The full width at half maximum of the point spread (mm), and where it is from.
     #[getter]
     fn fwhm(&self) -> (f64, String) {
-        let source = match &self.0.fwhm_source {
-            Source::Given => "given".to_owned(),
-            Source::Estimated { on } => format!("estimated on {on}"),
-            Source::Assumed { from } => format!("assumed: {from}"),
-        };
-        (self.0.fwhm, source)
+        (self.0.fwhm, measure_words::of_source(&self.0.fwhm_source))
     }
 }
 
 /// A graded stenosis.
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct Stenosis(stenosis::Stenosis);
+pub struct Stenosis(pub stenosis::Stenosis);
 
 #[pymethods]
 impl Stenosis {
@@ -201,6 +207,11 @@ impl Stenosis {
     #[getter]
     fn references(&self) -> Vec<(f64, f64)> {
         self.0.references.iter().map(|[at, diameter]| (*at, *diameter)).collect()
+    }
+
+    /// The whole in one line.
+    fn words(&self) -> String {
+        measure_words::of_stenosis(&self.0)
     }
 
     /// The group of the field and its source.

@@ -55,7 +55,7 @@ impl Tracer {
             .into_iter()
             .map(|(c, radius)| Stopper { center: DVec3::from_array(c), radius })
             .collect();
-        let clicks = Clicks { vessels, stoppers, bridge };
+        let clicks = Clicks { vessels, stoppers, bridge, beside: Vec::new() };
         let progress = Progress::default();
         let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
         let traced = interruptible(py, watched.as_ref(), |stop| {

@@ -1,7 +1,5 @@
 //! What the page's worker calls, and the turning view: on the canvas where a GPU computes, else as bytes.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use js_sys::{Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
 use lumencut::devices::{Choice, Wanted};
@@ -18,39 +16,39 @@ use crate::failure::{Failure, Result};
 use crate::planes::Plane;
 use crate::session::{Picture, Session};
 use crate::sides::CprMessage;
+use crate::stopping;
 use crate::view::{View, ViewMessage};
-
-/// Whether the work under way is to stop; the page sets the byte at [`Engine::stop_address`] where it shares the memory.
-static STOPPED: AtomicBool = AtomicBool::new(false);
 
 /// What computes, and the study that is open. All methods throw the JSON of an error.
 #[wasm_bindgen]
 pub struct Engine {
     backend: Backend,
     screen: Option<Screen>,
-    session: Session,
+    pub(crate) session: Session,
 }
 
-type Answer<T> = std::result::Result<T, JsValue>;
+/// What the page gets, or catches.
+pub(crate) type Answer<T> = std::result::Result<T, JsValue>;
 
 fn thrown(failure: &Failure) -> JsValue {
     JsValue::from_str(&serde_json::to_string(failure).unwrap_or_else(|error| error.to_string()))
 }
 
 /// What succeeded, or what is thrown.
-fn answer<T>(result: Result<T>) -> Answer<T> {
+pub(crate) fn answer<T>(result: Result<T>) -> Answer<T> {
     result.map_err(|failure| thrown(&failure))
 }
 
 /// What succeeded, as JSON.
-fn told<T: Serialize>(result: Result<T>) -> Answer<String> {
+pub(crate) fn told<T: Serialize>(result: Result<T>) -> Answer<String> {
     let text = result.and_then(|value| {
         serde_json::to_string(&value).map_err(|error| Failure::of_message("answer", &error, "JSON"))
     });
     answer(text)
 }
 
-fn read<'a, T: serde::Deserialize<'a>>(what: &str, text: &'a str) -> Result<T> {
+/// A message of the page.
+pub(crate) fn read<'a, T: serde::Deserialize<'a>>(what: &str, text: &'a str) -> Result<T> {
     serde_json::from_str(text).map_err(|error| Failure::of_message(what, &error, "JSON"))
 }
 
@@ -106,9 +104,10 @@ impl Engine {
         Ok(())
     }
 
-    /// Where in the memory of the module the byte lies that makes work stop, once it is not 0.
+    /// Where in the memory of the module the byte lies that makes work stop: a view by its bit 1, tracing and measuring by its
+    /// bit 2.
     pub fn stop_address() -> usize {
-        STOPPED.as_ptr() as usize
+        stopping::address()
     }
 
     /// The table of settings as JSON.
@@ -139,12 +138,12 @@ impl Engine {
         self.session.voxels_changed();
     }
 
-    /// Opens a phantom by its name.
+    /// Opens a phantom by its name, in `scale` times as many voxels along each axis where it has scales.
     ///
     /// # Errors
-    /// `settings` for another name.
-    pub fn open_phantom(&mut self, name: &str) -> Answer<()> {
-        answer(self.session.open_phantom(name))
+    /// `settings` for another name, `volume` where there is no memory for it.
+    pub fn open_phantom(&mut self, name: &str, scale: f64) -> Answer<()> {
+        answer(self.session.open_phantom(name, scale))
     }
 
     /// Opens centerlines; tells what was odd about them, as a list in JSON.
@@ -191,8 +190,8 @@ impl Engine {
         let View { camera, settings, method } = view;
         let scene = self.session.study.scene()?;
         let images = ImageSet::of(&[Image::Picture]);
-        STOPPED.store(false, Ordering::Relaxed);
-        let stop = || STOPPED.load(Ordering::Relaxed);
+        stopping::heard(stopping::VIEW);
+        let stop = || stopping::is_asked(stopping::VIEW);
         let request = Request { images, stop: &stop, ..Request::new(camera, settings) };
         match self.backend.draw(*method, &scene, &request, self.screen.as_mut()).await? {
             Drawn::OnScreen => Ok(None),

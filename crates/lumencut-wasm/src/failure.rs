@@ -17,6 +17,18 @@ pub struct Failure {
     pub expected: String,
     /// What would mend it; empty where `expected` already says so.
     pub mend: String,
+    /// Where it shows in the volume.
+    #[serde(flatten)]
+    pub seen: Option<Box<Seen>>,
+}
+
+/// Where an error shows in the volume.
+#[derive(Debug, Serialize)]
+pub struct Seen {
+    /// The place (mm, LPS).
+    pub place: [f64; 3],
+    /// What the volume has there; `null` where that is no number.
+    pub value: f64,
 }
 
 /// What the functions of this crate give.
@@ -31,7 +43,7 @@ impl Failure {
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        let Error { kind, subject, found, expected, mend } = error;
+        let Error { kind, subject, found, expected, mend, place } = error;
         let kind = match kind {
             ErrorKind::Volume => "volume",
             ErrorKind::VesselTree => "vessel tree",
@@ -42,13 +54,14 @@ impl From<Error> for Failure {
             ErrorKind::Measuring => "measuring",
             ErrorKind::Interrupted => "interrupted",
         };
-        Self { kind, subject, found, expected, mend }
+        let seen = place.map(|place| Box::new(Seen { place: place.point.to_array(), value: place.value }));
+        Self { kind, subject, found, expected, mend, seen }
     }
 }
 
 impl From<centerlines::Error> for Failure {
     fn from(error: centerlines::Error) -> Self {
         let centerlines::Error { subject, found, expected, mend, .. } = error;
-        Self { kind: "format", subject, found, expected, mend }
+        Self { kind: "format", subject, found, expected, mend, seen: None }
     }
 }

@@ -5,11 +5,14 @@ use lumencut::centerlines::{self, Space, Unit, junctions};
 use lumencut::extent::Extent;
 use lumencut::lumen_points::{Lines, lumen_count};
 use lumencut::placement::{Judge, Known, placement};
+use lumencut::scene::VolumeKey;
 use lumencut::vessel_tree::{Vessel, VesselTree};
 use lumencut::volume::Volume;
 use serde::Deserialize;
 
 use crate::failure::{Failure, Result};
+use crate::study::Held;
+use crate::voxels::Stored;
 
 /// What comes before the voxels of a volume.
 #[derive(Clone, Debug, Deserialize)]
@@ -33,13 +36,21 @@ impl VolumeHeader {
             .map_err(|error| Failure::of_message("header of the volume", &error, expected))
     }
 
-    /// The number of voxels, where it can be counted.
-    pub fn count(&self) -> Option<usize> {
-        self.size.iter().try_fold(1usize, |count, side| count.checked_mul(*side))
+    /// The volume of this header, its voxels all 0.
+    ///
+    /// # Errors
+    /// `volume` for more voxels than there is memory for, and for a grid that is none.
+    pub fn held(&self) -> Result<Held> {
+        let count = self.size.iter().map(|side| *side as f64).product();
+        let stored = Stored::zeros(&self.dtype, count)?;
+        let (size, world_from_index) = (self.size, self.affine());
+        let held = Held { stored, size, world_from_index, key: VolumeKey::default() };
+        held.volume()?;
+        Ok(held)
     }
 
     /// The grid's place.
-    pub fn affine(&self) -> DAffine3 {
+    fn affine(&self) -> DAffine3 {
         DAffine3::from_mat4(
             DMat4::from_cols_array_2d(&self.world_from_index.map(|row| DVec4::from(row).to_array()))
                 .transpose(),

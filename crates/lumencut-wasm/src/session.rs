@@ -9,21 +9,21 @@ use lumencut::pipeline::{self, CpuRenderer, Request};
 use lumencut::positions::world_from_pixel;
 use lumencut::settings::{Settings, Window};
 use lumencut::stages::{Image, ImageSet};
+use lumencut::trace::tracer::Tracer;
 use lumencut::vessel_tree::Vessel;
 use lumencut::views;
 use lumencut::windows;
 use lumencut::with_voxels;
-use lumencut_phantom::Phantom;
 use serde::Serialize;
 
 use crate::failure::{Failure, Result};
-use crate::files::{VolumeHeader, read_centerlines};
 use crate::histogram::Histogram;
+use crate::lines::Lines;
 use crate::planes::{Plane, across};
+use crate::profiles::Profiles;
 use crate::sides::{CprMessage, Laid};
 use crate::study::{Held, Study};
 use crate::view::{CameraMessage, View};
-use crate::voxels::Stored;
 
 /// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
 const AROUND: usize = 8;
@@ -58,78 +58,20 @@ pub struct Pick {
 pub struct Session {
     /// What is open.
     pub study: Study,
-    cpu: CpuRenderer,
-    laid: Option<Laid>,
+    pub(crate) cpu: CpuRenderer,
+    pub(crate) laid: Option<Laid>,
+    /// What was measured.
+    pub(crate) profiles: Profiles,
+    /// All lines of the study.
+    pub(crate) lines: Lines,
+    /// What is known of the volume from one tracing to the next, and the lines that it gave last.
+    pub(crate) tracer: Tracer,
+    pub(crate) traced: Vec<usize>,
+    /// A mask that is read to be traced.
+    pub(crate) mask: Option<Held>,
 }
 
 impl Session {
-    /// Makes room for a volume and puts it in the place of all that is open; its voxels follow as bytes.
-    ///
-    /// # Errors
-    /// `settings` for a header that is none, `volume` for more voxels than there is memory for and for a grid that is none.
-    pub fn begin_volume(&mut self, header: &str) -> Result<()> {
-        let header = VolumeHeader::read(header)?;
-        self.close();
-        let stored = Stored::zeros(&header.dtype, header.count().unwrap_or(usize::MAX))?;
-        let held =
-            Held { stored, size: header.size, world_from_index: header.affine(), key: Default::default() };
-        held.volume()?;
-        self.study.held = Some(held);
-        Ok(())
-    }
-
-    /// The bytes of the voxels from `offset` on, `count` of them, to be written.
-    ///
-    /// # Errors
-    /// `volume` where the volume ends before.
-    pub fn voxel_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
-        let bytes = self.study.held.as_mut().map_or(&mut [][..], |held| held.stored.bytes_mut());
-        let expected = format!("no more than the {} that the header tells of", bytes.len());
-        let end = offset.saturating_add(count);
-        bytes.get_mut(offset..end).ok_or_else(|| Failure {
-            kind: "volume",
-            ..Failure::of_message("bytes of the volume", &end, &expected)
-        })
-    }
-
-    /// What is known of the voxels no longer counts: some of them are others now.
-    pub fn voxels_changed(&mut self) {
-        if let Some(held) = &mut self.study.held {
-            held.key = Default::default();
-        }
-    }
-
-    /// Opens a phantom in the place of all that is open.
-    ///
-    /// # Errors
-    /// `settings` for another name.
-    pub fn open_phantom(&mut self, name: &str) -> Result<()> {
-        self.close();
-        let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name)?;
-        let stored = Stored::I16(voxels);
-        self.study.held = Some(Held { stored, size, world_from_index, key: Default::default() });
-        self.study.show_tree(Some((tree, vessel_names)));
-        Ok(())
-    }
-
-    /// Opens centerlines beside the volume, in the place of those before, in the space (`lps` or `ras`) that is named; tells what
-    /// was odd about them.
-    ///
-    /// # Errors
-    /// `format` for a file that is damaged or holds none; the tree before stays then.
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, space: Option<&str>) -> Result<Vec<String>> {
-        let volume = self.study.held.as_ref().map(Held::volume).transpose()?;
-        let read = read_centerlines(bytes, name, space, volume.as_ref())?;
-        self.laid = None;
-        self.study.show_tree(Some((read.tree, read.names)));
-        Ok(read.notes)
-    }
-
-    /// Closes what is open; its memory is free again.
-    pub fn close(&mut self) {
-        *self = Self::default();
-    }
-
     /// The camera of a named view that shows all of the study in `size` pixels.
     ///
     /// # Errors
@@ -262,7 +204,8 @@ fn shown_flat([level, width]: [f64; 2]) -> Result<(Camera, Settings)> {
     Ok((camera, Settings { window: Window { level, width }, context: None, ..Settings::default() }))
 }
 
-fn no_volume() -> Failure {
+/// The error for a question that only a volume answers.
+pub(crate) fn no_volume() -> Failure {
     Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
 }
 
@@ -279,19 +222,4 @@ fn nearest(vessel: &Vessel, point: DVec3) -> f64 {
         }
     }
     best.y
-}
-
-/// The phantom of this name, at its full size.
-fn phantom(name: &str) -> Result<Phantom> {
-    Ok(match name {
-        "aorta" => lumencut_phantom::aorta(0, 1.0)?,
-        "runoff" => lumencut_phantom::runoff(0, 1.0)?,
-        "cervical" => lumencut_phantom::cervical(0, 1.0)?,
-        "stenosis" => lumencut_phantom::stenosis(50.0)?,
-        "y_junction" => lumencut_phantom::y_junction()?,
-        other => {
-            let expected = "aorta, runoff, cervical, stenosis or y_junction";
-            return Err(Failure::of_message("name of the phantom", &other, expected));
-        }
-    })
 }

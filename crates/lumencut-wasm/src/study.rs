@@ -1,6 +1,6 @@
 //! The one study that is open: a volume, a tree, or both.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec3};
 use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
@@ -11,7 +11,7 @@ use lumencut::windows;
 use serde::Serialize;
 use serde_json::json;
 
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
 use crate::voxels::Stored;
 
 /// A volume that the page holds.
@@ -28,6 +28,20 @@ pub struct Held {
 }
 
 impl Held {
+    /// The bytes of its voxels from `offset` on, `count` of them, to be written.
+    ///
+    /// # Errors
+    /// `volume` where it ends before, and where there is none.
+    pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
+        let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
+        let expected = format!("no more than the {} that the header tells of", bytes.len());
+        let end = offset.saturating_add(count);
+        bytes.get_mut(offset..end).ok_or_else(|| Failure {
+            kind: "volume",
+            ..Failure::of_message("bytes of the volume", &end, &expected)
+        })
+    }
+
     /// The volume as the core borrows it.
     ///
     /// # Errors
@@ -43,13 +57,22 @@ impl Held {
     }
 }
 
-/// A tree with the names of its vessels.
+/// A tree with the names and the lines of its vessels.
 #[derive(Debug)]
 pub struct Named {
     /// The tree.
     pub leveled: Arc<LeveledTree>,
     /// One name for each vessel; empty where it has none.
     pub names: Vec<String>,
+    /// The number of the line of each vessel.
+    pub lines: Vec<usize>,
+}
+
+impl Named {
+    /// A tree of which nothing is known yet.
+    pub fn new(tree: VesselTree, names: Vec<String>, lines: Vec<usize>) -> Self {
+        Self { leveled: Arc::new(LeveledTree::new(tree)), names, lines }
+    }
 }
 
 /// What is open.
@@ -59,6 +82,8 @@ pub struct Study {
     pub held: Option<Held>,
     /// The tree.
     pub named: Option<Named>,
+    /// The windows of what was opened, once they were asked for.
+    windows: OnceLock<Option<Windows>>,
 }
 
 /// Level and width of a window, as the page has them.
@@ -92,16 +117,24 @@ impl Study {
         self.named.as_ref().map(|named| &named.leveled)
     }
 
-    /// Shows another tree, or none.
-    pub fn show_tree(&mut self, tree: Option<(VesselTree, Vec<String>)>) {
-        self.named = tree.map(|(tree, names)| Named { leveled: Arc::new(LeveledTree::new(tree)), names });
+    /// Takes the windows from the data anew when they are asked for.
+    pub fn forget_windows(&mut self) {
+        self.windows = OnceLock::new();
     }
 
-    /// The windows that the data suggest; none without a volume.
+    /// The windows that the data suggest, as they were when they were first asked for; none without a volume.
     ///
     /// # Errors
     /// `volume` for values beyond all windows.
     pub fn windows(&self) -> Result<Option<Windows>> {
+        if let Some(known) = self.windows.get() {
+            return Ok(*known);
+        }
+        let made = self.windows_of_data()?;
+        Ok(*self.windows.get_or_init(|| made))
+    }
+
+    fn windows_of_data(&self) -> Result<Option<Windows>> {
         let Some(held) = &self.held else { return Ok(None) };
         let volume = &held.volume()?;
         let (main, mip) = match self.tree() {
@@ -137,14 +170,14 @@ impl Study {
             let corners = held.volume().map(|volume| volume.corners().map(|corner| corner.to_array()));
             let side = held.volume().map(|volume| volume.smallest_side());
             let rows = glam::DMat4::from(held.world_from_index).transpose().to_cols_array_2d();
-            Ok::<_, crate::failure::Failure>(
+            Ok::<_, Failure>(
                 json!({"size": held.size, "world_from_index": rows, "corners": corners?, "smallest_side": side?}),
             )
         });
         let vessels = self.named.as_ref().map(|named| {
-            let vessels = named.leveled.tree().vessels().iter().zip(&named.names);
-            let about = vessels.map(|(vessel, name)| {
-                json!({"name": name, "length": vessel.arc_length().last(), "has_radius": vessel.radius().is_some()})
+            let vessels = named.leveled.tree().vessels().iter().zip(&named.names).zip(&named.lines);
+            let about = vessels.map(|((vessel, name), line)| {
+                json!({"line": line, "name": name, "length": vessel.arc_length().last(), "has_radius": vessel.radius().is_some()})
             });
             about.collect::<Vec<_>>()
         });

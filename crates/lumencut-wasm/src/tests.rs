@@ -13,7 +13,7 @@ use crate::view::ViewMessage;
 
 fn opened(phantom: &str) -> Session {
     let mut session = Session::default();
-    session.open_phantom(phantom).expect("a phantom");
+    session.open_phantom(phantom, 1.0).expect("a phantom");
     session
 }
 
@@ -149,7 +149,7 @@ fn messages_that_are_none_are_refused() {
     let session = opened("y_junction");
     let odd = ViewMessage { method: "xyz".into(), ..view(&session, [8, 8]) };
     assert_eq!(odd.view().expect_err("no method").subject, "method");
-    assert!(Session::default().open_phantom("heart").is_err());
+    assert!(Session::default().open_phantom("heart", 1.0).is_err());
 }
 
 #[test]
@@ -168,4 +168,23 @@ fn a_feature_aggregation_is_as_bright_as_its_circles() {
     let middle = own.size[0] / 2 + own.size[0] * (own.size[1] / 2);
     assert_eq!(least.bytes[4 * middle..][..4], own.bytes[4 * middle..][..4]);
     assert_eq!(most.bytes[4 * middle..][..4], own.bytes[4 * middle..][..4]);
+}
+
+#[test]
+fn a_phantom_can_have_fewer_voxels() {
+    let mut session = Session::default();
+    session.open_phantom("aorta", 0.1).expect("a phantom");
+    let report = session.study.report().expect("a report");
+    assert_eq!(report["volume"]["size"], json!([51, 51, 26]));
+    assert_eq!(session.open_phantom("aorta", 0.0).expect_err("no scale").kind, "settings");
+}
+
+#[test]
+fn where_memory_is_short_it_is_told_how_much_is_needed() {
+    let size = [40_000, 40_000, 4_000_000];
+    let header = json!({"size": size, "dtype": "float32", "world_from_index":
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]});
+    let failure = Session::default().begin_volume(&header.to_string()).expect_err("too much");
+    assert_eq!((failure.kind, failure.found.as_str()), ("volume", "25600000000 MB of voxels"));
+    assert!(failure.mend.contains("every_second=True"));
 }

@@ -1,5 +1,6 @@
 //! The voxels of the one volume that is open, in their own type. The page turns other types into one of these.
 
+use lumencut::error::{Error, ErrorKind};
 use lumencut::volume::Voxels;
 
 use crate::failure::{Failure, Result};
@@ -34,7 +35,7 @@ impl Stored {
     ///
     /// # Errors
     /// `volume` for another type, and where the browser has not enough memory.
-    pub fn zeros(dtype: &str, count: usize) -> Result<Self> {
+    pub fn zeros(dtype: &str, count: f64) -> Result<Self> {
         Ok(match dtype {
             "uint8" => Self::U8(room(count)?),
             "int16" => Self::I16(room(count)?),
@@ -66,18 +67,21 @@ impl Stored {
     }
 }
 
-fn room<T: Clone + Default>(count: usize) -> Result<Vec<T>> {
+/// What mends a volume for which there is no memory: the page offers it by the name of the wish.
+pub const COARSER: &str =
+    "close other pages, or take every second voxel along each axis (every_second=True), an eighth of them";
+
+fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {
     let mut voxels = Vec::new();
-    if voxels.try_reserve_exact(count).is_err() {
-        let megabytes = count.saturating_mul(size_of::<T>()).div_ceil(1_000_000);
-        return Err(Failure {
-            kind: "volume",
-            subject: "size of the volume".into(),
-            found: format!("{megabytes} MB of voxels"),
-            expected: "no more than this page can have in memory".into(),
-            mend: "close other pages, or open a part of the scan or a coarser one".into(),
-        });
+    // A count beyond all numbers of bytes becomes the largest one, for which there is no room either.
+    if voxels.try_reserve_exact(count as usize).is_err() {
+        let megabytes = (count * size_of::<T>() as f64 / 1e6).ceil();
+        let found = format!("{megabytes} MB of voxels");
+        let expected = "no more than this page can have in memory";
+        return Err(Error::new(ErrorKind::Volume, "size of the volume", found, expected)
+            .mend(COARSER)
+            .into());
     }
-    voxels.resize(count, T::default());
+    voxels.resize(count as usize, T::default());
     Ok(voxels)
 }

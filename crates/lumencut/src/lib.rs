@@ -1,6 +1,6 @@
 //! What every host of Lumencut shares, whether Python, a browser or a program in Rust: which device computes and
 //! what takes over where it fails, views fitted to a scene, windows from the data, the space and unit of centerlines,
-//! and the way from pixels to the world and back.
+//! the way from pixels to the world and back, and what measured vessels leave behind: words, tables and JSON.
 //!
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
@@ -11,12 +11,17 @@ pub mod extent;
 pub mod feature_aggregation;
 mod fused;
 pub mod lumen_points;
+pub mod mask_notes;
+pub mod measure_words;
 pub mod method;
 pub mod misplaced;
 pub mod placement;
 pub mod places;
 mod populations;
 pub mod positions;
+pub mod profile_marks;
+pub mod profile_record;
+pub mod profile_table;
 mod samples;
 mod text;
 pub mod turn;

@@ -28,6 +28,11 @@ pub fn rounded(number: f64, digits: usize) -> String {
     without_zeros(&format!("{number:.decimals$}")).to_owned()
 }
 
+/// A number with so many digits behind the point, such as `12.30`.
+pub fn fixed(number: f64, decimals: usize) -> String {
+    if number.is_finite() { format!("{number:.decimals$}") } else { special(number) }
+}
+
 fn special(number: f64) -> String {
     let name = match number {
         _ if number.is_nan() => "nan",
@@ -74,6 +79,15 @@ mod tests {
         ];
         for (number, text) in cases {
             assert_eq!(shortest(number), text);
+        }
+    }
+
+    #[test]
+    fn digits_behind_the_point_are_those_of_python() {
+        let cases =
+            [(2.5, 0, "2"), (49.5, 0, "50"), (0.125, 2, "0.12"), (-0.04, 1, "-0.0"), (f64::NAN, 2, "nan")];
+        for (number, decimals, text) in cases {
+            assert_eq!(fixed(number, decimals), text);
         }
     }
 

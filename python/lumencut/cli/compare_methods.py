@@ -9,7 +9,15 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.labels import check_labels, label_options, labels_of
-from lumencut.cli.like import camera_of, like_option, recipe_from, typed, views_of, warn_of_vessels
+from lumencut.cli.like import (
+    beside_session,
+    camera_of,
+    like_option,
+    recipe_from,
+    typed,
+    views_of,
+    warn_of_vessels,
+)
 from lumencut.cli.outputs import name_of, pictures
 from lumencut.cli.report import busy, detail, say, verbose_option
 from lumencut.cli.scene import (
@@ -72,6 +80,7 @@ def compare_methods(
     lumencut compare ct.nii.gz centerlines.vtp -o compare.png
     lumencut compare ct.nii.gz centerlines.vtp -o compare.png --view left --size 512x512 --radius-offset 20
     """  # noqa: D301 - click needs the control character itself
+    chosen = beside_session(chosen)
     recipe = recipe_from(chosen["like"])
     given = chosen if recipe is None else typed(chosen)
     settings = settings_from(given, None if recipe is None else recipe.settings)

@@ -13,7 +13,7 @@ from click.core import ParameterSource
 from lumencut._wording import counted
 from lumencut.cli import options
 from lumencut.cli.report import warn
-from lumencut.errors import CameraError
+from lumencut.errors import CameraError, FormatError
 
 if TYPE_CHECKING:
     from lumencut.camera import Camera
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 like_option = click.option(
     "--like",
     type=options.FILE,
-    metavar="PICTURE.png",
-    help="Render with the view, the settings and the labels of a .png that lumencut wrote. Options beside it "
+    metavar="PICTURE.png|SESSION.mrk.json",
+    help="Render with the view, the settings and the labels of a .png that lumencut wrote, or of a session "
+    "that the viewer saved, whose vessels are shown where no CENTERLINES are given. Options beside it "
     "come on top: --view and --up turn it, --rotate, --tilt and --zoom go on from it, --size keeps what is "
     "in view, --zoom-to fits it anew. The picture names no vessels: --vessel and --exclude are to be given "
     "again.",
@@ -38,8 +39,31 @@ def recipe_from(path: Path | None) -> Recipe | None:
     if path is None:
         return None
     from lumencut.recipe import read_recipe
+    from lumencut.session_file import is_session_file, read_session
 
-    return read_recipe(path)
+    if not is_session_file(path):
+        return read_recipe(path)
+    recipe = read_session(path).recipe
+    if recipe is None:
+        found = "a session without a view"
+        raise FormatError(str(path), found, "one that says how the scan is looked at", "name --view")
+    return recipe
+
+
+def beside_session(chosen: dict[str, Any]) -> dict[str, Any]:
+    """Return the options, with what a session of ``--like`` says of its vessels where they do not say it."""
+    from lumencut.session_file import is_session_file, read_session
+
+    like = chosen["like"]
+    if like is None or not is_session_file(like):
+        return chosen
+    session, found = read_session(like), dict(chosen)
+    if not found["centerlines"] and not found.get("seed") and session.marks:
+        found["centerlines"] = (like,)
+    is_own = len(found["centerlines"]) == 1 and found["centerlines"][0].resolve() == like.resolve()
+    if is_own and session.hidden and not found["vessel"] and not found["exclude"]:
+        found["exclude"] = tuple(map(str, session.hidden))
+    return found
 
 
 def typed(chosen: dict[str, Any]) -> dict[str, Any]:

@@ -100,7 +100,8 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     """Measure the lumen of the vessels of CENTERLINES in VOLUME, in sections across them.
 
     All vessels are measured unless --vessel, --exclude or --path choose among them. Nothing is called a
-    stenosis unless --at marks it; the narrowest place and references are suggestions to look at. A lumen
+    stenosis unless --at marks it, or a reader did in the session file that stands for CENTERLINES; the
+    narrowest place and references are suggestions to look at. A lumen
     is not the vessel: thrombus and plaque are not lumen. --plot and --report need matplotlib.
 
     \b
@@ -159,17 +160,28 @@ def _measured(
     from lumencut.measuring import measure as library
 
     found, marked = [], _marked(chosen)
+    marks_of = _session_marks(chosen)
     with bar("measuring", "vessel") as told:
         for number, (ids, vessel) in enumerate(vessels, 1):
             try:
                 profile = library(voxels, vessel, chosen["step"], chosen["fwhm"], tree=tree)
-                found.append(MeasuredVessel.of(ids, vessel, profile, marked))
+                found.append(MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked)))
             except MeasuringError as error:
                 if number == len(vessels) and not found:
                     raise
                 warn(f"vessel {ids} is not measured: {error}")
             told(number, len(vessels))
     return found
+
+
+def _session_marks(chosen: dict[str, Any]) -> dict[str, Marked]:
+    """What was marked in the viewer, by the ids of vessels; nothing where options mark a place."""
+    from lumencut.session_file import is_session_file, read_session
+
+    files = chosen["centerlines"]
+    if chosen["at"] is not None or len(files) != 1 or not is_session_file(files[0]):
+        return {}
+    return {str(number): marked for number, marked in enumerate(read_session(files[0]).marks)}
 
 
 def _marked(chosen: dict[str, Any]) -> Marked:

@@ -96,14 +96,11 @@ def _check_twice(paths: Sequence[Path | None]) -> None:
 
 def _write_profiles(path: Path, measured: Sequence[MeasuredVessel], chosen: dict[str, Any]) -> None:
     from lumencut._files import write_text
-    from lumencut.measured_vessel import profiles_of
-    from lumencut.profile_files import csv_text, json_text
+    from lumencut.measured_vessel import profiles_of, vessels_json
+    from lumencut.profile_files import csv_text
 
-    if path.suffix.lower() == ".csv":
-        text = csv_text(profiles_of(measured))
-    else:
-        asked = {f"{name}{'_mm' if unit else ''}": chosen[name] for name, unit in _ASKED.items()}
-        text = json_text({"settings": asked, "vessels": [one.record() for one in measured]})
+    is_table = path.suffix.lower() == ".csv"
+    text = csv_text(profiles_of(measured)) if is_table else vessels_json(chosen, measured)
     write_text(path, text)
     count = "1 vessel" if len(measured) == 1 else f"{len(measured)} vessels"
     say(f"{path}: {count}, {sum(len(one.profile) for one in measured)} sections")

@@ -9,7 +9,15 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.labels import check_labels, label_options, labels_of
-from lumencut.cli.like import camera_of, like_option, recipe_from, typed, views_of, warn_of_vessels
+from lumencut.cli.like import (
+    beside_session,
+    camera_of,
+    like_option,
+    recipe_from,
+    typed,
+    views_of,
+    warn_of_vessels,
+)
 from lumencut.cli.outputs import name_of, pictures
 from lumencut.cli.report import bar, busy, detail, say, timings, verbose_option
 from lumencut.cli.scene import (
@@ -65,6 +73,7 @@ def render(
     lumencut render later.nii.gz lines.vtp -o later.png --like oblique.png
     lumencut render ct.nii.gz -o body.png --context dvr --context-transfer soft-tissue
     """  # noqa: D301 - click needs the control character itself
+    chosen = beside_session(chosen)
     recipe = recipe_from(chosen["like"])
     given = chosen if recipe is None else typed(chosen)
     settings = settings_from(given, None if recipe is None else recipe.settings)

@@ -27,6 +27,11 @@ if TYPE_CHECKING:
 @click.argument("volume", type=options.FILE, required=False)
 @click.argument("centerlines", type=options.FILE, nargs=-1)
 @click.option("--demo", "is_demo", is_flag=True, help="Show the CT of lumencut demo.")
+@click.option(
+    "--no-centerlines",
+    is_flag=True,
+    help="With --demo: show the CT alone, to trace its vessels in the page.",
+)
 @options.file_options
 @click.option(
     "--port",
@@ -42,6 +47,7 @@ def view(
     volume: Path | None,
     centerlines: tuple[Path, ...],
     is_demo: bool,
+    no_centerlines: bool,
     port: int,
     no_browser: bool,
     **chosen: Any,
@@ -58,11 +64,14 @@ def view(
     \b
     lumencut view ct.nii.gz centerlines.vtp
     lumencut view --demo
+    lumencut view --demo --no-centerlines
     lumencut view dicom/ --series 4
     lumencut view ct.nrrd LAD.mrk.json LCX.mrk.json --port 8765 --no-browser
     """  # noqa: D301 - click needs the control character itself
     if is_demo and volume is not None:
         raise click.UsageError(f"found --demo and {volume}; expected one of them: --demo has its own scan")
+    if no_centerlines and not is_demo:
+        raise click.UsageError("--no-centerlines without --demo does nothing; leave CENTERLINES out instead")
     check_files(volume, centerlines)
     volumes = [] if volume is None else [volume]
     check_reading(chosen, volumes, has_centerlines=bool(centerlines))
@@ -70,7 +79,7 @@ def view(
     from lumencut.viewer.server import ViewerServer
 
     built = page.Page.of(page.FOLDER)
-    scene = _demo() if is_demo else None
+    scene = _demo(has_centerlines=not no_centerlines) if is_demo else None
     if volume is not None:
         scene = _scene(volume, centerlines, chosen)
     with ViewerServer(built, scene, port) as server:
@@ -91,13 +100,14 @@ def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) 
     return ArrivingScene(file, lambda voxels: _tree(lines, voxels, chosen))
 
 
-def _demo() -> ArrivingScene:
+def _demo(*, has_centerlines: bool) -> ArrivingScene:
     """The scene of the demo, which is in memory."""
     from lumencut.viewer.arriving import ArrivingScene
     from lumencut.volume_files.opened import held_in_memory
 
     volume, tree, _ = demo_scene()
-    return ArrivingScene(held_in_memory(volume, "demo"), lambda _: tree)
+    file = held_in_memory(volume, "demo")
+    return ArrivingScene(file, lambda _: tree) if has_centerlines else ArrivingScene(file)
 
 
 def _opened(path: Path, chosen: dict[str, Any]) -> VolumeFile:

@@ -1,7 +1,8 @@
-"""Render the views of `views.json` with the Python package: what the page must show.
+"""Render the views of `views.json` and measure a phantom with the Python package: what the page must show.
 
 Run it from anywhere in an environment that holds the package. It writes two pictures for each view beside
-itself: with one sample for each pixel, and with two along each side.
+itself: with one sample for each pixel, and with two along each side. `measuring.json` and `measuring.csv`
+hold what is measured of the phantom `stenosis`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from PIL import Image
 
 import lumencut
 from lumencut import Camera, Settings, Window, phantom
+from lumencut.profile_files import csv_text
 
 HERE = Path(__file__).parent
 
@@ -32,8 +34,43 @@ def rendered(view: dict[str, Any], size: tuple[int, int], samples: int) -> Image
     return Image.fromarray(frame.image)
 
 
+def stretches() -> dict[str, Any]:
+    """What is measured of two quarters of a phantom's longest vessel: around its middle, and the first."""
+    scene = phantom.aorta()
+    longest = max(scene.tree, key=lambda vessel: vessel.length)
+    profile = lumencut.measure(scene.volume, longest, tree=scene.tree)
+    length = float(profile.arc_length[-1])
+    middle, first = (3 / 8 * length, 5 / 8 * length), (0.0, length / 4)
+    along = profile.stretch(*middle)
+    return {
+        "stretch": [along.length, along.straight, along.tortuosity],
+        "c_arm": str(profile.c_arm(*middle)),
+        "degrees": profile.angle_between(middle, first).degrees,
+    }
+
+
+def measured() -> None:
+    """Write what is measured of the phantom with a narrowing of 50 %."""
+    scene = phantom.stenosis()
+    vessel = scene.tree[0]
+    profile = lumencut.measure(scene.volume, vessel, tree=scene.tree)
+    told = {
+        "nascet": str(profile.stenosis(30.0, (10.0, 50.0))),
+        "ecst": str(profile.stenosis(30.0, None, "ecst", 9.0)),
+        "area": str(profile.stenosis(30.0, (10.0, 50.0), "area")),
+        "narrowest": profile.narrowest(),
+        "references": profile.suggested_references(profile.narrowest()[0]),
+        "widest": profile.widest(),
+        "aorta": stretches(),
+    }
+    (HERE / "measuring.json").write_text(json.dumps(told, indent=2) + "\n", "utf-8")
+    table = csv_text([({"vessel": "0", "name": vessel.name or ""}, profile)])
+    (HERE / "measuring.csv").write_text(table, "utf-8")
+
+
 def main() -> None:
-    """Write the pictures."""
+    """Write the pictures and the numbers."""
+    measured()
     table = json.loads((HERE / "views.json").read_text("utf-8"))
     for view in table["views"]:
         for samples in (1, 2):

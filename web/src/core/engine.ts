@@ -2,6 +2,8 @@
 import { proxy, type Remote, transfer, wrap } from 'comlink';
 import type { EngineHost } from '../worker/host';
 import { Failure } from './failure';
+import type { Measuring } from './measuring';
+import { MeasuringClient } from './measuring-client';
 import type {
   Camera,
   Cpr,
@@ -21,8 +23,19 @@ import type {
   View,
   Window,
 } from './messages';
+import { Precedence } from './precedence';
+import { SessionClient } from './session-client';
+import type { Sessions } from './session-file';
+import type { Tracing } from './tracing';
+import { TracingClient } from './tracing-client';
 
 export type Told = (progress: Progress) => void;
+
+/** Files of the same origin. */
+export interface Addresses {
+  readonly volume: string | null;
+  readonly centerlines: string | null;
+}
 
 export interface Opened {
   readonly report: Report;
@@ -31,15 +44,24 @@ export interface Opened {
   readonly states?: States;
 }
 
+/** Bits of the byte that stops work: a view gives way to whatever the user waits for, long work to `cancel` alone. */
+const STOP_VIEW = 1;
+const STOP_LONG = 2;
+
 export class EngineClient {
+  readonly tracing: Tracing;
+  readonly sessions: Sessions;
+  readonly measuring: Measuring;
   private readonly host: Remote<EngineHost>;
   private stopByte: Uint8Array | null = null;
-  /** Whether the picture under way only refines what is shown already. */
-  private isRefining = false;
+  private readonly precedence = new Precedence(() => this.stop());
 
   constructor() {
     const worker = new Worker(new URL('../worker/engine.worker.ts', import.meta.url), { type: 'module' });
     this.host = wrap<EngineHost>(worker);
+    this.tracing = new TracingClient(this.host.tracing, (answer) => this.first(answer));
+    this.sessions = new SessionClient(this.host.sessions, (answer) => this.first(answer));
+    this.measuring = new MeasuringClient(this.host.measuring, (answer) => this.first(answer));
   }
 
   async start(device: string): Promise<Started> {
@@ -50,8 +72,12 @@ export class EngineClient {
 
   /** Stops the view under way, where the memory is shared; elsewhere it goes on to its end. */
   stop(): void {
+    this.ask(STOP_VIEW);
+  }
+
+  private ask(bit: number): void {
     if (this.stopByte) {
-      Atomics.store(this.stopByte, 0, 1);
+      Atomics.or(this.stopByte, 0, bit);
     }
   }
 
@@ -71,12 +97,12 @@ export class EngineClient {
     return heard(this.host.drawOn(transfer(canvas, [canvas])));
   }
 
-  openPhantom(name: string): Promise<Report> {
-    return this.first(this.host.openPhantom(name));
+  openPhantom(name: string, wish: SeriesWish = {}): Promise<Report> {
+    return this.first(this.host.openPhantom(name, wish));
   }
 
-  openAddresses(volume: string | null, centerlines: string | null, told: Told): Promise<Opened> {
-    return this.first(this.host.openAddresses(volume, centerlines, proxy(told)));
+  openAddresses({ volume, centerlines }: Addresses, wish: SeriesWish, told: Told): Promise<Opened> {
+    return this.first(this.host.openAddresses(volume, centerlines, wish, proxy(told)));
   }
 
   openFiles(files: readonly GivenFile[], wish: SeriesWish, told: Told): Promise<Opened> {
@@ -88,7 +114,9 @@ export class EngineClient {
     return heard(this.host.whatIsOpen());
   }
 
+  /** Stops loading, tracing and measuring; the last two, once under way, only where the memory is shared. */
   cancel(): Promise<void> {
+    this.ask(STOP_LONG);
     return heard(this.host.cancel());
   }
 
@@ -100,21 +128,14 @@ export class EngineClient {
     return this.first(this.host.fitted(view, width, height));
   }
 
-  async render(view: View): Promise<Drawn> {
-    this.isRefining = Number(view.settings.samples ?? 1) > 1;
-    try {
-      return await heard(this.host.render(view));
-    } finally {
-      this.isRefining = false;
-    }
+  render(view: View): Promise<Drawn> {
+    const isRefining = view.settings.context_preview !== true;
+    return this.precedence.view(isRefining, heard(this.host.render(view)));
   }
 
-  /** What the user waits for comes before a refinement, which starts again afterwards. */
+  /** An answer that the user waits for. */
   private first<T>(answer: Promise<T>): Promise<T> {
-    if (this.isRefining) {
-      this.stop();
-    }
-    return heard(answer);
+    return this.precedence.first(heard(answer));
   }
 
   pick(view: View, [column, row]: Pair): Promise<Pick> {

@@ -1,3 +1,5 @@
+import type { Vector } from './messages';
+
 /** A DICOM series that can be chosen. */
 export interface SeriesChoice {
   readonly number: string;
@@ -12,20 +14,35 @@ export interface SeriesChoice {
   readonly trouble: string;
 }
 
+/** What only some errors tell beside their words. */
+interface More {
+  /** The DICOM series of which none was chosen. */
+  readonly series?: readonly SeriesChoice[];
+  /** Where it shows in the volume (mm, LPS), and what the volume has there. */
+  readonly place?: Vector;
+  readonly value?: number;
+}
+
 /** Errors in the words of the whole of Lumencut: what is wrong, what was found, what was expected, what mends it. */
 export class Failure extends Error {
+  readonly series: readonly SeriesChoice[];
+  readonly place: Vector | null;
+  readonly value: number | null;
+
   constructor(
     readonly kind: string,
     readonly subject: string,
     readonly found: string,
     readonly expected: string,
     readonly mend = '',
-    /** The DICOM series of which none was chosen. */
-    readonly series: readonly SeriesChoice[] = [],
+    { series = [], place, value }: More = {},
   ) {
     const words = [`${subject}: found ${found}`, `expected ${expected}`, mend];
     super(words.filter((part) => part !== '').join('; '));
     this.name = 'Failure';
+    this.series = series;
+    this.place = place ?? null;
+    this.value = value ?? null;
   }
 
   /** What was thrown as a failure: the JSON that the core throws, or any other error in its own words. */
@@ -36,8 +53,8 @@ export class Failure extends Error {
     const text = thrown instanceof Error ? thrown.message : String(thrown);
     const fields = parsed(text);
     if (fields) {
-      const { kind, subject, found, expected, mend, series } = fields;
-      return new Failure(kind, subject, found, expected, mend, series ?? []);
+      const { kind, subject, found, expected, mend } = fields;
+      return new Failure(kind, subject, found, expected, mend, fields);
     }
     return new Failure(
       'unexpected',
@@ -50,18 +67,18 @@ export class Failure extends Error {
 
   /** As a text that survives the way between worker and page; `of` reads it again. */
   get text(): string {
-    const { kind, subject, found, expected, mend, series } = this;
-    return JSON.stringify({ kind, subject, found, expected, mend, series });
+    const { kind, subject, found, expected, mend, series, place, value } = this;
+    const more: More = { series, ...(place && { place }), ...(value !== null && { value }) };
+    return JSON.stringify({ kind, subject, found, expected, mend, ...more });
   }
 }
 
-interface Fields {
+interface Fields extends More {
   kind: string;
   subject: string;
   found: string;
   expected: string;
   mend: string;
-  series?: readonly SeriesChoice[];
 }
 
 function parsed(text: string): Fields | null {

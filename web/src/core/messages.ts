@@ -82,7 +82,11 @@ export interface VolumeReport {
   readonly smallest_side: number;
 }
 
+/** The number of a line that the engine holds. A line never changes: every edit makes another one, so that undo shows the former. */
+export type LineId = number;
+
 export interface VesselReport {
+  readonly line: LineId;
   readonly name: string;
   /** mm */
   readonly length: number;
@@ -108,7 +112,7 @@ export interface GivenFile {
   readonly file: File;
 }
 
-/** How files are to be read, where that is not clear. */
+/** How a study is to be read, where that is not clear. */
 export interface SeriesWish {
   /** The number or UID of a series. */
   readonly series?: string;
@@ -116,6 +120,8 @@ export interface SeriesWish {
   readonly resample_slices?: boolean;
   /** The space of centerlines. */
   readonly coordinates?: 'lps' | 'ras';
+  /** Every second voxel along each axis alone: where there is no memory for all of them. */
+  readonly every_second?: boolean;
 }
 
 /** How many voxels are in each of equally wide bins between two values. */

@@ -1,6 +1,7 @@
 /** The one table of what mouse, touch and keys do. The views ask it, and the help is made from it. */
 
-export type Where = 'turning' | 'flat' | 'everywhere';
+/** A view, all of the page, any view while a tool is in use that sets points, or a marker that has the focus. */
+export type Where = 'turning' | 'flat' | 'everywhere' | 'tracing' | 'marks';
 export type Gesture =
   | 'drag'
   | 'wheel'
@@ -12,6 +13,8 @@ export type Gesture =
   | 'key';
 export type Button = 'left' | 'middle' | 'right';
 export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
+/** Edits of vessels, which `edit/performing.ts` does. */
+export type EditAction = 'trace' | 'branches' | 'vessels' | 'enter' | 'remove point' | 'undo' | 'redo';
 
 export type Action =
   | 'rotate'
@@ -28,9 +31,16 @@ export type Action =
   | 'invert'
   | 'context'
   | 'silhouettes'
+  | 'measure'
   | 'turn'
   | 'help'
   | 'pane'
+  | 'save session'
+  | 'save report'
+  | 'set point'
+  | 'end vessel'
+  | 'add point'
+  | EditAction
   | `view ${string}`
   | `preset ${number}`;
 
@@ -75,6 +85,11 @@ const key = (name: string, action: Action, words: string): Binding => ({
   words,
 });
 
+const withCtrl = (name: string, action: Action, words: string): Binding => ({
+  ...key(name, action, words),
+  modifier: 'Ctrl',
+});
+
 /** Keys of the view that has the focus, which it hears itself. */
 const pane = (where: Where, name: string, words: string): Binding => ({
   where,
@@ -102,6 +117,21 @@ export const BINDINGS: readonly Binding[] = [
   other('flat', 'wheel', '', 'scroll', 'scroll through the slices, or turn the straightened vessel'),
   other('flat', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
   other('flat', 'touch drag', '', 'scroll', 'scroll'),
+  other('tracing', 'click', '', 'set point', 'set a point of the vessel, or a stopper'),
+  other('tracing', 'double click', '', 'end vessel', 'end the vessel; on a curve add a point there'),
+  {
+    where: 'tracing',
+    gesture: 'click',
+    button: 'right',
+    action: 'add point',
+    words: 'add a point on a curve; remove a point',
+  },
+  pane('tracing', 'Drag a point', 'move it; arrow keys move the one that has the focus'),
+  pane('tracing', 'Arrows in a slice', 'move the cross-hair by a voxel, with Shift by ten'),
+  pane('tracing', 'Page up and down', 'scroll through the slices, with Shift by ten'),
+  key('Enter', 'enter', 'while tracing, set a point at the cross-hair; twice at one place ends the vessel'),
+  key('Delete', 'remove point', 'while tracing, remove the last point'),
+  key('Backspace', 'remove point', 'while tracing, remove the last point'),
   other('everywhere', 'two-finger drag', '', 'pan', 'pan'),
   other('everywhere', 'pinch', '', 'zoom', 'zoom'),
   other('everywhere', 'click', '', 'pick', 'put the cross-hair here'),
@@ -109,8 +139,12 @@ export const BINDINGS: readonly Binding[] = [
   pane('turning', 'Arrow keys', 'rotate; with Shift pan'),
   pane('turning', '+ and -', 'zoom'),
   pane('flat', 'Up and down', 'scroll'),
+  pane('flat', 'Page up and down', 'scroll by ten'),
   pane('flat', '+ and -', 'zoom'),
-  key('Escape', 'cancel', 'cancel what is under way, and show all views again'),
+  pane('marks', 'Arrow keys', 'move it along the vessel, with Shift ten times as far'),
+  pane('marks', 'Enter', 'confirm a suggested place'),
+  pane('marks', 'Delete', 'remove it; a right click does so too'),
+  key('Escape', 'cancel', 'cancel what is under way, end the vessel and the tool, show all views again'),
   key('a', 'view anterior', 'view from the front (anterior)'),
   key('p', 'view posterior', 'view from the back (posterior)'),
   key('l', 'view left', "view from the patient's left"),
@@ -127,7 +161,16 @@ export const BINDINGS: readonly Binding[] = [
   key('6', 'preset 5', 'window from the smallest to the largest value'),
   key('c', 'context', 'context on and off'),
   key('s', 'silhouettes', 'silhouettes on and off'),
+  key('m', 'measure', 'measure the picked vessel, or back to the layout before'),
   key(' ', 'turn', 'turn slowly, or stop'),
+  key('t', 'trace', 'trace vessels by clicks, or stop'),
+  key('b', 'branches', 'find all branches from the cross-hair'),
+  key('v', 'vessels', 'list of the vessels'),
+  withCtrl('z', 'undo', 'undo'),
+  withCtrl('Z', 'redo', 'redo'),
+  withCtrl('y', 'redo', 'redo'),
+  withCtrl('s', 'save session', 'save the session'),
+  withCtrl('S', 'save report', 'save the report of the picked vessel'),
   key('?', 'help', 'show these keys'),
 ];
 
@@ -147,20 +190,21 @@ export function actionOf(
 }
 
 /** What a key does; a capital without a row of its own does what the small letter does. */
-export function actionOfKey(name: string): Action | null {
-  const rowOf = (key: string) => BINDINGS.find((row) => row.gesture === 'key' && row.key === key);
+export function actionOfKey(name: string, modifier: Modifier = ''): Action | null {
+  const rowOf = (key: string) =>
+    BINDINGS.find((row) => row.gesture === 'key' && row.key === key && (row.modifier ?? '') === modifier);
   return (rowOf(name) ?? rowOf(name.toLowerCase()))?.action ?? null;
 }
 
 /** How a row's input is called in the help. */
 export function inputName(row: Binding): string {
-  if (row.gesture === 'key') {
-    return row.key === ' '
-      ? 'Space'
-      : row.key && row.key !== row.key.toLowerCase() && row.key.length === 1
-        ? `Shift+${row.key.toLowerCase()}`
-        : (row.key ?? '');
-  }
-  const parts = [row.modifier ?? '', row.button ? `${row.button} ${row.gesture}` : row.gesture];
-  return parts.filter((part) => part !== '').join('+');
+  const name = row.gesture === 'key' ? keyName(row.key ?? '') : buttonName(row);
+  return row.modifier ? `${row.modifier}+${name}` : name;
 }
+
+function keyName(key: string): string {
+  const isCapital = key.length === 1 && key !== key.toLowerCase();
+  return key === ' ' ? 'Space' : isCapital ? `Shift+${key.toLowerCase()}` : key;
+}
+
+const buttonName = ({ button, gesture }: Binding): string => (button ? `${button} ${gesture}` : gesture);

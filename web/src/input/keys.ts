@@ -1,20 +1,50 @@
 /** The keys of the page; those that are typed into a field belong to the field. */
 import { engine } from '../core/shared';
-import { perform } from '../state/actions';
-import { actionOfKey } from './bindings';
+import { isTracing } from '../edit/mode';
+import { performAny } from '../edit/performing';
+import { saveByKey } from '../output/by-key';
+import { layout } from '../state/store';
+import { type Action, actionOfKey } from './bindings';
+import { focusSoon } from './focus';
 
 export function listenToKeys(): void {
   window.addEventListener('keydown', (event) => {
-    const isTyped = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
-    const isButton =
-      event.target instanceof HTMLButtonElement && (event.key === ' ' || event.key === 'Enter');
-    if (event.ctrlKey || event.metaKey || event.altKey || isButton || (isTyped && event.key !== 'Escape')) {
+    const { target, key } = event;
+    const action = actionOfKey(key, event.ctrlKey || event.metaKey ? 'Ctrl' : '');
+    if (!action || event.altKey || isPress(target, key) || (isField(target) && !isOfAll(action))) {
       return;
     }
-    const action = actionOfKey(event.key);
-    if (action) {
-      event.preventDefault();
-      perform(engine, action);
+    event.preventDefault();
+    if (!saveByKey(action)) {
+      performAny(engine, action);
+      follow(action);
     }
   });
+}
+
+/** Keys that no field has a use for. */
+const isOfAll = (action: Action): boolean => ['cancel', 'save session', 'save report'].includes(action);
+
+/** The focus goes where the keys that follow are meant for. */
+function follow(action: Action): void {
+  if (action === 'trace' && isTracing()) {
+    focusSoon('[data-testid="coronal"]');
+  } else if (action === 'measure' && layout.value === 'measure') {
+    focusSoon('[data-testid="numbers"] button');
+  }
+}
+
+/** Whether a key presses what has the focus. */
+function isPress(target: EventTarget | null, key: string): boolean {
+  const isPressed =
+    target instanceof HTMLButtonElement ||
+    target instanceof HTMLInputElement ||
+    (target instanceof HTMLElement && target.tagName === 'SUMMARY');
+  return isPressed && (key === ' ' || key === 'Enter');
+}
+
+/** Whether keys are typed into what has the focus: it is no box that is only checked. */
+function isField(target: EventTarget | null): boolean {
+  const isBox = target instanceof HTMLInputElement && ['checkbox', 'radio'].includes(target.type);
+  return (target instanceof HTMLInputElement && !isBox) || target instanceof HTMLSelectElement;
 }

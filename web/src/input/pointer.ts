@@ -22,6 +22,8 @@ export interface Handlers {
   hover(at: readonly [number, number], shift: boolean): void;
   begin(): void;
   end(): void;
+  /** Further rows of the table that hold now, before those of the view. */
+  rows?(): Where | null;
   /** Escape while a drag is under way: all is as it was when it began. */
   putBack(): void;
 }
@@ -92,7 +94,13 @@ class Pointers {
     this.action = isTouch
       ? actionOf(this.where, 'touch drag', null, '')
       : actionOf(this.where, 'drag', button, modifierOf(event));
-    this.clickAction = button === 'left' ? actionOf(this.where, 'click', null, '') : null;
+    this.clickAction = this.clickedWith('click', button === 'left' ? null : button);
+  }
+
+  private clickedWith(gesture: 'click' | 'double click', button: Button | null): Action | null {
+    const rows = this.handlers.rows?.() ?? null;
+    const own = rows && actionOf(rows, gesture, button, '');
+    return own ?? actionOf(this.where, gesture, button, '');
   }
 
   private beginTwo(): void {
@@ -170,16 +178,16 @@ class Pointers {
       return;
     }
     if (this.clickAction) {
-      this.click(this.placeOf(event), event.timeStamp);
+      this.click(this.placeOf(event), event);
     }
   }
 
-  private click(at: Place, time: number): void {
+  private click(at: Place, { timeStamp: time, button }: PointerEvent): void {
     const last = this.lastClick;
     const isNear = Math.hypot(at[0] - last.at[0], at[1] - last.at[1]) <= DOUBLE_NEAR;
-    if (time - last.time < DOUBLE_WITHIN && isNear) {
+    if (time - last.time < DOUBLE_WITHIN && isNear && button === 0) {
       this.lastClick = { time: Number.NEGATIVE_INFINITY, at };
-      const action = actionOf(this.where, 'double click', null, '');
+      const action = this.clickedWith('double click', null);
       if (action) {
         this.handlers.click(action, at);
       }

@@ -27,10 +27,17 @@ const TRUSTED = 8;
 /** WebAssembly has no more memory than this. */
 const MEMORY = 2 ** 32;
 const LONGEST_WORD = 400;
+/** The words of the engine for the same trouble. */
+const COARSER = 'take every second voxel along each axis (every_second=True), an eighth of them';
+
+/** Voxels of which so many are to be kept. */
+interface Kept extends Place {
+  readonly share: number;
+}
 
 /** Refuses a size that the file does not fill, before the memory for it is taken. */
-export async function requireRoom(place: Place, needed: number, kind: Kind, steps: Steps): Promise<void> {
-  const { source, codec } = place;
+export async function requireRoom(place: Kept, needed: number, kind: Kind, steps: Steps): Promise<void> {
+  const { source, codec, share } = place;
   const held = Math.max(source.size - Math.max(place.start, 0), 0);
   if (codec === 'text') {
     const least = (2 * needed) / ARRAYS[kind].BYTES_PER_ELEMENT - 1;
@@ -40,9 +47,9 @@ export async function requireRoom(place: Place, needed: number, kind: Kind, step
   } else if (place.skip + needed > held * DEFLATE_LIMIT) {
     throw tooShort(source, `at most ${held * DEFLATE_LIMIT}`, place.skip + needed);
   }
-  if (needed > MEMORY) {
+  if (share * needed > MEMORY) {
     const found = `${needed} bytes of voxels as the header says`;
-    throw formatFailure(source.path, found, `at most the ${MEMORY} bytes that a page can hold`);
+    throw formatFailure(source.path, found, `at most the ${MEMORY} bytes that a page can hold`, COARSER);
   }
   if (codec === 'zlib' && place.skip + needed > TRUSTED * held) {
     await count(place, needed, steps);

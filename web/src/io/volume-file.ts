@@ -15,6 +15,8 @@ export type Affine = readonly (readonly number[])[];
 export interface Sink {
   begin_volume(header: string): void;
   take_voxels(offset: number, bytes: Uint8Array): void;
+  /** The part of the voxels that it keeps; all of them where it says nothing. */
+  readonly share?: number;
 }
 
 /** A volume whose header is read and checked and whose voxels are still in their file. */
@@ -45,7 +47,7 @@ export function begin(sink: Sink, path: string, size: Size, affine: Affine, dtyp
 export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<void> {
   requireNumbers(file);
   const needed = file.size.reduce((count, side) => count * side, byteCount(file.stored.kind));
-  await requireRoom(file.place, needed, file.stored.kind, steps);
+  await requireRoom({ ...file.place, share: sink.share ?? 1 }, needed, file.stored.kind, steps);
   const isWanted = needsRange(file.stored.kind, file.scaling);
   const range = isWanted ? await rangeOf(file, needed, steps) : null;
   const { kind, convert } = conversion(orderInMemory(file), file.scaling, range);

@@ -4,6 +4,7 @@ import { Failure } from '../core/failure';
 import type { Camera } from '../core/messages';
 import { negate } from '../core/vectors';
 import * as store from '../state/store';
+import { tell } from '../state/telling';
 import { barLength, lettersOf } from '../views/letters';
 
 /** The canvas of the turning view as it is shown, with its labels where they are wanted. */
@@ -86,11 +87,12 @@ export async function savePng(labels: 'labels' | 'plain'): Promise<void> {
   }
 }
 
-/** Hands a file to the browser's downloads. */
-export function saveAs(blob: Blob, name: string): void {
+/** Hands a file to the browser's downloads, and says so, with a remark where there is one. */
+export function saveAs(blob: Blob, name: string, remark = ''): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);
   link.download = name;
   link.click();
+  tell(`Saved as ${name}${remark ? `. ${remark}` : ''}`);
   window.setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

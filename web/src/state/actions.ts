@@ -3,7 +3,11 @@ import { batch } from '@preact/signals';
 import { panned, trackballed, turnedAbout, zoomed } from '../core/camera';
 import type { EngineClient } from '../core/engine';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
+import { tool } from '../edit/tool';
 import type { Action } from '../input/bindings';
+import { isArriving } from '../measure/arriving';
+import { stopMeasuring } from '../measure/profiles';
+import { putRulerAway } from '../measure/rulers';
 import * as store from './store';
 
 /** Windows by their key; none stands for one that the data tell. */
@@ -120,6 +124,29 @@ export async function showNamedView(engine: EngineClient, name: string): Promise
   }
 }
 
+/** The layout from which measuring began. */
+let layoutBefore: store.Layout = 'strip';
+
+/** Shows what measures the picked vessel; then the layout before it again. */
+export function toggleMeasuring(): void {
+  if (tool.value !== 'ruler') {
+    // A click in what is measured sets no point of a vessel; what tracing had put aside comes back first.
+    tool.value = 'look';
+  }
+  const now = store.layout.value;
+  showLayout(now === 'measure' ? layoutBefore : 'measure');
+  layoutBefore = now === 'measure' ? layoutBefore : now;
+}
+
+/** Shows a layout; measuring begins at the narrowest place. */
+export function showLayout(layout: store.Layout): void {
+  batch(() => {
+    store.maximised.value = null;
+    store.layout.value = layout;
+    isArriving.value = layout === 'measure';
+  });
+}
+
 /** Turns the camera a little about the patient's long axis. */
 export function turnSlowly(angle: number): void {
   changeCamera((camera) => turnedAbout(camera, pivot(camera), [0, 0, 1], angle));
@@ -147,6 +174,9 @@ function performSimple(engine: EngineClient, action: Action): void {
     case 'silhouettes':
       setSetting('silhouettes', !settingOf('silhouettes'));
       break;
+    case 'measure':
+      toggleMeasuring();
+      break;
     case 'turn':
       store.isTurning.value = !store.isTurning.value;
       break;
@@ -164,10 +194,12 @@ function performSimple(engine: EngineClient, action: Action): void {
 }
 
 function cancel(engine: EngineClient): void {
+  putRulerAway();
   if (store.progress.value) {
     void engine.cancel();
     store.progress.value = null;
   }
+  stopMeasuring();
   batch(() => {
     store.isHelpOpen.value = false;
     store.isTurning.value = false;

@@ -32,7 +32,8 @@ export function recover(error: unknown): void {
     const isAgain = performance.now() - lastLoss < SOON;
     lastLoss = performance.now();
     void change(isAgain ? 'cpu' : wanted, failure);
-  } else if (failure.kind !== 'interrupted') {
+  } else if (failure.kind !== 'interrupted' && store.report.value) {
+    // What was asked of a study that is closed meanwhile is not told.
     store.problem.value = failure;
   }
 }

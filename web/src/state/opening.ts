@@ -1,33 +1,76 @@
-/** Opening files that were dropped or chosen, and again what was refused with another wish. */
+/** Opening files that were dropped or chosen. */
 import { signal } from '@preact/signals';
 import type { EngineClient } from '../core/engine';
+import { Failure } from '../core/failure';
 import type { GivenFile, SeriesWish } from '../core/messages';
+import { isSession, openSession } from '../session/saving';
+import { openWith } from './last-opened';
+import { leave } from './leaving';
 import * as store from './store';
 import { open } from './study';
-
-/** What was opened last, and how: after a refusal the same files are opened in another way. */
-const last = signal<{ files: readonly GivenFile[]; wish: SeriesWish }>({ files: [], wish: {} });
 
 /** Opens files: a volume in the place of all that is open, centerlines beside it. */
 export function openFiles(
   engine: EngineClient,
   files: readonly GivenFile[],
-  wish: SeriesWish = {},
+  first: SeriesWish = {},
 ): Promise<void> {
-  last.value = { files, wish };
-  const load = async () => {
-    const opened = await engine.openFiles(files, wish, (told) => {
-      store.progress.value = told;
-    });
-    const isVolume = opened.name !== undefined;
-    return isVolume ? opened : { ...opened, ...beside(), notes: [...store.notes.value, ...opened.notes] };
-  };
-  return open(engine, load, '');
+  return openWith(first, (wish) => {
+    const load = async () => {
+      const opened = await engine.openFiles(files, wish, (told) => {
+        store.progress.value = told;
+      });
+      const isVolume = opened.name !== undefined;
+      return isVolume
+        ? opened
+        : { ...opened, ...beside(), isBeside: true, notes: [...store.notes.value, ...opened.notes] };
+    };
+    return open(engine, load, '');
+  });
 }
 
-/** Opens the same files again, with one more wish. */
-export function openAgain(engine: EngineClient, wish: SeriesWish): Promise<void> {
-  return openFiles(engine, last.value.files, { ...last.value.wish, ...wish });
+/** A volume that came while another one is open: it can be another scan, or a mask of vessels of the one that is open. */
+export const question = signal<readonly GivenFile[] | null>(null);
+
+/** Centerlines come to what is open. */
+const CENTERLINES = /\.(vtp|vtk|fcsv|pth|swc|tre|csv|json)$/i;
+const VOLUMES = /\.(nii|nii\.gz|nrrd|nhdr|mha|mhd|hdr|img|raw|zraw)$/i;
+
+/** Opens files that were dropped or chosen, after asking what they are where that is open; a session after its scan. */
+export async function takeFiles(engine: EngineClient, files: readonly GivenFile[]): Promise<void> {
+  const session = await sessionAmong(files);
+  if (session) {
+    const others = files.filter((file) => file !== session);
+    await leave(async () => {
+      if (others.length > 0) {
+        await openFiles(engine, others);
+      }
+      await goOn(session);
+    });
+  } else if (store.hasVolume.value && files.length > 0 && files.every(({ path }) => VOLUMES.test(path))) {
+    question.value = files;
+  } else if (files.every(({ path }) => CENTERLINES.test(path))) {
+    await openFiles(engine, files);
+  } else {
+    await leave(() => openFiles(engine, files));
+  }
+}
+
+async function sessionAmong(files: readonly GivenFile[]): Promise<GivenFile | null> {
+  for (const file of files) {
+    if (await isSession(file)) {
+      return file;
+    }
+  }
+  return null;
+}
+
+async function goOn(session: GivenFile): Promise<void> {
+  try {
+    await openSession(session);
+  } catch (error) {
+    store.problem.value = Failure.of(error);
+  }
 }
 
 /** What is told of the volume that stays when centerlines come to it. */

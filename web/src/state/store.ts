@@ -5,6 +5,7 @@ import type {
   Camera,
   Feature,
   Histogram,
+  LineId,
   Method,
   Progress,
   Report,
@@ -15,11 +16,19 @@ import type {
   Window,
 } from '../core/messages';
 
-export type Layout = 'one' | 'two' | 'four' | 'strip';
-export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip'];
+export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure';
+export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure'];
 
 /** The views that a layout shows. */
-export type ViewName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straightened' | 'section';
+export type ViewName =
+  | 'turning'
+  | 'axial'
+  | 'coronal'
+  | 'sagittal'
+  | 'straightened'
+  | 'section'
+  | 'profile'
+  | 'numbers';
 
 /** Where the cross-hair stands, and what is there. */
 export interface CrossHair {
@@ -72,6 +81,10 @@ export const frameTime = signal<number | null>(null);
 
 export const hasVolume = computed(() => Boolean(report.value?.volume));
 export const hasTree = computed(() => (report.value?.vessels?.length ?? 0) > 0);
+
+/** The line of the vessel that is picked: another one where the vessel was traced anew. */
+export const pickedLine = (): LineId | null =>
+  report.value?.vessels?.[pickedVessel.value ?? -1]?.line ?? null;
 
 /** The settings of the turning view, with the windows. */
 export const viewSettings = computed<Settings>(() => {

@@ -4,20 +4,35 @@ import type { EngineClient, Opened } from '../core/engine';
 import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
 import { middle } from '../core/vectors';
+import { addLoaded } from '../edit/files';
+import { document_, redoWords, undoWords } from '../edit/history';
+import { forgetLines } from '../edit/lines';
+import { beginStudy, showAgain } from '../edit/shown';
+import { tool } from '../edit/tool';
+import { placeCrossHair } from '../link/cross-hair';
+import { beginMeasuring } from '../measure/profiles';
+import { putRulerAway } from '../measure/rulers';
+import { openWith } from './last-opened';
 import * as store from './store';
 
 /** The size of a view before its pane is laid out. */
 const FIRST_SIZE = [512, 512] as const;
 
+/** What was opened; centerlines alone may come to the vessels that there are. */
+export interface Loaded extends Opened {
+  readonly isBeside?: boolean;
+}
+
 /** Opens what `load` gives, and shows all of it from the front. */
-export async function open(engine: EngineClient, load: () => Promise<Opened>, name: string): Promise<void> {
+export async function open(engine: EngineClient, load: () => Promise<Loaded>, name: string): Promise<void> {
   batch(() => {
     store.problem.value = null;
     store.progress.value = { words: 'Opening', done: 0, total: null };
   });
   try {
     const opened = await load();
-    await showStudy(engine, opened, opened.name ?? name);
+    const comesToEdits = opened.isBeside && store.hasVolume.value && hasEdits();
+    await (comesToEdits ? showBeside(engine, opened) : showStudy(engine, opened, opened.name ?? name));
   } catch (error) {
     const failure = Failure.of(error);
     if (!isCancelled(failure)) {
@@ -33,14 +48,17 @@ export async function open(engine: EngineClient, load: () => Promise<Opened>, na
 async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
   const { volume, vessels } = await engine.report();
   if (!volume && !vessels) {
+    layDown();
     batch(forget);
   }
 }
 
 /** Opens a phantom by its name. */
 export function openPhantom(engine: EngineClient, name: string): Promise<void> {
-  const load = async () => ({ report: await engine.openPhantom(name), notes: [] });
-  return open(engine, load, `phantom ${name}`);
+  return openWith({}, (wish) => {
+    const load = async () => ({ report: await engine.openPhantom(name, wish), notes: [] });
+    return open(engine, load, `phantom ${name}`);
+  });
 }
 
 /** Opens addresses of the same origin. */
@@ -49,17 +67,28 @@ export function openAddresses(
   volume: string | null,
   centerlines: string | null,
 ): Promise<void> {
-  const load = () =>
-    engine.openAddresses(volume, centerlines, (told) => {
-      store.progress.value = told;
-    });
-  return open(engine, load, '');
+  return openWith({}, (wish) => {
+    const load = () =>
+      engine.openAddresses({ volume, centerlines }, wish, (told) => {
+        store.progress.value = told;
+      });
+    return open(engine, load, '');
+  });
 }
 
-/** Closes the study. */
+/** Closes the study. The views go first: none asks for a scene that is there no longer. */
 export async function close(engine: EngineClient): Promise<void> {
-  await engine.close();
+  layDown();
   batch(forget);
+  await engine.close();
+}
+
+/** No tool and no measuring goes on in another study. What a tool changed of the views is put back, which effects do at once. */
+function layDown(): void {
+  tool.value = 'look';
+  if (store.layout.value === 'measure') {
+    store.layout.value = 'strip';
+  }
 }
 
 async function showStudy(
@@ -71,6 +100,7 @@ async function showStudy(
   const camera = await engine.fitted('anterior', size);
   const histogram = report.volume ? await engine.histogram(128) : null;
   const hair = await firstPlace(engine, report);
+  layDown();
   batch(() => {
     forget();
     store.report.value = report;
@@ -83,7 +113,29 @@ async function showStudy(
     store.crossHair.value = hair;
     store.pickedVessel.value = hair?.vessel ?? null;
     store.pickedPlace.value = hair?.arcLength ?? 0;
+    beginStudy(report);
   });
+}
+
+/** Whether there is anything that centerlines can come to. */
+const hasEdits = (): boolean =>
+  document_.value.vessels.length > 0 || undoWords.value !== null || redoWords.value !== null;
+
+/** Centerlines come to the vessels that there are, as a step that can be undone; the views show the longest of them. */
+async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {
+  const loaded = report.vessels ?? [];
+  await addLoaded(loaded);
+  await showAgain(engine.tracing);
+  store.notes.value = notes;
+  const line = loaded[longest(report)]?.line;
+  const shown = store.report.value?.vessels ?? [];
+  const vessel = shown.findIndex((one) => one.line === line);
+  if (vessel >= 0) {
+    const arcLength = (shown[vessel]?.length ?? 0) / 2;
+    const [point] = await engine.across(vessel, arcLength);
+    const { value } = await engine.at(point);
+    placeCrossHair({ point, value, vessel, arc_length: arcLength }, 'turning');
+  }
 }
 
 /** Half way along the longest vessel; without vessels the middle of the volume. */
@@ -109,6 +161,8 @@ function longest(report: Report): number {
 }
 
 function forget(): void {
+  beginMeasuring();
+  putRulerAway();
   store.report.value = null;
   store.notes.value = [];
   store.histogram.value = null;
@@ -118,6 +172,8 @@ function forget(): void {
   store.isTurning.value = false;
   store.maximised.value = null;
   store.frameTime.value = null;
+  forgetLines();
+  beginStudy(null);
 }
 
 function isCancelled(failure: Failure): boolean {

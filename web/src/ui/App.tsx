@@ -1,23 +1,44 @@
 /** The page. */
+import { Guide } from '../guide/Guide';
 import { report } from '../state/store';
 import { DropZone } from './DropZone';
+import { FileQuestion } from './FileQuestion';
 import { Help } from './Help';
 import { Layout } from './Layout';
+import { LeaveQuestion } from './LeaveQuestion';
 import { Messages } from './Messages';
 import { StartPage } from './StartPage';
 import { StatusBar } from './StatusBar';
 import { Toolbar } from './Toolbar';
+import { TraceBar } from './TraceBar';
+import { VesselList } from './VesselList';
 
 export function App() {
   const isOpen = report.value !== null;
   return (
     <>
       {isOpen ? <Toolbar /> : null}
-      {isOpen ? <Layout /> : <StartPage />}
+      {isOpen ? <Work /> : <StartPage />}
+      <FileQuestion />
+      <LeaveQuestion />
       <Messages />
       <DropZone />
       <StatusBar />
       <Help />
     </>
+  );
+}
+
+/** The views, and beside them the list of vessels. */
+function Work() {
+  return (
+    <div class="work">
+      <VesselList />
+      <div class="views">
+        <Guide />
+        <TraceBar />
+        <Layout />
+      </div>
+    </div>
   );
 }

@@ -2,7 +2,7 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { engine } from '../core/shared';
 import { dropped } from '../input/dropped';
-import { openFiles } from '../state/opening';
+import { takeFiles } from '../state/opening';
 import { hasVolume, started } from '../state/store';
 
 export function DropZone() {
@@ -18,7 +18,7 @@ export function DropZone() {
     return null;
   }
   const words = hasVolume.value
-    ? 'Drop centerlines to add them, or another scan'
+    ? 'Drop centerlines or a mask of vessels to add them, or another scan'
     : 'Drop a scan here, and its centerlines';
   return <div class="drop-zone">{words}</div>;
 }
@@ -52,6 +52,6 @@ function listen(signal: AbortSignal, show: (isOver: boolean) => void): void {
 async function open(transfer: DataTransfer): Promise<void> {
   const files = await dropped(transfer);
   if (files.length > 0 && started.value) {
-    await openFiles(engine, files);
+    await takeFiles(engine, files);
   }
 }

@@ -6,6 +6,8 @@ import { isHelpOpen } from '../state/store';
 const PARTS: readonly (readonly [Where, string])[] = [
   ['turning', 'In the turning view'],
   ['flat', 'In slices, section and straightened vessel'],
+  ['tracing', 'While tracing, in all views'],
+  ['marks', 'While a marker has the focus'],
   ['everywhere', 'Everywhere'],
 ];
 
@@ -15,8 +17,6 @@ export function Help() {
   useEffect(() => {
     if (isOpen) {
       dialog.current?.showModal();
-      // The focus is on the button at the end; the list is read from its beginning.
-      dialog.current?.scrollTo(0, 0);
     } else {
       dialog.current?.close();
     }
@@ -26,7 +26,12 @@ export function Help() {
   };
   return (
     <dialog ref={dialog} class="help" onClose={closed} aria-label="Keys and mouse">
-      <h2>Keys and mouse</h2>
+      <header>
+        <h2>Keys and mouse</h2>
+        <button type="button" onClick={closed}>
+          Close
+        </button>
+      </header>
       <div class="help-parts">
         {PARTS.map(([where, title]) => (
           <section key={where}>

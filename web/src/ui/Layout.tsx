@@ -1,6 +1,9 @@
 /** The panes of a layout, and which view each of them shows. */
 import { type Signal, signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
+import { useMeasuring } from '../measure/asking';
+import { NumbersPanel } from '../measure/NumbersPanel';
+import { ProfilePane } from '../measure/ProfilePane';
 import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
 import { CprView } from '../views/CprView';
 import { SectionView } from '../views/SectionView';
@@ -13,6 +16,7 @@ const VIEWS: Readonly<Record<Name, readonly ViewName[]>> = {
   two: ['turning', 'straightened'],
   four: ['turning', 'axial', 'coronal', 'sagittal'],
   strip: ['turning', 'axial', 'straightened', 'section'],
+  measure: ['turning', 'section', 'numbers', 'profile'],
 };
 const TITLES: Readonly<Record<ViewName, string>> = {
   turning: 'Vessels',
@@ -21,6 +25,8 @@ const TITLES: Readonly<Record<ViewName, string>> = {
   sagittal: 'Sagittal',
   straightened: 'Straightened vessel',
   section: 'Section',
+  profile: 'Profile',
+  numbers: 'Numbers',
 };
 
 /** Where the panes of each layout meet, as parts of it. */
@@ -29,17 +35,23 @@ const columns: Readonly<Record<Name, Signal<number>>> = {
   two: signal(0.67),
   four: signal(0.5),
   strip: signal(0.75),
+  measure: signal(0.42),
 };
-const row = signal(0.5);
+const rows: Readonly<Partial<Record<Name, Signal<number>>>> = { four: signal(0.5), measure: signal(0.5) };
 
 export function Layout() {
   const shown = VIEWS[layout.value];
   const alone = maximised.value;
+  const row = rows[layout.value];
+  useMeasuring();
   return (
     <main
       class={`layout ${layout.value}${alone ? ' alone' : ''}`}
       data-layout={layout.value}
-      style={{ '--column': `${100 * columns[layout.value].value}%`, '--row': `${100 * row.value}%` }}
+      style={{
+        '--column': `${100 * columns[layout.value].value}%`,
+        '--row': `${100 * (row?.value ?? 0.5)}%`,
+      }}
     >
       {shown.map((name) => (
         <Pane key={name} name={name} isHidden={alone !== null && alone !== name}>
@@ -49,9 +61,7 @@ export function Layout() {
       {!alone && layout.value !== 'one' && (
         <Divider words="Width of the left views" between="column" place={columns[layout.value]} />
       )}
-      {!alone && layout.value === 'four' && (
-        <Divider words="Height of the upper views" between="row" place={row} />
-      )}
+      {!alone && row && <Divider words="Height of the upper views" between="row" place={row} />}
     </main>
   );
 }
@@ -64,6 +74,10 @@ function viewOf(name: ViewName) {
       return <CprView />;
     case 'section':
       return <SectionView />;
+    case 'profile':
+      return <ProfilePane />;
+    case 'numbers':
+      return <NumbersPanel />;
     default:
       return <SliceView name={name} />;
   }

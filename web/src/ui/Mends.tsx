@@ -1,12 +1,12 @@
 /** What can be done at once about files that were refused. */
 import type { Failure, SeriesChoice } from '../core/failure';
 import type { SeriesWish } from '../core/messages';
-import { engine } from '../core/shared';
-import { openAgain } from '../state/opening';
+import { openAgain } from '../state/last-opened';
 
 const WISHES: readonly (readonly [keyof SeriesWish, string])[] = [
   ['fill_gaps', 'Interpolate the missing slices'],
   ['resample_slices', 'Put the slices on a regular grid'],
+  ['every_second', 'Take every second voxel along each axis'],
 ];
 
 export function Mends({ failure }: { readonly failure: Failure }) {
@@ -17,7 +17,7 @@ export function Mends({ failure }: { readonly failure: Failure }) {
         <ul class="series" aria-label="Series">
           {failure.series.map((one) => (
             <li key={one.uid}>
-              <button type="button" onClick={() => void openAgain(engine, { series: one.uid })}>
+              <button type="button" onClick={() => void openAgain({ series: one.uid })}>
                 {wordsOf(one)}
               </button>
             </li>
@@ -26,7 +26,7 @@ export function Mends({ failure }: { readonly failure: Failure }) {
       )}
       {failure.mend.includes('coordinates=') && <SpaceChoice />}
       {wishes.map(([name, words]) => (
-        <button key={name} type="button" onClick={() => void openAgain(engine, { [name]: true })}>
+        <button key={name} type="button" onClick={() => void openAgain({ [name]: true })}>
           {words}
         </button>
       ))}
@@ -38,10 +38,10 @@ export function Mends({ failure }: { readonly failure: Failure }) {
 function SpaceChoice() {
   return (
     <>
-      <button type="button" onClick={() => void openAgain(engine, { coordinates: 'lps' })}>
+      <button type="button" onClick={() => void openAgain({ coordinates: 'lps' })}>
         Read as LPS
       </button>
-      <button type="button" onClick={() => void openAgain(engine, { coordinates: 'ras' })}>
+      <button type="button" onClick={() => void openAgain({ coordinates: 'ras' })}>
         Read as RAS
       </button>
     </>

@@ -1,8 +1,10 @@
 /** What went wrong, and how far long work is. */
 import type { Failure } from '../core/failure';
 import { engine } from '../core/shared';
-import { perform } from '../state/actions';
+import { refusal } from '../edit/committing';
+import { performAny } from '../edit/performing';
 import { problem, progress } from '../state/store';
+import { told } from '../state/telling';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -10,6 +12,11 @@ export function Messages() {
     <div class="messages">
       {progress.value && <Loading />}
       {problem.value && <Problem />}
+      {told.value && (
+        <div class="message" role="status" data-testid="told">
+          {told.value}
+        </div>
+      )}
     </div>
   );
 }
@@ -24,7 +31,7 @@ function Loading() {
     <div class="message" role="status">
       <span>{share === null ? `${told.words} …` : `${told.words}: ${(100 * share).toFixed(0)} %`}</span>
       <progress aria-label={told.words} {...(share === null ? {} : { value: share })} />
-      <button type="button" onClick={() => perform(engine, 'cancel')}>
+      <button type="button" onClick={() => performAny(engine, 'cancel')}>
         Cancel
       </button>
     </div>
@@ -45,6 +52,7 @@ function Problem() {
         <Sentences failure={failure} />
       )}
       <Mends failure={failure} />
+      <Bridging failure={failure} />
       <button
         type="button"
         onClick={() => {
@@ -55,6 +63,26 @@ function Problem() {
       </button>
     </div>
   );
+}
+
+/** What can be done where no lumen was found between two clicks. */
+function Bridging({ failure }: { readonly failure: Failure }) {
+  const bridge = refusal.value?.failure === failure ? refusal.value.bridge : null;
+  return bridge ? (
+    <>
+      <button type="button" onClick={bridge}>
+        Bridge the gap
+      </button>
+      <button
+        type="button"
+        onClick={() => {
+          problem.value = null;
+        }}
+      >
+        Click between
+      </button>
+    </>
+  ) : null;
 }
 
 function Sentences({ failure }: { readonly failure: Failure }) {

@@ -2,7 +2,7 @@
 import { useRef } from 'preact/hooks';
 import { engine } from '../core/shared';
 import { chosen } from '../input/dropped';
-import { openFiles } from '../state/opening';
+import { takeFiles } from '../state/opening';
 import { started } from '../state/store';
 
 export function OpenButtons() {
@@ -15,8 +15,8 @@ export function OpenButtons() {
 }
 
 /** Opens files beside or in the place of what is open. */
-export function OpenMore() {
-  return <Chooser words="Open" isFolder={false} />;
+export function OpenMore({ words = 'Open' }: { readonly words?: string }) {
+  return <Chooser words={words} isFolder={false} />;
 }
 
 interface ChooserProps {
@@ -31,7 +31,7 @@ function Chooser({ words, isFolder }: ChooserProps) {
     // The same files can be chosen again.
     element.value = '';
     if (files.length > 0) {
-      void openFiles(engine, files);
+      void takeFiles(engine, files);
     }
   };
   return (

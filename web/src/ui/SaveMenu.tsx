@@ -1,33 +1,71 @@
-/** What can be saved of the turning view. */
-import { Failure } from '../core/failure';
+/** What can be saved: the report and the session, pictures of the turning view, and what was measured. */
+import { currentProfile } from '../measure/current';
+import { attempt } from '../output/attempt';
 import { savePng } from '../output/pictures';
+import { isScanNamed, saveReport } from '../output/report';
+import { saveSession } from '../output/session';
+import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
-import { problem } from '../state/store';
+import { useClosing } from './closing-menu';
+import { keepWithin } from './within-window';
 
 export function SaveMenu() {
+  const isMeasured = currentProfile.value !== null;
   return (
-    <details class="menu">
+    <details class="menu" onToggle={keepWithin} ref={useClosing()}>
       <summary>Save</summary>
       <div class="menu-body">
-        <button type="button" onClick={() => attempt(() => savePng('labels'))}>
-          Picture with labels (PNG)
-        </button>
-        <button type="button" onClick={() => attempt(() => savePng('plain'))}>
-          Picture without labels (PNG)
-        </button>
-        <button type="button" onClick={() => attempt(saveFilm)}>
-          Turntable (WebM)
-        </button>
-        <button type="button" onClick={() => attempt(savePictures)}>
-          Turntable (PNGs)
-        </button>
+        {isMeasured && <Report />}
+        <Choice
+          words="Session (JSON)"
+          title="Vessels, marks and views, to go on later: open it after its scan"
+          save={saveSession}
+        />
+        {isMeasured && (
+          <>
+            <Choice words="Numbers of measured vessels (CSV)" save={() => saveNumbers('csv')} />
+            <Choice words="Numbers of measured vessels (JSON)" save={() => saveNumbers('json')} />
+          </>
+        )}
+        <Choice words="Picture with labels (PNG)" save={() => savePng('labels')} />
+        <Choice words="Picture without labels (PNG)" save={() => savePng('plain')} />
+        <Choice words="Turntable (WebM)" save={saveFilm} />
+        <Choice words="Turntable (PNGs)" save={savePictures} />
+        {!isMeasured && <small>Report and numbers: measure a vessel first.</small>}
       </div>
     </details>
   );
 }
 
-function attempt(save: () => Promise<void>): void {
-  save().catch((error: unknown) => {
-    problem.value = Failure.of(error);
-  });
+interface ChoiceProps {
+  readonly words: string;
+  readonly title?: string;
+  save(): Promise<void>;
+}
+
+function Choice({ words, title, save }: ChoiceProps) {
+  return (
+    <button type="button" {...(title && { title })} onClick={() => attempt(save)}>
+      {words}
+    </button>
+  );
+}
+
+/** The report of the picked vessel. */
+function Report() {
+  return (
+    <>
+      <Choice words="Report of the vessel (HTML)" save={saveReport} />
+      <label class="with-name">
+        <input
+          type="checkbox"
+          checked={isScanNamed.value}
+          onChange={(event) => {
+            isScanNamed.value = event.currentTarget.checked;
+          }}
+        />
+        with the name of the scan
+      </label>
+    </>
+  );
 }

@@ -1,5 +1,6 @@
 /** What the page shows while nothing is open: what to do, and a phantom to try it with. */
 import { engine } from '../core/shared';
+import { startGuide } from '../guide/steps';
 import { started } from '../state/store';
 import { openPhantom } from '../state/study';
 import { OpenButtons } from './OpenButtons';
@@ -16,12 +17,29 @@ export function StartPage() {
     <main class="start">
       <h1>Lumencut</h1>
       <p>See the inside of all vessels of a CT or MR angiography in one view that turns freely.</p>
-      <p>The scan stays in this browser: nothing leaves your machine.</p>
+      <ol class="first-steps">
+        <li>
+          <strong>Open</strong> a scan: drop a DICOM folder or zip archive, NIfTI, NRRD or MetaImage here, and
+          its centerlines if there are any.
+        </li>
+        <li>
+          <strong>Click twice</strong> along a vessel: its centerline is traced, and the vessel is cut open.
+        </li>
+        <li>
+          <strong>Turn it, measure it</strong>, and save the report.
+        </li>
+      </ol>
       <section class="open-here" aria-label="Open a scan">
-        <p>Drop a scan here: a DICOM folder or zip archive, NIfTI, NRRD or MetaImage, and its centerlines.</p>
         <OpenButtons />
+        <p>The scan stays in this browser: nothing leaves your machine.</p>
       </section>
-      <h2>Try it with a phantom</h2>
+      <h2>Or try it first</h2>
+      <p>
+        <button type="button" class="primary" disabled={!isReady} onClick={() => void startGuide()}>
+          Guided try in two minutes
+        </button>
+      </p>
+      <p>Phantoms with their centerlines, made by formulas:</p>
       <ul class="phantoms">
         {PHANTOMS.map(([name, words]) => (
           <li key={name}>

@@ -1,4 +1,6 @@
 /** The read-out: where the cross-hair is, what is there, and how fast the page is. */
+import { nameOf } from '../edit/changes';
+import { tree } from '../edit/shown';
 import * as store from '../state/store';
 import { positionText } from '../views/letters';
 
@@ -9,6 +11,11 @@ export function StatusBar() {
         {readOut()}
       </output>
       <span class="spring" />
+      {store.studyName.value && store.report.value && (
+        <span class="study-name" data-testid="study-name" title={store.studyName.value}>
+          {store.studyName.value}
+        </span>
+      )}
       <Notes />
       <span data-testid="window">{windowText()}</span>
       <span data-testid="device">{deviceText()}</span>
@@ -48,9 +55,10 @@ function readOut(): string {
   return parts.join(' · ');
 }
 
-/** The name of a vessel; its number, counted from 1, where it has none. */
+/** The name of a vessel of the tree that is shown; its number where it has none. */
 export function vesselName(vessel: number): string {
-  return store.report.value?.vessels?.[vessel]?.name || `vessel ${vessel + 1}`;
+  const shown = tree.value[vessel];
+  return shown ? nameOf(shown) : `vessel ${vessel + 1}`;
 }
 
 function deviceText(): string {

@@ -1,10 +1,13 @@
-/** The bar at the top: method, context, silhouettes, slab, presets, layout. */
-import { batch } from '@preact/signals';
+/** The bar at the top: tracing, measuring and saving; method, context, silhouettes, slab, presets, layout. */
 import type { Method } from '../core/messages';
 import { engine } from '../core/shared';
-import { perform, setSetting, settingOf } from '../state/actions';
+import { isListOpen, isTracing } from '../edit/mode';
+import { performAny } from '../edit/performing';
+import { perform, setSetting, settingOf, showLayout } from '../state/actions';
+import { leave } from '../state/leaving';
 import * as store from '../state/store';
 import { close } from '../state/study';
+import { MeasureButton } from './MeasureButton';
 import { OpenMore } from './OpenButtons';
 import { SaveMenu } from './SaveMenu';
 import { SettingsPanel } from './SettingsPanel';
@@ -29,6 +32,7 @@ const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
   two: 'Two',
   four: 'Four',
   strip: 'With strip',
+  measure: 'Measure',
 };
 
 export function Toolbar() {
@@ -36,6 +40,9 @@ export function Toolbar() {
   return (
     <header class="toolbar">
       <strong class="brand">Lumencut</strong>
+      <VesselButtons />
+      <MeasureButton />
+      <SaveMenu />
       <label>
         Method
         <select
@@ -93,12 +100,7 @@ export function Toolbar() {
         Layout
         <select
           value={store.layout.value}
-          onChange={(event) => {
-            batch(() => {
-              store.layout.value = event.currentTarget.value as store.Layout;
-              store.maximised.value = null;
-            });
-          }}
+          onChange={(event) => showLayout(event.currentTarget.value as store.Layout)}
         >
           {store.LAYOUTS.map((name) => (
             <option key={name} value={name}>
@@ -108,15 +110,43 @@ export function Toolbar() {
         </select>
       </label>
       <SettingsPanel />
-      <SaveMenu />
       <span class="spring" />
       <OpenMore />
       <button type="button" onClick={() => perform(engine, 'help')} aria-label="Keys and mouse">
         ?
       </button>
-      <button type="button" onClick={() => void close(engine)} aria-label="Close the scan">
+      <button type="button" onClick={() => void leave(() => close(engine))} aria-label="Close the scan">
         Close
       </button>
     </header>
+  );
+}
+
+/** Tracing vessels, and the list of them. */
+function VesselButtons() {
+  if (!store.hasVolume.value) {
+    return null;
+  }
+  return (
+    <>
+      <button
+        type="button"
+        class="tool"
+        aria-pressed={isTracing()}
+        onClick={() => performAny(engine, 'trace')}
+        title="Trace vessels by clicks (t)"
+      >
+        Trace vessels
+      </button>
+      <button
+        type="button"
+        class="tool"
+        aria-pressed={isListOpen.value}
+        onClick={() => performAny(engine, 'vessels')}
+        title="List of the vessels (v)"
+      >
+        Vessels
+      </button>
+    </>
   );
 }

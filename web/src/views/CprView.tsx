@@ -1,16 +1,16 @@
 /** The straightened CPR of the picked vessel. */
 import { useCallback, useState } from 'preact/hooks';
-import type { Cpr, Feature, Pair } from '../core/messages';
+import type { Cpr, Pair } from '../core/messages';
 import { engine } from '../core/shared';
 import { placeCrossHair } from '../link/cross-hair';
+import { UprightPlaces } from '../measure/UprightPlaces';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
+import { CprControls, TURN_STEP } from './CprControls';
 import { FlatPicture } from './FlatPicture';
 
 /** The width that is shown (mm). */
 const WIDTH = 50;
-/** The rotation of one step of the wheel (radians), and of a drag of one pixel. */
-const STEP = Math.PI / 36;
 
 export function CprView() {
   const vessel = store.pickedVessel.value;
@@ -30,7 +30,7 @@ export function CprView() {
     const picture = await engine.straightened(JSON.parse(text ?? '{}') as Cpr, window);
     setShown(picture.size);
     return picture;
-  }, [text, window]);
+  }, [text, window, store.pickedLine()]);
 
   const left = size && shown ? (size[0] - shown[0]) / 2 : 0;
   const point = (at: Pair) => {
@@ -44,7 +44,7 @@ export function CprView() {
     drag: (action: string, by: Pair) => (action === 'window' ? dragWindow(by) : undefined),
     zoom: () => undefined,
     scroll: (steps: number) => {
-      store.cprAngle.value += steps * STEP;
+      store.cprAngle.value += steps * TURN_STEP;
     },
     click: (action: string, at: Pair) => {
       if (action === 'maximise') {
@@ -64,45 +64,14 @@ export function CprView() {
         words="picked vessel, straightened"
         ask={text ? ask : null}
         handlers={handlers}
+        empty="The straightened vessel is shown here once there is one."
         onSize={setSize}
         style={{ margin: '0 auto' }}
       >
         {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
+        {size && spacing && <UprightPlaces size={size} spacing={spacing} />}
       </FlatPicture>
       {cpr && <CprControls />}
     </>
-  );
-}
-
-/** The rotation about the vessel, and which value a pixel shows. */
-function CprControls() {
-  const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
-  return (
-    <div class="pane-controls">
-      <input
-        type="range"
-        min="-180"
-        max="180"
-        step="5"
-        value={String(((((degrees + 180) % 360) + 360) % 360) - 180)}
-        aria-label="Rotation about the vessel (degrees)"
-        onInput={(event) => {
-          store.cprAngle.value = (Number(event.currentTarget.value) * Math.PI) / 180;
-        }}
-      />
-      <output>{`${degrees}°`}</output>
-      <select
-        aria-label="What a pixel shows"
-        value={store.cprFeature.value ?? ''}
-        onChange={(event) => {
-          store.cprFeature.value = (event.currentTarget.value || null) as Feature | null;
-        }}
-      >
-        <option value="">CPR</option>
-        <option value="max">CFA, largest</option>
-        <option value="mean">CFA, mean</option>
-        <option value="min">CFA, smallest</option>
-      </select>
-    </div>
   );
 }

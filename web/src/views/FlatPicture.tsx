@@ -15,19 +15,43 @@ interface FlatPictureProps {
   /** Gives the picture for a pane; it changes whenever the picture does. */
   readonly ask: ((size: Pair) => Promise<Picture>) | null;
   readonly handlers: Handlers;
+  /** What stands there while there is nothing to show. */
+  readonly empty?: string;
   /** How large a pixel of the picture is on the screen, and whether it fills the pane. */
   readonly style?: Record<string, string>;
   readonly onSize?: (size: Pair) => void;
+  /** What arrow keys do in the place of scrolling: steps to the right and downwards, ten with Shift. */
+  readonly onArrow?: ((by: Pair) => void) | undefined;
   readonly children?: ComponentChildren;
 }
 
-export function FlatPicture({ name, words, ask, handlers, style, onSize, children }: FlatPictureProps) {
+export function FlatPicture({
+  name,
+  words,
+  ask,
+  handlers,
+  empty,
+  style,
+  onSize,
+  onArrow,
+  children,
+}: FlatPictureProps) {
   const pane = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
   const latest = useRef(new Latest());
   const current = useRef(handlers);
   current.current = handlers;
+  const asked = useRef(ask);
+  asked.current = ask;
   const size = usePaneSize(pane);
+
+  // A view that is closed asks nothing any longer.
+  useEffect(
+    () => () => {
+      asked.current = null;
+    },
+    [],
+  );
 
   useEffect(() => {
     if (size) {
@@ -36,14 +60,23 @@ export function FlatPicture({ name, words, ask, handlers, style, onSize, childre
   }, [size]);
 
   useEffect(() => {
+    if (!ask) {
+      clear(canvas.current);
+    }
     if (!ask || !size || size[0] < 2 || size[1] < 2) {
       return;
     }
     latest.current.run(async () => {
       try {
-        paint(canvas.current, await ask(size));
+        const picture = await ask(size);
+        if (asked.current !== null) {
+          paint(canvas.current, picture);
+        }
       } catch (error) {
-        recover(error);
+        // What is no longer asked, as of a tree that is gone, needs no answer.
+        if (asked.current === ask) {
+          recover(error);
+        }
       }
     });
   }, [ask, size]);
@@ -64,24 +97,47 @@ export function FlatPicture({ name, words, ask, handlers, style, onSize, childre
       class="pane-body"
       ref={pane}
       data-testid={name}
-      role="img"
+      // No picture to screen readers: they would pass over the points and handles in it.
+      role="application"
       aria-label={words}
       tabIndex={0}
-      onKeyDown={(event) => pressed(event, handlers)}
+      onKeyDown={(event) => pressed(event, handlers, onArrow)}
     >
       <canvas ref={canvas} class={isInverted.value ? 'flat inverted' : 'flat'} style={style} />
-      <div class="overlay">{children}</div>
+      <div class="overlay">
+        {!ask && empty && <p class="nothing-yet">{empty}</p>}
+        {children}
+      </div>
     </div>
   );
 }
 
-/** Arrow keys scroll, + and - zoom. */
-function pressed(event: KeyboardEvent, handlers: Handlers): void {
-  const steps = { ArrowDown: 1, PageDown: 10, ArrowUp: -1, PageUp: -10 }[event.key];
+const ARROWS: Readonly<Record<string, Pair>> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+
+/** Arrow keys scroll, or move the cross-hair; + and - zoom. What has the focus within the view has keys of its own. */
+function pressed(event: KeyboardEvent, handlers: Handlers, onArrow?: (by: Pair) => void): void {
+  if (event.target !== event.currentTarget) {
+    return;
+  }
+  const arrow = ARROWS[event.key];
+  if (arrow && onArrow) {
+    event.preventDefault();
+    const far = event.shiftKey ? 10 : 1;
+    onArrow([arrow[0] * far, arrow[1] * far]);
+    return;
+  }
+  const page = onArrow && !event.shiftKey ? 1 : 10;
+  const steps = { ArrowDown: 1, PageDown: page, ArrowUp: -1, PageUp: -page }[event.key];
   const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
   if (steps) {
     event.preventDefault();
     handlers.scroll(steps);
+    onArrow?.([0, 0]);
   } else if (factor) {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
     handlers.zoom(factor, [box.width / 2, box.height / 2]);
@@ -99,7 +155,13 @@ function forwarded(handlers: () => Handlers): Handlers {
     begin: () => handlers().begin(),
     end: () => handlers().end(),
     putBack: () => handlers().putBack(),
+    rows: () => handlers().rows?.() ?? null,
   };
+}
+
+/** What was shown of a vessel that is gone is shown no longer. */
+function clear(canvas: HTMLCanvasElement | null): void {
+  canvas?.getContext('2d')?.clearRect(0, 0, canvas.width, canvas.height);
 }
 
 function paint(canvas: HTMLCanvasElement | null, { size, bytes }: Picture): void {

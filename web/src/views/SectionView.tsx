@@ -1,10 +1,15 @@
 /** The section across the picked vessel. */
 import { useEffect, useState } from 'preact/hooks';
-import type { Pair, Plane } from '../core/messages';
+import type { Pair, Plane, Vector } from '../core/messages';
 import { engine } from '../core/shared';
+import { moveAlong } from '../link/along';
 import { placeCrossHair } from '../link/cross-hair';
+import { SliceMeasures } from '../measure/MeasureOverlay';
+import { SectionMarks } from '../measure/SectionMarks';
 import { dragWindow, windowBack } from '../state/actions';
+import { recover } from '../state/device';
 import * as store from '../state/store';
+import { pickedLine } from '../state/store';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { FlatPicture } from './FlatPicture';
@@ -19,6 +24,7 @@ const STEP = 0.5;
 export function SectionView() {
   const vessel = store.pickedVessel.value;
   const at = store.pickedPlace.value;
+  const line = pickedLine();
   const window = store.window_.value;
   const [size, setSize] = useState<Pair | null>(null);
   const [side, setSide] = useState(FIRST_SIDE);
@@ -28,9 +34,15 @@ export function SectionView() {
     if (vessel === null) {
       setFrame(null);
     } else {
-      void engine.across(vessel, at).then(([center, right, down]) => setFrame({ center, right, down }));
+      const show = ([center, right, down]: [Vector, Vector, Vector]) => setFrame({ center, right, down });
+      engine.across(vessel, at).then(show, (error) => {
+        // What was asked of a tree that is gone needs no answer.
+        if (line === pickedLine()) {
+          recover(error);
+        }
+      });
     }
-  }, [vessel, at]);
+  }, [vessel, at, line]);
 
   const plane = frame && size ? { ...frame, size, pixel_spacing: side / Math.min(...size) } : null;
   const ask = useAsked(plane, window);
@@ -60,28 +72,17 @@ export function SectionView() {
       words="section across the picked vessel"
       ask={ask}
       handlers={handlers}
+      empty="The section across a vessel is shown here once there is one."
       onSize={setSize}
     >
       {plane && (
         <>
           <EdgeLabels right={plane.right} down={plane.down} size={plane.size} spacing={plane.pixel_spacing} />
+          <SectionMarks plane={plane} />
+          <SliceMeasures plane={plane} where="in the section" />
           {hair && <HairLines at={pixelOn(plane, hair.point)} />}
         </>
       )}
     </FlatPicture>
   );
-}
-
-/** Moves along the picked vessel (mm). */
-export function moveAlong(by: number): void {
-  const vessel = store.pickedVessel.value;
-  const length = vessel === null ? 0 : (store.report.value?.vessels?.[vessel]?.length ?? 0);
-  const at = Math.min(Math.max(store.pickedPlace.value + by, 0), length);
-  store.pickedPlace.value = at;
-  if (vessel !== null) {
-    void engine
-      .across(vessel, at)
-      .then(([center]) => engine.at(center))
-      .then((pick) => placeCrossHair({ ...pick, vessel, arc_length: at }, 'section'));
-  }
 }

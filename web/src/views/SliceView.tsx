@@ -1,15 +1,20 @@
 /** An axial, coronal or sagittal slice through the cross-hair. */
+import { batch } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { Pair, Plane } from '../core/messages';
+import type { Pair, Plane, Vector } from '../core/messages';
 import { engine } from '../core/shared';
 import { add, cross, scale } from '../core/vectors';
+import { target } from '../edit/drawing';
+import { isTracing } from '../edit/mode';
 import type { Handlers } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
+import { SliceMeasures } from '../measure/MeasureOverlay';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { FlatPicture } from './FlatPicture';
+import { Latest } from './latest';
 import {
   AXES,
   fittedLook,
@@ -23,7 +28,10 @@ import {
   sliceDistance,
   zoomedLook,
 } from './planes';
+import { ofPlane, type Projection } from './projection';
+import { TracedOverlay } from './TracedOverlay';
 import { HairLines } from './TurningOverlay';
+import { clickWithTool, followPointerAt, toolRows } from './tool-clicks';
 
 export function SliceView({ name }: { readonly name: SliceName }) {
   const volume = store.report.value?.volume ?? null;
@@ -46,18 +54,22 @@ export function SliceView({ name }: { readonly name: SliceName }) {
   }, [size]);
 
   const plane = look && point && size ? planeOf(name, look, point, size) : null;
+  const projection = plane && volume ? ofPlane(plane, volume) : null;
   const ask = useAsked(plane, window);
   return (
     <FlatPicture
       name={name}
       words={`${name} slice`}
       ask={ask}
-      handlers={sliceHandlers(name, look, setLook, plane)}
+      handlers={sliceHandlers(name, look, setLook, plane, projection)}
       onSize={setSize}
+      onArrow={projection && isTracing() ? (by) => moveCrossHair(name, projection, by) : undefined}
     >
       {plane && point && (
         <>
           <EdgeLabels {...AXES[name]} size={plane.size} spacing={plane.pixel_spacing} />
+          {projection && <TracedOverlay projection={projection} />}
+          <SliceMeasures plane={plane} where={`in the ${name} slice`} />
           <HairLines at={pixelOn(plane, point)} />
         </>
       )}
@@ -70,14 +82,17 @@ function sliceHandlers(
   look: Look | null,
   setLook: (look: Look) => void,
   plane: Plane | null,
+  projection: Projection | null,
 ): Handlers {
   const point = (at: Pair) => {
     if (plane) {
       void engine.at(pointOn(plane, at)).then((pick) => placeCrossHair(pick, name));
     }
   };
+  const pointed = plane && projection ? { name, projection, place: (at: Pair) => pointOn(plane, at) } : null;
   const window = windowBack();
   return {
+    rows: toolRows,
     drag: (action, by) => {
       if (action === 'window') {
         dragWindow(by);
@@ -92,6 +107,9 @@ function sliceHandlers(
     },
     scroll: (steps) => scrollSlices(name, steps),
     click: (action, at) => {
+      if (pointed && clickWithTool(pointed, action, at)) {
+        return;
+      }
       if (action === 'maximise') {
         store.maximised.value = store.maximised.value === name ? null : name;
       } else {
@@ -101,6 +119,9 @@ function sliceHandlers(
     hover: (at, shift) => {
       if (shift) {
         point(at);
+      }
+      if (pointed) {
+        followPointerAt(pointed, at);
       }
     },
     ...window,
@@ -129,6 +150,32 @@ function scrollSlices(name: SliceName, steps: number): void {
     const normal = cross(right, down);
     const away = name === 'coronal' ? 1 : -1;
     const step = scale(normal, steps * away * sliceDistance(volume, name));
-    void engine.at(add(hair.point, step)).then((pick) => placeCrossHair(pick, name));
+    moveTo(name, add(hair.point, step));
   }
+}
+
+const moving = new Latest();
+
+/** Moves the cross-hair by so many voxels within a slice; the live path follows it. */
+function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void {
+  const hair = store.crossHair.value;
+  if (!hair) {
+    return;
+  }
+  const point = add(hair.point, projection.step(by));
+  batch(() => {
+    moveTo(name, point);
+    target.value = point;
+  });
+}
+
+/** Moves the cross-hair at once, so that no step is lost, and tells what is there when that is known. */
+function moveTo(name: SliceName, point: Vector): void {
+  store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
+  moving.run(async () => {
+    const pick = await engine.at(point);
+    if (store.crossHair.value?.point === point) {
+      placeCrossHair(pick, name);
+    }
+  });
 }

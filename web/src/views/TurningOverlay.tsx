@@ -1,13 +1,17 @@
 /** What lies over the turning view: letters, bar, cross-hair and cube. */
 import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
-import { camera, crossHair, hasVolume, states } from '../state/store';
+import { TurningMeasures } from '../measure/MeasureOverlay';
+import { camera, crossHair, report, states } from '../state/store';
 import { Cube } from './Cube';
 import { EdgeLabels } from './EdgeLabels';
+import { ofCamera } from './projection';
+import { TracedOverlay } from './TracedOverlay';
 
 export function TurningOverlay() {
   const seen = camera.value;
-  if (!seen || !hasVolume.value) {
+  const volume = report.value?.volume;
+  if (!seen || !volume) {
     return null;
   }
   const hair = crossHair.value;
@@ -20,6 +24,8 @@ export function TurningOverlay() {
         size={seen.size}
         spacing={seen.pixel_spacing}
       />
+      <TurningMeasures camera={seen} />
+      <TracedOverlay projection={ofCamera(seen, volume)} />
       {place && <HairLines at={place} />}
       {states.value.orientation && <Cube camera={seen} />}
     </div>

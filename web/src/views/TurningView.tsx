@@ -2,9 +2,11 @@
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { resized, zoomed } from '../core/camera';
-import type { Picture, Vector, View } from '../core/messages';
+import type { Pair, Picture, Settings, Vector, View } from '../core/messages';
 import { engine } from '../core/shared';
 import { cross } from '../core/vectors';
+import { isTracing } from '../edit/mode';
+import type { Action } from '../input/bindings';
 import { listen } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
 import * as actions from '../state/actions';
@@ -12,7 +14,9 @@ import { recover } from '../state/device';
 import * as store from '../state/store';
 import { FrameLoop, type Shown } from './frame-loop';
 import { usePaneSize } from './pane-size';
+import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';
+import { clickWithTool, followPointerAt, type Pointed, toolRows } from './tool-clicks';
 
 /** Radians that a slow turn advances in a second. */
 const TURN_PER_SECOND = 0.5;
@@ -85,8 +89,19 @@ function wantedView(): View | null {
   if (!camera || !report?.volume || camera.size[0] < 2 || camera.size[1] < 2) {
     return null;
   }
-  return { camera, method: store.method.value, settings: store.viewSettings.value };
+  const settings = store.viewSettings.value;
+  // Cut open, vessels would hide those that are not traced yet. A projection has a window of its own.
+  return isTracing()
+    ? {
+        camera,
+        method: 'csr',
+        settings: { ...settings, ...PROJECTED, window: settings.context_window ?? store.window_.value },
+      }
+    : { camera, method: store.method.value, settings };
 }
+
+/** The brightest values of a slab through all of a scan (mm): a projection, whatever is traced already. */
+const PROJECTED: Settings = { slab: [1000, 'max'], silhouettes: false };
 
 function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted }: Shown): void {
   // The last picture at rest takes as long as its samples do: it says nothing of the rate.
@@ -130,6 +145,10 @@ const KEY_STEP = 24;
 
 /** Arrow keys turn, with Shift they pan; + and - zoom. */
 function pressed(event: KeyboardEvent): void {
+  // A point over the view that has the focus has keys of its own.
+  if (event.target !== event.currentTarget) {
+    return;
+  }
   const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
   const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
   if (step) {
@@ -151,16 +170,25 @@ const handlers = {
     actions.dragTurning(action, by, vesselAxis),
   zoom: actions.zoomTurning,
   scroll: () => undefined,
-  click: (action: string, at: readonly [number, number]) => {
+  rows: toolRows,
+  click: (action: Action, at: Pair) => {
+    const view = pointed();
+    if (view && clickWithTool(view, action, at)) {
+      return;
+    }
     if (action === 'maximise') {
       store.maximised.value = store.maximised.value === 'turning' ? null : 'turning';
     } else {
       void pickAt(at);
     }
   },
-  hover: (at: readonly [number, number], shift: boolean) => {
+  hover: (at: Pair, shift: boolean) => {
     if (shift) {
       void pickAt(at);
+    }
+    const view = pointed();
+    if (view) {
+      followPointerAt(view, at);
     }
   },
   ...dragged,
@@ -169,6 +197,18 @@ const handlers = {
     void findAxis();
   },
 };
+
+/** The view as points are set in it: at the brightest voxel on the ray of a pixel. */
+function pointed(): Pointed | null {
+  const [view, volume] = [wantedView(), store.report.value?.volume];
+  return view && volume
+    ? {
+        name: 'turning',
+        projection: ofCamera(view.camera, volume),
+        place: async (at) => (await engine.tracing.brightest(view, at)).point,
+      }
+    : null;
+}
 
 async function findAxis(): Promise<void> {
   const vessel = store.pickedVessel.value;

@@ -11,6 +11,8 @@ import type { Drawn, View } from '../core/messages';
 const MOVING_TIME = 40;
 /** How long nothing changes before the view is at rest (ms). */
 const REST_AFTER = 80;
+/** So many times that pause at most before a view is tried again that gave way; it doubles with each time. */
+const MOST_PAUSES = 16;
 /** The fewest pixels along a side while something changes, as a part of all. */
 const COARSEST = 0.2;
 /** The most pixels of a picture along a pixel of the page, on dense screens. */
@@ -36,6 +38,8 @@ export class FrameLoop {
   private isBusy = false;
   private isStopped = false;
   private factor = 1;
+  /** How often in a row the view gave way to something else. */
+  private gaveWay = 0;
   private timer = 0;
 
   constructor(
@@ -48,6 +52,7 @@ export class FrameLoop {
   want(view: View): void {
     this.wanted = view;
     this.changed = performance.now();
+    this.gaveWay = 0;
     if (this.isBusy && (this.stage === 'full' || this.stage === 'samples')) {
       this.engine.stop();
     }
@@ -81,6 +86,7 @@ export class FrameLoop {
     const asked = this.atStage(view, stage);
     try {
       const drawn = await this.engine.render(asked);
+      this.gaveWay = 0;
       if (!this.isStopped) {
         this.adapt(asked, view, drawn.milliseconds, stage);
         this.show({ wanted: view, view: asked, drawn, stage });
@@ -91,7 +97,7 @@ export class FrameLoop {
       this.isBusy = false;
       const failure = Failure.of(error);
       if (failure.kind === 'interrupted') {
-        this.next();
+        this.tryAgain(stage);
       } else if (!this.isStopped) {
         this.stage = 'done';
         this.fail(failure);
@@ -135,6 +141,21 @@ export class FrameLoop {
     } else {
       this.stage = 'done';
     }
+  }
+
+  /** After a view was stopped: by a newer one, or by something that the user waits for. */
+  private tryAgain(stage: Stage): void {
+    if (stage === 'moving') {
+      // It took too long: the next one has fewer pixels.
+      this.factor = Math.max(COARSEST, this.factor / 2);
+    }
+    if (this.stage === 'moving') {
+      this.next();
+      return;
+    }
+    const pauses = Math.min(2 ** this.gaveWay, MOST_PAUSES);
+    this.gaveWay += 1;
+    this.timer = window.setTimeout(() => this.next(), REST_AFTER * pauses);
   }
 
   private advance(stage: Stage): void {

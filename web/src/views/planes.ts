@@ -73,8 +73,12 @@ export function zoomedLook(look: Look, plane: Plane, factor: number, at: Pair): 
 /** How far apart the slices of a volume are along an axis of the patient (mm). */
 export function sliceDistance(volume: VolumeReport, name: SliceName): number {
   const { right, down } = AXES[name];
-  const normal = cross(right, down);
-  const steps = [0, 1, 2].map((axis) => Math.abs(dot(column(volume, axis), normal)));
+  return voxelSide(volume, cross(right, down));
+}
+
+/** How far it is from one voxel to the next along a direction (mm). */
+export function voxelSide(volume: VolumeReport, direction: Vector): number {
+  const steps = [0, 1, 2].map((axis) => Math.abs(dot(column(volume, axis), direction)));
   return Math.max(...steps, 1e-3);
 }
 

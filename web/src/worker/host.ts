@@ -19,17 +19,31 @@ import type {
 } from '../core/messages';
 import { Engine, loadJudge, loadModule, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
+import { EverySecond } from '../io/every-second';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
 import { type Fetched, fetchStudy, type Told } from './fetching';
+import { MeasuringHost } from './measuring-host';
 import { Queue } from './queue';
 import { type Means, Replacing } from './replacing';
+import { SessionHost } from './session-host';
 import { startThreads } from './threads';
+import { TracingHost } from './tracing-host';
+
+/** What is told of a volume of which not every voxel was taken. */
+const COARSER = 'every second voxel along each axis was taken; measured numbers are less sure';
 
 export class EngineHost {
+  readonly measuring = new MeasuringHost((work) => this.run(() => work(this.ready())));
   private readonly queue = new Queue();
   private engine: Engine | null = null;
   private cancelled = new AbortController();
+  readonly tracing = new TracingHost({
+    run: (work) => this.run(() => work(this.ready())),
+    signal: () => this.cancelled.signal,
+    report: () => this.report(),
+  });
+  readonly sessions = new SessionHost((work) => this.run(() => work(this.ready())));
 
   /** Loads the module and finds out what computes. */
   start(device: string): Promise<Started> {
@@ -77,9 +91,9 @@ export class EngineHost {
     return this.run(() => this.ready().draw_on(canvas));
   }
 
-  openPhantom(name: string): Promise<Report> {
+  openPhantom(name: string, wish: SeriesWish): Promise<Report> {
     return this.run(() => {
-      this.ready().open_phantom(name);
+      this.ready().open_phantom(name, wish.every_second ? 0.5 : 1);
       return this.report();
     });
   }
@@ -88,9 +102,10 @@ export class EngineHost {
   openAddresses(
     volume: string | null,
     centerlines: string | null,
+    wish: SeriesWish,
     told: Told,
   ): Promise<Fetched & { report: Report }> {
-    return this.load(told, (means) => fetchStudy(means, { volume, centerlines }, told));
+    return this.load(told, (means) => fetchStudy(means, { volume, centerlines }, told), wish);
   }
 
   /** Opens files that were dropped or chosen; what was open stays where they are refused at once. */
@@ -100,32 +115,34 @@ export class EngineHost {
     told: Told,
   ): Promise<Partial<Fetched> & { report: Report; notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
-    const { coordinates, ...series } = wish;
+    const { coordinates: _, every_second: __, ...series } = wish;
     const work = async (means: Means) => {
       const { openFiles } = await import('../io/study');
       const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...series }, means);
       return volume ? { name: volume.name, states: volume.states, notes } : { notes };
     };
-    return this.load(told, work, coordinates);
+    return this.load(told, work, wish);
   }
 
   /** Loads in steps, until `cancel`; where that ends early and what was open is gone already, nothing is open. */
-  private load<T>(
+  private load<T extends { readonly notes: readonly string[] }>(
     told: Told,
     work: (means: Means) => Promise<T>,
-    coordinates?: SeriesWish['coordinates'],
+    wish: SeriesWish,
   ): Promise<T & { report: Report }> {
     this.cancelled.abort();
     this.cancelled = new AbortController();
     const { signal } = this.cancelled;
     return this.run(async () => {
-      const study = new Replacing(this.ready(), coordinates);
+      const replacing = new Replacing(this.ready(), wish.coordinates);
+      const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
         const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });
-        return { ...loaded, report: this.report() };
+        const notes = wish.every_second ? [...loaded.notes, COARSER] : loaded.notes;
+        return { ...loaded, notes, report: this.report() };
       } catch (error) {
-        if (study.hasBegun) {
-          study.close();
+        if (replacing.hasBegun) {
+          replacing.close();
         }
         throw error;
       }
@@ -136,9 +153,13 @@ export class EngineHost {
     return this.run(() => this.report());
   }
 
-  /** Stops loading. */
+  /** Stops loading, tracing and measuring; measuring that has not begun goes on. */
   cancel(): void {
     this.cancelled.abort();
+    this.cancelled = new AbortController();
+    if (this.engine) {
+      Engine.cancellation_was_heard();
+    }
   }
 
   close(): Promise<void> {

@@ -32,5 +32,5 @@ export class Replacing implements Study {
 
 /** What a study is loaded with. */
 export interface Means extends StudyMeans {
-  readonly study: Replacing;
+  readonly study: Study & { close(): void };
 }

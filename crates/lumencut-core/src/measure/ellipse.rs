@@ -58,6 +58,13 @@ impl Ellipse {
         [self.mean - half, self.mean + half]
     }
 
+    /// From the centre to the ends of the shorter and of the longer axis (mm); those of a circle are one as good as another.
+    pub fn half_axes(&self) -> [DVec2; 2] {
+        let [short, long] = self.semi_axes();
+        let direction = DVec2::from_angle(0.5 * self.stretch.y.atan2(self.stretch.x));
+        [direction.perp() * short, direction * long]
+    }
+
     /// The area (mm²).
     pub fn area(&self) -> f64 {
         PI * (self.mean * self.mean - self.stretch.length_squared())

@@ -64,8 +64,23 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &Request) -> Result<Pr
     check(request.fwhm)?;
     let voxels = Voxels::new(volume);
     let looked = Looked::new(&voxels, vessel, request)?;
-    let (fwhm, source) = point_spread(&voxels, &looked, vessel, request)?;
-    looked.profile(&voxels, vessel, request, (fwhm, source))
+    let fwhm = point_spread(&voxels, &looked, vessel, request)?;
+    looked.profile(&voxels, vessel, request, fwhm)
+}
+
+/// The profile of a vessel of the tree under the point spread that [`point_spread_of`] found for all of its vessels: the same as
+/// that of [`measure`], which finds it anew.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_under(
+    (fwhm, source): (f64, Source),
+    volume: &Volume,
+    vessel: &Vessel,
+    request: &Request,
+) -> Result<Profile> {
+    let voxels = Voxels::new(volume);
+    Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, (fwhm, source))
 }
 
 fn check(fwhm: Option<f64>) -> Result<()> {
@@ -97,14 +112,17 @@ fn point_spread(
     })
 }
 
-/// The point spread of a scan (FWHM, mm), as it is given or as the widest vessels of the tree tell it: the same for all of its
-/// vessels.
+/// The point spread of a scan (FWHM, mm), as it is given or as the widest vessels of the tree tell it, and where it is from: the
+/// same for all of its vessels.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a width that is none, [`ErrorKind::Interrupted`].
-pub fn point_spread_of(volume: &Volume, request: &Request) -> Result<f64> {
+pub fn point_spread_of(volume: &Volume, request: &Request) -> Result<(f64, Source)> {
     check(request.fwhm)?;
-    request.fwhm.map_or_else(|| of_tree(&Voxels::new(volume), request).map(|(fwhm, _)| fwhm), Ok)
+    match request.fwhm {
+        Some(fwhm) => Ok((fwhm, Source::Given)),
+        None => of_tree(&Voxels::new(volume), request),
+    }
 }
 
 fn of_tree(voxels: &Voxels, request: &Request) -> Result<(f64, Source)> {

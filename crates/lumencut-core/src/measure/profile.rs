@@ -1,6 +1,6 @@
 //! The profile of a vessel: its lumen by arc length.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::contour::inscribed;
 use super::fit::Fit;
@@ -47,6 +47,8 @@ pub struct Profile {
     pub normal: Vec<DVec3>,
     /// The points of the wall (mm, LPS), one for each ray.
     pub contour: Vec<Vec<DVec3>>,
+    /// From the middle to the ends of the shortest and of the longest diameter (mm, LPS).
+    pub half_axes: Vec<[DVec3; 2]>,
     /// The radius of the largest ball around the middle within the lumen (mm).
     pub inscribed_radius: Vec<f64>,
     /// The level of the lumen and that of its background, in the volume's unit.
@@ -85,6 +87,7 @@ impl Profile {
             uncertainty: number(&|fit| fit.uncertainty),
             flags: sections.iter().map(|section| section.flags).collect(),
             normal: places.iter().map(|place| place.normal).collect(),
+            half_axes: (0..places.len()).map(|n| half_axes(&places[n], sections[n].fit.as_ref())).collect(),
             inscribed_radius: inscribed(&arc_length, &center, &contour),
             levels: sections
                 .iter()
@@ -124,8 +127,25 @@ impl Profile {
         self.diameter_min.iter().zip(&self.diameter_max).map(|(a, b)| f64::midpoint(*a, *b)).collect()
     }
 
+    /// The number of the section that is nearest to an arc length (mm), the first of two.
+    pub fn nearest(&self, at: f64) -> usize {
+        let away = |n: &usize| (self.arc_length[*n] - at).abs();
+        (0..self.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+    }
+
+    /// The length of the vessel (mm).
+    pub fn length(&self) -> f64 {
+        self.arc_length.last().copied().unwrap_or(0.0)
+    }
+
     /// Whether a section counts for what is largest, narrowest or suggested.
     pub fn counts(&self, n: usize) -> bool {
         self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
     }
+}
+
+/// The shorter and the longer half axis of a lumen (mm, LPS).
+fn half_axes(place: &Place, fit: Option<&Fit>) -> [DVec3; 2] {
+    let in_world = |axis: DVec2| place.axes[0] * axis.x + place.axes[1] * axis.y;
+    fit.map_or([DVec3::NAN; 2], |fit| fit.ellipse.half_axes().map(in_world))
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::flags::{LEFT_OUT, RECENTERED};
-use super::measuring::{Request, measure, point_spread_of};
+use super::measuring::{Request, measure_under, point_spread_of};
 use super::profile::Profile;
 use crate::error::{ErrorKind, Result};
 use crate::stop::Stop;
@@ -40,8 +40,8 @@ pub fn measured_radii(
     stop: Stop,
 ) -> Result<Vec<Radii>> {
     let request = Request { step, fwhm, tree, stop };
-    let request = Request { fwhm: Some(point_spread_of(volume, &request)?), ..request };
-    let radii = |vessel: &Vessel| match measure(volume, vessel, &request) {
+    let fwhm = point_spread_of(volume, &request)?;
+    let radii = |vessel: &Vessel| match measure_under(fwhm.clone(), volume, vessel, &request) {
         Ok(profile) => Ok(of_profile(vessel, &profile)),
         Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
             let kept = vessel.points().len();

@@ -14,6 +14,13 @@ pub struct Stretch {
     pub straight: f64,
 }
 
+impl Stretch {
+    /// The length along the vessel in straight distances: 1 for a straight stretch, infinite for one that ends where it begins.
+    pub fn tortuosity(&self) -> f64 {
+        if self.straight > 0.0 { self.length / self.straight } else { f64::INFINITY }
+    }
+}
+
 /// How a C-arm is turned (radians).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CArm {
@@ -106,6 +113,12 @@ impl Profile {
 /// From the patient to the detector of a C-arm (LPS): in front of the patient at 0, 0.
 pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
+}
+
+/// What is up in the image of a C-arm (LPS): the patient's head, as far as the image shows its direction. Seen from above the head
+/// or from below the feet it is what the head becomes while the C-arm is turned there: the back from above, the front from below.
+pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
+    DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
 }
 
 /// The view across a direction that is nearest to the one from the front.

@@ -19,7 +19,7 @@ const BUCKET: f32 = 0.25;
 const MOST_BUCKETS: usize = 400_000;
 
 /// How many voxels a front settles before it asks whether to stop.
-const BETWEEN_STOPS: usize = 1 << 14;
+const BETWEEN_STOPS: usize = 1 << 10;
 
 /// Where no block is.
 const NO_BLOCK: u32 = u32::MAX;
@@ -33,8 +33,16 @@ struct Block {
     costs: BlockCosts,
     corner: [i32; 3],
     way: Box<[f32; BLOCK]>,
+    /// A bit for each voxel whose ways to its neighbours were offered.
+    offered: Box<[u64; BLOCK / 64]>,
     parent: Box<[u8; BLOCK]>,
     run: Box<[u8; BLOCK]>,
+}
+
+impl Block {
+    fn is_offered(&self, voxel: usize) -> bool {
+        self.offered[voxel / 64] >> (voxel % 64) & 1 != 0
+    }
 }
 
 /// A voxel that waits to be settled, and the way to it.
@@ -51,6 +59,9 @@ pub struct Reach {
     pub longest_gap: Option<f64>,
     /// The largest number of voxels.
     pub most_voxels: usize,
+    /// How many times the straight distance to the target counts for where the front grows first: with 1 it comes by the
+    /// cheapest way; with more it comes sooner, by a way that may be so many times as dear.
+    pub pull: f32,
 }
 
 /// How a search ended.
@@ -110,7 +121,8 @@ impl Front {
         self.source
     }
 
-    /// Grows until the cheapest way to `target` is known. `told` hears how far from the target the front still is (mm).
+    /// Grows until the way to `target` is known: the cheapest one where nothing pulls the front. `told` hears how far from the
+    /// target it still is (mm).
     pub fn grow(
         &mut self,
         voxels: &Voxels,
@@ -129,7 +141,7 @@ impl Front {
                 self.first += 1;
             }
             let way = self.known[block].way[voxel];
-            // Everything on a cheaper way lies in an earlier bucket.
+            // Everything on a cheaper way, as far as the pull lets it be cheaper, lies in an earlier bucket.
             if way.is_finite() && bucket_of(way) < self.first {
                 return Ok(Found::Target);
             }
@@ -149,6 +161,11 @@ impl Front {
                 }
             }
         }
+    }
+
+    /// Whether the front has come to a voxel, by whatever way.
+    pub fn has_come_to(&self, target: [i32; 3]) -> bool {
+        self.find(target).is_some_and(|(block, voxel)| self.known[block].way[voxel].is_finite())
     }
 
     /// The voxels from the source to `target`, which the front has come to.
@@ -186,7 +203,7 @@ impl Front {
             let (block, voxel) = parts_of(waiting.place);
             if self.known[block].way[voxel] >= waiting.way {
                 let left = voxels.center(voxel_of(self.known[block].corner, voxel)).distance(goal);
-                self.put(bucket_of(waiting.way + left as f32), waiting);
+                self.put(bucket_of(waiting.way + self.reach.pull * left as f32), waiting);
             }
         }
     }
@@ -199,9 +216,12 @@ impl Front {
             return None;
         }
         self.settled += 1;
+        self.known[block].offered[voxel / 64] |= 1 << (voxel % 64);
         let here = voxel_of(self.known[block].corner, voxel);
         let cost = self.costs[usize::from(self.known[block].costs[voxel])];
         let run = self.known[block].run[voxel];
+        // A cheaper way is found late and often where the front is pulled: too often to offer it again.
+        let is_pulled = self.reach.pull > 1.0;
         for n in 0..26 {
             let (step, length) = self.steps[n];
             let next: [i32; 3] = std::array::from_fn(|a| here[a] + step[a]);
@@ -211,7 +231,7 @@ impl Front {
                 continue;
             }
             let way = waiting.way + 0.5 * (cost + self.costs[usize::from(code)]) * length;
-            if way >= self.known[to].way[at] {
+            if way >= self.known[to].way[at] || (is_pulled && self.known[to].is_offered(at)) {
                 continue;
             }
             let stretch =
@@ -222,7 +242,8 @@ impl Front {
             let known = &mut self.known[to];
             (known.way[at], known.parent[at], known.run[at]) = (way, n as u8, stretch);
             let left = voxels.center(next).distance(goal);
-            self.put(bucket_of(way + left as f32).max(self.first), Waiting { place: place_of(to, at), way });
+            let bucket = bucket_of(way + self.reach.pull * left as f32).max(self.first);
+            self.put(bucket, Waiting { place: place_of(to, at), way });
         }
         Some(voxels.center(here).distance(goal))
     }
@@ -263,6 +284,7 @@ impl Front {
                 costs: region.costs_of(voxels, at),
                 corner: region.corner(at),
                 way: Box::new([f32::INFINITY; BLOCK]),
+                offered: Box::new([0; BLOCK / 64]),
                 parent: Box::new([NONE; BLOCK]),
                 run: Box::new([0; BLOCK]),
             });

@@ -153,6 +153,7 @@ pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
     );
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
         .mend("add a point where the vessel goes on, or ask for a bridge where it is occluded")
+        .at(gap.place, f64::from(gap.value))
 }
 
 /// The error for two points between which nothing was found at all.

@@ -27,22 +27,24 @@ struct Junction {
     leaves: usize,
 }
 
-/// The vessels, each of the later ones cut where it leaves or enters an earlier one, and joined to a point of it: the
-/// shared points are equal to the bit.
+/// The vessels, each of them cut where it leaves or enters an earlier one, and joined to a point of it: the shared points
+/// are equal to the bit. Those `beside` them are earlier than all, and stay as they are.
 ///
 /// # Errors
 /// [`ErrorKind::Tracing`] for a vessel that runs within an earlier one from end to end.
-pub fn joined(lines: Vec<Traced>) -> Result<Vec<Traced>> {
+pub fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
     let mut whole: Vec<Traced> = Vec::with_capacity(lines.len());
     for (n, line) in lines.into_iter().enumerate() {
-        let line = joined_at_start(&whole, line, n)?;
-        let line = joined_at_start(&whole, line.reversed(), n)?.reversed();
+        let earlier: Vec<&Centerline> =
+            beside.iter().chain(whole.iter().map(|vessel| &vessel.line)).collect();
+        let line = joined_at_start(&earlier, line, n)?;
+        let line = joined_at_start(&earlier, line.reversed(), n)?.reversed();
         whole.push(line);
     }
     Ok(whole)
 }
 
-fn joined_at_start(earlier: &[Traced], line: Traced, n: usize) -> Result<Traced> {
+fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Traced> {
     let points = &line.line.points;
     let inside = points.iter().take_while(|point| earlier.iter().any(|vessel| vessel.holds(**point))).count();
     if inside + 1 >= points.len() {
@@ -65,13 +67,13 @@ fn joined_at_start(earlier: &[Traced], line: Traced, n: usize) -> Result<Traced>
 
 /// The junction with a line that has left all earlier vessels at its point `leaves`: one that leaves at once begins where
 /// it was clicked, one that follows a vessel first where it comes nearest to that when followed straight backwards.
-fn left(earlier: &[Traced], line: &Traced, leaves: usize) -> Junction {
+fn left(earlier: &[&Centerline], line: &Traced, leaves: usize) -> Junction {
     let points = &line.line.points;
     let (click, from) = (line.ends[0], points[leaves]);
-    let all = || earlier.iter().flat_map(|vessel| (0..vessel.line.points.len()).map(move |n| (vessel, n)));
+    let all = || earlier.iter().flat_map(|vessel| (0..vessel.points.len()).map(move |n| (*vessel, n)));
     let best = |miss: &dyn Fn(DVec3) -> f64| {
         let (vessel, n) = all().min_by(|a, b| miss(place_of(*a)).total_cmp(&miss(place_of(*b))))?;
-        Some(Junction { place: vessel.line.points[n], radius: vessel.line.radius[n], leaves })
+        Some(Junction { place: vessel.points[n], radius: vessel.radius[n], leaves })
     };
     let nearest = |place: DVec3| best(&|point| point.distance(place));
     let radius = nearest(points[leaves - 1]).map_or(0.0, |junction| junction.radius);
@@ -86,39 +88,37 @@ fn left(earlier: &[Traced], line: &Traced, leaves: usize) -> Junction {
     found.unwrap_or(Junction { place: points[0], radius, leaves })
 }
 
-fn place_of((vessel, n): (&Traced, usize)) -> DVec3 {
-    vessel.line.points[n]
+fn place_of((vessel, n): (&Centerline, usize)) -> DVec3 {
+    vessel.points[n]
 }
 
-impl Traced {
-    fn nearest(&self, place: DVec3) -> usize {
-        nearest(&self.line.points, place)
-    }
-
+impl Centerline {
     /// Whether a place lies within the lumen; beyond the ends there is none.
     fn holds(&self, place: DVec3) -> bool {
-        let points = &self.line.points;
-        let near = self.nearest(place);
+        let points = &self.points;
+        let near = nearest(points, place);
         let across = place - points[near];
         let last = points.len() - 1;
-        let slack = (ENDS * self.line.radius[near]).max(STEP);
+        let slack = (ENDS * self.radius[near]).max(STEP);
         let beyond = |end: usize, next: usize| {
             near == end && across.dot((points[end] - points[next]).normalize_or_zero()) > slack
         };
         let is_beyond = beyond(0, 1) || beyond(last, last - 1);
-        across.length() < self.line.radius[near] && !is_beyond
+        across.length() < self.radius[near] && !is_beyond
     }
 
     /// The junction with a line that begins near one of the ends.
     fn continued_at(&self, start: DVec3) -> Option<Junction> {
-        let last = self.line.points.len() - 1;
+        let last = self.points.len() - 1;
         [0, last].into_iter().find_map(|end| {
-            let (place, radius) = (self.line.points[end], self.line.radius[end]);
+            let (place, radius) = (self.points[end], self.radius[end]);
             let is_near = place.distance(start) < (END_TO_END * radius).max(NEAREST_END);
             is_near.then_some(Junction { place, radius, leaves: 0 })
         })
     }
+}
 
+impl Traced {
     fn reversed(mut self) -> Self {
         self.line.points.reverse();
         self.line.radius.reverse();

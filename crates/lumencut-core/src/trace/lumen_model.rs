@@ -95,6 +95,9 @@ impl LumenModel {
 /// How much membership values far above the lumen lose.
 const ABOVE_IS_NOT: f64 = 0.88;
 
+/// Most of what surrounds lumen is darker: at least this share.
+const DARKER: f64 = 0.75;
+
 /// What a click hit instead of lumen, and what was expected.
 type Mistake = (&'static str, String);
 
@@ -102,8 +105,18 @@ type Mistake = (&'static str, String);
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings {
     tissue: f64,
+    /// What most of the values around are below, and what nearly all are below.
+    most: f64,
     bright: f64,
     is_hounsfield: bool,
+}
+
+/// What there is around a click: the median of its lumen and the spread of that, and the noise.
+#[derive(Clone, Copy, Debug)]
+struct Hit {
+    lumen: f64,
+    spread: f64,
+    noise: f64,
 }
 
 impl Surroundings {
@@ -121,36 +134,59 @@ impl Surroundings {
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
         let level = tissue_level(&samples[first..], &values);
         let tissue = if is_hounsfield { level.max(LEAST_TISSUE) } else { level };
-        Self { tissue, bright: quantile(&samples[first..], 0.995), is_hounsfield }
+        let [most, bright] = [DARKER, 0.995].map(|share| quantile(&samples[first..], share));
+        Self { tissue, most, bright, is_hounsfield }
     }
 
     /// The model of the lumen that the clicks lie in.
     ///
     /// # Errors
-    /// [`ErrorKind::Tracing`] for a click that lies in no lumen.
+    /// [`ErrorKind::Tracing`] for a click that lies in no lumen: of those that are unlike each other the one that looks least
+    /// like lumen, and in doubt the later one.
     pub fn model(&self, voxels: &Voxels, clicks: &[DVec3]) -> Result<LumenModel> {
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
-        let local = |i: usize| local_lumen(voxels, clicks[i], values[i], self.tissue);
-        let lumens: Vec<[f64; 2]> = (0..clicks.len()).map(local).collect();
         for (click, value) in clicks.iter().zip(&values) {
             self.check(voxels, *click, *value, self.mistaken(*value))?;
         }
-        let usual = lower_median(lumens.iter().map(|lumen| lumen[0]).collect());
-        for (i, click) in clicks.iter().enumerate() {
-            self.check(voxels, *click, values[i], self.unlike(lumens[i][0], noise(voxels, *click), usual))?;
+        let hits: Vec<Hit> =
+            clicks.iter().zip(&values).map(|(click, value)| self.hit(voxels, *click, *value)).collect();
+        let usual = lower_median(hits.iter().map(|hit| hit.lumen).collect());
+        if hits.iter().any(|hit| self.unlike(hit, usual).is_some()) {
+            // Where the usual one is itself no lumen, it is not what the others are blamed by.
+            for expected in [self.believed(&hits), usual] {
+                for ((click, value), hit) in clicks.iter().zip(&values).zip(&hits) {
+                    self.check(voxels, *click, *value, self.unlike(hit, expected))?;
+                }
+            }
         }
-        Ok(self.model_of(&lumens, usual))
+        Ok(self.model_of(&hits, usual))
     }
 
-    fn model_of(&self, lumens: &[[f64; 2]], usual: f64) -> LumenModel {
-        let of = |n: usize| lumens.iter().map(move |lumen| lumen[n]);
+    fn hit(&self, voxels: &Voxels, click: DVec3, value: f64) -> Hit {
+        let [lumen, spread] = local_lumen(voxels, click, value, self.tissue);
+        Hit { lumen, spread, noise: noise(voxels, click) }
+    }
+
+    /// The lumen to judge clicks by that are unlike each other: of those brighter than most of what is around the one that most
+    /// others are like, and in doubt the earliest, for a user begins in the vessel.
+    fn believed(&self, hits: &[Hit]) -> f64 {
+        let worth = |hit: &Hit| {
+            let alike = hits.iter().filter(|other| self.unlike(other, hit.lumen).is_none()).count();
+            (hit.lumen > self.most && self.unlike(hit, hit.lumen).is_none(), alike)
+        };
+        // Of several with the same worth the last one wins, which is the earliest here.
+        hits.iter().rev().max_by_key(|hit| worth(hit)).map_or(f64::NAN, |hit| hit.lumen)
+    }
+
+    fn model_of(&self, hits: &[Hit], usual: f64) -> LumenModel {
+        let lumens = || hits.iter().map(|hit| hit.lumen);
         // A click into the throat of a stenosis hits the tissue beside it too.
         let least = self.tissue + LEAST_PART * (usual - self.tissue);
         LumenModel {
             tissue: self.tissue,
-            low: of(0).fold(f64::MAX, f64::min).max(least),
-            high: of(0).fold(f64::MIN, f64::max),
-            noise: of(1).fold(0.0, f64::max),
+            low: lumens().fold(f64::MAX, f64::min).max(least),
+            high: lumens().fold(f64::MIN, f64::max),
+            noise: hits.iter().map(|hit| hit.spread).fold(0.0, f64::max),
             is_hounsfield: self.is_hounsfield,
         }
     }
@@ -160,6 +196,7 @@ impl Surroundings {
         let Some((tissue, expected)) = mistake else { return Ok(()) };
         let found = format!("{tissue}: the volume has {value:.0} there");
         let error = Error::new(ErrorKind::Tracing, format!("point {}", at(click)), found, expected);
+        let error = error.at(click, value);
         Err(match self.nearest_lumen(voxels, click) {
             Some(place) => {
                 let away = place.distance(click);
@@ -187,17 +224,17 @@ impl Surroundings {
     }
 
     /// What a click hit that is unlike the lumen that the others hit as a rule, or no brighter than tissue.
-    fn unlike(&self, lumen: f64, noise: f64, usual: f64) -> Option<Mistake> {
+    fn unlike(&self, hit: &Hit, usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
-        let least = self.tissue + (0.3 * contrast).max(1.5 * noise);
-        if lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
+        let least = self.tissue + (0.3 * contrast).max(1.5 * hit.noise);
+        if hit.lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
             return Some((
                 "bone, metal or calcium",
                 format!("lumen of about {usual:.0}, as at another point"),
             ));
         }
         // What is no number is not brighter either.
-        let is_bright = lumen > least;
+        let is_bright = hit.lumen > least;
         (!is_bright)
             .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))
     }

@@ -76,7 +76,7 @@ pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>>
     }
     begin(0);
     let mut region = Region::new(voxels.size, model, Vec::new(), Strictness::Lumen);
-    let mut ways = Ways::new(&flood, voxels, &mut region);
+    let mut ways = Ways::new(&flood, voxels, &mut region, request.stop)?;
     drop(region);
     begin(1);
     let told = |count: usize| {
@@ -120,7 +120,7 @@ fn floods(seed: DVec3, model: &LumenModel) -> Error {
     let expected =
         format!("vessels, brighter than the tissue around them, which has up to {:.0}", model.tissue);
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", at(seed)), found, expected);
-    error.mend("put the seed into the middle of a vessel with contrast medium")
+    error.mend("put the seed into the middle of a vessel with contrast medium").at(seed, model.low)
 }
 
 /// The error for a seed around which nothing is a vessel.
@@ -129,7 +129,8 @@ fn no_tube(request: &Request, model: &LumenModel, count: usize) -> Error {
     let found = format!("{count} voxels like the {value:.0} there, which are nowhere a tube");
     let expected = format!("a vessel with a radius of {} mm or more", request.smallest_radius);
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", at(request.seed)), found, expected);
-    error.mend("put the seed into the middle of a vessel, or trace between two points along it")
+    let error = error.mend("put the seed into the middle of a vessel, or trace between two points along it");
+    error.at(request.seed, value)
 }
 
 /// The model of the lumen around the seed, and the voxel of the seed.

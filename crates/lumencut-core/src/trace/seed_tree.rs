@@ -1,11 +1,12 @@
 //! Which vessels of a seed are sure: those that are seen well and hang on the seed by others that are.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 
 use glam::DVec3;
 
 use super::mask_vessels::MaskVessel;
 use super::refine::Centerline;
+use super::seed_doubts::{Doubtful, worth_a_look};
 use super::tube::median;
 
 /// A vessel whose mean confidence is below this is doubtful.
@@ -15,9 +16,6 @@ const DOUBTFUL: f64 = 0.3;
 /// much (mm).
 const WITHIN: f64 = 2.5;
 const WITHIN_LENGTH: f64 = 3.0;
-
-/// A doubtful vessel that is shorter is a bump of a wall (mm).
-const SHORTEST: f64 = 3.0;
 
 /// Why a branch is doubtful.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,25 +80,30 @@ impl SeenVessel {
     }
 }
 
-/// The branches that the seed reaches, the doubtful ones last. Vessels that meet nothing else are joined.
+/// The branches that the seed reaches, the doubtful ones that are worth a look last. Sure vessels that meet nothing else are
+/// joined.
 pub fn branches(vessels: Vec<SeenVessel>, seed: DVec3) -> Vec<SeedBranch> {
     let is_seen = seen(&vessels);
     let is_sure = sure(&vessels, &is_seen, seed);
-    let mut doubtful = Vec::new();
+    let (mut doubtful, mut doubts) = (Vec::new(), Vec::new());
     let mut lines = Vec::new();
     for ((vessel, is_seen), is_sure) in vessels.into_iter().zip(is_seen).zip(is_sure) {
-        let doubt = if is_seen { Doubt::Behind } else { Doubt::Unseen };
         let SeenVessel { vessel, confidence } = vessel;
-        let length = vessel.length();
+        let nodes = vessel.nodes;
         let line = Centerline { points: vessel.points, radius: vessel.radius, confidence };
         if is_sure {
-            lines.push((vessel.nodes, line));
-        } else if length >= SHORTEST {
-            doubtful.push(SeedBranch { line, doubt: Some(doubt) });
+            lines.push((nodes, line));
+        } else {
+            doubtful.push(Doubtful { nodes, line });
+            doubts.push(if is_seen { Doubt::Behind } else { Doubt::Unseen });
         }
     }
-    let sure = joined(lines).into_iter().map(|line| SeedBranch { line, doubt: None });
-    sure.chain(doubtful).collect()
+    let sure_nodes: BTreeSet<usize> = lines.iter().flat_map(|(nodes, _)| *nodes).collect();
+    let sure = joined(lines);
+    let is_worth = worth_a_look(&doubtful, &sure, &sure_nodes);
+    let doubtful = doubtful.into_iter().zip(doubts).zip(is_worth).filter(|(_, is_worth)| *is_worth);
+    let doubtful = doubtful.map(|((vessel, doubt), _)| SeedBranch { line: vessel.line, doubt: Some(doubt) });
+    sure.into_iter().map(|line| SeedBranch { line, doubt: None }).chain(doubtful).collect()
 }
 
 /// The vessels without those at the ends of the tree that are narrower than `least` (mm) on the whole: the median of their

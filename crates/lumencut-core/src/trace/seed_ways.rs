@@ -30,21 +30,28 @@ pub struct Ways {
 
 impl Ways {
     /// The voxels of a flood without any way; ways are cheap in the middle of lumen and dear at walls.
-    pub fn new(flood: &Flood, voxels: &Voxels, region: &mut Region) -> Self {
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`].
+    pub fn new(flood: &Flood, voxels: &Voxels, region: &mut Region, stop: Stop) -> Result<Self> {
         let table = costs();
-        let cost_of = |number: u32| {
-            let (block, inside) = flood.block_of(number);
-            let code = region.costs_of(voxels, block)[inside];
-            if code == FORBIDDEN { f32::INFINITY } else { table[usize::from(code)] }
-        };
         let count = flood.count();
-        Self {
-            cost: (0..count as u32).map(cost_of).collect(),
+        let mut cost = Vec::with_capacity(count);
+        for number in 0..count {
+            if number % BETWEEN_STOPS == 0 {
+                go_on(stop)?;
+            }
+            let (block, inside) = flood.block_of(number as u32);
+            let code = region.costs_of(voxels, block)[inside];
+            cost.push(if code == FORBIDDEN { f32::INFINITY } else { table[usize::from(code)] });
+        }
+        Ok(Self {
+            cost,
             parent: vec![NONE; count],
             order: Vec::new(),
             first_child: vec![NONE; count],
             next_child: vec![NONE; count],
-        }
+        })
     }
 
     /// Finds the cheapest ways from any of some voxels, over those that are open. What comes before the first ones stays.

@@ -5,13 +5,15 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::front::{Found, Front, Reach};
-use super::gaps::{Gap, LONGEST_GAP, Line, no_lumen, no_way};
+use super::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
 use super::junctions::{joined, nearest};
 use super::lumen_model::{LumenModel, Surroundings, at};
-use super::refine::refined;
-use super::region::{FORBIDDEN, Region, Stopper, Strictness, THIN, WEAK};
+use super::preview::{Live, Sought};
+use super::refine::{Centerline, refined};
+use super::region::{Region, Stopper, Strictness};
 use super::traced::Traced;
 use super::voxels::Voxels;
+use super::way::{Way, start};
 use crate::error::{Error, ErrorKind, Result};
 use crate::progress::Progress;
 use crate::stop::Stop;
@@ -20,6 +22,9 @@ use crate::volume::Volume;
 /// How many voxels a front may come to (7 bytes each), and one that looks for what to say of a way that is not there.
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
+
+/// So many fronts follow the pointer: those of both neighbours of a point that is dragged.
+const MOST_LIVE: usize = 2;
 
 /// What is to be traced.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,28 +35,9 @@ pub struct Clicks {
     pub stoppers: Vec<Stopper>,
     /// Whether stretches without lumen are bridged, however long.
     pub bridge: bool,
-}
-
-/// The way between two clicks through voxels.
-#[derive(Clone, Debug)]
-struct Way {
-    points: Vec<DVec3>,
-    gaps: Vec<Gap>,
-}
-
-impl Way {
-    /// Its points, those of gaps put on a straight line: nothing is seen there that could lead it.
-    fn straightened(&self) -> Vec<DVec3> {
-        let mut points = self.points.clone();
-        for gap in &self.gaps {
-            let (first, last) = (gap.points.start.saturating_sub(1), gap.points.end.min(points.len() - 1));
-            let [from, to] = [points[first], points[last]];
-            for i in gap.points.clone() {
-                points[i] = from.lerp(to, (i - first) as f64 / (last - first).max(1) as f64);
-            }
-        }
-        points
-    }
+    /// Vessels that are there already and stay as they are: one that meets them ends at a point of them. Their confidence
+    /// does not matter.
+    pub beside: Vec<Centerline>,
 }
 
 /// Two voxels, from the first to the second.
@@ -65,6 +51,8 @@ pub struct Tracer {
     fronts: HashMap<[i32; 3], Front>,
     ways: HashMap<Ends, Way>,
     lines: Vec<(Vec<DVec3>, Traced)>,
+    /// What follows the pointer, the last one used first.
+    live: Vec<Live>,
 }
 
 /// Everything that a search reads.
@@ -106,14 +94,31 @@ impl Tracer {
         }
         self.lines = lines;
         self.tidy(voxels, clicks);
-        joined(self.lines.iter().map(|(_, line)| line.clone()).collect())
+        joined(&clicks.beside, self.lines.iter().map(|(_, line)| line.clone()).collect())
+    }
+
+    /// The way through the lumen that a vessel would take, quick enough to follow a pointer: none where it is not found before
+    /// `stop` says so, and where [`Tracer::trace`] would refuse it at once. What was learnt is kept for the last
+    /// two clicks, so that the next call from one of them goes on from there. Every call must be of the volume that is traced.
+    pub fn preview(&mut self, volume: &Volume, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
+        let voxels = &Voxels::new(volume);
+        let known = self.live.iter().position(|live| live.is_from(sought));
+        let kept = known.map(|number| self.live.remove(number));
+        let begin = || Live::new(voxels, sought, self.surroundings, self.region.as_ref());
+        let mut live = kept.or_else(begin)?;
+        let way = live.way(voxels, sought, stop);
+        self.live.truncate(MOST_LIVE - 1);
+        self.live.insert(0, live);
+        way
     }
 
     /// Makes the model of the lumen fit the clicks; what was kept under another model is forgotten.
     fn prepare(&mut self, voxels: &Voxels, clicks: &Clicks) -> Result<()> {
         let all: Vec<DVec3> = clicks.vessels.iter().flatten().copied().collect();
-        let surroundings = *self.surroundings.get_or_insert_with(|| Surroundings::of(voxels, &all));
+        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &all));
         let model = surroundings.model(voxels, &all)?;
+        // Those of clicks that were refused would mislead the next ones.
+        self.surroundings = Some(surroundings);
         let fits = |region: &Region| region.model.covers(&model);
         if !self.region.as_ref().is_some_and(fits) {
             *self = Self { surroundings: Some(surroundings), ..Self::default() };
@@ -187,7 +192,7 @@ impl Tracer {
         }
         let backwards = !self.fronts.contains_key(&ends[0]) && self.fronts.contains_key(&ends[1]);
         let [source, target] = if backwards { [ends[1], ends[0]] } else { ends };
-        let reach = Reach { longest_gap: Some(LONGEST_GAP), most_voxels: MOST_VOXELS };
+        let reach = Reach { longest_gap: Some(LONGEST_GAP), most_voxels: MOST_VOXELS, pull: 1.0 };
         let front =
             self.fronts.entry(source).or_insert_with(|| Front::new(search.voxels, region, source, reach));
         let found = search.grow(front, region, target)?;
@@ -197,7 +202,7 @@ impl Tracer {
             if backwards {
                 steps.reverse();
             }
-            way = Some(way_of(search.voxels, region, &steps));
+            way = Some(Way::of(search.voxels, region, &steps));
         }
         let whole = match way {
             Some(way) if way.gaps.iter().all(|gap| !gap.is_open) => way,
@@ -237,12 +242,12 @@ impl Search<'_, '_> {
         let stoppers = self.clicks.stoppers.clone();
         let mut lenient = Region::new(self.voxels.size, model, stoppers, Strictness::Bridge);
         let most_voxels = if self.clicks.bridge { MOST_VOXELS } else { MOST_VOXELS_OF_DOUBT };
-        let reach = Reach { longest_gap: None, most_voxels };
+        let reach = Reach { longest_gap: None, most_voxels, pull: 1.0 };
         let mut front = Front::new(self.voxels, &mut lenient, ends[0], reach);
         if front.grow(self.voxels, &mut lenient, ends[1], self.stop, &|_| ())? != Found::Target {
             return Err(no_way(between, &model));
         }
-        let way = way_of(self.voxels, &mut lenient, &front.way_to(ends[1]));
+        let way = Way::of(self.voxels, &mut lenient, &front.way_to(ends[1]));
         if self.clicks.bridge { Ok(way) } else { Err(refusal(between, &way, &model)) }
     }
 }
@@ -254,41 +259,6 @@ const PARTS: usize = 1000;
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
     let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
     longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
-}
-
-/// A way through voxels with its gaps.
-fn way_of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Way {
-    let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
-    let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
-    let below = |limit: f64| codes.iter().map(|code| *code >= region.code_below(limit)).collect::<Vec<_>>();
-    let weak = below(WEAK);
-    let line = Line::new(voxels, &region.model, &points);
-    let mut gaps = line.gaps(&weak);
-    for gap in &mut gaps {
-        // A way around a stopper through tissue is none.
-        gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
-    }
-    Way { points, gaps }
-}
-
-/// The voxel where the front of a click starts: its own, or where that is at the wall the neighbour that costs least.
-fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
-    let middle = voxels.voxel_at(click).unwrap_or([0; 3]);
-    let mut best = (region.code_of(voxels, middle), middle);
-    if best.0 != FORBIDDEN && best.0 < region.code_below(THIN) {
-        return middle;
-    }
-    for n in 0..27 {
-        let step = [n % 3, n / 3 % 3, n / 9].map(|c| c - 1);
-        let next: [i32; 3] = std::array::from_fn(|a| middle[a] + step[a]);
-        if (0..3).all(|a| next[a] >= 0 && (next[a] as usize) < voxels.size[a]) {
-            let code = region.code_of(voxels, next);
-            if code != FORBIDDEN && (best.0 == FORBIDDEN || code < best.0) {
-                best = (code, next);
-            }
-        }
-    }
-    best.1
 }
 
 /// Refuses clicks that no vessel can run through, whatever the volume holds.

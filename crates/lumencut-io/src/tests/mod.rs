@@ -8,6 +8,7 @@ mod other_formats;
 mod robust;
 mod sample;
 mod segments;
+mod session;
 mod shared_data;
 mod tables;
 mod writing;

@@ -6,7 +6,7 @@
 //! other programs pass over the mark. Groups are not written: they tell which lines are one vessel.
 
 mod csv;
-mod mrk_json;
+pub(crate) mod mrk_json;
 mod swc;
 mod vtk;
 mod vtp;
@@ -37,7 +37,7 @@ fn confidences(vessels: &[Line]) -> Option<Vec<f64>> {
 ///
 /// # Errors
 /// Where there is no vessel, or one is not what a [`Line`] is.
-fn check_all(vessels: &[Line]) -> Result<()> {
+pub(crate) fn check_all(vessels: &[Line]) -> Result<()> {
     if vessels.is_empty() {
         return Err(Error::new("vessels", "none", "at least one vessel"));
     }

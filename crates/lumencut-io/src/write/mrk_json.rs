@@ -15,9 +15,14 @@ const SCHEMA: &str = "https://raw.githubusercontent.com/slicer/slicer/master/Mod
 /// Where there is no vessel, or one is not what a [`Line`] is.
 pub fn write_mrk_json(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
+    Ok(markups(vessels, "").into_bytes())
+}
+
+/// The text of the file; `beside` are further fields, each with a comma behind it, which 3D Slicer passes over.
+pub fn markups(vessels: &[Line], beside: &str) -> String {
     let curves: Vec<String> = vessels.iter().map(curve).collect();
     let head = format!("\"@schema\": \"{SCHEMA}\",\n\"{JOINED_MARK}\": true");
-    Ok(format!("{{\n{head},\n\"markups\": [{}]\n}}\n", curves.join(", ")).into_bytes())
+    format!("{{\n{head},\n{beside}\"markups\": [{}]\n}}\n", curves.join(", "))
 }
 
 fn curve(vessel: &Line) -> String {

@@ -53,5 +53,5 @@ export function judged(judge: Judge, subject: string, files: readonly LookedInto
   }
   const trouble: Trouble = answer.error;
   const named = trouble.file === null ? subject : (files[trouble.file]?.source.path ?? subject);
-  throw new Failure('format', named, trouble.found, trouble.expected, trouble.mend, trouble.series);
+  throw new Failure('format', named, trouble.found, trouble.expected, trouble.mend, trouble);
 }

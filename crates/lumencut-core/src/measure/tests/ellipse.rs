@@ -109,3 +109,19 @@ fn the_exponential_is_near_enough() {
         assert!((value - expected).abs() <= 4e-6 * expected + 1e-30, "{x}: {value} instead of {expected}");
     }
 }
+
+#[test]
+fn half_axes_end_where_the_boundary_is_nearest_and_farthest() {
+    let ellipse = tilted();
+    let [short, long] = ellipse.half_axes();
+    assert!(short.dot(long).abs() < 1e-12);
+    for axis in [short, long] {
+        assert!((ellipse.radius_towards(axis.normalize()) - axis.length()).abs() < 1e-12);
+    }
+    for n in 0..36 {
+        let radius = ellipse.radius_towards(DVec2::from_angle(f64::from(n) * 0.1));
+        assert!((short.length()..=long.length()).contains(&radius));
+    }
+    let [across, along] = Ellipse::circle(DVec2::ZERO, 2.0).half_axes();
+    assert!((across.length() - 2.0).abs() < 1e-12 && (along.length() - 2.0).abs() < 1e-12);
+}

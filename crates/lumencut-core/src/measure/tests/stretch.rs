@@ -41,3 +41,22 @@ fn a_vessel_towards_the_viewer_is_seen_from_the_side() {
     assert!(angulated(DVec3::X, 0.5).is_err());
     assert!(angulated(DVec3::Z, f64::NAN).is_err());
 }
+
+#[test]
+fn the_head_is_up_at_the_detector() {
+    for (lao, cranial) in [(0.0, 0.0), (0.7, 0.4), (-1.2, -1.0), (2.0, 1.5)] {
+        let arm = CArm { lao, cranial };
+        let (view, up) = (towards_detector(arm), up_at_detector(arm));
+        assert!(up.is_normalized() && up.dot(view).abs() < 1e-12);
+        assert!(up.abs_diff_eq(DVec3::Z.reject_from_normalized(view).normalize(), 1e-9));
+    }
+    // From above the head the patient's back is up, from below the feet the front.
+    assert!(up_at_detector(CArm { lao: 0.0, cranial: FRAC_PI_2 }).abs_diff_eq(DVec3::Y, 1e-12));
+    assert!(up_at_detector(CArm { lao: 0.0, cranial: -FRAC_PI_2 }).abs_diff_eq(DVec3::NEG_Y, 1e-12));
+}
+
+#[test]
+fn a_detour_is_told_in_straight_distances() {
+    assert!((Stretch { length: 30.0, straight: 20.0 }.tortuosity() - 1.5).abs() < 1e-12);
+    assert_eq!(Stretch { length: 30.0, straight: 0.0 }.tortuosity(), f64::INFINITY);
+}

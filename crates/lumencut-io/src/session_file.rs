@@ -1,0 +1,331 @@
+//! Session files: all that a reader made of a scan, to go on later.
+//!
+//! A session file is a 3D Slicer markups file (`.mrk.json`) whose curves are the vessels, so that whatever reads markups has the
+//! centerlines; the field [`FIELD`] beside them holds the rest. It names no file and nothing of the patient. Points are in LPS,
+//! lengths in mm.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::centerlines::Line;
+use crate::error::{Error, Result, excerpt};
+use crate::json::Json;
+use crate::read;
+use crate::write::check_all;
+use crate::write::mrk_json::markups;
+
+/// The field of the file that holds what markups have no place for.
+pub const FIELD: &str = "LumencutSession";
+
+/// The version of that field.
+const FORMAT: u32 = 1;
+
+/// What every session file says of the software.
+const NOTICE: &str = "Lumencut is not a medical device.";
+
+type Point = [f64; 3];
+
+/// A saved session.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SessionFile {
+    /// The vessels (mm, LPS), one for each of [`Session::vessels`].
+    pub lines: Vec<Line>,
+    /// All but their lines.
+    pub session: Session,
+}
+
+/// What a session file holds beside the lines of its vessels.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Session {
+    /// The version of this structure.
+    pub format: u32,
+    /// The program that wrote it, with its version.
+    pub software: String,
+    /// That it is not a medical device.
+    pub notice: String,
+    /// The grid of the scan, to tell another one; none where there was no scan.
+    pub scan: Option<Scan>,
+    /// One for each vessel.
+    pub vessels: Vec<VesselState>,
+    /// Branches that a seed reached and that nobody has accepted yet.
+    pub doubtful: Vec<DoubtfulBranch>,
+    /// Balls that no vessel may pass.
+    pub stoppers: Vec<Stopper>,
+    /// Whether vessels are traced on where no lumen is seen.
+    pub bridge: bool,
+    /// Straight distances.
+    pub rulers: Vec<Ruler>,
+    /// How the scan is looked at.
+    pub view: Option<View>,
+}
+
+impl Session {
+    /// The whole of it as JSON.
+    ///
+    /// # Errors
+    /// For numbers that JSON cannot hold, which no session file has.
+    pub fn json(&self) -> Result<String> {
+        let expected = "numbers and texts that JSON can hold";
+        serde_json::to_string(self).map_err(|error| Error::new(FIELD, error.to_string(), expected))
+    }
+}
+
+/// The grid of a scan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scan {
+    /// The number of voxels along (i, j, k).
+    pub size: [usize; 3],
+    /// World position (LPS, mm) of a continuous index, row by row.
+    pub world_from_index: [[f64; 4]; 4],
+}
+
+/// What belongs to a vessel beside its line.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VesselState {
+    /// `#rrggbb`.
+    pub color: String,
+    /// Whether the views leave it out.
+    pub hidden: bool,
+    /// Where it was clicked, in order along it; none where it was not traced from clicks.
+    pub clicks: Option<Vec<Point>>,
+    /// How sure each of its points is, 0 to 1.
+    pub confidence: Option<Vec<f64>>,
+    /// Which of its points lie on a stretch without lumen that was bridged.
+    pub bridged: Option<Vec<bool>>,
+    /// What a reader marked on it.
+    pub marks: Option<Marks>,
+}
+
+/// What a reader marked on a vessel: arc lengths and diameters in mm.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Marks {
+    /// The place of a stenosis.
+    pub at_mm: Option<f64>,
+    /// The places that it is compared with.
+    pub references_mm: Vec<f64>,
+    /// `nascet`, `ecst` or `area`.
+    pub method: String,
+    /// The assumed original diameter, for ECST.
+    pub original_mm: Option<f64>,
+    /// The diameter of a vessel like the normal one.
+    pub comparison_mm: Option<f64>,
+    /// `carotid` or `coronary`.
+    pub group: Option<String>,
+    /// The ends of a stretch.
+    pub stretch_mm: Option<[f64; 2]>,
+    /// The ends of another stretch.
+    pub second_stretch_mm: Option<[f64; 2]>,
+}
+
+/// A branch from a seed that is not sure.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DoubtfulBranch {
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// `#rrggbb`.
+    pub color: String,
+    /// Why it is doubtful.
+    pub doubt: String,
+    /// Its points.
+    pub points: Vec<Point>,
+    /// Its radius at each point (mm).
+    pub radius: Option<Vec<f64>>,
+    /// How sure each of its points is, 0 to 1.
+    pub confidence: Option<Vec<f64>>,
+}
+
+/// A ball that no vessel may pass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stopper {
+    /// Its middle.
+    pub center: Point,
+    /// Its radius.
+    pub radius_mm: f64,
+}
+
+/// A straight distance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ruler {
+    /// One end.
+    pub from: Point,
+    /// The other end.
+    pub to: Point,
+}
+
+/// How a scan is looked at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct View {
+    /// The camera of the turning view.
+    pub camera: Camera,
+    /// `csr`, `csr-paper`, `mpcpr` or `cr`.
+    pub method: String,
+    /// Settings that differ from their defaults, by name; a window is level and width.
+    pub settings: BTreeMap<String, Value>,
+    /// How the page arranges its views.
+    pub layout: String,
+    /// Where the cross-hair stands.
+    pub cross_hair: Option<Point>,
+    /// The vessel of the straightened CPR, and the place of the section on it (mm).
+    pub picked: Option<Picked>,
+}
+
+/// A place on a vessel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Picked {
+    /// The number of the vessel in the file, counted from 0.
+    pub vessel: usize,
+    /// The arc length on it.
+    pub at_mm: f64,
+}
+
+/// An orthographic camera; its axes are unit vectors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    /// What is in the middle of the picture.
+    pub center: Point,
+    /// From the viewer into the scene.
+    pub direction: Point,
+    /// Upwards in the picture.
+    pub up: Point,
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// The side of a pixel (mm).
+    pub pixel_spacing: f64,
+}
+
+/// Whether the content of a file is that of a session file.
+#[must_use]
+pub fn is_session(content: &[u8]) -> bool {
+    content.trim_ascii_start().starts_with(b"{")
+        && Json::of(content).is_ok_and(|root| root.fields([FIELD])[0].is_some())
+}
+
+/// Reads the content of the session file `name`.
+///
+/// # Errors
+/// For a file that is none, that another version wrote, or whose parts do not go together.
+pub fn read_session(content: &[u8], name: &str) -> Result<SessionFile> {
+    read_unnamed(content, name).map_err(|error| {
+        // What reads the curves names the file already.
+        if error.subject.starts_with(name) { error } else { error.in_file(name) }
+    })
+}
+
+fn read_unnamed(content: &[u8], name: &str) -> Result<SessionFile> {
+    let expected = "a session file of Lumencut";
+    let root = Json::of(content)
+        .map_err(|error| Error::truncated("", format!("damaged JSON ({error})"), expected))?;
+    let [field, curves] = root.fields([FIELD, "markups"]);
+    let field = field.ok_or_else(|| Error::new("", format!("no field {FIELD}"), expected))?;
+    let version = field.fields(["format"])[0].and_then(Json::number);
+    if version != Some(f64::from(FORMAT)) {
+        let found = version.map_or_else(|| "no version".to_owned(), |version| format!("version {version}"));
+        let error = Error::new(FIELD, found, format!("version {FORMAT}"));
+        return Err(error.mend("the curves in it can still be read as centerlines"));
+    }
+    let session: Session = serde_json::from_str(field.raw())
+        .map_err(|error| Error::new(FIELD, excerpt(&error.to_string()), expected))?;
+    let is_empty = curves.is_some_and(|curves| matches!(curves.each(|_, _| Ok(())), Some(Ok(0))));
+    let lines = if is_empty { Vec::new() } else { read(content, name)?.lines };
+    check(&lines, &session)?;
+    Ok(SessionFile { lines, session })
+}
+
+/// The bytes of a session file; it states the version of the structure and the notice itself.
+///
+/// # Errors
+/// For parts that do not go together, and lines that are none.
+pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
+    let session = Session {
+        format: FORMAT,
+        software: software.to_owned(),
+        notice: NOTICE.to_owned(),
+        ..file.session.clone()
+    };
+    if !file.lines.is_empty() {
+        check_all(&file.lines)?;
+    }
+    check(&file.lines, &session)?;
+    Ok(markups(&file.lines, &format!("\"{FIELD}\": {},\n", session.json()?)).into_bytes())
+}
+
+/// Checks that all parts go together.
+fn check(lines: &[Line], session: &Session) -> Result<()> {
+    if lines.len() != session.vessels.len() {
+        let found = format!("{} for {} curve(s)", session.vessels.len(), lines.len());
+        return Err(Error::new("vessels of the session", found, "one for each curve"));
+    }
+    for (number, (line, state)) in lines.iter().zip(&session.vessels).enumerate() {
+        let count = line.points.len();
+        let subject = format!("vessel {number} of the session");
+        check_color(&subject, &state.color)?;
+        check_count(&subject, "confidences", state.confidence.as_deref(), count)?;
+        check_count(&subject, "bridged points", state.bridged.as_deref(), count)?;
+        if let Some(marks) = &state.marks {
+            check_marks(&subject, marks)?;
+        }
+    }
+    for (number, branch) in session.doubtful.iter().enumerate() {
+        let count = branch.points.len();
+        let subject = format!("doubtful branch {number} of the session");
+        check_color(&subject, &branch.color)?;
+        if count < 2 {
+            return Err(Error::new(subject, format!("{count} point(s)"), "at least 2 points"));
+        }
+        check_count(&subject, "radii", branch.radius.as_deref(), count)?;
+        check_count(&subject, "confidences", branch.confidence.as_deref(), count)?;
+    }
+    let picked = session.view.as_ref().and_then(|view| view.picked.as_ref());
+    if let Some(picked) = picked.filter(|picked| picked.vessel >= lines.len()) {
+        let found = format!("vessel {} of {}", picked.vessel, lines.len());
+        return Err(Error::new("picked vessel of the session", found, "the number of a vessel, from 0"));
+    }
+    Ok(())
+}
+
+fn check_color(subject: &str, color: &str) -> Result<()> {
+    let digits = color.strip_prefix('#').unwrap_or_default();
+    if digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+        return Ok(());
+    }
+    Err(Error::new(format!("color of {subject}"), excerpt(color), "'#' and six hexadecimal digits"))
+}
+
+fn check_count<T>(subject: &str, what: &str, numbers: Option<&[T]>, count: usize) -> Result<()> {
+    match numbers {
+        Some(numbers) if numbers.len() != count => {
+            let found = format!("{} for {count} points", numbers.len());
+            Err(Error::new(format!("{what} of {subject}"), found, "one for each point"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_marks(subject: &str, marks: &Marks) -> Result<()> {
+    let methods = ["nascet", "ecst", "area"];
+    if !methods.contains(&marks.method.as_str()) {
+        let found = excerpt(&marks.method);
+        return Err(Error::new(format!("method of {subject}"), found, methods.join(", ")));
+    }
+    let groups = ["carotid", "coronary"];
+    if let Some(group) = marks.group.as_ref().filter(|group| !groups.contains(&group.as_str())) {
+        return Err(Error::new(format!("group of {subject}"), excerpt(group), groups.join(", ")));
+    }
+    if marks.references_mm.len() > 2 {
+        let found = format!("{} references", marks.references_mm.len());
+        return Err(Error::new(subject, found, "two references at most"));
+    }
+    Ok(())
+}

@@ -1,0 +1,74 @@
+//! The brightest place on the ray of a pixel: what a click into a projection means.
+
+use glam::DVec3;
+use lumencut::error::{Error, ErrorKind};
+use lumencut::positions::{pixel_from_world, world_from_pixel};
+use lumencut::volume::Volume;
+use lumencut::windows;
+
+use crate::failure::Result;
+use crate::session::{Pick, Session, no_volume};
+use crate::view::View;
+
+/// How far apart the places are that are looked at, in the smallest side of a voxel.
+const STEP: f64 = 0.5;
+
+impl Session {
+    /// The brightest place on the ray of the pixel (column, row) of a view, the nearest one of several. A slab around the cut
+    /// surface limits the ray to itself.
+    ///
+    /// # Errors
+    /// `tracing` for a ray beside the volume, `volume` where none is open, and those of the view.
+    pub fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+        let within = self.depths_of_slab(view, pixel)?;
+        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let from = world_from_pixel(&view.camera, pixel, 0.0);
+        let [near, far] = chord(&volume, from, view.camera.direction());
+        let (near, far) = (near.max(within[0]), far.min(within[1]));
+        let step = STEP * volume.smallest_side();
+        let count = if near <= far { ((far - near) / step) as usize + 1 } else { 0 };
+        let places: Vec<DVec3> =
+            (0..count).map(|n| from + view.camera.direction() * (near + n as f64 * step)).collect();
+        let values = windows::sample(&volume, &places);
+        let mut best: Option<(usize, f32)> = None;
+        for (n, value) in values.into_iter().enumerate().filter(|(_, value)| value.is_finite()) {
+            if best.is_none_or(|(_, most)| value > most) {
+                best = Some((n, value));
+            }
+        }
+        let Some((n, _)) = best else {
+            let found = "a ray that meets no voxel";
+            let error = Error::new(ErrorKind::Tracing, "place in the projection", found, "one over the scan");
+            return Err(error.mend("click where the scan is shown").into());
+        };
+        Ok(self.at(places[n].to_array()))
+    }
+
+    /// The depths (mm) of the near and the far side of the slab of a pixel; without a slab all there are.
+    fn depths_of_slab(&mut self, view: &View, pixel: [f64; 2]) -> Result<[f64; 2]> {
+        let Some(slab) = view.settings.slab.filter(|_| self.study.tree().is_some()) else {
+            return Ok([f64::MIN, f64::MAX]);
+        };
+        let point = self.pick(view, pixel)?.point;
+        let depth = pixel_from_world(&view.camera, DVec3::from_array(point)).depth;
+        Ok([depth - slab.thickness / 2.0, depth + slab.thickness / 2.0])
+    }
+}
+
+/// From where to where (mm along the ray) a ray runs between the outermost voxels; the first is beyond the second where it
+/// does not.
+fn chord(volume: &Volume, from: DVec3, along: DVec3) -> [f64; 2] {
+    let to_index = volume.index_from_world();
+    let (start, step) = (to_index.transform_point3(from), to_index.transform_vector3(along));
+    let mut range = [f64::MIN, f64::MAX];
+    for (a, size) in volume.size().into_iter().enumerate() {
+        let sides = [0.0, size as f64 - 1.0].map(|side| (side - start[a]) / step[a]);
+        if step[a].abs() < 1e-12 {
+            let is_inside = (0.0..=size as f64 - 1.0).contains(&start[a]);
+            range = if is_inside { range } else { [f64::MAX, f64::MIN] };
+        } else {
+            range = [range[0].max(sides[0].min(sides[1])), range[1].min(sides[0].max(sides[1]))];
+        }
+    }
+    range
+}

@@ -1,0 +1,135 @@
+//! Cutting a line in two, and joining two to one.
+
+use glam::DVec3;
+use lumencut::math::arc_length::arc_lengths;
+
+use crate::failure::Result;
+use crate::lines::{Line, wrong};
+
+/// A cut this near to a point of the line is at that point (mm).
+const AT_POINT: f64 = 1e-6;
+
+/// How far apart the ends of lines may be that are joined: so much (mm), or so many radii of the wider one. It is as far as
+/// tracing passes over without being asked for a bridge.
+const FARTHEST: f64 = 5.0;
+const FARTHEST_RADII: f64 = 2.0;
+
+/// Points between joined ends are at most so far apart (mm).
+const STEP: f64 = 0.5;
+
+/// All that is known of one point.
+#[derive(Clone, Copy)]
+struct Knot {
+    point: DVec3,
+    radius: f64,
+    confidence: f64,
+    is_bridged: bool,
+}
+
+impl Knot {
+    fn between(self, other: Self, share: f64) -> Self {
+        let mixed = |from: f64, to: f64| from + (to - from) * share;
+        Self {
+            point: self.point.lerp(other.point, share),
+            radius: mixed(self.radius, other.radius),
+            confidence: mixed(self.confidence, other.confidence),
+            is_bridged: self.is_bridged && other.is_bridged,
+        }
+    }
+}
+
+/// The two parts of a line that is cut at an arc length (mm): both have the point there.
+///
+/// # Errors
+/// `vessel tree` for a place that is not between the ends.
+pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
+    let lengths = arc_lengths(&line.points);
+    let whole = lengths[lengths.len() - 1];
+    if !(at > AT_POINT && at < whole - AT_POINT) {
+        let expected = format!("a place between its ends, more than 0 and less than {whole:.3} mm along it");
+        return Err(wrong("cut", format!("a cut at {at:.3} mm"), &expected).into());
+    }
+    let knots = knots(line);
+    let after = lengths.partition_point(|length| *length < at - AT_POINT);
+    let (middle, second) = if lengths[after] <= at + AT_POINT {
+        (knots[after], after + 1)
+    } else {
+        let share = (at - lengths[after - 1]) / (lengths[after] - lengths[after - 1]);
+        (knots[after - 1].between(knots[after], share), after)
+    };
+    let parts = [[&knots[..after], &[middle]].concat(), [&[middle], &knots[second..]].concat()];
+    Ok(parts.map(|part| with_knots(&part, line)))
+}
+
+/// One line of two, joined at the ends that are nearest to each other; it runs as the first one does. Where these are apart it
+/// goes straight on, and the points between them count as bridged.
+///
+/// # Errors
+/// `vessel tree` for ends that are far apart.
+pub fn join(first: &Line, second: &Line) -> Result<Line> {
+    let (mut one, mut other) = (knots(first), knots(second));
+    let end = |knots: &[Knot], is_last: bool| knots[if is_last { knots.len() - 1 } else { 0 }];
+    let apart = |[a, b]: [bool; 2]| end(&one, a).point.distance(end(&other, b).point);
+    let pairs = [[true, false], [true, true], [false, true], [false, false]];
+    let nearest = pairs.into_iter().min_by(|a, b| apart(*a).total_cmp(&apart(*b))).unwrap_or_default();
+    let distance = apart(nearest);
+    let radius = end(&one, nearest[0]).radius.max(end(&other, nearest[1]).radius);
+    let farthest = FARTHEST.max(FARTHEST_RADII * radius);
+    if distance > farthest {
+        let found = format!("ends that are {distance:.1} mm apart");
+        let expected = format!("ends that are at most {farthest:.1} mm apart");
+        let error = wrong("join", found, &expected);
+        return Err(error.mend("trace the stretch between them first, and join it to both").into());
+    }
+    // At its end the first one goes on with the other; at its start the other one comes before it.
+    let [is_at_end, other_is_at_end] = nearest;
+    if is_at_end == other_is_at_end {
+        other.reverse();
+    }
+    if !is_at_end {
+        std::mem::swap(&mut one, &mut other);
+    }
+    let over = gap(one[one.len() - 1], other[0]);
+    let skip = usize::from(distance <= AT_POINT);
+    let joined = [&one[..], &over, &other[skip..]].concat();
+    let has = Line {
+        points: Vec::new(),
+        radius: first.radius.clone().or_else(|| second.radius.clone()),
+        confidence: first.confidence.clone().or_else(|| second.confidence.clone()),
+        bridged: first
+            .bridged
+            .clone()
+            .or_else(|| second.bridged.clone())
+            .or((distance > STEP).then(Vec::new)),
+    };
+    Ok(with_knots(&joined, &has))
+}
+
+/// The points between two ends, nothing of which was seen.
+fn gap(from: Knot, to: Knot) -> Vec<Knot> {
+    let parts = (from.point.distance(to.point) / STEP).ceil() as usize;
+    let unseen =
+        |n: usize| Knot { confidence: 0.0, is_bridged: true, ..from.between(to, n as f64 / parts as f64) };
+    (1..parts).map(unseen).collect()
+}
+
+/// The points of a line. One that was not traced is as sure as its author.
+fn knots(line: &Line) -> Vec<Knot> {
+    let knot = |(n, point): (usize, &DVec3)| Knot {
+        point: *point,
+        radius: line.radius.as_ref().map_or(f64::NAN, |radius| radius[n]),
+        confidence: line.confidence.as_ref().map_or(1.0, |confidence| confidence[n]),
+        is_bridged: line.bridged.as_ref().is_some_and(|bridged| bridged[n]),
+    };
+    line.points.iter().enumerate().map(knot).collect()
+}
+
+/// The line of some points, of which as much is known as of `like`.
+fn with_knots(knots: &[Knot], like: &Line) -> Line {
+    Line {
+        points: knots.iter().map(|knot| knot.point).collect(),
+        radius: like.radius.as_ref().map(|_| knots.iter().map(|knot| knot.radius).collect()),
+        confidence: like.confidence.as_ref().map(|_| knots.iter().map(|knot| knot.confidence).collect()),
+        bridged: like.bridged.as_ref().map(|_| knots.iter().map(|knot| knot.is_bridged).collect()),
+    }
+}

@@ -1,0 +1,253 @@
+//! What was measured, as the page and its worker tell it each other: the types of `web/src/core/measuring.ts`.
+
+use glam::DVec3;
+use lumencut::measure::groups::Territory;
+use lumencut::measure::profile::Profile;
+use lumencut::measure::stenosis::{Compared, Method, Stenosis};
+use lumencut::measure::stretch::{towards_detector, up_at_detector};
+use lumencut::measure::suggestions::Spot;
+use lumencut::measure_words::{of_c_arm, of_flags, of_source, of_stenosis};
+use lumencut::profile_marks::Marked;
+use lumencut::profile_record::Asked;
+use lumencut::settings::Named;
+use serde::{Deserialize, Serialize};
+
+use crate::failure::Result;
+
+type Vector = [f64; 3];
+
+/// A place on a vessel and the diameter there (mm).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SpotMessage {
+    at: f64,
+    diameter: f64,
+}
+
+impl From<Spot> for SpotMessage {
+    fn from(spot: Spot) -> Self {
+        Self { at: spot.at, diameter: spot.diameter }
+    }
+}
+
+/// The lumen of a vessel by its arc length. What was not measured is NaN, null in JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct ProfileMessage<'a> {
+    arc_length: &'a [f64],
+    diameter: Vec<f64>,
+    diameter_min: &'a [f64],
+    diameter_max: &'a [f64],
+    area: &'a [f64],
+    uncertainty: &'a [f64],
+    counts: Vec<bool>,
+    flags: Vec<Vec<String>>,
+    center: Vec<Vector>,
+    normal: Vec<Vector>,
+    fwhm: f64,
+    fwhm_source: String,
+    narrowest: Option<SpotMessage>,
+    widest: Option<SpotMessage>,
+}
+
+impl<'a> From<&'a Profile> for ProfileMessage<'a> {
+    fn from(profile: &'a Profile) -> Self {
+        Self {
+            arc_length: &profile.arc_length,
+            diameter: profile.diameter_equivalent(),
+            diameter_min: &profile.diameter_min,
+            diameter_max: &profile.diameter_max,
+            area: &profile.area,
+            uncertainty: &profile.uncertainty,
+            counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
+            flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
+            center: arrays(&profile.center),
+            normal: arrays(&profile.normal),
+            fwhm: profile.fwhm,
+            fwhm_source: of_source(&profile.fwhm_source),
+            narrowest: profile.narrowest().map(SpotMessage::from),
+            widest: profile.widest().map(SpotMessage::from),
+        }
+    }
+}
+
+/// What a reader marked on one vessel (arc lengths, mm).
+#[derive(Clone, Debug, Deserialize)]
+pub struct MarksMessage {
+    at: Option<f64>,
+    references: Vec<f64>,
+    method: String,
+    original: Option<f64>,
+    comparison: Option<f64>,
+    group: Option<String>,
+}
+
+/// A stenosis with its group of the field.
+#[derive(Clone, Debug)]
+pub struct Graded {
+    /// The stenosis.
+    pub stenosis: Stenosis,
+    /// The group and its source, where a territory was named and there are groups by the method.
+    pub group: Option<String>,
+}
+
+impl MarksMessage {
+    /// The stenosis that is marked on a profile; none where what it needs is not marked yet.
+    ///
+    /// # Errors
+    /// `measuring` for places that cannot be graded, `settings` for another method or territory.
+    pub fn graded(&self, profile: &Profile) -> Result<Option<Graded>> {
+        let method = Method::named("method of the stenosis", &self.method)?;
+        let compared = Compared {
+            reference: self.references.clone(),
+            original: self.original,
+            comparison: self.comparison,
+        };
+        let Some(stenosis) = (Marked { at: self.at, method, compared }).stenosis(profile)? else {
+            return Ok(None);
+        };
+        // The groups are those of NASCET's percentages.
+        let territory = self.group.as_ref().filter(|_| method == Method::Nascet);
+        let group = territory
+            .map(|name| Territory::named("vessel of the group", name).and_then(|one| stenosis.group(one)))
+            .transpose()?;
+        Ok(Some(Graded { stenosis, group }))
+    }
+
+    /// The same as what the command line is asked for; without a graded stenosis its place alone.
+    pub fn asked(&self, is_graded: bool) -> Asked {
+        let only = Asked { at_mm: self.at, ..Asked::default() };
+        if !is_graded {
+            return only;
+        }
+        Asked {
+            reference_mm: Some(self.references.clone()).filter(|places| !places.is_empty()),
+            method: Some(self.method.clone()),
+            original_mm: self.original,
+            comparison_mm: self.comparison,
+            group: self.group.clone(),
+            ..only
+        }
+    }
+}
+
+/// A graded stenosis.
+#[derive(Clone, Debug, Serialize)]
+pub struct StenosisMessage {
+    percent: f64,
+    at: f64,
+    diameter: f64,
+    uncertainty: f64,
+    reference: f64,
+    references: Vec<SpotMessage>,
+    method: &'static str,
+    words: String,
+    group: Option<String>,
+}
+
+impl From<Graded> for StenosisMessage {
+    fn from(Graded { stenosis, group }: Graded) -> Self {
+        let spot = |[at, diameter]: &[f64; 2]| SpotMessage { at: *at, diameter: *diameter };
+        Self {
+            percent: stenosis.percent,
+            at: stenosis.at,
+            diameter: stenosis.diameter,
+            uncertainty: stenosis.uncertainty,
+            reference: stenosis.reference,
+            references: stenosis.references.iter().map(spot).collect(),
+            method: stenosis.method.name(),
+            words: of_stenosis(&stenosis),
+            group,
+        }
+    }
+}
+
+/// The diameter at a place and its standard deviation (mm).
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct DiameterMessage {
+    /// Of a circle of the same area (mm).
+    pub diameter: f64,
+    /// Its standard deviation (mm).
+    pub uncertainty: f64,
+}
+
+/// A section: its number, its wall, and the ends of its shortest and longest diameter (mm, LPS).
+#[derive(Clone, Debug, Serialize)]
+pub struct SectionMessage {
+    number: usize,
+    contour: Vec<Vector>,
+    shortest: Option<[Vector; 2]>,
+    longest: Option<[Vector; 2]>,
+}
+
+impl SectionMessage {
+    /// The section of a profile that is nearest to an arc length (mm).
+    pub fn nearest(profile: &Profile, at: f64) -> Self {
+        let number = profile.nearest(at);
+        let middle = profile.center[number];
+        let ends =
+            |axis: DVec3| axis.is_finite().then(|| [middle - axis, middle + axis].map(|p| p.to_array()));
+        let [shortest, longest] = profile.half_axes[number].map(ends);
+        Self { number, contour: arrays(&profile.contour[number]), shortest, longest }
+    }
+}
+
+/// From where a stretch is seen.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct LookMessage {
+    direction: Vector,
+    up: Vector,
+}
+
+/// A marked stretch of a vessel.
+#[derive(Clone, Debug, Serialize)]
+pub struct StretchMessage {
+    length: f64,
+    straight: f64,
+    tortuosity: f64,
+    direction: Vector,
+    lao: f64,
+    cranial: f64,
+    c_arm: String,
+    view: LookMessage,
+}
+
+impl StretchMessage {
+    /// The stretch between two arc lengths (mm), and the C-arm that is turned least to see it in its whole length.
+    ///
+    /// # Errors
+    /// `measuring` for places beyond the vessel, or one place twice.
+    pub fn between(profile: &Profile, ends: [f64; 2]) -> Result<Self> {
+        let stretch = profile.stretch(ends)?;
+        let arm = profile.c_arm(ends, None)?;
+        let view = LookMessage {
+            direction: (-towards_detector(arm)).to_array(),
+            up: up_at_detector(arm).to_array(),
+        };
+        Ok(Self {
+            length: stretch.length,
+            straight: stretch.straight,
+            tortuosity: stretch.tortuosity(),
+            direction: profile.direction(ends)?.to_array(),
+            lao: arm.lao,
+            cranial: arm.cranial,
+            c_arm: of_c_arm(&arm),
+            view,
+        })
+    }
+}
+
+/// A vessel for tables.
+#[derive(Clone, Debug, Deserialize)]
+pub struct VesselMessage {
+    /// Its id.
+    pub id: String,
+    /// Its name, empty where it has none.
+    pub name: String,
+    /// Its line.
+    pub line: usize,
+    /// What was marked on it.
+    pub marks: MarksMessage,
+}
+
+fn arrays(points: &[DVec3]) -> Vec<Vector> {
+    points.iter().map(DVec3::to_array).collect()
+}

@@ -1,0 +1,109 @@
+//! Measuring, as the page's worker calls it. All methods throw the JSON of an error: `measuring` for a vessel or a place that
+//! cannot be measured, `vessel tree` for a line that is not shown, `interrupted` once the page says stop.
+
+use lumencut::measure::profile::Profile;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::engine::{Answer, Engine, answer, read, told};
+use crate::failure::Result;
+use crate::measured::{
+    DiameterMessage, MarksMessage, ProfileMessage, SectionMessage, SpotMessage, StenosisMessage,
+    StretchMessage, VesselMessage,
+};
+use crate::stopping::{LONG, is_asked};
+
+/// Measuring goes on until the page cancels.
+fn stop() -> bool {
+    is_asked(LONG)
+}
+
+impl Engine {
+    fn measured(&mut self, line: usize) -> Result<&Profile> {
+        self.session.measured(line, &stop)
+    }
+}
+
+#[wasm_bindgen]
+impl Engine {
+    /// The profile of a line that is shown, under a point spread of this width (mm), or under the one that the tree tells, as
+    /// JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn profile(&mut self, line: usize, fwhm: Option<f64>) -> Answer<String> {
+        told(self.session.profile(line, fwhm, &stop).map(ProfileMessage::from))
+    }
+
+    /// The stenosis that was marked on a line, as JSON; null where what it needs is not marked yet.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn stenosis(&mut self, line: usize, marks: &str) -> Answer<String> {
+        let graded = read::<MarksMessage>("marks", marks)
+            .and_then(|marks| self.measured(line).and_then(|profile| marks.graded(profile)));
+        told(graded.map(|graded| graded.map(StenosisMessage::from)))
+    }
+
+    /// Places before and after an arc length (mm) to compare it with, as JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn suggested_references(&mut self, line: usize, at: f64) -> Answer<String> {
+        let spots = self.measured(line).and_then(|profile| Ok(profile.suggested_references(at)?));
+        told(spots.map(|spots| spots.map(|spot| spot.map(SpotMessage::from))))
+    }
+
+    /// The diameter at an arc length (mm), as JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn diameter_at(&mut self, line: usize, at: f64) -> Answer<String> {
+        let found = self.measured(line).and_then(|profile| Ok(profile.diameter_at(at)?));
+        told(found.map(|(diameter, uncertainty)| DiameterMessage { diameter, uncertainty }))
+    }
+
+    /// The section that is nearest to an arc length (mm), as JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn measured_section(&mut self, line: usize, at: f64) -> Answer<String> {
+        told(self.measured(line).map(|profile| SectionMessage::nearest(profile, at)))
+    }
+
+    /// The stretch from one arc length to another (mm), as JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn stretch(&mut self, line: usize, start: f64, end: f64) -> Answer<String> {
+        told(self.measured(line).and_then(|profile| StretchMessage::between(profile, [start, end])))
+    }
+
+    /// The angle (radians) between two stretches, whose ends (mm) are given as JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn angle_between(&mut self, line: usize, stretches: &str) -> Answer<f64> {
+        let angle = read::<[[f64; 2]; 2]>("stretches", stretches).and_then(|[first, second]| {
+            self.measured(line).and_then(|profile| Ok(profile.angle_between(first, second)?))
+        });
+        answer(angle)
+    }
+
+    /// The table of vessels that are given as JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn profiles_csv(&mut self, vessels: &str) -> Answer<String> {
+        let vessels = read::<Vec<VesselMessage>>("vessels", vessels);
+        answer(vessels.and_then(|vessels| self.session.profiles_csv(&vessels, &stop)))
+    }
+
+    /// Vessels that are given as JSON, with their stenoses, as a file of JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn profiles_json(&mut self, vessels: &str) -> Answer<String> {
+        let vessels = read::<Vec<VesselMessage>>("vessels", vessels);
+        answer(vessels.and_then(|vessels| self.session.profiles_json(&vessels, &stop)))
+    }
+}

@@ -1,0 +1,162 @@
+//! Session files: their lines become lines that the page holds, and the other way round.
+
+use lumencut::centerlines;
+use lumencut::centerlines::session_file::{
+    DoubtfulBranch, Session, SessionFile, read_session, write_session,
+};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::failure::{Failure, Result};
+use crate::lines::{Line, Lines, NamedLine};
+
+/// The program that writes the files.
+const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
+
+/// A session as the page has it: lines by their numbers, and all else as the file has it but for what is known at each point.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct SessionContent {
+    lines: Vec<NamedLine>,
+    doubtful_lines: Vec<NamedLine>,
+    session: Value,
+}
+
+/// The bytes of a session file.
+///
+/// # Errors
+/// `settings` for a content that is none, `vessel tree` for lines that there are not, `format` for parts that do not go together.
+pub fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
+    let SessionContent { lines: named, doubtful_lines, session } = content;
+    let session = session_of(session, (named.len(), doubtful_lines.len()))?;
+    let mut file = SessionFile { lines: Vec::new(), session };
+    for (named, state) in named.iter().zip(&mut file.session.vessels) {
+        let line = lines.get(named.line)?;
+        state.confidence.clone_from(&line.confidence);
+        state.bridged.clone_from(&line.bridged);
+        // Confidence stands beside the vessel, where it is read again.
+        file.lines.push(centerlines::Line { confidence: None, ..line.in_file(&named.name) });
+    }
+    for (named, branch) in doubtful_lines.iter().zip(&mut file.session.doubtful) {
+        let line = lines.get(named.line)?.in_file(&named.name);
+        branch.name.clone_from(&named.name);
+        branch.points = line.points.iter().map(|point| point.to_array()).collect();
+        (branch.radius, branch.confidence) = (line.radius, line.confidence);
+    }
+    Ok(write_session(&file, SOFTWARE)?)
+}
+
+/// What the page says of a session, with room for what it does not say.
+fn session_of(mut said: Value, counts: (usize, usize)) -> Result<Session> {
+    let wrong = |found: &str| Failure::of_message("session", &found, "a session as JSON");
+    let count = |list: &str| said.get(list).and_then(Value::as_array).map(Vec::len);
+    if (count("vessels"), count("doubtful")) != (Some(counts.0), Some(counts.1)) {
+        return Err(wrong("other vessels than lines"));
+    }
+    let add = |to: &mut Value, fields: Value| {
+        if let (Some(to), Value::Object(fields)) = (to.as_object_mut(), fields) {
+            to.extend(fields);
+        }
+    };
+    add(&mut said, json!({"format": 0, "software": "", "notice": ""}));
+    for branch in said["doubtful"].as_array_mut().into_iter().flatten() {
+        add(branch, json!({"name": "", "points": []}));
+    }
+    serde_json::from_value(said).map_err(|error| wrong(&error.to_string()))
+}
+
+/// The content of a session file, whose lines are held from now on.
+///
+/// # Errors
+/// `format` for a file that is damaged or none.
+pub fn read(bytes: &[u8], name: &str, lines: &mut Lines) -> Result<SessionContent> {
+    let SessionFile { lines: curves, mut session } = read_session(bytes, name)?;
+    let mut named = Vec::with_capacity(curves.len());
+    for (curve, state) in curves.into_iter().zip(&mut session.vessels) {
+        let line = Line {
+            points: curve.points,
+            radius: curve.radius,
+            confidence: state.confidence.take(),
+            bridged: state.bridged.take(),
+        };
+        named.push(NamedLine { line: lines.add(line)?, name: curve.name.unwrap_or_default() });
+    }
+    let doubtful: Vec<DoubtfulBranch> = session.doubtful.iter_mut().map(std::mem::take).collect();
+    let mut doubtful_lines = Vec::with_capacity(doubtful.len());
+    for (branch, kept) in doubtful.into_iter().zip(&mut session.doubtful) {
+        (kept.color, kept.doubt) = (branch.color, branch.doubt);
+        let points = branch.points.into_iter().map(Into::into).collect();
+        let (radius, confidence) = (branch.radius, branch.confidence);
+        let line = lines.add(Line { points, radius, confidence, bridged: None })?;
+        doubtful_lines.push(NamedLine { line, name: branch.name });
+    }
+    let text = session.json()?;
+    let session = serde_json::from_str(&text)
+        .map_err(|error| Failure::of_message("session", &error, "a session as JSON"))?;
+    Ok(SessionContent { lines: named, doubtful_lines, session })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn line(bridged: Option<Vec<bool>>) -> Line {
+        Line {
+            points: vec![DVec3::ZERO, DVec3::new(1.0, 1.0 / 3.0, 0.0)],
+            radius: Some(vec![1.5, 1.25]),
+            confidence: Some(vec![1.0, 0.5]),
+            bridged,
+        }
+    }
+
+    fn said() -> Value {
+        let vessel = json!({"color": "#1177aa", "hidden": true, "clicks": [[0.0, 0.0, 0.0]], "marks": null});
+        json!({
+            "scan": null, "vessels": [vessel], "doubtful": [{"color": "#ff8800", "doubt": "it leaves sideways"}],
+            "stoppers": [], "bridge": false, "rulers": [], "view": null,
+        })
+    }
+
+    fn content(lines: &mut Lines, session: Value) -> SessionContent {
+        let sure = lines.add(line(Some(vec![false, true]))).expect("a line");
+        let doubtful = lines.add(line(None)).expect("a line");
+        let named = |line, name: &str| vec![NamedLine { line, name: name.to_owned() }];
+        SessionContent { lines: named(sure, "renal"), doubtful_lines: named(doubtful, ""), session }
+    }
+
+    #[test]
+    fn a_session_comes_back_with_its_lines() {
+        let mut lines = Lines::default();
+        let content = content(&mut lines, said());
+        let bytes = written(content, &lines).expect("a file");
+        let mut other = Lines::default();
+        let back = read(&bytes, "saved.mrk.json", &mut other).expect("a session");
+        assert_eq!(*other.get(back.lines[0].line).expect("a line"), line(Some(vec![false, true])));
+        assert_eq!(*other.get(back.doubtful_lines[0].line).expect("a line"), line(None));
+        assert_eq!(back.lines[0].name, "renal");
+        for (name, value) in said().as_object().expect("an object") {
+            if !["vessels", "doubtful"].contains(&name.as_str()) {
+                assert_eq!(back.session[name], *value, "{name}");
+            }
+        }
+        assert_eq!(back.session["vessels"][0]["hidden"], true);
+        assert_eq!(back.session["doubtful"][0]["doubt"], "it leaves sideways");
+    }
+
+    #[test]
+    fn what_does_not_go_together_is_refused() {
+        let mut lines = Lines::default();
+        let mut fewer = said();
+        fewer["vessels"] = json!([]);
+        let content_of = |session, lines: &mut Lines| content(lines, session);
+        let refused = |content, lines: &Lines| written(content, lines).expect_err("no session").found;
+        let few = content_of(fewer, &mut lines);
+        assert_eq!(refused(few, &lines), "other vessels than lines");
+        let mut odd = said();
+        odd["bridge"] = json!("yes");
+        let odd = content_of(odd, &mut lines);
+        assert!(refused(odd, &lines).contains("invalid type"));
+        assert_eq!(read(b"{}", "no.mrk.json", &mut lines).expect_err("no session").kind, "format");
+    }
+}

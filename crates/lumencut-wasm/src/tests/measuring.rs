@@ -1,0 +1,294 @@
+//! Measuring through the session: against tubes painted by formulas, and against the core's own measurement.
+
+use std::f64::consts::{FRAC_PI_6, PI};
+
+use glam::{DMat2, DVec2, DVec3};
+use lumencut::measure::blur::variance_of;
+use lumencut::measure::ellipse::{Boundary, Ellipse, Whitening};
+use lumencut::measure::measuring::{Request, measure};
+use lumencut::vessel_tree::Vessel;
+use serde_json::{Value as Json, json};
+
+use super::*;
+use crate::lines::NamedLine;
+use crate::measured::{MarksMessage, ProfileMessage, SectionMessage, StenosisMessage, StretchMessage};
+
+const SIZE: [usize; 3] = [40, 40, 80];
+const SIDE: f64 = 0.5;
+const FWHM: f64 = 0.8;
+const MIDDLE: DVec2 = DVec2::new(10.0, 9.8);
+const LONGEST: f64 = FRAC_PI_6;
+
+/// Nobody says stop.
+fn go_on() -> bool {
+    false
+}
+
+/// The lumen at a height: its axes are 4 and 6 mm, the longer one at 30 degrees to x, and by 60 % less at 20 mm.
+fn lumen(z: f64) -> Ellipse {
+    let away = ((z - 20.0) / 8.0).abs().min(1.0);
+    let left = 1.0 - 0.6 * (0.5 + 0.5 * (PI * away).cos());
+    let stretch = DVec2::from_angle(2.0 * LONGEST) * 0.5;
+    Ellipse { center: MIDDLE, mean: 2.5, stretch }.scaled(left)
+}
+
+/// A volume of that tube under a known blur.
+fn voxels() -> Vec<u8> {
+    let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
+    let blur = DMat2::from_diagonal(DVec2::splat(variance));
+    let mut bytes = Vec::new();
+    for k in 0..SIZE[2] {
+        let boundary = Boundary::new(&lumen(k as f64 * SIDE), Whitening::new(blur));
+        for n in 0..SIZE[0] * SIZE[1] {
+            let place = DVec2::new((n % SIZE[0]) as f64, (n / SIZE[0]) as f64) * SIDE;
+            bytes.extend((40.0 + 300.0 * boundary.value(place) as f32).to_le_bytes());
+        }
+    }
+    bytes
+}
+
+/// A line of points beside the middle of the tube, as a file.
+fn line(from: f64, to: f64) -> String {
+    let rows: Vec<String> =
+        (0..=30).map(|n| format!("10.2,9.9,{},2.5\n", from + (to - from) * f64::from(n) / 30.0)).collect();
+    format!("x,y,z,radius\n{}", rows.concat())
+}
+
+fn tube() -> Session {
+    let mut session = Session::default();
+    let rows = [[SIDE, 0.0, 0.0, 0.0], [0.0, SIDE, 0.0, 0.0], [0.0, 0.0, SIDE, 0.0], [0.0, 0.0, 0.0, 1.0]];
+    let header = json!({"size": SIZE, "dtype": "float32", "world_from_index": rows});
+    session.begin_volume(&header.to_string()).expect("room");
+    let bytes = voxels();
+    session.voxel_bytes(0, bytes.len()).expect("room").copy_from_slice(&bytes);
+    open_line(&mut session, 2.0, 37.0);
+    session
+}
+
+fn open_line(session: &mut Session, from: f64, to: f64) {
+    session.open_centerlines(line(from, to).as_bytes(), "line.csv", Some("lps")).expect("a line");
+}
+
+fn phantom(name: &str) -> Session {
+    let mut session = Session::default();
+    session.open_phantom(name, 1.0).expect("a phantom");
+    session
+}
+
+/// The number of a vessel's line, as the page knows it.
+fn line_of(session: &Session, vessel: usize) -> usize {
+    let report = session.study.report().expect("a report");
+    report["vessels"][vessel]["line"].as_u64().expect("a line") as usize
+}
+
+#[allow(clippy::needless_pass_by_value, reason = "a literal is read at once")]
+fn marks(text: Json) -> MarksMessage {
+    let mut all = json!({"at": null, "references": [], "method": "nascet", "original": null, "comparison": null, "group": null});
+    let Json::Object(named) = text else { panic!("{text} has no names") };
+    for (name, value) in named {
+        all[name] = value;
+    }
+    serde_json::from_value(all).expect("marks")
+}
+
+fn as_json(value: impl serde::Serialize) -> Json {
+    serde_json::to_value(value).expect("JSON")
+}
+
+#[test]
+fn a_tube_is_as_wide_as_it_was_painted() {
+    let mut session = tube();
+    let line = line_of(&session, 0);
+    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let told = as_json(ProfileMessage::from(profile));
+    for (n, at) in told["arc_length"].as_array().expect("places").iter().enumerate() {
+        let z = 2.0 + at.as_f64().expect("a place");
+        let [short, long] = lumen(z).semi_axes().map(|half| 2.0 * half);
+        let found = |name: &str| told[name][n].as_f64().expect("a number");
+        assert!((found("diameter_min") - short).abs() < 0.05, "{z}: {} of {short}", found("diameter_min"));
+        assert!((found("diameter_max") - long).abs() < 0.05, "{z}: {} of {long}", found("diameter_max"));
+        assert!((found("area") - PI / 4.0 * short * long).abs() < 0.25);
+        assert!(told["counts"][n].as_bool().expect("a word"));
+    }
+    assert!((told["narrowest"]["at"].as_f64().expect("a place") - 18.0).abs() <= 0.5);
+    assert_eq!((&told["fwhm"], &told["fwhm_source"]), (&json!(FWHM), &json!("given")));
+}
+
+#[test]
+fn a_stenosis_has_the_percentage_that_was_painted() {
+    let mut session = tube();
+    let line = line_of(&session, 0);
+    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let graded = |text| marks(text).graded(profile).expect("a grade").map(StenosisMessage::from).map(as_json);
+    let whole =
+        graded(json!({"at": 18.0, "references": [5.0, 31.0], "group": "carotid"})).expect("a stenosis");
+    let percent = whole["percent"].as_f64().expect("a number");
+    assert!((percent - 60.0).abs() < 0.7, "{percent}");
+    assert!(whole["words"].as_str().expect("words").starts_with("60 % of the diameter (NASCET): "));
+    assert!(whole["group"].as_str().expect("a group").starts_with("50 to 69 %"));
+    let area = graded(json!({"at": 18.0, "references": [31.0], "method": "area"})).expect("a stenosis");
+    assert!((area["percent"].as_f64().expect("a number") - 84.0).abs() < 0.7);
+    let ecst = json!({"at": 18.0, "method": "ecst", "original": 8.0, "group": "carotid"});
+    let ecst = graded(ecst).expect("a stenosis");
+    let expected = 100.0 * (1.0 - 0.4 * 24.0_f64.sqrt() / 8.0);
+    assert!((ecst["percent"].as_f64().expect("a number") - expected).abs() < 0.7);
+    // Groups are those of NASCET.
+    assert!(ecst["group"].is_null());
+    for missing in [json!({"references": [5.0]}), json!({"at": 18.0}), json!({"at": 18.0, "method": "ecst"})]
+    {
+        assert!(graded(missing).is_none());
+    }
+    let beyond = marks(json!({"at": 18.0, "references": [99.0]})).graded(profile).expect_err("beyond");
+    assert_eq!(beyond.kind, "measuring");
+}
+
+#[test]
+fn the_diameters_of_a_section_lie_where_they_were_painted() {
+    let mut session = tube();
+    let line = line_of(&session, 0);
+    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let section = as_json(SectionMessage::nearest(profile, 3.1));
+    assert_eq!(section["number"], json!(6));
+    let ends = |name: &str| {
+        [0, 1]
+            .map(|end| serde_json::from_value::<[f64; 3]>(section[name][end].clone()).expect("an end"))
+            .map(DVec3::from)
+    };
+    let along = DVec2::from_angle(LONGEST);
+    for (name, length, direction) in [("longest", 6.0, along), ("shortest", 4.0, along.perp())] {
+        let [from, to] = ends(name);
+        assert!((from.distance(to) - length).abs() < 0.05, "{name}");
+        let towards = (to - from).truncate().normalize();
+        assert!(towards.perp_dot(direction).abs() < 0.02, "{name} towards {towards}");
+        assert!(((from + to) / 2.0).truncate().distance(MIDDLE) < 0.02, "{name}");
+    }
+    for point in section["contour"].as_array().expect("a contour") {
+        let [x, y, z] = serde_json::from_value::<[f64; 3]>(point.clone()).expect("a point");
+        let outwards = DVec2::new(x, y) - MIDDLE;
+        let wall = lumen(z).radius_towards(outwards.normalize());
+        assert!((outwards.length() - wall).abs() < 0.1, "{} of {wall}", outwards.length());
+    }
+}
+
+#[test]
+fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
+    let mut session = tube();
+    let line = line_of(&session, 0);
+    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let stretch = as_json(StretchMessage::between(profile, [4.0, 30.0]).expect("a stretch"));
+    for (name, expected) in [("length", 26.0), ("straight", 26.0), ("tortuosity", 1.0), ("cranial", 0.0)] {
+        assert!((stretch[name].as_f64().expect("a number") - expected).abs() < 1e-3, "{name}");
+    }
+    let vector =
+        |value: &Json| DVec3::from(serde_json::from_value::<[f64; 3]>(value.clone()).expect("a vector"));
+    assert!(vector(&stretch["direction"]).distance(DVec3::Z) < 1e-3);
+    // From the front into the patient, the head up.
+    assert!(vector(&stretch["view"]["direction"]).distance(DVec3::Y) < 1e-3);
+    assert!(vector(&stretch["view"]["up"]).distance(DVec3::Z) < 1e-3);
+    assert_eq!(stretch["c_arm"], json!("LAO 0° CRAN 0°"));
+    assert!(StretchMessage::between(profile, [4.0, 4.0]).is_err());
+}
+
+/// The first vessel of a tree, measured without the session.
+fn measured_by_core(session: &Session, tree: &[Vessel]) -> Profile {
+    let volume = session.study.held.as_ref().expect("a volume").volume().expect("a volume");
+    measure(&volume, &tree[0], &Request { step: 0.5, fwhm: None, tree, stop: &go_on }).expect("a profile")
+}
+
+#[test]
+fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
+    let mut session = phantom("y_junction");
+    let tree = session.study.tree().expect("a tree").tree().clone();
+    let [trunk, branch] = [0, 1].map(|vessel| line_of(&session, vessel));
+    let among_all = measured_by_core(&session, tree.vessels());
+    let found = session.profile(trunk, None, &go_on).expect("a profile");
+    assert_eq!(
+        (&found.flags, &found.area, &found.fwhm_source),
+        (&among_all.flags, &among_all.area, &among_all.fwhm_source)
+    );
+    // One by itself has no branches, and tells the point spread alone.
+    for (line, vessel) in [(trunk, 0), (branch, 1)] {
+        session.show(&[NamedLine { line, name: String::new() }]).expect("one line");
+        let expected = measured_by_core(&session, &tree.vessels()[vessel..=vessel]);
+        assert_ne!((&expected.flags, expected.fwhm), (&among_all.flags, among_all.fwhm));
+        let found = session.measured(line, &go_on).expect("a profile");
+        assert_eq!((&found.flags, &found.area), (&expected.flags, &expected.area));
+        assert_eq!((found.fwhm, &found.fwhm_source), (expected.fwhm, &expected.fwhm_source));
+    }
+}
+
+#[test]
+fn profiles_are_kept_until_other_vessels_are_shown() {
+    let mut session = tube();
+    let line = line_of(&session, 0);
+    let never = || true;
+    assert_eq!(session.profile(line, None, &never).expect_err("stopped").kind, "interrupted");
+    let first = session.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
+    session.profile(line, Some(1.0), &go_on).expect("a profile");
+    // What is kept is not measured again: nobody is asked whether to stop.
+    assert_eq!(session.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
+    assert_eq!(session.measured(line, &never).expect("kept").area, first.area);
+    // The same line by another name.
+    session.show(&[NamedLine { line, name: "carotid".into() }]).expect("the line");
+    assert_eq!(session.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
+    open_line(&mut session, 3.0, 37.0);
+    let line = line_of(&session, 0);
+    assert_eq!(session.profile(line, Some(FWHM), &never).expect_err("another line").kind, "interrupted");
+    let width = session.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
+    assert!((width.length() - 34.0).abs() < 1e-9);
+    session.voxels_changed();
+    assert_eq!(session.profile(line, Some(FWHM), &never).expect_err("other voxels").kind, "interrupted");
+}
+
+#[test]
+fn only_lines_that_are_shown_are_measured() {
+    let mut session = tube();
+    let failure = session.profile(usize::MAX, None, &go_on).expect_err("no line");
+    assert_eq!((failure.kind, failure.subject.as_str()), ("vessel tree", "number of the line"));
+    assert_eq!(Session::default().profile(0, None, &go_on).expect_err("nothing").kind, "volume");
+}
+
+fn vessel(session: &Session, number: usize, marked: Json) -> VesselMessage {
+    let (id, name) = (number.to_string(), String::new());
+    VesselMessage { id, name, line: line_of(session, number), marks: marks(marked) }
+}
+
+#[test]
+fn json_names_what_was_asked_of_one_vessel() {
+    let mut session = tube();
+    let line = line_of(&session, 0);
+    session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let read = |session: &mut Session, marked: Json| -> Json {
+        let vessels = [vessel(session, 0, marked)];
+        serde_json::from_str(&session.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON")
+    };
+    let whole = read(&mut session, json!({"at": 18.0, "references": [31.0], "group": "carotid"}));
+    assert_eq!(
+        whole["settings"],
+        json!({"step_mm": 0.5, "fwhm_mm": FWHM, "at_mm": 18.0, "reference_mm": [31.0], "method": "nascet",
+            "original_mm": null, "comparison_mm": null, "group": "carotid"})
+    );
+    assert!(whole["vessels"][0]["name"].is_null());
+    assert!((whole["vessels"][0]["stenosis"]["percent"].as_f64().expect("a number") - 60.0).abs() < 0.7);
+    let place = read(&mut session, json!({"at": 18.0, "group": "carotid"}));
+    assert_eq!((&place["settings"]["at_mm"], &place["settings"]["method"]), (&json!(18.0), &Json::Null));
+    assert!(place["vessels"][0]["stenosis"].is_null());
+}
+
+#[test]
+fn tables_have_a_line_for_each_section_of_each_vessel() {
+    let mut session = phantom("y_junction");
+    let vessels = [0, 2].map(|number| vessel(&session, number, json!({"at": 10.0})));
+    let text = session.profiles_csv(&vessels, &go_on).expect("a table");
+    let counts = vessels.each_ref().map(|one| session.measured(one.line, &go_on).expect("a profile").len());
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 1 + counts[0] + counts[1]);
+    assert!(lines[0].starts_with("vessel,name,arc_length_mm,"));
+    assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
+    // Of several vessels no single place was asked for.
+    let all: Json =
+        serde_json::from_str(&session.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON");
+    assert!(all["settings"]["at_mm"].is_null());
+    assert_eq!(all["vessels"].as_array().map(Vec::len), Some(2));
+    assert_eq!(session.profiles_csv(&[], &go_on).expect("a table"), "");
+}

@@ -1,0 +1,164 @@
+//! Lines by number: what is made of them, and how they are shown and saved.
+
+use glam::DVec3;
+use lumencut::centerlines;
+use serde_json::json;
+
+use crate::line_edits::{cut, join};
+use crate::lines::{Line, LineContent, NamedLine};
+use crate::session::Session;
+
+/// A line along x in steps of 1 mm from `from`, its radius growing with it.
+fn straight(from: f64, count: usize) -> Line {
+    let along = |n: usize| from + n as f64;
+    Line {
+        points: (0..count).map(|n| DVec3::new(along(n), 0.0, 0.0)).collect(),
+        radius: Some((0..count).map(|n| 1.0 + along(n) / 10.0).collect()),
+        confidence: Some(vec![0.5; count]),
+        bridged: Some(vec![false; count]),
+    }
+}
+
+fn reversed(mut line: Line) -> Line {
+    line.points.reverse();
+    line.radius.as_mut().expect("radii").reverse();
+    line
+}
+
+#[test]
+fn both_parts_of_a_cut_have_its_point() {
+    let line = straight(0.0, 11);
+    let [first, second] = cut(&line, 3.25).expect("two parts");
+    assert_eq!((first.points.len(), second.points.len()), (5, 8));
+    assert_eq!(first.points[4], second.points[0]);
+    assert_eq!((first.points[4].x, first.radius.as_ref().expect("radii")[4]), (3.25, 1.325));
+    assert_eq!((&first.points[..4], &second.points[1..]), (&line.points[..4], &line.points[4..]));
+    // At a point of the line no other one is made.
+    let [first, second] = cut(&line, 4.0 + 1e-9).expect("two parts");
+    assert_eq!((&first.points[..], &second.points[..]), (&line.points[..5], &line.points[4..]));
+    for at in [0.0, -1.0, 10.0, 99.0, f64::NAN] {
+        assert_eq!(cut(&line, at).expect_err("no place within").kind, "vessel tree");
+    }
+}
+
+#[test]
+fn what_was_cut_can_be_joined_again() {
+    let line = straight(0.0, 11);
+    let [first, second] = cut(&line, 4.0).expect("two parts");
+    assert_eq!(join(&first, &second).expect("one line"), line);
+    assert_eq!(join(&first, &reversed(second.clone())).expect("one line"), line);
+    // The line runs as the first one does.
+    assert_eq!(join(&second, &reversed(first.clone())).expect("one line"), line);
+    assert_eq!(join(&reversed(first), &second).expect("one line"), reversed(line));
+}
+
+#[test]
+fn ends_that_are_apart_are_joined_by_a_stretch_that_is_marked() {
+    let (first, second) = (straight(0.0, 5), straight(6.0, 5));
+    let line = join(&first, &second).expect("one line");
+    let bridged: Vec<f64> = line
+        .points
+        .iter()
+        .zip(line.bridged.as_ref().expect("marks"))
+        .filter_map(|(point, is_bridged)| is_bridged.then_some(point.x))
+        .collect();
+    assert_eq!(bridged, [4.5, 5.0, 5.5]);
+    assert!(line.points.windows(2).all(|pair| pair[0].x < pair[1].x));
+    assert_eq!(line.confidence.as_ref().expect("confidence").iter().filter(|sure| **sure == 0.0).count(), 3);
+    let failure = join(&first, &straight(12.0, 5)).expect_err("far apart");
+    assert!(failure.found.contains("8.0 mm") && failure.expected.contains("5.0 mm"));
+    assert!(failure.mend.contains("trace the stretch"));
+}
+
+#[test]
+fn a_line_that_knows_more_than_the_other_keeps_it() {
+    let bare = Line { points: straight(6.0, 5).points, ..Line::default() };
+    let line = join(&straight(0.0, 5), &bare).expect("one line");
+    let radius = line.radius.as_ref().expect("radii");
+    assert!(radius[..5].iter().all(|radius| radius.is_finite()) && radius[8..].iter().all(|r| r.is_nan()));
+    let content = serde_json::to_value(line.content()).expect("JSON");
+    assert!(content["radius"][9].is_null() && content["radius"][0].as_f64() == Some(1.0));
+}
+
+fn with_line(session: &mut Session, line: &Line) -> usize {
+    let content = serde_json::to_value(line.content()).expect("JSON");
+    session.add_line(serde_json::from_value::<LineContent>(content).expect("a line")).expect("a line")
+}
+
+fn named(line: usize, name: &str) -> NamedLine {
+    NamedLine { line, name: name.into() }
+}
+
+#[test]
+fn lines_are_shown_in_their_order_and_windows_stay() {
+    let mut session = Session::default();
+    session.open_phantom("y_junction", 1.0).expect("a phantom");
+    let before = session.study.report().expect("a report");
+    let lines: Vec<u64> =
+        before["vessels"].as_array().expect("vessels").iter().filter_map(|v| v["line"].as_u64()).collect();
+    let added = with_line(&mut session, &straight(0.0, 5));
+    session.show(&[named(added, "mine"), named(lines[1] as usize, "other")]).expect("a tree");
+    let report = session.study.report().expect("a report");
+    assert_eq!(
+        report["vessels"][0],
+        json!({"line": added, "name": "mine", "length": 4.0, "has_radius": true})
+    );
+    assert_eq!(report["vessels"][1]["length"], before["vessels"][1]["length"]);
+    assert_eq!(report["windows"], before["windows"]);
+    assert!(session.show(&[named(9999, "")]).is_err());
+    assert_eq!(session.study.report().expect("a report")["vessels"], report["vessels"]);
+    session.show(&[]).expect("the volume alone");
+    let report = session.study.report().expect("a report");
+    assert_eq!((&report["vessels"], &report["windows"]), (&json!(null), &before["windows"]));
+}
+
+#[test]
+fn the_number_of_a_line_never_stands_for_one_of_another_study() {
+    let mut session = Session::default();
+    session.open_phantom("y_junction", 1.0).expect("a phantom");
+    let added = with_line(&mut session, &straight(0.0, 5));
+    session.open_phantom("stenosis", 1.0).expect("a phantom");
+    assert!((0..=added).all(|line| session.line(line).is_err()));
+    let line = session.study.report().expect("a report")["vessels"][0]["line"].as_u64().expect("a number");
+    assert_eq!(line as usize, added + 1);
+}
+
+#[test]
+fn what_is_no_line_is_refused() {
+    let mut session = Session::default();
+    let add = |session: &mut Session, content: serde_json::Value| {
+        session.add_line(serde_json::from_value(content).expect("a message")).map_err(|failure| failure.kind)
+    };
+    let line = |points: serde_json::Value, radius: serde_json::Value| json!({"points": points, "radius": radius, "confidence": null, "bridged": null});
+    let two = json!([[0, 0, 0], [1, 0, 0]]);
+    assert!(add(&mut session, line(two.clone(), json!([1.0, null]))).is_ok());
+    for odd in [
+        line(json!([[0, 0, 0]]), json!(null)),
+        line(json!([[0, 0, 0], [1e9, 0, 0]]), json!(null)),
+        line(two.clone(), json!([1.0])),
+        line(two.clone(), json!([1.0, -1.0])),
+        json!({"points": two, "radius": null, "confidence": [0.5, 1.5], "bridged": null}),
+        json!({"points": two, "radius": null, "confidence": null, "bridged": [true]}),
+    ] {
+        assert_eq!(add(&mut session, odd), Err("vessel tree"));
+    }
+}
+
+#[test]
+fn files_hold_names_radii_and_confidence() {
+    let mut session = Session::default();
+    let first = with_line(&mut session, &straight(0.0, 5));
+    let bare = Line { points: straight(6.0, 5).points, ..Line::default() };
+    let second = with_line(&mut session, &bare);
+    let lines = [named(first, "SMA & co"), named(second, "")];
+    for kind in ["vtp", "mrk.json"] {
+        let bytes = session.write(&lines, kind).expect("a file");
+        let read = centerlines::read(&bytes, &format!("lines.{kind}")).expect("lines");
+        assert_eq!(read.lines[0].points, straight(0.0, 5).points);
+        assert_eq!((&read.lines[0].radius, &read.lines[1].radius), (&straight(0.0, 5).radius, &None));
+        assert_eq!((read.lines[0].name.as_deref(), &read.lines[1].name), (Some("SMA & co"), &None));
+        assert!(read.joined && String::from_utf8_lossy(&bytes).contains("Confidence"));
+    }
+    assert_eq!(session.write(&lines, "stl").expect_err("no such format").subject, "format");
+    assert_eq!(session.write(&[], "vtp").expect_err("no lines").kind, "format");
+}

@@ -1,0 +1,222 @@
+//! Vessels between clicks and from a seed, in the study that is open, and the lines that are made of them.
+
+use glam::DVec3;
+use lumencut::centerlines::{write_mrk_json, write_vtp};
+use lumencut::error::{Error, ErrorKind};
+use lumencut::progress::Progress;
+use lumencut::stop::Stop;
+use lumencut::trace::preview::Sought;
+use lumencut::trace::region::Stopper;
+use lumencut::trace::seed;
+use lumencut::trace::seed_tree::Doubt;
+use lumencut::trace::tracer::Clicks;
+use lumencut::vessel_tree::VesselTree;
+use serde::{Deserialize, Serialize};
+
+use crate::failure::{Failure, Result};
+use crate::line_edits::{cut, join};
+use crate::lines::{Line, LineContent, NamedLine};
+use crate::session::{Session, no_volume};
+use crate::study::Named;
+
+/// How long work is watched: asked whether to stop, and how far it is.
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    /// Asked again and again.
+    pub stop: Stop<'a>,
+    /// Told how far the work is.
+    pub progress: &'a Progress,
+}
+
+/// A ball that no vessel may pass.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub struct StopperMessage {
+    center: [f64; 3],
+    radius: f64,
+}
+
+/// Vessels that are clicked: at least two points for each.
+#[derive(Clone, Debug, Deserialize)]
+pub struct TraceMessage {
+    vessels: Vec<Vec<[f64; 3]>>,
+    stoppers: Vec<StopperMessage>,
+    bridge: bool,
+    beside: Vec<usize>,
+}
+
+/// A way to where the pointer is.
+#[derive(Clone, Debug, Deserialize)]
+pub struct PathMessage {
+    from: [f64; 3],
+    to: [f64; 3],
+    stoppers: Vec<StopperMessage>,
+    bridge: bool,
+}
+
+/// A branch that a seed reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SeedLine {
+    /// The number of its line.
+    pub line: usize,
+    /// Why it is doubtful; none where it is not.
+    pub doubt: Option<&'static str>,
+}
+
+impl From<&StopperMessage> for Stopper {
+    fn from(message: &StopperMessage) -> Self {
+        Self { center: DVec3::from_array(message.center), radius: message.radius }
+    }
+}
+
+impl Session {
+    /// The numbers of the lines of vessels that are clicked, in their order. A line that is what it was keeps its number.
+    ///
+    /// # Errors
+    /// `tracing` as [`lumencut::trace::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
+    pub fn trace(&mut self, message: &TraceMessage, watch: Watch) -> Result<Vec<usize>> {
+        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let beside = message.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
+        let clicks = Clicks {
+            vessels: message.vessels.iter().map(|points| places(points)).collect(),
+            stoppers: message.stoppers.iter().map(Stopper::from).collect(),
+            bridge: message.bridge,
+            beside: beside.collect::<Result<_>>()?,
+        };
+        if clicks.vessels.is_empty() {
+            return Ok(Vec::new());
+        }
+        let traced = self.tracer.trace(&volume, &clicks, watch.stop, Some(watch.progress))?;
+        let before = std::mem::take(&mut self.traced);
+        for line in traced.into_iter().map(Line::from) {
+            let known = before.iter().find(|known| self.lines.get(**known).is_ok_and(|held| *held == line));
+            self.traced.push(known.map_or_else(|| self.lines.add(line), |known| Ok(*known))?);
+        }
+        Ok(self.traced.clone())
+    }
+
+    /// The way that a vessel would take to where the pointer is; none where it is not found before `stop` says so.
+    ///
+    /// # Errors
+    /// `volume` where none is open.
+    pub fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
+        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let stoppers: Vec<Stopper> = message.stoppers.iter().map(Stopper::from).collect();
+        let between = [message.from, message.to].map(DVec3::from_array);
+        let sought = Sought { between, stoppers: &stoppers, bridge: message.bridge };
+        let way = self.tracer.preview(&volume, &sought, stop);
+        Ok(way.map(|points| points.iter().map(|point| point.to_array()).collect()))
+    }
+
+    /// All branches that a seed reaches, down to a radius (mm); the doubtful ones last.
+    ///
+    /// # Errors
+    /// `tracing` as [`seed::trace_from`], `settings` for a radius that is none, `volume` where none is open,
+    /// `interrupted`.
+    pub fn trace_from(
+        &mut self,
+        seed: [f64; 3],
+        smallest_radius: f64,
+        watch: Watch,
+    ) -> Result<Vec<SeedLine>> {
+        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        if !(smallest_radius.is_finite() && smallest_radius >= 0.0) {
+            return Err(Failure::of_message("smallest radius", &smallest_radius, "0 or more (mm)"));
+        }
+        let Watch { stop, progress } = watch;
+        let seed = DVec3::from_array(seed);
+        let request = seed::Request { seed, smallest_radius, stop, progress: Some(progress) };
+        let branches = seed::trace_from(&volume, &request)?;
+        let added = branches.into_iter().map(|branch| {
+            let doubt = branch.doubt.map(Doubt::words);
+            Ok(SeedLine { line: self.lines.add(branch.line.into())?, doubt })
+        });
+        added.collect()
+    }
+
+    /// The two parts of a line that is cut at an arc length (mm).
+    ///
+    /// # Errors
+    /// `vessel tree` for a line that there is not, and a place that is not between its ends.
+    pub fn cut(&mut self, line: usize, at: f64) -> Result<[usize; 2]> {
+        let [first, second] = cut(&*self.lines.get(line)?, at)?;
+        Ok([self.lines.add(first)?, self.lines.add(second)?])
+    }
+
+    /// One line of two, joined at the ends that are nearest to each other.
+    ///
+    /// # Errors
+    /// `vessel tree` for a line that there is not, one that is joined to itself, and ends that are far apart.
+    pub fn join(&mut self, first: usize, second: usize) -> Result<usize> {
+        if first == second {
+            let found = "the same line twice";
+            let error = Error::new(ErrorKind::VesselTree, "lines to join", found, "two lines");
+            return Err(error.into());
+        }
+        self.lines.add(join(&*self.lines.get(first)?, &*self.lines.get(second)?)?)
+    }
+
+    /// The content of a line.
+    ///
+    /// # Errors
+    /// `vessel tree` for a line that there is not.
+    pub fn line(&self, line: usize) -> Result<LineContent> {
+        Ok(self.lines.get(line)?.content())
+    }
+
+    /// Takes over a line.
+    ///
+    /// # Errors
+    /// `vessel tree` for what is none.
+    pub fn add_line(&mut self, content: LineContent) -> Result<usize> {
+        self.lines.add(content.into())
+    }
+
+    /// Shows these lines as the tree, in this order; none shows the volume alone. Windows stay as they were.
+    ///
+    /// # Errors
+    /// `vessel tree` for a line that there is not; what was shown stays then.
+    pub fn show(&mut self, shown: &[NamedLine]) -> Result<()> {
+        let vessels = shown.iter().map(|named| self.lines.get(named.line)?.vessel());
+        let vessels = vessels.collect::<Result<Vec<_>>>()?;
+        let named = if vessels.is_empty() {
+            None
+        } else {
+            let names = shown.iter().map(|named| named.name.clone()).collect();
+            let lines = shown.iter().map(|named| named.line).collect();
+            Some(Named::new(VesselTree::new(vessels)?, names, lines))
+        };
+        self.laid = None;
+        self.study.named = named;
+        Ok(())
+    }
+
+    /// The bytes of a centerline file of these lines: `vtp` or `mrk.json`.
+    ///
+    /// # Errors
+    /// `format` for another kind and for no lines, `vessel tree` for a line that there is not.
+    pub fn write(&self, lines: &[NamedLine], kind: &str) -> Result<Vec<u8>> {
+        let write = match kind {
+            "vtp" => write_vtp,
+            "mrk.json" => write_mrk_json,
+            other => return Err(Failure::of_message("format", &other, "vtp or mrk.json")),
+        };
+        let in_file = lines.iter().map(|named| Ok(self.lines.get(named.line)?.in_file(&named.name)));
+        Ok(write(&in_file.collect::<Result<Vec<_>>>()?)?)
+    }
+
+    /// Puts the vessels of a tree into the table of lines, and shows them.
+    ///
+    /// # Errors
+    /// `vessel tree` for what is none.
+    pub(crate) fn show_tree(&mut self, tree: VesselTree, names: Vec<String>) -> Result<()> {
+        let lines = tree.vessels().iter().map(|vessel| self.lines.add(vessel.into()));
+        let lines = lines.collect::<Result<_>>()?;
+        self.laid = None;
+        self.study.named = Some(Named::new(tree, names, lines));
+        Ok(())
+    }
+}
+
+fn places(points: &[[f64; 3]]) -> Vec<DVec3> {
+    points.iter().copied().map(DVec3::from_array).collect()
+}

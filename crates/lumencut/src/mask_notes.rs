@@ -1,0 +1,72 @@
+//! Whether a mask lies where its volume does, and what is to be told of its lines.
+
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::trace::mask::TracedMask;
+use lumencut_core::volume::Volume;
+
+use crate::text::rounded;
+
+/// The corners of mask and volume may lie so far apart, in the smallest side of a voxel.
+const SAME_GRID: f64 = 0.1;
+
+/// Refuses a mask on another grid than the volume, whose axes may be stored in another order or direction.
+///
+/// # Errors
+/// [`ErrorKind::Volume`].
+pub fn check_same_grid(mask: &Volume, volume: &Volume) -> Result<()> {
+    let sorted = |volume: &Volume| {
+        let mut size = volume.size();
+        size.sort_unstable();
+        size
+    };
+    if sorted(mask) != sorted(volume) {
+        let [found, expected] = [mask, volume].map(|one| one.size().map(|n| n.to_string()).join(" × "));
+        let expected = format!("{expected} as the volume has");
+        let error = Error::new(ErrorKind::Volume, "mask", format!("{found} voxels"), expected);
+        return Err(error.mend("resample the mask"));
+    }
+    let corners = volume.corners();
+    let nearest =
+        mask.corners().map(|own| corners.iter().map(|other| own.distance(*other)).fold(f64::MAX, f64::min));
+    let apart = nearest.into_iter().fold(0.0, f64::max);
+    if apart > SAME_GRID * volume.smallest_side() {
+        let found =
+            format!("a grid whose corners lie up to {} mm from those of the volume", rounded(apart, 3));
+        let expected = format!("the same grid, to {SAME_GRID} of a voxel");
+        let error = Error::new(ErrorKind::Volume, "mask", found, expected);
+        return Err(error.mend("resample the mask onto the grid of the volume"));
+    }
+    Ok(())
+}
+
+/// What is to be told of the lines of a mask, one sentence each; whether they were refined by a volume.
+pub fn notes(traced: &TracedMask, mask: &Volume, has_volume: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    let [cavities, voxels] = traced.filled;
+    if cavities > 0 {
+        let holes = if cavities == 1 { "1 cavity".to_owned() } else { format!("{cavities} cavities") };
+        notes.push(format!("{holes} of {} filled", counted(voxels, "voxel")));
+    }
+    let followed = traced.gaps.len() + 1;
+    if traced.pieces > followed {
+        let left_out = counted(traced.pieces - followed, "piece");
+        notes.push(format!("{left_out} of the mask left out: nowhere longer than wide"));
+    }
+    let unseen = traced.vessels.iter().filter(|vessel| vessel.confidence.is_empty()).count();
+    if unseen > 0 {
+        let is_all = unseen == traced.vessels.len();
+        let some = if is_all { String::new() } else { format!(" of {}", counted(unseen, "vessel")) };
+        let why = if has_volume { "the volume tells no better there" } else { "no grey values were used" };
+        let axes = mask.world_from_index().matrix3;
+        let side =
+            [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.length()).into_iter().fold(0.0, f64::max);
+        let half = rounded(side / 2.0, 2);
+        notes.push(format!("middle and radius{some} are known to about half a voxel ({half} mm): {why}"));
+    }
+    notes
+}
+
+/// A number of things, such as `1 voxel` or `5 voxels`.
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+}

@@ -1,0 +1,60 @@
+//! What was measured in words, the same in every host.
+
+use lumencut_core::measure::flags::names_of;
+use lumencut_core::measure::profile::Source;
+use lumencut_core::measure::stenosis::{Method, Stenosis};
+use lumencut_core::measure::stretch::CArm;
+use lumencut_core::settings::Named;
+
+use crate::text::fixed;
+
+/// A stenosis in one line: percent with its method, the diameter with its uncertainty, and what it was compared with.
+pub fn of_stenosis(graded: &Stenosis) -> String {
+    let (what, method) = match graded.method {
+        Method::Area => ("of the area", "area".to_owned()),
+        method => ("of the diameter", method.name().to_uppercase()),
+    };
+    let (against, places) = match graded.method {
+        Method::Ecst => ("assumed original", String::new()),
+        _ => ("reference", places(&graded.references)),
+    };
+    format!(
+        "{} % {what} ({method}): {} ± {} mm at {} mm, {against} {} mm{places}",
+        fixed(graded.percent, 0),
+        fixed(graded.diameter, 2),
+        fixed(graded.uncertainty, 2),
+        fixed(graded.at, 1),
+        fixed(graded.reference, 2),
+    )
+}
+
+fn places(references: &[[f64; 2]]) -> String {
+    let places: Vec<String> = references.iter().map(|[at, _]| format!("{} mm", fixed(*at, 1))).collect();
+    if places.is_empty() { String::new() } else { format!(" at {}", places.join(", ")) }
+}
+
+/// The angles of a C-arm as they stand on it, such as `RAO 20° CRAN 5°`. What is rounded to 0° has the side of 0.
+pub fn of_c_arm(arm: &CArm) -> String {
+    let [turn, tilt] = [arm.lao, arm.cranial].map(|angle| angle.to_degrees().round_ties_even());
+    let side = if turn < 0.0 { "RAO" } else { "LAO" };
+    let towards = if tilt < 0.0 { "CAUD" } else { "CRAN" };
+    format!("{side} {}° {towards} {}°", fixed(turn.abs(), 0), fixed(tilt.abs(), 0))
+}
+
+/// Where the width of a point spread is from: `given`, `estimated on …` or `assumed: …`.
+pub fn of_source(source: &Source) -> String {
+    match source {
+        Source::Given => "given".to_owned(),
+        Source::Estimated { on } => format!("estimated on {on}"),
+        Source::Assumed { from } => format!("assumed: {from}"),
+    }
+}
+
+/// The flags that are set, each as words such as `no edge`.
+pub fn of_flags(flags: u32) -> Vec<String> {
+    names_of(flags).into_iter().map(|name| name.to_lowercase().replace('_', " ")).collect()
+}
+
+#[cfg(test)]
+#[path = "tests/measure_words.rs"]
+mod tests;

@@ -1,0 +1,221 @@
+//! Profiles as JSON for programs. Numbers have all their digits, and what could not be measured is null.
+
+use lumencut_core::measure::profile::Profile;
+use lumencut_core::measure::stenosis::Stenosis;
+use lumencut_core::settings::Named;
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+use serde_json::ser::PrettyFormatter;
+
+use crate::measure_words::{of_flags, of_source};
+use crate::profile_marks::{Mark, marks};
+use crate::profile_table::columns;
+
+/// What every file says of itself.
+pub const NOTICE: &str = "Lumencut is not a medical device.";
+
+/// What was asked for; places are those of the one vessel that was marked.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Asked {
+    /// The distance of sections (mm).
+    pub step_mm: f64,
+    /// The width of the point spread (mm), where it was given.
+    pub fwhm_mm: Option<f64>,
+    /// The place of a stenosis (mm).
+    pub at_mm: Option<f64>,
+    /// The places of its references (mm).
+    pub reference_mm: Option<Vec<f64>>,
+    /// The name of the method.
+    pub method: Option<String>,
+    /// The assumed original diameter (mm).
+    pub original_mm: Option<f64>,
+    /// The diameter of a vessel like the normal one (mm).
+    pub comparison_mm: Option<f64>,
+    /// The name of the vessel whose groups of the field were asked for.
+    pub group: Option<String>,
+}
+
+/// A measured vessel with what was graded on it.
+#[derive(Clone, Debug)]
+pub struct Measured<'a> {
+    /// Its id in the tree, or those of the vessels that it is made of.
+    pub id: String,
+    /// Its name, where it has one.
+    pub name: Option<String>,
+    /// Its sections.
+    pub profile: &'a Profile,
+    /// The stenosis that a reader marked.
+    pub stenosis: Option<&'a Stenosis>,
+    /// The group of that, with its source.
+    pub group: Option<String>,
+}
+
+/// One profile as JSON.
+pub fn profile_json(profile: &Profile) -> String {
+    document(&ProfileRecord::of(profile))
+}
+
+/// Measured vessels as JSON, with what was asked for.
+pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
+    #[derive(Serialize)]
+    struct Vessels<'a> {
+        settings: &'a Asked,
+        vessels: Vec<VesselRecord>,
+    }
+    document(&Vessels { settings: asked, vessels: vessels.iter().map(VesselRecord::of).collect() })
+}
+
+/// A record as JSON, after the version of the software and what it is not.
+fn document<T: Serialize>(content: &T) -> String {
+    #[derive(Serialize)]
+    struct Document<'a, T> {
+        software: String,
+        notice: &'static str,
+        #[serde(flatten)]
+        content: &'a T,
+    }
+    let software = format!("lumencut {}", env!("CARGO_PKG_VERSION"));
+    let whole = Document { software, notice: NOTICE, content };
+    let mut text = Vec::new();
+    let mut writer = serde_json::Serializer::with_formatter(&mut text, PrettyFormatter::with_indent(b" "));
+    // Writing to memory does not fail, nor do numbers and texts.
+    let written = whole.serialize(&mut writer);
+    debug_assert!(written.is_ok(), "{written:?}");
+    text.push(b'\n');
+    String::from_utf8(text).unwrap_or_default()
+}
+
+#[derive(Serialize)]
+struct VesselRecord {
+    id: String,
+    name: Option<String>,
+    #[serde(flatten)]
+    profile: ProfileRecord,
+    stenosis: Option<StenosisRecord>,
+}
+
+impl VesselRecord {
+    fn of(one: &Measured) -> Self {
+        let stenosis = one.stenosis.map(|graded| StenosisRecord::of(graded, one.group.clone()));
+        Self { id: one.id.clone(), name: one.name.clone(), profile: ProfileRecord::of(one.profile), stenosis }
+    }
+}
+
+#[derive(Serialize)]
+struct ProfileRecord {
+    fwhm_mm: f64,
+    fwhm_source: String,
+    noise: f64,
+    length_mm: f64,
+    longest_diameter: Option<Longest>,
+    suggestions: Suggestions,
+    sections: Sections,
+}
+
+impl ProfileRecord {
+    fn of(profile: &Profile) -> Self {
+        let longest = |spot: lumencut_core::measure::suggestions::Spot| Longest {
+            arc_length_mm: spot.at,
+            diameter_max_mm: spot.diameter,
+        };
+        Self {
+            fwhm_mm: profile.fwhm,
+            fwhm_source: of_source(&profile.fwhm_source),
+            noise: profile.noise,
+            length_mm: profile.length(),
+            longest_diameter: profile.widest().map(longest),
+            suggestions: Suggestions::of(profile),
+            sections: Sections::of(profile),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Longest {
+    arc_length_mm: f64,
+    diameter_max_mm: f64,
+}
+
+#[derive(Serialize)]
+struct Place {
+    arc_length_mm: f64,
+    diameter_mm: f64,
+}
+
+impl From<&Mark> for Place {
+    fn from(mark: &Mark) -> Self {
+        Self { arc_length_mm: mark.at, diameter_mm: mark.diameter }
+    }
+}
+
+#[derive(Serialize)]
+struct Suggestions {
+    narrowest: Option<Place>,
+    references: Vec<Place>,
+}
+
+impl Suggestions {
+    fn of(profile: &Profile) -> Self {
+        // Suggested places are sections that count.
+        let found = marks(profile, None, &[]).unwrap_or_default();
+        let narrowest = found.first().map(Place::from);
+        Self { narrowest, references: found.iter().skip(1).map(Place::from).collect() }
+    }
+}
+
+/// A list for each column.
+struct Sections {
+    numbers: Vec<(&'static str, Vec<f64>)>,
+    counts: Vec<bool>,
+    flags: Vec<Vec<String>>,
+}
+
+impl Sections {
+    fn of(profile: &Profile) -> Self {
+        Self {
+            numbers: columns(profile),
+            counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
+            flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
+        }
+    }
+}
+
+impl Serialize for Sections {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (name, values) in &self.numbers {
+            map.serialize_entry(name, values)?;
+        }
+        map.serialize_entry("counts", &self.counts)?;
+        map.serialize_entry("flags", &self.flags)?;
+        map.end()
+    }
+}
+
+#[derive(Serialize)]
+struct StenosisRecord {
+    percent: f64,
+    method: &'static str,
+    at_mm: f64,
+    diameter_mm: f64,
+    uncertainty_mm: f64,
+    reference_mm: f64,
+    references: Vec<Place>,
+    group: Option<String>,
+}
+
+impl StenosisRecord {
+    fn of(graded: &Stenosis, group: Option<String>) -> Self {
+        let place = |[at, diameter]: &[f64; 2]| Place { arc_length_mm: *at, diameter_mm: *diameter };
+        Self {
+            percent: graded.percent,
+            method: graded.method.name(),
+            at_mm: graded.at,
+            diameter_mm: graded.diameter,
+            uncertainty_mm: graded.uncertainty,
+            reference_mm: graded.reference,
+            references: graded.references.iter().map(place).collect(),
+            group,
+        }
+    }
+}

@@ -1,0 +1,49 @@
+use super::*;
+use lumencut_core::measure::flags::{AT_LIMIT, NO_EDGE};
+
+fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
+    Stenosis {
+        percent: 58.4,
+        at: 41.25,
+        diameter: 2.084,
+        uncertainty: 0.06,
+        reference: 5.0,
+        references,
+        method,
+    }
+}
+
+#[test]
+fn a_stenosis_is_told_with_method_and_references() {
+    assert_eq!(
+        of_stenosis(&graded(Method::Nascet, vec![[20.0, 5.1], [60.04, 4.9]])),
+        "58 % of the diameter (NASCET): 2.08 ± 0.06 mm at 41.2 mm, reference 5.00 mm at 20.0 mm, 60.0 mm"
+    );
+    assert_eq!(
+        of_stenosis(&graded(Method::Area, vec![[20.0, 5.1]])),
+        "58 % of the area (area): 2.08 ± 0.06 mm at 41.2 mm, reference 5.00 mm at 20.0 mm"
+    );
+    assert_eq!(
+        of_stenosis(&graded(Method::Ecst, vec![[20.0, 5.1]])),
+        "58 % of the diameter (ECST): 2.08 ± 0.06 mm at 41.2 mm, assumed original 5.00 mm"
+    );
+}
+
+#[test]
+fn angles_of_a_c_arm_have_no_signs() {
+    let told =
+        |lao: f64, cranial: f64| of_c_arm(&CArm { lao: lao.to_radians(), cranial: cranial.to_radians() });
+    assert_eq!(told(-20.2, 5.0), "RAO 20° CRAN 5°");
+    assert_eq!(told(89.6, -30.0), "LAO 90° CAUD 30°");
+    assert_eq!(told(0.0, 0.0), "LAO 0° CRAN 0°");
+    // What cannot be seen decides nothing.
+    assert_eq!(told(-1e-9, -0.4), "LAO 0° CRAN 0°");
+}
+
+#[test]
+fn flags_and_sources_are_words() {
+    assert_eq!(of_flags(AT_LIMIT | NO_EDGE), ["at limit", "no edge"]);
+    assert!(of_flags(0).is_empty());
+    assert_eq!(of_source(&Source::Assumed { from: "two sides".to_owned() }), "assumed: two sides");
+    assert_eq!(of_source(&Source::Given), "given");
+}

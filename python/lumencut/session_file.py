@@ -1,0 +1,113 @@
+"""Session files: what a reader made of a scan in the viewer, for the command line to go on with.
+
+A session file is a 3D Slicer markups file, so :func:`lumencut.read_centerlines` reads its vessels. Beside
+them it holds colours, marks and the view, which are read here. The core checks the whole of it.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from lumencut import _lumencut
+from lumencut._files import checked_path
+from lumencut.camera import Camera
+from lumencut.errors import CameraError, FileError, FormatError, SettingsError
+from lumencut.measured_vessel import Marked
+from lumencut.recipe import Recipe
+from lumencut.settings import Settings
+from lumencut.slab import Slab
+from lumencut.window import Window
+
+_EXPECTED = "a session file of the viewer (.mrk.json)"
+_MEND = "save the session again in the viewer"
+
+
+@dataclass(frozen=True)
+class SessionFile:
+    """What a session file holds beside the lines of its vessels.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    recipe : Recipe or None
+        How the scan was looked at; None where the file does not say.
+    marks : tuple of Marked
+        What was marked on each vessel, in the order of the file.
+    hidden : tuple of int
+        The ids of the vessels that the viewer did not show.
+    """
+
+    path: Path
+    recipe: Recipe | None
+    marks: tuple[Marked, ...]
+    hidden: tuple[int, ...]
+
+
+def is_session_file(path: Path) -> bool:
+    """Tell whether a file that can be read is a session file; others are for their own readers to refuse."""
+    if path.suffix.lower() != ".json":
+        return False
+    try:
+        return _lumencut.is_session_file(path.read_bytes())
+    except OSError:
+        return False
+
+
+def read_session(path: str | Path) -> SessionFile:
+    """Return what a session file holds beside its vessels.
+
+    Raises
+    ------
+    FormatError
+        For a file that is none, is damaged, or shows what a picture cannot be rendered like.
+    FileError
+        For a file that cannot be read.
+    """
+    place = checked_path(path, _EXPECTED)
+    try:
+        content = place.read_bytes()
+    except OSError as error:
+        raise FileError(str(place), error.strerror or str(error), _EXPECTED) from error
+    session = json.loads(_lumencut.read_session_file(content, str(place)))
+    vessels = session["vessels"]
+    hidden = tuple(number for number, vessel in enumerate(vessels) if vessel["hidden"])
+    marks = tuple(_marked(vessel["marks"]) for vessel in vessels)
+    view = session["view"]
+    shown = len(vessels) - len(hidden)
+    return SessionFile(place, None if view is None else _recipe(place, view, shown), marks, hidden)
+
+
+def _marked(marks: dict[str, Any] | None) -> Marked:
+    if marks is None:
+        return Marked()
+    lengths = (marks[f"{name}_mm"] for name in ("at", "references", "original", "comparison"))
+    at, references, original, comparison = lengths
+    return Marked(at, tuple(references), marks["method"], original, comparison, marks["group"])
+
+
+def _recipe(path: Path, view: dict[str, Any], vessels: int) -> Recipe:
+    if view["method"] not in ("csr", "csr-paper"):
+        found = f"a view by the method {view['method']}"
+        mend = "choose CSR in the viewer and save the session again"
+        raise FormatError(str(path), found, "one by csr or csr-paper", mend)
+    make = Settings.paper if view["method"] == "csr-paper" else Settings
+    try:
+        settings = make(**{name: _made(name, value) for name, value in view["settings"].items()})
+        camera = Camera(**{**view["camera"], "size": tuple(view["camera"]["size"])})
+    except (SettingsError, CameraError, TypeError, ValueError) as error:
+        found = f"a view that cannot be rendered ({error})"
+        raise FormatError(str(path), found, _EXPECTED, _MEND) from error
+    return Recipe(camera, settings, annotate=True, vessel_names=False, vessels=vessels)
+
+
+def _made(name: str, value: Any) -> Any:
+    """The value of a setting as the viewer writes it: windows and slabs are pairs, colours lists."""
+    setting = _lumencut.SETTINGS.get(name)
+    if setting is None or not isinstance(value, list):
+        return value
+    made = {"window": Window, "slab": Slab}.get(setting.kind)
+    return tuple(value) if made is None else made(*value)

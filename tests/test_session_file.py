@@ -1,0 +1,177 @@
+"""Session files of the viewer: their vessels, view and marks on the command line."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from lumencut import (
+    Camera,
+    FormatError,
+    Renderer,
+    Settings,
+    Window,
+    measure,
+    phantom,
+    read_centerlines,
+    read_volume,
+    write_centerlines,
+)
+from lumencut.cli import main
+from lumencut.session_file import is_session_file, read_session
+from scene_files import write_volume_of
+
+CAMERA = {
+    "center": [0.0, 0.0, 0.0],
+    "direction": [0.0, 1.0, 0.0],
+    "up": [0.0, 0.0, 1.0],
+    "size": [160, 120],
+    "pixel_spacing": 0.6,
+}
+VIEW = {
+    "camera": CAMERA,
+    "method": "csr",
+    "settings": {"window": [250.0, 700.0], "context": "mip", "context_window": [200.0, 800.0]},
+    "layout": "strip",
+    "cross_hair": None,
+    "picked": None,
+}
+MARKS = {
+    "at_mm": 30.0,
+    "references_mm": [50.0],
+    "method": "nascet",
+    "original_mm": None,
+    "comparison_mm": None,
+    "group": None,
+    "stretch_mm": None,
+    "second_stretch_mm": None,
+}
+
+
+def write_session(path, tree, view=VIEW, hidden=(), marks=None):
+    """Write a session file as the viewer does: markups with a field of their own."""
+    write_centerlines(tree, path)
+    vessels = [
+        {
+            "color": "#1177aa",
+            "hidden": number in hidden,
+            "clicks": None,
+            "confidence": None,
+            "bridged": None,
+            "marks": marks if number == 0 else None,
+        }
+        for number in range(len(tree))
+    ]
+    session = {
+        "format": 1,
+        "software": "lumencut 0",
+        "notice": "Lumencut is not a medical device.",
+        "scan": None,
+        "vessels": vessels,
+        "doubtful": [],
+        "stoppers": [],
+        "bridge": False,
+        "rulers": [],
+        "view": view,
+    }
+    content = json.loads(path.read_text()) | {"LumencutSession": session}
+    path.write_text(json.dumps(content))
+    return path
+
+
+@pytest.fixture(scope="module")
+def branches(tmp_path_factory):
+    """Three vessels that meet, and a session in which one of them is hidden."""
+    folder, scene = tmp_path_factory.mktemp("branches"), phantom.y_junction()
+    volume = write_volume_of(scene.volume, folder / "ct.nii.gz")
+    return volume, write_session(folder / "saved.mrk.json", scene.tree, hidden=(2,)), scene.tree
+
+
+def run(*words):
+    return CliRunner().invoke(main, [*map(str, words)])
+
+
+def pixels(path):
+    with Image.open(path) as picture:
+        return np.asarray(picture.convert("RGBA"))
+
+
+def test_its_vessels_are_centerlines(branches):
+    read = read_centerlines(branches[1])
+    assert len(read) == len(branches[2])
+    for found, vessel in zip(read, branches[2], strict=True):
+        np.testing.assert_array_equal(found.points, vessel.points)
+
+
+def test_what_stands_beside_the_vessels(branches):
+    session = read_session(branches[1])
+    assert is_session_file(branches[1])
+    assert session.hidden == (2,)
+    assert session.recipe.vessels == 2
+    settings = Settings(window=Window(250, 700), context="mip", context_window=Window(200, 800))
+    assert session.recipe.settings == settings
+    assert session.recipe.camera == Camera(**{**CAMERA, "size": (160, 120)})
+
+
+def test_like_a_session_renders_its_vessels_in_its_view(branches, tmp_path):
+    volume, session, tree = branches
+    result = run("render", volume, "-o", tmp_path / "like.png", "--like", session, "--no-annotate")
+    assert result.exit_code == 0, result.output
+    shown = read_session(session).recipe
+    frame = (
+        Renderer(read_volume(volume), tree).with_tree(tree.select(0, 1)).render(shown.camera, shown.settings)
+    )
+    np.testing.assert_array_equal(pixels(tmp_path / "like.png"), frame.image)
+
+
+def test_options_beside_a_session_come_on_top(branches, tmp_path):
+    volume, session, tree = branches
+    words = ("--like", session, "--vessel", "2", "--no-annotate")
+    result = run("render", volume, session, "-o", tmp_path / "hidden.png", *words)
+    assert result.exit_code == 0, result.output
+    shown = read_session(session).recipe
+    frame = Renderer(read_volume(volume), tree).with_tree(tree.select(2)).render(shown.camera, shown.settings)
+    np.testing.assert_array_equal(pixels(tmp_path / "hidden.png"), frame.image)
+
+
+def test_measure_grades_what_was_marked_in_the_viewer(tmp_path):
+    scene = phantom.stenosis(60)
+    volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
+    session = write_session(tmp_path / "saved.mrk.json", scene.tree, marks=MARKS)
+    result = run("measure", volume, session, "-o", tmp_path / "out.json")
+    assert result.exit_code == 0, result.output
+    stenosis = json.loads((tmp_path / "out.json").read_text())["vessels"][0]["stenosis"]
+    expected = measure(read_volume(volume), scene.tree[0], tree=scene.tree).stenosis(30.0, 50.0)
+    assert (stenosis["percent"], stenosis["at_mm"]) == (expected.percent, 30.0)
+    # A place that an option names comes first.
+    result = run("measure", volume, session, "-o", tmp_path / "other.json", "--at", 20)
+    assert json.loads((tmp_path / "other.json").read_text())["vessels"][0]["stenosis"] is None
+
+
+def test_markups_of_others_are_no_sessions(branches, tmp_path):
+    path = tmp_path / "lines.mrk.json"
+    write_centerlines(branches[2], path)
+    assert not is_session_file(path)
+    with pytest.raises(FormatError, match="found no field LumencutSession"):
+        read_session(path)
+
+
+@pytest.mark.parametrize(
+    ("view", "found"),
+    [
+        ({**VIEW, "method": "mpcpr"}, "a view by the method mpcpr"),
+        ({**VIEW, "settings": {"levels": 99}}, "a view that cannot be rendered"),
+        ({**VIEW, "settings": {"no_such": 1}}, "a view that cannot be rendered"),
+        ({**VIEW, "camera": {**CAMERA, "pixel_spacing": -1}}, "a view that cannot be rendered"),
+        ({**VIEW, "patient": "Doe"}, "unknown field"),
+        (None, "a session without a view"),
+    ],
+)
+def test_views_that_cannot_be_rendered_are_refused(branches, tmp_path, view, found):
+    path = write_session(tmp_path / "odd.mrk.json", branches[2], view=view)
+    result = run("render", branches[0], "-o", tmp_path / "out.png", "--like", path)
+    assert result.exit_code != 0
+    assert found in result.output
+    assert not (tmp_path / "out.png").exists()

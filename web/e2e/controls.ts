@@ -1,0 +1,111 @@
+/** What the tests of vessels, measurements and sessions do with the page, by mouse or by keys. */
+import { readFileSync } from 'node:fs';
+import { expect, type Locator } from '@playwright/test';
+import type { Viewer } from './page';
+
+export const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
+export const nameOf = (viewer: Viewer, n: number): Locator => rows(viewer).nth(n).locator('input.name');
+export const button = (viewer: Viewer, words: string): Locator =>
+  viewer.page.getByRole('button', { name: words, exact: true });
+/** The tool of the toolbar: where there are no vessels a note offers it too. */
+const traceTool = (viewer: Viewer): Locator =>
+  viewer.page.locator('header').getByRole('button', { name: 'Trace vessels' });
+/** Takes up the tool, and waits until its slices can be clicked. */
+export async function startTracing(viewer: Viewer): Promise<void> {
+  await traceTool(viewer).click();
+  await expect(viewer.pane('coronal').locator('canvas[data-shown]')).toBeVisible();
+}
+
+/** A first click of a vessel was taken. */
+export const expectBegun = (viewer: Viewer): Promise<void> =>
+  expect(viewer.page.locator('[data-place=first]')).toHaveCount(4);
+
+export const stenosis = (viewer: Viewer): Locator => viewer.page.getByTestId('stenosis');
+/** What the menu "Save" opens with. */
+export const menu = (viewer: Viewer): Locator => viewer.page.locator('summary', { hasText: 'Save' });
+
+export const REPORT = 'Report of the vessel (HTML)';
+export const SESSION = 'Session (JSON)';
+
+/** A file of the page's own: its name, and its bytes. */
+export interface MadeFile {
+  readonly name: string;
+  readonly mimeType: string;
+  readonly buffer: Buffer;
+}
+
+export const fileOf = (name: string, buffer: Buffer): MadeFile => ({
+  name,
+  mimeType: 'application/octet-stream',
+  buffer,
+});
+
+/** What a button of the menu "Save" saves. */
+export async function saved(viewer: Viewer, words: string): Promise<Buffer> {
+  await menu(viewer).click();
+  const [download] = await Promise.all([viewer.page.waitForEvent('download'), button(viewer, words).click()]);
+  await menu(viewer).click();
+  return readFileSync(await download.path());
+}
+
+/** Opens files by the input of the page. */
+export async function choose(viewer: Viewer, ...files: readonly MadeFile[]): Promise<void> {
+  await viewer.page
+    .locator('header input[type=file], main input[type=file]')
+    .first()
+    .setInputFiles([...files]);
+}
+
+/** Drops files on the page. */
+export async function drop(viewer: Viewer, ...files: readonly MadeFile[]): Promise<void> {
+  const given = files.map(({ name, buffer }) => [name, buffer.toString('base64')] as const);
+  const transfer = await viewer.page.evaluateHandle((all) => {
+    const made = new DataTransfer();
+    for (const [name, text] of all) {
+      made.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
+    }
+    return made;
+  }, given);
+  await viewer.page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+/** Counts what the user does on the page from now on, as the page hears it: presses of the pointer, and keys. */
+export async function countInput(viewer: Viewer): Promise<() => Promise<{ clicks: number; keys: number }>> {
+  await viewer.page.evaluate(() => {
+    const counts = { clicks: 0, keys: 0 };
+    const count = (name: keyof typeof counts) => (event: Event) => {
+      counts[name] += event.isTrusted ? 1 : 0;
+    };
+    addEventListener('pointerdown', count('clicks'), true);
+    addEventListener('keydown', count('keys'), true);
+    Object.assign(window, { counted: counts });
+  });
+  return () =>
+    viewer.page.evaluate(() => (window as unknown as { counted: { clicks: number; keys: number } }).counted);
+}
+
+/** Presses Tab until something of this name has the focus; `back` goes the other way. */
+export async function tabTo(viewer: Viewer, words: string | RegExp, back = false): Promise<void> {
+  const wanted = new RegExp(words);
+  const seen: string[] = [];
+  for (let n = 0; n < 80; n++) {
+    await viewer.press(back ? 'Shift+Tab' : 'Tab');
+    const name = await viewer.page.evaluate(
+      () => document.activeElement?.getAttribute('aria-label') ?? document.activeElement?.textContent ?? '',
+    );
+    if (wanted.test(name)) {
+      return;
+    }
+    seen.push(name.slice(0, 30));
+  }
+  throw new Error(`Tab never reached ${wanted}; it reached ${seen.join(' | ')}`);
+}
+
+/** The tracing is done, and the tree of it is shown. */
+export async function traced(viewer: Viewer, count: number): Promise<void> {
+  await expect(rows(viewer)).toHaveCount(count, { timeout: 30_000 });
+  await expect(viewer.page.locator('.trace-bar span')).not.toHaveText('Tracing …');
+  const last = rows(viewer).nth(count - 1);
+  await expect(last.getByRole('radio')).toBeChecked();
+  await expect(last.locator('.length')).not.toHaveText('0.0 mm');
+}

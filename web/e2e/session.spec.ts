@@ -1,0 +1,220 @@
+/** A session is saved, the page forgets it, and its file brings everything back, in the page and on the command line. */
+import { spawnSync } from 'node:child_process';
+import { existsSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { type Browser, expect, test } from '@playwright/test';
+import { difference, OTHER_DEVICE } from './compare';
+import {
+  button,
+  choose,
+  drop,
+  fileOf,
+  nameOf,
+  rows,
+  SESSION,
+  saved,
+  startTracing,
+  stenosis,
+} from './controls';
+import { Viewer } from './page';
+import { NARROWED, openScan, STRAIGHT, traceTube, tubes } from './scans';
+
+const SIZE = { width: 1200, height: 760 };
+const SCAN = tubes('tubes.nrrd');
+const ROOT = join(import.meta.dirname, '../..');
+const PYTHON = process.env.LUMENCUT_PYTHON ?? join(ROOT, '.venv/bin/python');
+
+// Each of them goes on where the one before it ended.
+test.describe.configure({ mode: 'serial' });
+
+let viewer: Viewer;
+/** The session file, and what the page showed as it was saved. */
+let session: Buffer;
+let before: Awaited<ReturnType<typeof told>>;
+let picture: Awaited<ReturnType<Viewer['pixels']>>;
+
+const started = (browser: Browser, query = '?device=cpu') =>
+  Viewer.open(browser, query, { viewport: SIZE, acceptDownloads: true });
+const fileNow = (bytes = session) => fileOf('lumencut-session.mrk.json', bytes);
+
+/** All that the page tells of a session. */
+async function told() {
+  const { page } = viewer;
+  const all = (selector: string, property: 'value' | 'checked' | 'textContent' | 'ariaPressed') =>
+    page
+      .locator(`aside .vessel-rows ${selector}`)
+      .evaluateAll(
+        (found, name) => found.map((one) => (one as unknown as Record<string, unknown>)[name]),
+        property,
+      );
+  return {
+    names: await all('input.name', 'value'),
+    colours: await all('select.swatch', 'value'),
+    lengths: await all('.length', 'textContent'),
+    shown: await all('button.eye', 'ariaPressed'),
+    picked: await all('input[type=radio]', 'checked'),
+    stenosis: await stenosis(viewer).textContent(),
+    places: await page.locator('.place-row > span').allTextContents(),
+    rulers: await page.getByTestId('ruler').allTextContents(),
+    section: await page.getByTestId('section-numbers').textContent(),
+    window: await viewer.window.textContent(),
+    readOut: await viewer.readOut.textContent(),
+    layout: await page.locator('main').getAttribute('data-layout'),
+    method: await viewer.field('Method').inputValue(),
+    context: await viewer.field('Context').inputValue(),
+  };
+}
+
+/** Traces both tubes, changes how they are listed, measures one of them, draws a ruler and turns the view. */
+async function work(): Promise<void> {
+  await startTracing(viewer);
+  for (const [n, x] of [NARROWED, STRAIGHT].entries()) {
+    await traceTube(viewer, x, [28, -28], n + 1);
+    await button(viewer, 'End this vessel').click();
+  }
+  await button(viewer, 'Done').click();
+  await nameOf(viewer, 0).fill('narrowed “A” – ä');
+  await nameOf(viewer, 0).press('Tab');
+  await viewer.page.getByLabel(/^Colour of narrowed/).selectOption({ index: 5 });
+  await rows(viewer).nth(0).getByRole('radio').check();
+  await button(viewer, 'Hide Vessel 2').click();
+  await viewer.press('2');
+  await viewer.field('Context').selectOption('dvr');
+  await viewer.press('m');
+  await button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 });
+  await expect(stenosis(viewer)).toContainText('%');
+  await button(viewer, 'Ruler').click();
+  await viewer.click([0.4, 0.5], 'section');
+  await viewer.click([0.6, 0.4], 'section');
+  await expect(viewer.page.getByTestId('ruler')).toHaveCount(1);
+  await viewer.drag([0.3, 0.4], [60, 25]);
+  await viewer.rest();
+}
+
+/** The page as it was when the session was saved. */
+async function expectAllBack(): Promise<void> {
+  await expect(rows(viewer)).toHaveCount(2);
+  await expect(stenosis(viewer)).toHaveText(before.stenosis ?? '', { timeout: 30_000 });
+  await viewer.rest();
+  await expect.poll(told).toEqual(before);
+  expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();
+  const again = await saved(viewer, SESSION);
+  expect(JSON.parse(again.toString('utf-8'))).toEqual(JSON.parse(session.toString('utf-8')));
+  expect(again.equals(session)).toBe(true);
+}
+
+test.beforeAll(async ({ browser }) => {
+  viewer = await started(browser);
+  await openScan(viewer, SCAN);
+  await work();
+  picture = await viewer.picture();
+  session = await saved(viewer, SESSION);
+  before = await told();
+  await viewer.screenshot('session-saved');
+});
+test.afterEach(() => viewer.expectNoFault());
+test.afterAll(() => viewer.close());
+
+test('a page that is loaded again has kept nothing', async () => {
+  await viewer.page.reload();
+  await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
+  const kept = await viewer.page.evaluate(async () => [
+    localStorage.length,
+    sessionStorage.length,
+    (await indexedDB.databases()).length,
+    (await caches.keys()).length,
+    document.cookie.length,
+  ]);
+  expect(kept).toEqual([0, 0, 0, 0, 0]);
+  await openScan(viewer, SCAN);
+  await expect(viewer.page.getByText('No vessels yet: click along one')).toBeVisible();
+  await viewer.press('v');
+  await expect(rows(viewer)).toHaveCount(0);
+  await expect(button(viewer, 'Undo')).toBeDisabled();
+});
+
+test('chosen after its scan, the session brings everything back, and is saved with the same bytes', async () => {
+  await choose(viewer, fileNow());
+  await expectAllBack();
+  await viewer.screenshot('session-back');
+  await expect(button(viewer, 'Undo')).toBeDisabled();
+});
+
+test('what was clicked can still be dragged', async () => {
+  await viewer.press('t');
+  const point = viewer.pane('coronal').getByRole('button', { name: /^Point 2 of narrowed/ });
+  const box = await point.boundingBox();
+  const length = () => rows(viewer).nth(0).locator('.length').textContent();
+  const whole = await length();
+  const { mouse } = viewer.page;
+  await mouse.move((box?.x ?? 0) + 6, (box?.y ?? 0) + 6);
+  await mouse.down();
+  await mouse.move((box?.x ?? 0) + 6, (box?.y ?? 0) - 40, { steps: 4 });
+  await mouse.up();
+  await expect(button(viewer, 'Undo')).toHaveAttribute('title', /move a point/);
+  await expect.poll(length).not.toBe(whole);
+  await viewer.press('Control+z', 'Escape');
+  await expect.poll(length).toBe(whole);
+});
+
+test('dropped together with its scan, the session brings everything back', async ({ browser }) => {
+  await viewer.close();
+  viewer = await started(browser);
+  await expect(button(viewer, 'Choose files')).toBeEnabled();
+  await drop(viewer, fileNow(), SCAN);
+  await viewer.rest();
+  await viewer.press('v');
+  await expectAllBack();
+});
+
+test('a session of another scan is refused in words, and nothing changes', async () => {
+  await choose(viewer, tubes('later.nrrd', 5), fileNow());
+  await expect(viewer.problem).toContainText(
+    /Found a session of a scan of 80 × 56 × 90 voxels in another place; expected a session of the scan that is open\./,
+  );
+  await expect(viewer.problem).toContainText('Open the scan that the session was made of');
+  await viewer.screenshot('session-of-another-scan');
+  await expect(rows(viewer)).toHaveCount(0);
+  await openInstead();
+});
+
+/** Opens the scan of the session in the place of what is open. */
+async function openInstead(): Promise<void> {
+  await viewer.problem.getByRole('button', { name: 'Close' }).click();
+  await choose(viewer, SCAN);
+  await button(viewer, 'Open as a new scan').click();
+  await viewer.rest();
+}
+
+test('a damaged session is refused in words, and nothing changes', async () => {
+  const text = session.toString('utf-8');
+  const damaged = [
+    text.slice(0, text.length - 400),
+    text.replace('"references_mm"', '"reference_mm"'),
+    text.replace(/"at_mm": ?\d+(\.\d+)?/, '"at_mm": "far"'),
+  ];
+  for (const content of damaged) {
+    expect(content).not.toBe(text);
+    await choose(viewer, fileNow(Buffer.from(content)));
+    await expect(viewer.problem).toContainText(/Found .*; expected .*/);
+    await expect(viewer.problem).toContainText('lumencut-session.mrk.json');
+    await expect(viewer.problem).not.toContainText('undefined');
+    await viewer.problem.getByRole('button', { name: 'Close' }).click();
+    await expect(rows(viewer)).toHaveCount(0);
+  }
+});
+
+test('the command line measures and renders what the session tells', async () => {
+  test.skip(!existsSync(PYTHON), 'there is no Python package beside the repository');
+  const [scan, made] = ['tubes.nrrd', 'session.mrk.json'].map((name) => test.info().outputPath(name));
+  const [table, rendered] = ['numbers.json', 'view.png'].map((name) => test.info().outputPath(name));
+  writeFileSync(scan ?? '', SCAN.buffer);
+  writeFileSync(made ?? '', session);
+  const lumencut = (...words: (string | undefined)[]) =>
+    spawnSync(PYTHON, ['-m', 'lumencut', ...words.map(String)], { cwd: ROOT, encoding: 'utf-8' });
+  const measured = lumencut('measure', scan, made, '-o', table);
+  expect(measured.status, measured.stderr).toBe(0);
+  expect(measured.stdout + measured.stderr).toContain(before.stenosis ?? 'a stenosis');
+  const drawn = lumencut('render', scan, '--like', made, '-o', rendered);
+  expect(drawn.status, drawn.stderr).toBe(0);
+});

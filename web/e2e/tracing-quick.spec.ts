@@ -1,0 +1,63 @@
+/** The first step of the guided try, by somebody who is faster than the engine; and where keys take the focus. */
+import { type Browser, expect, type Page, test } from '@playwright/test';
+import { Viewer } from './page';
+
+const SIZE = { width: 1100, height: 720 };
+/** On the tube, as parts of the coronal pane's height from its middle and its top. */
+const [UPPER, LOWER] = [0.3, 0.7];
+
+async function guided(browser: Browser): Promise<Viewer> {
+  const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
+  await viewer.page.getByRole('button', { name: 'Guided try in two minutes' }).click({ timeout: 30_000 });
+  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  return viewer;
+}
+
+const guide = (page: Page) => page.getByLabel('Guided try');
+
+test('points that are set quickly become a vessel, though Done is pressed at once', async ({ browser }) => {
+  const viewer = await guided(browser);
+  const { page } = viewer;
+  await expect(guide(page)).toContainText('Press “Trace vessels” first');
+  await expect(guide(page)).not.toContainText('coronal');
+  const height = (await guide(page).boundingBox())?.height;
+  await viewer.press('t');
+  await expect(guide(page)).toContainText('In the coronal slice');
+  await expect(viewer.pane('coronal')).toBeFocused();
+  await viewer.rest();
+  await viewer.screenshot('guide-trace');
+  const [width, paneHeight] = await viewer.size('coronal');
+  const at = (down: number) => viewer.place([width / 2, down * paneHeight], 'coronal');
+  const [first, second] = [await at(UPPER), await at(LOWER)];
+  await page.mouse.click(...first);
+  await page.mouse.click(...second);
+  await page.getByRole('button', { name: 'Done', exact: true }).click();
+  await expect(guide(page)).toContainText('2 of 5');
+  expect((await guide(page).boundingBox())?.height).toBe(height);
+  await expect(page.locator('.vessel-rows input.name')).toHaveValue('Vessel 1');
+  await viewer.press('m');
+  await expect(page.locator('[data-testid="numbers"] button').first()).toBeFocused();
+  for (const [keys, file] of [
+    ['Control+s', 'lumencut-session.mrk.json'],
+    ['Control+Shift+S', 'lumencut-report.html'],
+  ] as const) {
+    const [download] = await Promise.all([page.waitForEvent('download'), viewer.press(keys)]);
+    expect(download.suggestedFilename()).toBe(file);
+  }
+  await viewer.press('?');
+  const help = page.getByRole('dialog', { name: 'Keys and mouse' });
+  await expect(help.getByRole('button', { name: 'Close' }).first()).toBeFocused();
+  await viewer.screenshot('guide-help');
+  viewer.expectNoFault();
+});
+
+test('a first click outside of the scan is refused at once', async ({ browser }) => {
+  const viewer = await guided(browser);
+  await viewer.press('t');
+  await expect(viewer.pane('coronal')).toBeVisible();
+  await viewer.rest();
+  await viewer.click([3, 120], 'coronal');
+  await expect(viewer.problem).toContainText('outside of the scan');
+  await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
+  viewer.expectNoFault();
+});

@@ -1,0 +1,289 @@
+/** Vessels are traced by clicks and by keys, edited, undone, saved and read again. */
+import { readFileSync } from 'node:fs';
+import { type Browser, expect, type Locator, test } from '@playwright/test';
+import { type PaneName, Viewer } from './page';
+
+const SIZE = { width: 1100, height: 720 };
+
+/** A phantom whose vessels were deleted. */
+async function untraced(browser: Browser, phantom = 'y_junction'): Promise<Viewer> {
+  const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu`, { viewport: SIZE });
+  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  await viewer.press('v');
+  const all = viewer.page.getByRole('button', { name: 'Delete all' });
+  const one = viewer.page.getByRole('button', { name: 'Delete', exact: true });
+  await ((await all.count()) > 0 ? all : one).click();
+  await expect(rows(viewer)).toHaveCount(0);
+  return viewer;
+}
+
+const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
+const name = (viewer: Viewer, n: number): Locator => rows(viewer).nth(n).locator('input.name');
+const lengthOf = async (viewer: Viewer, n: number): Promise<number> =>
+  Number.parseFloat((await rows(viewer).nth(n).locator('.length').textContent()) ?? '');
+const button = (viewer: Viewer, words: string): Locator =>
+  viewer.page.getByRole('button', { name: words, exact: true });
+const point = (viewer: Viewer, n: number, pane: PaneName = 'coronal'): Locator =>
+  viewer.pane(pane).getByRole('button', { name: new RegExp(`^Point ${n} of`) });
+
+/** A place in a slice of the junction, by the height of the pane: its volume is as high as the pane. */
+async function place(viewer: Viewer, across: number, down: number, pane: PaneName = 'coronal') {
+  const [width, height] = await viewer.size(pane);
+  return [Math.round(width / 2 + across * height), Math.round(down * height)] as const;
+}
+
+const TRUNK = [0, 0.8] as const;
+const RIGHT = [-0.19, 0.22] as const;
+const LEFT = [0.19, 0.22] as const;
+const AIR = [0.25, 0.75] as const;
+
+async function click(viewer: Viewer, [across, down]: readonly [number, number]): Promise<void> {
+  await viewer.click(await place(viewer, across, down), 'coronal');
+}
+
+async function startTool(viewer: Viewer): Promise<void> {
+  await viewer.page.locator('main').click({ position: { x: 3, y: 3 }, trial: true });
+  await button(viewer, 'Trace vessels').first().click();
+  await expect(viewer.pane('coronal')).toBeVisible();
+  await viewer.rest();
+}
+
+/** Traces from the trunk into a branch, and ends the vessel. */
+async function traceTo(viewer: Viewer, end: readonly [number, number], count: number): Promise<void> {
+  await click(viewer, TRUNK);
+  await click(viewer, end);
+  await expect(rows(viewer)).toHaveCount(count);
+  await button(viewer, 'End this vessel').click();
+}
+
+test('a page without vessels offers to trace them', async ({ browser }) => {
+  const viewer = await untraced(browser);
+  await button(viewer, 'Trace vessels').last().click();
+  await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'four');
+  await expect(viewer.field('Context')).toHaveValue('mip');
+  await button(viewer, 'Done').click();
+  await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'strip');
+  await expect(viewer.field('Context')).toHaveValue('mida');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and points are edited', async ({
+  browser,
+}) => {
+  const viewer = await untraced(browser);
+  await startTool(viewer);
+  await click(viewer, TRUNK);
+  const [x, y] = await viewer.place(await place(viewer, ...RIGHT), 'coronal');
+  await viewer.page.mouse.move(x, y);
+  for (const pane of ['turning', 'axial', 'coronal', 'sagittal'] as const) {
+    await expect(viewer.pane(pane).locator('path.live')).toHaveCount(1);
+    await expect(viewer.pane(pane).locator('path.live.missing')).toHaveCount(0);
+  }
+  await viewer.screenshot('trace-live');
+  await click(viewer, RIGHT);
+  await expect(name(viewer, 0)).toHaveValue('Vessel 1');
+  // From 1/5 of the height into the other branch: the trunk and the branch have 30 mm and 36 mm.
+  const whole = await lengthOf(viewer, 0);
+  expect(whole).toBeGreaterThan(45);
+  expect(whole).toBeLessThan(66);
+  await button(viewer, 'End this vessel').click();
+
+  // A click on the right of the curve adds a point there, which is dragged along the vessel and removed.
+  const [middleX, middleY] = await viewer.place(await place(viewer, 0, 0.65), 'coronal');
+  await viewer.page.mouse.click(middleX, middleY, { button: 'right' });
+  await expect(point(viewer, 3)).toHaveCount(1);
+  await viewer.page.mouse.move(middleX, middleY);
+  const box = await point(viewer, 2).boundingBox();
+  await viewer.page.mouse.move((box?.x ?? 0) + 6, (box?.y ?? 0) + 6);
+  await viewer.page.mouse.down();
+  await viewer.page.mouse.move(middleX + 3, middleY - 20, { steps: 5 });
+  await viewer.page.mouse.up();
+  await expect(button(viewer, 'Undo')).toHaveAttribute('title', /move a point/);
+  await point(viewer, 2).click({ button: 'right' });
+  await expect(point(viewer, 3)).toHaveCount(0);
+  await expect.poll(() => lengthOf(viewer, 0)).toBeCloseTo(whole, 1);
+  await viewer.press('Escape');
+  await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'strip');
+  await viewer.rest();
+  await viewer.screenshot('trace-done');
+  await expect(viewer.readOut).toContainText(/Vessel 1|\d/);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a click in the projection is looked at in the slices before it becomes a point', async ({
+  browser,
+}) => {
+  const viewer = await untraced(browser);
+  await startTool(viewer);
+  await viewer.click([0.5, 0.7]);
+  await expect(viewer.page.locator('[data-place=candidate]')).toHaveCount(4);
+  await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
+  await viewer.press('Escape');
+  await expect(viewer.page.locator('[data-place=candidate]')).toHaveCount(0);
+  await viewer.click([0.5, 0.7]);
+  await button(viewer, 'Set the point here').click();
+  await expect(viewer.page.locator('[data-place=first]')).toHaveCount(4);
+  await viewer.click([0.5, 0.5]);
+  await viewer.click([0.5, 0.5]);
+  await expect(rows(viewer)).toHaveCount(1);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('by keyboard alone: a vessel is traced, edited and saved', async ({ browser }) => {
+  const viewer = await untraced(browser);
+  const { page } = viewer;
+  await viewer.press('t');
+  await expect(viewer.pane('axial')).toBeVisible();
+  await viewer.pane('axial').focus();
+  await viewer.press('Enter');
+  await expect(page.locator('[data-place=first]')).toHaveCount(4);
+  for (let n = 0; n < 14; n++) {
+    await viewer.press('PageDown');
+  }
+  await viewer.press('ArrowRight', 'ArrowLeft');
+  await expect(viewer.pane('axial').locator('path.live')).toHaveCount(1);
+  await viewer.press('Enter');
+  await expect(rows(viewer)).toHaveCount(1);
+  await viewer.press('Enter');
+  await expect(button(viewer, 'End this vessel')).toHaveCount(0);
+  await point(viewer, 2, 'axial').focus();
+  await viewer.press('ArrowRight');
+  await expect(button(viewer, 'Undo')).toHaveAttribute('title', /move a point/);
+  await viewer.press('Control+z');
+  await expect(button(viewer, 'Undo')).toHaveAttribute('title', /begin a vessel/);
+  await viewer.press('Escape');
+  await name(viewer, 0).focus();
+  await page.keyboard.press('Control+a');
+  await page.keyboard.type('by keys');
+  await viewer.press('Tab');
+  await expect(name(viewer, 0)).toHaveValue('by keys');
+  await button(viewer, 'Save .vtp').focus();
+  const [download] = await Promise.all([page.waitForEvent('download'), viewer.press('Enter')]);
+  expect(download.suggestedFilename()).toBe('centerlines.vtp');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('thirty steps are undone and done again', async ({ browser }) => {
+  const viewer = await untraced(browser);
+  await startTool(viewer);
+  await traceTo(viewer, RIGHT, 1);
+  const before = await lengthOf(viewer, 0);
+  await point(viewer, 2).focus();
+  for (let n = 0; n < 29; n++) {
+    const words = await button(viewer, 'Undo').getAttribute('title');
+    await viewer.press(n % 2 === 0 ? 'ArrowDown' : 'ArrowUp');
+    if (n === 0) {
+      await expect(button(viewer, 'Undo')).not.toHaveAttribute('title', words ?? '');
+    }
+    await expect(viewer.page.locator('.trace-bar span')).not.toHaveText('Tracing …');
+  }
+  await expect.poll(() => lengthOf(viewer, 0)).not.toBe(before);
+  const after = await lengthOf(viewer, 0);
+  for (let n = 0; n < 29; n++) {
+    await viewer.press('Control+z');
+  }
+  await expect.poll(() => lengthOf(viewer, 0)).toBe(before);
+  await viewer.press('Control+z');
+  await expect(rows(viewer)).toHaveCount(0);
+  // What is left to undo is that the vessels of the phantom were deleted.
+  await expect(button(viewer, 'Undo')).toHaveAttribute('title', /delete vessels/);
+  for (let n = 0; n < 30; n++) {
+    await viewer.press('Control+Shift+Z');
+  }
+  await expect.poll(() => lengthOf(viewer, 0)).toBe(after);
+  await expect(button(viewer, 'Redo')).toBeDisabled();
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a click in air is refused in words, changes nothing, and the place is marked', async ({ browser }) => {
+  const viewer = await untraced(browser);
+  await startTool(viewer);
+  await click(viewer, TRUNK);
+  await click(viewer, AIR);
+  await expect(viewer.problem).toContainText('lumen');
+  await expect(viewer.page.locator('[data-place=weakest]')).toHaveCount(4);
+  await expect(rows(viewer)).toHaveCount(0);
+  await viewer.screenshot('trace-refused');
+  await click(viewer, RIGHT);
+  await expect(rows(viewer)).toHaveCount(1);
+  await expect(viewer.problem).toHaveCount(0);
+  await expect(viewer.page.locator('[data-place=weakest]')).toHaveCount(0);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('two vessels that meet are joined, cut, hidden, and saved files are read again', async ({ browser }) => {
+  const viewer = await untraced(browser);
+  const { page } = viewer;
+  await startTool(viewer);
+  await traceTo(viewer, RIGHT, 1);
+  await traceTo(viewer, LEFT, 2);
+  await button(viewer, 'Done').click();
+  await rows(viewer).nth(0).getByRole('radio').check();
+  await name(viewer, 0).fill('to the right');
+  await name(viewer, 0).press('Tab');
+  const lengths = [await lengthOf(viewer, 0), await lengthOf(viewer, 1)];
+  for (const kind of ['vtp', 'mrk.json']) {
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      button(viewer, `Save .${kind}`).click(),
+    ]);
+    const bytes = readFileSync(await download.path());
+    const file = { name: `again.${kind}`, mimeType: 'application/octet-stream', buffer: bytes };
+    const count = await rows(viewer).count();
+    await page.locator('aside input[type=file]').setInputFiles(file);
+    await expect(rows(viewer)).toHaveCount(count + 2);
+    await expect(name(viewer, count)).toHaveValue('to the right');
+    await expect.poll(() => lengthOf(viewer, count)).toBeCloseTo(lengths[0] ?? 0, 1);
+    await expect.poll(() => lengthOf(viewer, count + 1)).toBeCloseTo(lengths[1] ?? 0, 1);
+    await viewer.press('Control+z');
+    await expect(rows(viewer)).toHaveCount(count);
+  }
+  await button(viewer, 'Hide to the right').click();
+  await expect(rows(viewer).nth(1).getByRole('radio')).toBeChecked();
+  await button(viewer, 'Show to the right').click();
+  await rows(viewer).nth(0).getByRole('radio').check();
+  await button(viewer, 'Cut here').click();
+  await expect(rows(viewer)).toHaveCount(3);
+  const parts = async () => (await lengthOf(viewer, 0)) + (await lengthOf(viewer, 1));
+  await expect.poll(parts).toBeCloseTo(lengths[0] ?? 0, 0);
+  await page.getByLabel('Join to the right with').selectOption({ index: 1 });
+  await expect(rows(viewer)).toHaveCount(2);
+  await expect.poll(() => lengthOf(viewer, 0)).toBeCloseTo(lengths[0] ?? 0, 0);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('all branches from here, of which doubtful ones are accepted and left out', async ({ browser }) => {
+  test.setTimeout(120_000);
+  const viewer = await untraced(browser, 'aorta');
+  await viewer.press('b');
+  const doubtful = viewer.page.locator('.doubtful-rows li');
+  await expect(doubtful.first()).toBeVisible({ timeout: 90_000 });
+  const [sure, unsure] = [await rows(viewer).count(), await doubtful.count()];
+  expect(sure).toBeGreaterThan(3);
+  await doubtful
+    .first()
+    .getByRole('button', { name: /^Accept/ })
+    .click();
+  await expect(rows(viewer)).toHaveCount(sure + 1);
+  await expect(doubtful).toHaveCount(unsure - 1);
+  await doubtful
+    .first()
+    .getByRole('button', { name: /^Leave/ })
+    .click();
+  await expect(doubtful).toHaveCount(unsure - 2);
+  await button(viewer, 'Leave all out').click();
+  await expect(doubtful).toHaveCount(0);
+  await viewer.press('Control+z', 'Control+z', 'Control+z');
+  await expect(doubtful).toHaveCount(unsure);
+  await expect(rows(viewer)).toHaveCount(sure);
+  await viewer.screenshot('trace-branches');
+  viewer.expectNoFault();
+  await viewer.close();
+});

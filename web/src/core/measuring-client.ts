@@ -1,0 +1,55 @@
+/** Measuring as the page uses it: what the worker's `MeasuringHost` is asked for. */
+import type { Remote } from 'comlink';
+import type { MeasuringHost } from '../worker/measuring-host';
+import type { MeasuredSection, MeasuredVessel, Measuring, Profile, Stenosis, Stretch } from './measuring';
+import type { Pair, Progress } from './messages';
+
+/** Hears an answer that the user waits for. */
+export type First = <T>(answer: Promise<T>) => Promise<T>;
+
+export class MeasuringClient implements Measuring {
+  constructor(
+    private readonly host: Remote<MeasuringHost>,
+    private readonly first: First,
+  ) {}
+
+  async profile(line: number, fwhm: number | null, told: (progress: Progress) => void): Promise<Profile> {
+    const words = 'measuring the vessel';
+    told({ words, done: 0, total: null });
+    const profile = await this.first(this.host.profile(line, fwhm));
+    told({ words, done: 1, total: 1 });
+    return profile;
+  }
+
+  stenosis(line: number, marks: MeasuredVessel['marks']): Promise<Stenosis | null> {
+    return this.first(this.host.stenosis(line, marks));
+  }
+
+  suggestedReferences(line: number, at: number): ReturnType<Measuring['suggestedReferences']> {
+    return this.first(this.host.suggestedReferences(line, at));
+  }
+
+  diameterAt(line: number, at: number): ReturnType<Measuring['diameterAt']> {
+    return this.first(this.host.diameterAt(line, at));
+  }
+
+  section(line: number, at: number): Promise<MeasuredSection> {
+    return this.first(this.host.section(line, at));
+  }
+
+  stretch(line: number, ends: Pair): Promise<Stretch> {
+    return this.first(this.host.stretch(line, ends));
+  }
+
+  angleBetween(line: number, first: Pair, second: Pair): Promise<number> {
+    return this.first(this.host.angleBetween(line, first, second));
+  }
+
+  csv(vessels: readonly MeasuredVessel[]): Promise<string> {
+    return this.first(this.host.csv(vessels));
+  }
+
+  json(vessels: readonly MeasuredVessel[]): Promise<string> {
+    return this.first(this.host.json(vessels));
+  }
+}

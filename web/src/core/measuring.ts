@@ -1,0 +1,122 @@
+/** What the page and its worker tell each other of measuring. Lengths are in mm along a vessel, or in mm; points in world space (LPS, mm). */
+import type { LineId, Pair, Progress, Vector } from './messages';
+
+export type StenosisMethod = 'nascet' | 'ecst' | 'area';
+export type Territory = 'carotid' | 'coronary';
+
+/** A place on a vessel and the diameter there (mm). */
+export interface Spot {
+  readonly at: number;
+  readonly diameter: number;
+}
+
+/** The lumen of a vessel by its arc length: one entry for each section, null where nothing was measured. */
+export interface Profile {
+  readonly arc_length: readonly number[];
+  /** Of a circle of the same area (mm). */
+  readonly diameter: readonly (number | null)[];
+  readonly diameter_min: readonly (number | null)[];
+  readonly diameter_max: readonly (number | null)[];
+  /** mm² */
+  readonly area: readonly (number | null)[];
+  /** The standard deviation of `diameter` (mm). */
+  readonly uncertainty: readonly (number | null)[];
+  /** Whether a section counts for what is narrowest, widest or suggested. */
+  readonly counts: readonly boolean[];
+  /** Words such as `calcium`, `no edge`. */
+  readonly flags: readonly (readonly string[])[];
+  readonly center: readonly Vector[];
+  readonly normal: readonly Vector[];
+  /** Full width at half maximum of the point spread (mm), and how it was found: `given`, `estimated on …`, `assumed: …`. */
+  readonly fwhm: number;
+  readonly fwhm_source: string;
+  /** Suggestions, not findings. */
+  readonly narrowest: Spot | null;
+  readonly widest: Spot | null;
+}
+
+/** What a reader marked on one vessel (arc lengths, mm). */
+export interface Marks {
+  /** The place of a stenosis. */
+  readonly at: number | null;
+  /** One or two places to compare it with. */
+  readonly references: readonly number[];
+  readonly method: StenosisMethod;
+  /** The assumed original diameter (mm), for ECST. */
+  readonly original: number | null;
+  /** The diameter of a vessel like the normal one (mm). */
+  readonly comparison: number | null;
+  readonly group: Territory | null;
+}
+
+export interface Stenosis {
+  readonly percent: number;
+  readonly at: number;
+  readonly diameter: number;
+  readonly uncertainty: number | null;
+  readonly reference: number;
+  readonly references: readonly Spot[];
+  readonly method: StenosisMethod;
+  /** The whole in one line, as Python's `str(stenosis)` has it. */
+  readonly words: string;
+  /** The group of the field with its source, where a territory was named. */
+  readonly group: string | null;
+}
+
+/** A marked stretch of a vessel. */
+export interface Stretch {
+  readonly length: number;
+  readonly straight: number;
+  /** `length` in straight distances; null where it ends where it begins. */
+  readonly tortuosity: number | null;
+  /** Unit vector along it. */
+  readonly direction: Vector;
+  /** How a C-arm is turned that shows it in its whole length (radians), and as it stands on a C-arm: `RAO 20° CRAN 5°`. */
+  readonly lao: number;
+  readonly cranial: number;
+  readonly c_arm: string;
+  /** From the viewer into the scene, and upwards, of the view from the detector of that C-arm. */
+  readonly view: { readonly direction: Vector; readonly up: Vector };
+}
+
+/** The section of a profile that is nearest to an arc length. */
+export interface MeasuredSection {
+  /** Its number in the profile. */
+  readonly number: number;
+  /** The points of the wall; empty where none was found. */
+  readonly contour: readonly Vector[];
+  /** The ends of the shortest and of the longest diameter. */
+  readonly shortest: readonly [Vector, Vector] | null;
+  readonly longest: readonly [Vector, Vector] | null;
+}
+
+/** A vessel for tables: its id and name, its line, and what was marked on it. */
+export interface MeasuredVessel {
+  readonly id: string;
+  readonly name: string;
+  readonly line: LineId;
+  readonly marks: Marks;
+}
+
+/** Measuring. All of it throws `Failure`. Profiles are kept by line as long as the study is open. */
+export interface Measuring {
+  /** The profile of a line among the lines that are shown: kept, or measured with a step of 0.5 mm. */
+  profile(line: LineId, fwhm: number | null, told: (progress: Progress) => void): Promise<Profile>;
+  /** The stenosis that was marked; null where a reference or an original diameter is still missing. */
+  stenosis(line: LineId, marks: Marks): Promise<Stenosis | null>;
+  /** Places before and after an arc length that it could be compared with. */
+  suggestedReferences(line: LineId, at: number): Promise<readonly [Spot | null, Spot | null]>;
+  /** The diameter at a place and its standard deviation. */
+  diameterAt(
+    line: LineId,
+    at: number,
+  ): Promise<{ readonly diameter: number; readonly uncertainty: number | null }>;
+  section(line: LineId, at: number): Promise<MeasuredSection>;
+  stretch(line: LineId, ends: Pair): Promise<Stretch>;
+  /** The angle between two stretches (radians): 0 where the second goes on as the first does. */
+  angleBetween(line: LineId, first: Pair, second: Pair): Promise<number>;
+  /** The table that `lumencut measure -o x.csv` writes. */
+  csv(vessels: readonly MeasuredVessel[]): Promise<string>;
+  /** What `lumencut measure -o x.json` writes. */
+  json(vessels: readonly MeasuredVessel[]): Promise<string>;
+}

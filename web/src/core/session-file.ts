@@ -1,0 +1,80 @@
+/** What page and worker tell each other of session files. The fields are those of the file, which the module checks; lengths in mm. */
+import type { LineId, Pair, SettingValue, Vector } from './messages';
+
+/** The grid of the scan that a session was made of. */
+export interface SavedScan {
+  readonly size: Vector;
+  readonly world_from_index: readonly (readonly number[])[];
+}
+
+/** What belongs to a vessel beside its line; the module adds confidence and what was bridged. */
+export interface SavedVessel {
+  readonly color: string;
+  readonly hidden: boolean;
+  readonly clicks: readonly Vector[] | null;
+  readonly marks: SavedMarks | null;
+}
+
+export interface SavedMarks {
+  readonly at_mm: number | null;
+  readonly references_mm: readonly number[];
+  readonly method: string;
+  readonly original_mm: number | null;
+  readonly comparison_mm: number | null;
+  readonly group: string | null;
+  readonly stretch_mm: Pair | null;
+  readonly second_stretch_mm: Pair | null;
+}
+
+/** A branch that nobody has accepted yet, without its line. */
+export interface SavedBranch {
+  readonly color: string;
+  readonly doubt: string;
+}
+
+export interface SavedView {
+  readonly camera: {
+    readonly center: Vector;
+    readonly direction: Vector;
+    readonly up: Vector;
+    readonly size: Pair;
+    readonly pixel_spacing: number;
+  };
+  readonly method: string;
+  readonly settings: Readonly<Record<string, SettingValue>>;
+  readonly layout: string;
+  readonly cross_hair: Vector | null;
+  readonly picked: { readonly vessel: number; readonly at_mm: number } | null;
+}
+
+/** All of a session but its lines. */
+export interface SavedSession {
+  readonly scan: SavedScan | null;
+  readonly vessels: readonly SavedVessel[];
+  readonly doubtful: readonly SavedBranch[];
+  readonly stoppers: readonly { readonly center: Vector; readonly radius_mm: number }[];
+  readonly bridge: boolean;
+  readonly rulers: readonly { readonly from: Vector; readonly to: Vector }[];
+  readonly view: SavedView | null;
+}
+
+/** A line of a session with its name. */
+export interface SavedLine {
+  readonly line: LineId;
+  readonly name: string;
+}
+
+/** A session with its lines: one for each vessel, and one for each doubtful branch. */
+export interface SessionContent {
+  readonly lines: readonly SavedLine[];
+  readonly doubtful_lines: readonly SavedLine[];
+  readonly session: SavedSession;
+}
+
+/** Session files. Throws `Failure`. */
+export interface Sessions {
+  /** The bytes of a session file. */
+  write(content: SessionContent): Promise<Uint8Array<ArrayBuffer>>;
+  /** The content of a session file; its lines are taken over, and nothing is shown yet. */
+  read(bytes: Uint8Array, name: string): Promise<SessionContent>;
+}

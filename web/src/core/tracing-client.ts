@@ -1,0 +1,68 @@
+/** Tracing and editing as the page uses them: calls to the worker. */
+import { proxy, type Remote } from 'comlink';
+import type { TracingHost } from '../worker/tracing-host';
+import type { GivenFile, LineId, Pick, Progress, Report, Vector, View } from './messages';
+import type {
+  CenterlineKind,
+  LineContent,
+  MaskLines,
+  NamedLine,
+  PathRequest,
+  SeedBranch,
+  TraceRequest,
+  Tracing,
+} from './tracing';
+
+type Told = (progress: Progress) => void;
+
+export class TracingClient implements Tracing {
+  constructor(
+    private readonly host: Remote<TracingHost>,
+    /** Hears an answer that the user waits for. */
+    private readonly first: <T>(answer: Promise<T>) => Promise<T>,
+  ) {}
+
+  trace(request: TraceRequest, told: Told): Promise<readonly LineId[]> {
+    return this.first(this.host.trace(request, proxy(told)));
+  }
+
+  path(request: PathRequest): Promise<readonly Vector[] | null> {
+    return this.first(this.host.path(request));
+  }
+
+  brightest(view: View, [column, row]: readonly [number, number]): Promise<Pick> {
+    return this.first(this.host.brightest(view, column, row));
+  }
+
+  traceFrom(seed: Vector, smallestRadius: number, told: Told): Promise<readonly SeedBranch[]> {
+    return this.first(this.host.traceFrom(seed, smallestRadius, proxy(told)));
+  }
+
+  traceMask(files: readonly GivenFile[], told: Told): Promise<MaskLines> {
+    return this.first(this.host.traceMask(files, proxy(told)));
+  }
+
+  cut(line: LineId, arcLength: number): Promise<readonly [LineId, LineId]> {
+    return this.first(this.host.cut(line, arcLength));
+  }
+
+  join(first: LineId, second: LineId): Promise<LineId> {
+    return this.first(this.host.join(first, second));
+  }
+
+  line(line: LineId): Promise<LineContent> {
+    return this.first(this.host.line(line));
+  }
+
+  add(content: LineContent): Promise<LineId> {
+    return this.first(this.host.add(content));
+  }
+
+  show(lines: readonly NamedLine[]): Promise<Report> {
+    return this.first(this.host.show(lines));
+  }
+
+  write(lines: readonly NamedLine[], kind: CenterlineKind): Promise<Uint8Array<ArrayBuffer>> {
+    return this.first(this.host.write(lines, kind));
+  }
+}

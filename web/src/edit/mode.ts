@@ -1,0 +1,69 @@
+/** While a vessel is traced the page shows slices in all directions and the brightest values along each ray. */
+import { batch, effect, signal, untracked } from '@preact/signals';
+import type { SettingValue } from '../core/messages';
+import { moveTo } from '../link/along';
+import { setSetting, settingOf } from '../state/actions';
+import * as store from '../state/store';
+import { endVessel } from './pointing';
+import { type Tool, tool } from './tool';
+
+/** Whether the list of vessels is shown. */
+export const isListOpen = signal(false);
+
+/** The doubtful branch that was clicked, which is to be accepted or left out. */
+export const chosenDoubt = signal<number | null>(null);
+
+/** In narrower windows the list would cover the views (CSS pixels). */
+const NARROW = 760;
+
+const TRACING: readonly Tool[] = ['trace', 'stopper'];
+
+/** Whether clicks set points or stoppers now. */
+export const isTracing = (): boolean => TRACING.includes(tool.value);
+
+interface Kept {
+  readonly layout: store.Layout;
+  readonly context: SettingValue;
+}
+
+/** What was shown before; null while no vessel is traced. */
+let before: Kept | null = null;
+
+/** Shows what a tool needs from now on, and afterwards what was shown before. */
+export function followTool(): () => void {
+  return effect(() => {
+    const isOn = isTracing();
+    batch(() => {
+      if (isOn && !before) {
+        before = { layout: store.layout.peek(), context: peekContext() };
+        show({ layout: 'four', context: 'mip' });
+        store.maximised.value = null;
+        isListOpen.value ||= window.innerWidth > NARROW;
+      } else if (!isOn && before) {
+        endVessel();
+        // What the user chose meanwhile stays.
+        const isOurs = store.layout.peek() === 'four' && peekContext() === 'mip';
+        if (isOurs) {
+          show(before);
+        }
+        before = null;
+        // The cross-hair was where the last click was.
+        untracked(() => moveTo(store.pickedPlace.value));
+      }
+    });
+  });
+}
+
+function peekContext(): SettingValue {
+  return untracked(() => settingOf('context'));
+}
+
+function show({ layout, context }: Kept): void {
+  store.layout.value = layout;
+  untracked(() => setSetting('context', context));
+}
+
+/** Takes up a tool, or lays it down where it is in use. */
+export function toggleTool(wanted: Tool): void {
+  tool.value = tool.value === wanted ? 'look' : wanted;
+}

@@ -1,0 +1,94 @@
+/** Does what a key or a button stands for: edits of vessels here, all else in the actions of the page. */
+import type { EngineClient } from '../core/engine';
+import type { Action } from '../input/bindings';
+import { perform } from '../state/actions';
+import { recover } from '../state/device';
+import { crossHair, hasVolume, isHelpOpen, problem, progress } from '../state/store';
+import { addBranches } from './branches';
+import { dropEdits, waiting } from './committing';
+import { candidate, first, target } from './drawing';
+import { redo, undo } from './history';
+import { isListOpen, isTracing, toggleTool } from './mode';
+import { checkFirst, enter, leave, removeLast } from './pointing';
+import { tool } from './tool';
+
+export function performAny(engine: EngineClient, action: Action): void {
+  const edits = hasVolume.value ? edit(engine, action) : false;
+  if (!edits) {
+    perform(engine, action);
+  }
+}
+
+/** Does an edit; says whether it was one. */
+function edit(engine: EngineClient, action: Action): boolean {
+  switch (action) {
+    case 'trace':
+      toggleTool('trace');
+      return true;
+    case 'vessels':
+      isListOpen.value = !isListOpen.value;
+      return true;
+    case 'branches':
+      branchesFromHere(engine);
+      return true;
+    case 'undo':
+      undoLast(engine);
+      return true;
+    case 'redo':
+      redo();
+      return true;
+    case 'cancel':
+      return cancelEdit(engine);
+    default:
+      return isTracing() && point(engine, action);
+  }
+}
+
+function point(engine: EngineClient, action: Action): boolean {
+  if (action === 'enter') {
+    enter(engine.tracing);
+    checkFirst(engine).catch(recover);
+  } else if (action === 'remove point' && tool.value === 'trace') {
+    removeLast(engine.tracing);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/** All branches that the cross-hair's place reaches. */
+export function branchesFromHere(engine: EngineClient): void {
+  const seed = crossHair.value?.point;
+  if (seed) {
+    void addBranches(engine.tracing, seed);
+  }
+}
+
+/** Undoes the last step; what is under way is stopped first, and a point that is no vessel yet is taken back. */
+export function undoLast(engine: EngineClient): void {
+  if (waiting.value > 0) {
+    stopEdits(engine);
+  } else if (candidate.value || first.value) {
+    candidate.value = null;
+    first.value = null;
+  } else {
+    undo();
+  }
+}
+
+/** Escape: stops an edit, then closes what is told, then steps back out of the tool. */
+function cancelEdit(engine: EngineClient): boolean {
+  // The way to the pointer is shown again when it moves.
+  target.value = null;
+  if (waiting.value > 0) {
+    stopEdits(engine);
+    return true;
+  }
+  return !problem.value && !isHelpOpen.value && !progress.value && leave();
+}
+
+function stopEdits(engine: EngineClient): void {
+  dropEdits();
+  progress.value = null;
+  void engine.cancel();
+}

@@ -1,0 +1,145 @@
+/** What a click, Enter and Escape do with the tools that trace. */
+import { batch } from '@preact/signals';
+import type { EngineClient } from '../core/engine';
+import { Failure } from '../core/failure';
+import type { Vector } from '../core/messages';
+import type { Tracing } from '../core/tracing';
+import { length, subtract } from '../core/vectors';
+import { crossHair, problem } from '../state/store';
+import { addClick, beginVessel, removeClick } from './clicks';
+import { refusal } from './committing';
+import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
+import { addStopper } from './stoppers';
+import { active, tool } from './tool';
+
+/** Places as near as this are one place (mm). */
+const SAME = 0.05;
+
+/** The vessel that is being begun, as long as it is traced for the first time. */
+let beginning: Promise<number | null> | null = null;
+
+/** Sets a point of a vessel, or a stopper. */
+export async function setPoint(tracing: Tracing, point: Vector): Promise<void> {
+  candidate.value = null;
+  if (tool.value === 'stopper') {
+    await addStopper(tracing, point);
+  } else if (anchor.value === null) {
+    first.value = point;
+  } else {
+    const own = { point, drawing: drawing.value };
+    coming.value = [...coming.value, own];
+    await goOn(tracing, point);
+    coming.value = coming.value.filter((one) => one !== own);
+  }
+}
+
+async function goOn(tracing: Tracing, point: Vector): Promise<void> {
+  if (drawn.value) {
+    await addClick(tracing, drawn.value.id, point);
+  } else if (beginning) {
+    const id = await beginning;
+    await (id === null ? null : addClick(tracing, id, point));
+  } else if (first.value) {
+    const own = drawing.value;
+    // A vessel that was ended while it was traced does not go on.
+    const goesOn = () => own === drawing.value;
+    beginning = beginVessel(tracing, [first.value, point], (id) => {
+      if (goesOn()) {
+        batch(() => {
+          active.value = id;
+          first.value = null;
+        });
+      }
+    });
+    const begun = await beginning;
+    if (goesOn()) {
+      beginning = null;
+      // Where the first point is to blame, another one is to be set: no second one would help.
+      first.value = begun === null && !isBlamed(first.value) ? first.value : null;
+    }
+  }
+}
+
+/** Takes a first point back at once that lies outside of the scan: no second one would make a vessel of it. */
+export async function checkFirst(engine: Pick<EngineClient, 'at'>): Promise<void> {
+  const point = first.value;
+  if (point && (await engine.at(point)).value === null && first.value === point) {
+    first.value = null;
+    problem.value = new Failure(
+      'tracing',
+      'this point',
+      'a place outside of the scan',
+      'a place within a vessel',
+      'click on the vessel in a slice',
+    );
+  }
+}
+
+/** Whether a click was refused for a point, and not for what lies behind it. */
+function isBlamed(point: Vector | null): boolean {
+  const place = refusal.value?.failure.place;
+  return Boolean(point && place && length(subtract(place, point)) < SAME);
+}
+
+/** Accepts the place of a projection; says whether there was one. */
+export function acceptCandidate(tracing: Tracing): boolean {
+  const point = candidate.value;
+  if (point) {
+    void setPoint(tracing, point);
+  }
+  return point !== null;
+}
+
+/** Enter: accepts the place of a projection, else sets a point at the cross-hair; twice at one place ends the vessel. */
+export function enter(tracing: Tracing): void {
+  const place = crossHair.value?.point;
+  if (acceptCandidate(tracing) || !place) {
+    return;
+  }
+  const last = anchor.value;
+  if (tool.value === 'trace' && last && length(subtract(place, last)) < SAME) {
+    endVessel();
+  } else {
+    void setPoint(tracing, place);
+  }
+}
+
+/** Ends the vessel that is drawn: points of it that are still traced come to it, and the next one begins another vessel. */
+export function endVessel(): void {
+  beginning = null;
+  batch(() => {
+    drawing.value += 1;
+    active.value = null;
+    forgetDrawing();
+  });
+}
+
+/** One step back out of a tool: from a place of a projection, from a vessel, from the tool. Says whether there was one. */
+export function leave(): boolean {
+  if (tool.value === 'look') {
+    return false;
+  }
+  if (candidate.value) {
+    candidate.value = null;
+  } else if (isDrawing.value) {
+    endVessel();
+  } else {
+    tool.value = 'look';
+  }
+  return true;
+}
+
+/** Removes the last point that was set of the vessel that is drawn. */
+export function removeLast(tracing: Tracing): void {
+  const clicks = drawn.value?.clicks;
+  if (candidate.value) {
+    candidate.value = null;
+  } else if (drawn.value && clicks) {
+    const kept = clicks.length === 2 ? (clicks[0] ?? null) : null;
+    void removeClick(tracing, drawn.value.id, clicks.length - 1).then(() => {
+      first.value = kept;
+    });
+  } else {
+    first.value = null;
+  }
+}

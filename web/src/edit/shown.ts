@@ -1,0 +1,139 @@
+/** The tree that is shown follows the document: the visible vessels, without the doubtful ones, whenever they change. */
+import { batch, effect, signal } from '@preact/signals';
+import { Failure } from '../core/failure';
+import type { Report } from '../core/messages';
+import type { Tracing } from '../core/tracing';
+import * as store from '../state/store';
+import { documentOf, shownVessels } from './changes';
+import { dropEdits } from './committing';
+import { type Document, type DocumentVessel, EMPTY } from './document';
+import { begin, document_ } from './history';
+import { active } from './tool';
+
+/** The vessels of the tree that is shown: those of `store.report`, in the same order. */
+export const tree = signal<readonly DocumentVessel[]>([]);
+
+/** The vessel of the document that is picked. */
+export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;
+
+/** What is asked of a tree: lines and names. */
+const textOf = (vessels: readonly { line: number; name: string }[]): string =>
+  JSON.stringify(vessels.map(({ line, name }) => [line, name]));
+
+let shownText = textOf([]);
+
+/** Another study, or none: the document begins with its vessels, and nothing can be undone. */
+export function beginStudy(report: Report | null): void {
+  dropEdits();
+  const document = report ? documentOf(report.vessels ?? []) : EMPTY;
+  batch(() => {
+    active.value = null;
+    tree.value = document.vessels;
+    shownText = textOf(document.vessels);
+    begin(document);
+  });
+}
+
+/** Another document of the same study, as from a session: nothing can be undone. */
+export function beginDocument(document: Document): void {
+  dropEdits();
+  batch(() => {
+    active.value = null;
+    begin(document);
+  });
+}
+
+/** The engine shows another tree than the document has: what the document has is shown again. */
+export function showAgain(tracing: Tracing): Promise<void> {
+  shownText = '';
+  return show(tracing);
+}
+
+/** Shows the document's tree from now on; gives what ends it. */
+export function followDocument(tracing: Tracing): () => void {
+  return effect(() => {
+    if (textOf(shownVessels(document_.value)) !== shownText) {
+      void show(tracing);
+    }
+  });
+}
+
+let showing: Promise<void> | null = null;
+
+/** One tree is asked for at a time; where the document changes meanwhile, the latest one follows. Ends when that is shown. */
+function show(tracing: Tracing): Promise<void> {
+  showing ??= showLatest(tracing);
+  return showing;
+}
+
+async function showLatest(tracing: Tracing): Promise<void> {
+  // What is shown is known to be under way before it can end.
+  await null;
+  let study = store.report.value?.volume;
+  try {
+    while (study) {
+      const vessels = shownVessels(document_.value);
+      const text = textOf(vessels);
+      if (text === shownText) {
+        break;
+      }
+      const report = await tracing.show(vessels.map(({ line, name }) => ({ line, name })));
+      if (study === store.report.value?.volume) {
+        shownText = text;
+        take(report, vessels);
+      }
+      study = store.report.value?.volume;
+    }
+  } catch (error) {
+    // What was asked of a study that is closed meanwhile is not told.
+    if (study === store.report.value?.volume) {
+      store.problem.value = Failure.of(error);
+    }
+  } finally {
+    // Here and not later: no change comes between the last look at the document and this.
+    showing = null;
+  }
+}
+
+/** The store tells the new tree; camera, window and cross-hair stay, and so does the vessel that is picked. */
+function take(report: Report, vessels: readonly DocumentVessel[]): void {
+  const picked = store.pickedVessel.value;
+  const lengths = (report.vessels ?? []).map((vessel) => vessel.length);
+  // Where none was picked the longest is, unless one is being drawn.
+  const isFirst = picked === null && vessels.every((vessel) => vessel.id !== active.value);
+  const now =
+    isFirst && lengths.length > 0
+      ? lengths.indexOf(Math.max(...lengths))
+      : successor(tree.value, picked, vessels);
+  const hair = store.crossHair.value;
+  batch(() => {
+    if (hair && hair.vessel !== null) {
+      const id = tree.value[hair.vessel]?.id;
+      const vessel = vessels.findIndex((one) => one.id === id);
+      store.crossHair.value = vessel < 0 ? { ...hair, vessel: null, arcLength: null } : { ...hair, vessel };
+    }
+    const isSame = picked !== null && now !== null && tree.value[picked]?.id === vessels[now]?.id;
+    tree.value = vessels;
+    // The volume stays the one that it was, so that views of it keep what they look at.
+    store.report.value = { ...report, volume: store.report.value?.volume ?? report.volume };
+    store.pickedVessel.value = now;
+    const length = lengths[now ?? -1] ?? 0;
+    store.pickedPlace.value = isSame ? Math.min(store.pickedPlace.value, length) : length / 2;
+  });
+}
+
+/** The vessel that is drawn; else the one that was picked, the next one that is still there, or the last one. */
+export function successor(
+  before: readonly DocumentVessel[],
+  picked: number | null,
+  after: readonly DocumentVessel[],
+): number | null {
+  const placeOf = (id: number | null | undefined) => after.findIndex((vessel) => vessel.id === id);
+  const drawn = placeOf(active.value);
+  if (drawn >= 0 || after.length === 0) {
+    return drawn >= 0 ? drawn : null;
+  }
+  const following = picked === null ? [] : before.slice(picked);
+  const kept = following.map((vessel) => placeOf(vessel.id)).find((place) => place >= 0);
+  return kept ?? (picked === null ? 0 : after.length - 1);
+}

@@ -1,0 +1,29 @@
+/** The guided try over the views: what to do next. It can be left at any time. */
+import { guideStep, leaveGuide, nextStep, STEPS, wordsOf } from './steps';
+
+export function Guide() {
+  const number = guideStep.value;
+  const step = number === null ? null : STEPS[number];
+  if (number === null || !step) {
+    return null;
+  }
+  const isLast = number === STEPS.length - 1;
+  return (
+    <aside class="guide" aria-label="Guided try" aria-live="polite">
+      <div class="guide-words">
+        <h2>{`${number + 1} of ${STEPS.length}: ${step.title}`}</h2>
+        <p>{wordsOf(step).join(' ')}</p>
+      </div>
+      <div class="guide-buttons">
+        {!isLast && (
+          <button type="button" onClick={nextStep}>
+            Skip this step
+          </button>
+        )}
+        <button type="button" onClick={leaveGuide}>
+          {isLast ? 'Finish' : 'Leave the guided try'}
+        </button>
+      </div>
+    </aside>
+  );
+}

@@ -1,0 +1,35 @@
+/** The place of the section on the picked vessel, which the views share. */
+import { engine } from '../core/shared';
+import { recover } from '../state/device';
+import { pickedPlace, pickedVessel, report } from '../state/store';
+import { Latest } from '../views/latest';
+import { placeCrossHair } from './cross-hair';
+
+const latest = new Latest();
+
+/** Moves the section and the cross-hair to an arc length of the picked vessel (mm). */
+export function moveTo(place: number): void {
+  const vessel = pickedVessel.value;
+  const length = vessel === null ? 0 : (report.value?.vessels?.[vessel]?.length ?? 0);
+  const at = Math.min(Math.max(place, 0), length);
+  pickedPlace.value = at;
+  if (vessel === null) {
+    return;
+  }
+  const study = report.value?.volume;
+  latest.run(async () => {
+    try {
+      const [center] = await engine.across(vessel, at);
+      const pick = { ...(await engine.at(center)), vessel, arc_length: at };
+      // Another study has other places.
+      if (report.value?.volume === study) {
+        placeCrossHair(pick, 'section');
+      }
+    } catch (error) {
+      recover(error);
+    }
+  });
+}
+
+/** Moves it by so many mm. */
+export const moveAlong = (by: number): void => moveTo(pickedPlace.value + by);

@@ -1,0 +1,79 @@
+/** The straightened CPR of the picked vessel, lying with its first point on the left. */
+import { useCallback, useState } from 'preact/hooks';
+import type { Cpr, Pair } from '../core/messages';
+import { engine } from '../core/shared';
+import { moveTo } from '../link/along';
+import { dragWindow, windowBack } from '../state/actions';
+import * as store from '../state/store';
+import { CprControls, TURN_STEP } from '../views/CprControls';
+import { FlatPicture } from '../views/FlatPicture';
+import { type Lying, lyingBox, lyingPicture } from './lying';
+import { type Axis, valueAt } from './scale';
+
+interface LyingCprProps {
+  readonly x: Axis;
+  readonly lying: Lying;
+  /** CSS pixels that the pane has for it. */
+  readonly height: number;
+}
+
+export function LyingCpr({ x, lying, height }: LyingCprProps) {
+  const vessel = store.pickedVessel.value;
+  const window = store.window_.value;
+  const cpr: Cpr | null = vessel === null ? null : cprOf(vessel, lying);
+  const text = cpr && JSON.stringify(cpr);
+  const [shown, setShown] = useState<Pair | null>(null);
+  const ask = useCallback(async () => {
+    const picture = lyingPicture(await engine.straightened(JSON.parse(text ?? '{}') as Cpr, window));
+    setShown(picture.size);
+    return picture;
+  }, [text, window]);
+  const box = lyingBox(x, lying, shown ?? [1, 1]);
+  return (
+    <div class="lying" style={{ height: `${height}px` }}>
+      <FlatPicture
+        name="profile"
+        words="picked vessel, straightened, its first point on the left"
+        ask={text ? ask : null}
+        handlers={handlersOf(x)}
+        style={pixels(box)}
+      />
+      {Math.abs(lying.stretch - 1) > 0.01 && (
+        <span class="stretched">{`height × ${lying.stretch.toPrecision(2)}`}</span>
+      )}
+      <CprControls />
+    </div>
+  );
+}
+
+const cprOf = (vessel: number, { width, spacing }: Lying): Cpr => ({
+  vessel,
+  angle: store.cprAngle.value,
+  width,
+  pixel_spacing: spacing,
+  feature: store.cprFeature.value,
+});
+
+function pixels(box: Readonly<Record<string, number>>): Record<string, string> {
+  const lengths = Object.entries(box).map(([name, length]) => [name, `${length}px`] as const);
+  return { position: 'absolute', ...Object.fromEntries(lengths) };
+}
+
+function handlersOf(x: Axis) {
+  return {
+    drag: (action: string, by: Pair) => (action === 'window' ? dragWindow(by) : undefined),
+    zoom: () => undefined,
+    scroll: (steps: number) => {
+      store.cprAngle.value += steps * TURN_STEP;
+    },
+    click: (action: string, [column]: Pair) => {
+      if (action === 'maximise') {
+        store.maximised.value = store.maximised.value === 'profile' ? null : 'profile';
+      } else {
+        moveTo(valueAt(x, column));
+      }
+    },
+    hover: ([column]: Pair, shift: boolean) => (shift ? moveTo(valueAt(x, column)) : undefined),
+    ...windowBack(),
+  };
+}

@@ -1,0 +1,71 @@
+/** What is measured, over the turning view and over slices. */
+import { pixelOf } from '../core/camera';
+import type { Camera, Pair, Plane, Vector } from '../core/messages';
+import { engine } from '../core/shared';
+import { cross, dot, subtract } from '../core/vectors';
+import * as store from '../state/store';
+import { pixelOn, pointOn } from '../views/planes';
+import { currentProfile } from './current';
+import { PlaceHandles } from './PlaceHandles';
+import { RulerLayer } from './RulerLayer';
+import { centerAt, seenNearest } from './sections';
+
+/** A point lies in a slice within so many mm of it. */
+const IN_SLICE = 1;
+
+/** Places on the picked vessel, which are dragged along it, and rulers. */
+export function TurningMeasures({ camera }: { readonly camera: Camera }) {
+  const profile = currentProfile.value;
+  const seen = (point: Vector) => pixelOf(camera, point);
+  const pointAt = async (pixel: Pair) => {
+    const view = { camera, method: store.method.value, settings: store.viewSettings.value };
+    return (await engine.pick(view, pixel)).point;
+  };
+  return (
+    <>
+      {profile && (
+        <PlaceHandles
+          view="on the vessel"
+          pixelAt={(at) => {
+            const center = centerAt(profile, at);
+            return center && seen(center);
+          }}
+          atOf={(pixel, before) => seenNearest(profile, seen, pixel, before)}
+        />
+      )}
+      <RulerLayer
+        seen={{
+          where: 'on the vessels',
+          pixelOf: seen,
+          pointAt,
+          isSeen: (point) => isWithin(seen(point), camera.size),
+        }}
+      />
+    </>
+  );
+}
+
+interface SliceMeasuresProps {
+  readonly plane: Plane;
+  /** Where that is, such as `in the section`. */
+  readonly where: string;
+}
+
+/** Rulers whose ends lie in a slice. */
+export function SliceMeasures({ plane, where }: SliceMeasuresProps) {
+  const normal = cross(plane.right, plane.down);
+  const isSeen = (point: Vector) => Math.abs(dot(subtract(point, plane.center), normal)) <= IN_SLICE;
+  return (
+    <RulerLayer
+      seen={{
+        where,
+        pixelOf: (point) => pixelOn(plane, point),
+        pointAt: async (pixel) => pointOn(plane, pixel),
+        isSeen,
+      }}
+    />
+  );
+}
+
+const isWithin = ([x, y]: Pair, [width, height]: Pair): boolean =>
+  x >= 0 && y >= 0 && x < width && y < height;

@@ -1,0 +1,42 @@
+/** What stands in the place of a profile that is not there yet, or that cannot be. */
+import type { Pair } from '../core/messages';
+import * as store from '../state/store';
+import { currentFailure } from './current';
+import { beingMeasured, measureAgain, stopped } from './profiles';
+
+export function NoProfile({ size }: { readonly size: Pair }) {
+  return (
+    <div class="no-profile" style={{ height: `${size[1]}px` }} role="status" data-testid="no-profile">
+      <Why />
+    </div>
+  );
+}
+
+function Why() {
+  const failure = currentFailure.value;
+  const told = store.progress.value;
+  if (failure) {
+    return (
+      <p>
+        <strong>This vessel cannot be measured.</strong>{' '}
+        {`${failure.subject}: found ${failure.found}; expected ${failure.expected}.`}
+        {failure.mend && ` ${failure.mend[0]?.toUpperCase()}${failure.mend.slice(1)}.`}
+      </p>
+    );
+  }
+  if (!store.hasVolume.value) {
+    return <p>There is no volume to measure in.</p>;
+  }
+  if (beingMeasured.value !== null) {
+    const share = told?.total ? ` ${((100 * told.done) / told.total).toFixed(0)} %` : '';
+    return <p>{`measuring…${share} Escape stops it.`}</p>;
+  }
+  return stopped.value === null ? null : (
+    <p>
+      Measuring was stopped.{' '}
+      <button type="button" onClick={measureAgain}>
+        Measure it
+      </button>
+    </p>
+  );
+}

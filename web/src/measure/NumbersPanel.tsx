@@ -1,0 +1,84 @@
+/** What was measured of the picked vessel, in numbers. */
+import { moveTo } from '../link/along';
+import * as store from '../state/store';
+import { currentProfile, currentVessel } from './current';
+import { PlacesTable } from './PlacesTable';
+import { giveFwhm } from './profiles';
+import { RulersPart } from './RulersPart';
+import { StenosisPart } from './StenosisPart';
+import { StretchPart } from './StretchPart';
+import { mm } from './words';
+
+export function NumbersPanel() {
+  const profile = currentProfile.value;
+  return (
+    <div class="numbers-panel" data-testid="numbers">
+      <VesselChoice />
+      {profile && (
+        <>
+          <StenosisPart profile={profile} />
+          <PlacesTable profile={profile} />
+          <StretchPart profile={profile} />
+        </>
+      )}
+      <RulersPart />
+      {profile && <Blur fwhm={profile.fwhm} source={profile.fwhm_source} />}
+    </div>
+  );
+}
+
+function VesselChoice() {
+  const vessel = currentVessel.value;
+  const vessels = store.report.value?.vessels ?? [];
+  return (
+    <label class="vessel-choice">
+      Vessel
+      <select
+        value={String(store.pickedVessel.value ?? '')}
+        onChange={(event) => pick(Number(event.currentTarget.value))}
+      >
+        {store.pickedVessel.value === null && <option value="">none</option>}
+        {vessels.map(({ line, name }, n) => (
+          <option key={line} value={String(n)}>
+            {name || `vessel ${n + 1}`}
+          </option>
+        ))}
+      </select>
+      {vessel && <span>{mm(vessel.length, 1)}</span>}
+    </label>
+  );
+}
+
+/** Shows another vessel, half way along it. */
+function pick(vessel: number): void {
+  store.pickedVessel.value = vessel;
+  moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
+}
+
+/** The point spread that was reckoned with, and a field to give it. */
+function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string }) {
+  const give = (text: string) => {
+    const width = Number(text);
+    giveFwhm(text.trim() !== '' && width > 0 ? width : null);
+  };
+  return (
+    <section aria-label="Blur of the scan">
+      <h3>Blur of the scan</h3>
+      <p>{`FWHM of the point spread ${mm(fwhm)}, ${source}.`}</p>
+      <label>
+        Give it
+        <input
+          class="number"
+          type="number"
+          min="0.05"
+          max="10"
+          step="any"
+          placeholder="as found"
+          value={source === 'given' ? String(fwhm) : ''}
+          onChange={(event) => give(event.currentTarget.value)}
+        />
+        mm
+      </label>
+    </section>
+  );
+}

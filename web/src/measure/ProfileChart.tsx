@@ -1,0 +1,227 @@
+/** The diameter of a vessel by its arc length, drawn: in the page and in the report. */
+import type { Profile } from '../core/measuring';
+import type { ChartLayout } from './chart-layout';
+import { bandPath, counted, DEVIATIONS, linePath, lonely, spreadOf } from './curves';
+import { flagsIn, runs } from './flags';
+import type { Kind } from './marks';
+import { pixelAt, ticks } from './scale';
+
+/** Colours on a ground. */
+export interface Palette {
+  readonly flags: 'paper' | 'screen';
+  readonly line: string;
+  readonly leftOut: string;
+  readonly text: string;
+  readonly quiet: string;
+  readonly grid: string;
+}
+
+export const SCREEN: Palette = {
+  flags: 'screen',
+  line: '#7db0ff',
+  leftOut: '#9aa3ad',
+  text: '#e6e9ed',
+  quiet: '#aab3be',
+  grid: '#ffffff1c',
+};
+
+/** Those of Python's plots. */
+export const PAPER: Palette = {
+  flags: 'paper',
+  line: '#1f4e9c',
+  leftOut: '#808080',
+  text: '#111111',
+  quiet: '#444444',
+  grid: '#00000020',
+};
+
+/** A place as it is drawn in the chart. */
+export interface ChartMark {
+  readonly kind: Kind;
+  readonly at: number;
+  readonly color: string;
+  readonly isSuggestion: boolean;
+}
+
+interface ProfileChartProps {
+  readonly profile: Profile;
+  readonly layout: ChartLayout;
+  readonly palette: Palette;
+  /** Whether lengths are known in mm. */
+  readonly hasUnits: boolean;
+}
+
+export function ProfileChart(props: ProfileChartProps) {
+  const { layout, palette } = props;
+  const [width, height] = layout.size;
+  return (
+    <svg
+      class="profile-chart"
+      width={width}
+      height={height}
+      viewBox={`0 0 ${width} ${height}`}
+      font-size="11"
+      font-family="system-ui, sans-serif"
+      fill={palette.text}
+      role="img"
+      aria-label="diameter of the lumen along the vessel"
+    >
+      <Grid {...props} />
+      <Curves {...props} />
+      <Flags {...props} />
+      <Legend {...props} />
+    </svg>
+  );
+}
+
+function Grid({ layout, palette, hasUnits }: ProfileChartProps) {
+  const { x, y, bottom } = layout;
+  const unit = hasUnits ? ' (mm)' : '';
+  const middle = (y.start + y.end) / 2;
+  return (
+    <g>
+      {ticks(x.low, x.high, (x.end - x.start) / 60).map((value) => (
+        <g key={`x${value}`}>
+          <path d={`M${pixelAt(x, value)} ${y.end}V${bottom + 4}`} stroke={palette.grid} />
+          <text x={pixelAt(x, value)} y={bottom + 15} text-anchor="middle" fill={palette.quiet}>
+            {value}
+          </text>
+        </g>
+      ))}
+      {ticks(y.low, y.high, (y.start - y.end) / 18).map((value) => (
+        <g key={`y${value}`}>
+          <path d={`M${x.start - 4} ${pixelAt(y, value)}H${x.end}`} stroke={palette.grid} />
+          <text x={x.start - 7} y={pixelAt(y, value) + 4} text-anchor="end" fill={palette.quiet}>
+            {value}
+          </text>
+        </g>
+      ))}
+      <path d={`M${x.start} ${y.end}V${y.start}H${x.end}`} fill="none" stroke={palette.quiet} />
+      <text x={(x.start + x.end) / 2} y={bottom + 29} text-anchor="middle">
+        {`arc length${unit}`}
+      </text>
+      <text transform={`translate(12 ${middle}) rotate(-90)`} text-anchor="middle">
+        {y.start - y.end < 110 ? `diameter${unit}` : `lumen diameter${unit}`}
+      </text>
+    </g>
+  );
+}
+
+function Curves({ profile, layout, palette, hasUnits }: ProfileChartProps) {
+  const { x, y } = layout;
+  const at = profile.arc_length;
+  const width = counted(profile, profile.diameter);
+  const range = [counted(profile, profile.diameter_min), counted(profile, profile.diameter_max)] as const;
+  const limit = 1.5 * profile.fwhm;
+  return (
+    <g>
+      <path d={bandPath(x, y, at, range)} fill={palette.line} fill-opacity="0.16" class="range" />
+      <path d={bandPath(x, y, at, spreadOf(profile))} fill={palette.line} fill-opacity="0.4" class="band" />
+      <path
+        d={linePath(x, y, at, width)}
+        fill="none"
+        stroke={palette.line}
+        stroke-width="1.6"
+        class="width"
+      />
+      {lonely(width).map((n) => (
+        <circle
+          key={n}
+          cx={pixelAt(x, at[n] ?? 0)}
+          cy={pixelAt(y, width[n] ?? 0)}
+          r="1.8"
+          fill={palette.line}
+        />
+      ))}
+      {profile.diameter.map((value, n) =>
+        value === null || profile.counts[n] || value > y.high ? null : (
+          <circle
+            key={at[n]}
+            class="left-out"
+            cx={pixelAt(x, at[n] ?? 0)}
+            cy={pixelAt(y, value)}
+            r="1.8"
+            fill="none"
+            stroke={palette.leftOut}
+          />
+        ),
+      )}
+      {limit < y.high && (
+        <g class="limit">
+          <path
+            d={`M${x.start} ${pixelAt(y, limit)}H${x.end}`}
+            stroke={palette.leftOut}
+            stroke-dasharray="1.5 3"
+          />
+          <text x={x.end - 4} y={pixelAt(y, limit) - 3} text-anchor="end" fill={palette.quiet}>
+            {`1.5 × FWHM: ${limit.toFixed(2)}${hasUnits ? ' mm' : ''}`}
+          </text>
+        </g>
+      )}
+    </g>
+  );
+}
+
+/** A row for each flag that is set somewhere, under the line where the diameter is 0. */
+function Flags({ profile, layout, palette }: ProfileChartProps) {
+  const { x, y, row } = layout;
+  return (
+    <g>
+      {flagsIn(profile).map((flag, n) => {
+        const top = y.start + n * row;
+        const color = flag[palette.flags];
+        return (
+          <g key={flag.word} class="flag">
+            {runs(profile, flag.word).map(([from, to]) => {
+              const [start, end] = [from, to].map((place) =>
+                Math.min(Math.max(pixelAt(x, place), x.start), x.end),
+              ) as [number, number];
+              return (
+                <rect
+                  key={from}
+                  x={start}
+                  y={top + 0.2 * row}
+                  width={Math.max(end - start, 1)}
+                  height={0.6 * row}
+                  fill={color}
+                />
+              );
+            })}
+            <text
+              x={x.end + 6}
+              y={top + 0.5 * row + 4}
+              fill={color}
+              font-size={Math.min(11, Math.max(row, 7))}
+            >
+              <title>{flag.meaning}</title>
+              {flag.word}
+            </text>
+          </g>
+        );
+      })}
+    </g>
+  );
+}
+
+function Legend({ layout, palette }: ProfileChartProps) {
+  const { x } = layout;
+  const isNarrow = x.end - x.start < 640;
+  return (
+    <g class="legend" fill={palette.quiet} transform={`translate(${x.start} 12)`}>
+      <path d="M0 -3H18" stroke={palette.line} stroke-width="1.6" />
+      <text x="23">{isNarrow ? 'diameter' : 'diameter of a circle of the same area'}</text>
+      <g transform={`translate(${isNarrow ? 84 : 238} 0)`}>
+        <rect y="-8" width="18" height="9" fill={palette.line} fill-opacity="0.4" />
+        <text x="23">{isNarrow ? `± ${DEVIATIONS} SD` : `± ${DEVIATIONS} standard deviations`}</text>
+      </g>
+      <g transform={`translate(${isNarrow ? 160 : 404} 0)`}>
+        <rect y="-8" width="18" height="9" fill={palette.line} fill-opacity="0.16" />
+        <text x="23">shortest to longest</text>
+      </g>
+      <g transform={`translate(${isNarrow ? 296 : 540} 0)`}>
+        <circle cx="9" cy="-4" r="2.5" fill="none" stroke={palette.leftOut} />
+        <text x="16">left out</text>
+      </g>
+    </g>
+  );
+}

@@ -1,0 +1,148 @@
+/** The picked vessel lying, and under it, along the same axis, its diameter; with the places that are marked on it. */
+import { useMemo, useRef, useState } from 'preact/hooks';
+import type { Profile } from '../core/measuring';
+import type { Pair } from '../core/messages';
+import * as store from '../state/store';
+import { usePaneSize } from '../views/pane-size';
+import { axisAlong, chartLayout } from './chart-layout';
+import { currentPlaces, currentProfile, currentVessel } from './current';
+import { LyingCpr } from './LyingCpr';
+import { type Lying, lyingIn } from './lying';
+import { NoProfile } from './NoProfile';
+import { COLORS, PlaceHandles } from './PlaceHandles';
+import { ProfileChart, SCREEN } from './ProfileChart';
+import { ProfileReading } from './ProfileReading';
+import { type Axis, pixelAt, valueAt } from './scale';
+import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
+
+/** The part of the height that the vessel takes at most. */
+const PART = 0.4;
+/** Where the grips on the vessel lie, below its upper edge: beside the lumen, which stays free. */
+const GRIP = 9;
+
+export function ProfilePane() {
+  const pane = useRef<HTMLDivElement>(null);
+  const size = usePaneSize(pane);
+  return (
+    <div class="profile-pane" ref={pane}>
+      {size && <ProfileContent size={size} />}
+    </div>
+  );
+}
+
+function ProfileContent({ size }: { readonly size: Pair }) {
+  const vessel = currentVessel.value;
+  const profile = currentProfile.value;
+  if (!vessel) {
+    const hint = store.hasTree.value
+      ? 'Pick a vessel: click on it in the view above.'
+      : 'There is no vessel yet: trace one, or open centerlines.';
+    return <p class="no-profile">{hint}</p>;
+  }
+  const x = axisAlong(vessel.length, size[0]);
+  const lying = lyingIn(x, {
+    height: PART * size[1],
+    density: Math.min(window.devicePixelRatio || 1, 2),
+    fitting: profile ? fittingSide(profile) : UNKNOWN_SIDE,
+  });
+  const below: Pair = [size[0], size[1] - Math.round(lying.height)];
+  return (
+    <>
+      <LyingCpr x={x} lying={lying} height={size[1] - below[1]} />
+      {profile ? <Chart profile={profile} size={below} x={x} lying={lying} /> : <NoProfile size={below} />}
+    </>
+  );
+}
+
+interface ChartProps {
+  readonly profile: Profile;
+  readonly size: Pair;
+  readonly x: Axis;
+  readonly lying: Lying;
+}
+
+function Chart({ profile, size, x, lying }: ChartProps) {
+  const hasUnits = store.states.value.spacing;
+  const [hovered, setHovered] = useState<number | null>(null);
+  const layout = useMemo(() => chartLayout(profile, size), [profile, size[0], size[1]]);
+  const drawn = useMemo(
+    () => <ProfileChart profile={profile} layout={layout} palette={SCREEN} hasUnits={hasUnits} />,
+    [profile, layout, hasUnits],
+  );
+  const top = Math.round(lying.height);
+  const heightAt = (at: number): number => {
+    const { diameter } = sectionNumbers(profile, at);
+    return top + pixelAt(layout.y, Math.min(diameter ?? 0, layout.y.high));
+  };
+  const atOf = ([column]: Pair) => valueAt(x, column);
+  return (
+    <>
+      <ProfileReading profile={profile} x={x} top={top} hovered={hovered} onHover={setHovered}>
+        {drawn}
+      </ProfileReading>
+      <div class="overlay places">
+        <PlaceLines x={x} top={top} bottom={top + layout.bottom} />
+        <PlaceHandles
+          view="in the CPR"
+          pixelAt={(at, { kind }) => [pixelAt(x, at), gripOf(kind, lying.height)]}
+          atOf={atOf}
+        />
+        <PlaceHandles
+          view="in the profile"
+          pixelAt={(at, { kind }) => [
+            pixelAt(x, at),
+            isStretch(kind) ? top + layout.y.end + 6 : heightAt(at),
+          ]}
+          atOf={atOf}
+        />
+      </div>
+    </>
+  );
+}
+
+const isStretch = (kind: string): boolean => kind === 'stretch' || kind === 'secondStretch';
+
+/** Places have their grips at the upper edge of the vessel, stretches at the lower one. */
+const gripOf = (kind: string, height: number): number => (isStretch(kind) ? height - GRIP : GRIP);
+
+interface PlaceLinesProps {
+  readonly x: Axis;
+  /** Where the vessel ends and its profile begins, and where that ends (CSS pixels). */
+  readonly top: number;
+  readonly bottom: number;
+}
+
+/** Lines across vessel and profile: one for each place, and one for the section. */
+function PlaceLines({ x, top, bottom }: PlaceLinesProps) {
+  const section = pixelAt(x, store.pickedPlace.value);
+  const places = currentPlaces.value;
+  const ends = (kind: string) =>
+    places.filter((place) => place.kind === kind).map(({ at }) => pixelAt(x, at));
+  return (
+    <svg class="place-lines" width="100%" height={bottom} aria-hidden="true">
+      {(['stretch', 'secondStretch'] as const).map((kind) => {
+        const [from, to] = ends(kind);
+        return from === undefined || to === undefined ? null : (
+          <rect
+            key={kind}
+            x={from}
+            width={to - from}
+            y={top}
+            height={bottom - top}
+            fill={COLORS[kind]}
+            opacity="0.13"
+          />
+        );
+      })}
+      {places.map((place) => (
+        <path
+          key={`${place.kind} ${place.slot}`}
+          d={`M${pixelAt(x, place.at)} 0V${bottom}`}
+          stroke={COLORS[place.kind]}
+          stroke-dasharray={place.isSuggestion ? '4 4' : undefined}
+        />
+      ))}
+      <path class="section-line" d={`M${section} 0V${bottom}`} />
+    </svg>
+  );
+}

@@ -1,0 +1,67 @@
+/** What is read off a profile: the numbers under the pointer, or those of the section; a click moves the section there. */
+import type { ComponentChildren, TargetedPointerEvent } from 'preact';
+import type { Profile } from '../core/measuring';
+import { moveAlong, moveTo } from '../link/along';
+import * as store from '../state/store';
+import { type Axis, valueAt } from './scale';
+import { sectionNumbers, snapped } from './sections';
+import { sectionWords } from './words';
+
+/** The way of an arrow key (mm); ten times as far with Shift. */
+const STEP = 0.5;
+
+interface ProfileReadingProps {
+  readonly profile: Profile;
+  readonly x: Axis;
+  /** Where it begins below the upper edge of the pane (CSS pixels). */
+  readonly top: number;
+  readonly hovered: number | null;
+  onHover(at: number | null): void;
+  readonly children: ComponentChildren;
+}
+
+export function ProfileReading({ profile, x, top, hovered, onHover, children }: ProfileReadingProps) {
+  const placeOf = (event: TargetedPointerEvent<HTMLDivElement>) =>
+    snapped(profile, valueAt(x, event.clientX - event.currentTarget.getBoundingClientRect().left));
+  const moved = (event: TargetedPointerEvent<HTMLDivElement>) => {
+    onHover(placeOf(event));
+    if (event.currentTarget.hasPointerCapture(event.pointerId)) {
+      moveTo(placeOf(event));
+    }
+  };
+  const pressed = (event: TargetedPointerEvent<HTMLDivElement>) => {
+    if (event.button === 0) {
+      event.currentTarget.setPointerCapture(event.pointerId);
+      moveTo(placeOf(event));
+    }
+  };
+  const section = sectionNumbers(profile, hovered ?? store.pickedPlace.value);
+  return (
+    <div
+      class="chart"
+      data-testid="chart"
+      role="application"
+      aria-label="profile: arrow keys move the section"
+      tabIndex={0}
+      style={{ top: `${top}px` }}
+      onPointerDown={pressed}
+      onPointerMove={moved}
+      onPointerLeave={() => onHover(null)}
+      onKeyDown={keyed}
+    >
+      {children}
+      <output class="chart-reading" data-testid="chart-reading">
+        {sectionWords(section)}
+      </output>
+    </div>
+  );
+}
+
+function keyed(event: KeyboardEvent): void {
+  const steps = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+  if (steps) {
+    event.preventDefault();
+    event.stopPropagation();
+    moveAlong(steps * STEP * (event.shiftKey ? 10 : 1));
+  }
+}

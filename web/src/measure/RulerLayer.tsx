@@ -1,0 +1,156 @@
+/** Rulers over a picture: those of which both ends are seen there, and the first point of one that is drawn. */
+import { useEffect, useRef } from 'preact/hooks';
+import type { Pair, Vector } from '../core/messages';
+import type { Ruler } from '../edit/document';
+import { document_ } from '../edit/history';
+import { tool } from '../edit/tool';
+import { recover } from '../state/device';
+import { Handle } from '../views/Handle';
+import { Latest } from '../views/latest';
+import {
+  beginRulerMove,
+  type End,
+  endRulerMove,
+  firstEnd,
+  moveRuler,
+  putRulerBack,
+  removeRuler,
+  rulerLength,
+  setRulerPoint,
+} from './rulers';
+import { mm } from './words';
+
+const COLOR = '#ffdc00';
+/** How far a pointer moves before a press is no click (CSS pixels). */
+const CLICK_WITHIN = 4;
+
+/** How a picture shows points of the world. */
+export interface Seen {
+  /** Where that is, such as `on the vessels`. */
+  readonly where: string;
+  pixelOf(point: Vector): Pair;
+  /** The point that is seen at a pixel. */
+  pointAt(pixel: Pair): Promise<Vector>;
+  /** Whether a point lies in the picture, and not before or behind it. */
+  isSeen(point: Vector): boolean;
+}
+
+export function RulerLayer({ seen }: { readonly seen: Seen }) {
+  const place = useRef<HTMLSpanElement>(null);
+  const current = useRef(seen);
+  current.current = seen;
+  const isDrawing = tool.value === 'ruler';
+  useEffect(() => {
+    const pane = place.current?.closest<HTMLElement>('.pane-body');
+    return isDrawing && pane ? listenToClicks(pane, (pixel) => current.current.pointAt(pixel)) : undefined;
+  }, [isDrawing]);
+  const first = firstEnd.value;
+  return (
+    <>
+      <span ref={place} hidden />
+      {document_.value.rulers.map((ruler, number) =>
+        seen.isSeen(ruler.from) && seen.isSeen(ruler.to) ? (
+          // Rulers have no names: their place among the others is what tells them apart.
+          <RulerView key={`ruler ${number}`} ruler={ruler} number={number} seen={seen} />
+        ) : null,
+      )}
+      {isDrawing && first && seen.isSeen(first) && <Dot at={seen.pixelOf(first)} />}
+    </>
+  );
+}
+
+function Dot({ at }: { readonly at: Pair }) {
+  return <div class="ruler-dot" style={{ left: `${at[0]}px`, top: `${at[1]}px` }} />;
+}
+
+interface RulerViewProps {
+  readonly ruler: Ruler;
+  readonly number: number;
+  readonly seen: Seen;
+}
+
+function RulerView({ ruler, number, seen }: RulerViewProps) {
+  const latest = useRef(new Latest());
+  const ends = { from: seen.pixelOf(ruler.from), to: seen.pixelOf(ruler.to) };
+  const middle = [0, 1].map((axis) => ((ends.from[axis] ?? 0) + (ends.to[axis] ?? 0)) / 2);
+  const words = mm(rulerLength(ruler), 1);
+  const last = useRef<{ readonly end: End; readonly pixel: Pair } | null>(null);
+  const follow = async () => {
+    try {
+      if (last.current) {
+        const { end, pixel } = last.current;
+        moveRuler(number, end, await seen.pointAt(pixel));
+      }
+    } catch (error) {
+      recover(error);
+    }
+  };
+  const drag = (end: End, pixel: Pair) => {
+    last.current = { end, pixel };
+    latest.current.run(follow);
+  };
+  // The end of a drag takes the place of a move that waits: it goes to the last place itself.
+  const finish = () =>
+    latest.current.run(async () => {
+      await follow();
+      endRulerMove();
+    });
+  const by = (end: End, [x, y]: Pair) => drag(end, [ends[end][0] + x, ends[end][1] + y]);
+  return (
+    <>
+      <svg class="place-lines" width="100%" height="100%" aria-hidden="true">
+        <path d={`M${ends.from}L${ends.to}`} stroke={COLOR} stroke-width="1.5" />
+      </svg>
+      <span class="ruler-words" style={{ left: `${middle[0]}px`, top: `${middle[1]}px` }}>
+        {words}
+      </span>
+      {(['from', 'to'] as const).map((end) => (
+        <Handle
+          key={end}
+          at={ends[end]}
+          words={`${end === 'from' ? 'start' : 'end'} of ruler ${number + 1}, ${words}, ${seen.where}`}
+          color={COLOR}
+          kind="ruler"
+          onBegin={() => {
+            last.current = null;
+            beginRulerMove();
+          }}
+          onDrag={(pixel) => drag(end, pixel)}
+          onArrow={(step) => by(end, step)}
+          onEnd={finish}
+          onPutBack={putRulerBack}
+          onRemove={() => removeRuler(number)}
+        />
+      ))}
+    </>
+  );
+}
+
+/** Hears the clicks on a picture: presses of the left button that do not become drags. */
+function listenToClicks(pane: HTMLElement, pointAt: (pixel: Pair) => Promise<Vector>): () => void {
+  const stop = new AbortController();
+  let pressed: Pair | null = null;
+  const placeOf = (event: PointerEvent): Pair => {
+    const box = pane.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  pane.addEventListener(
+    'pointerdown',
+    (event) => {
+      pressed = event.button === 0 ? placeOf(event) : null;
+    },
+    { signal: stop.signal },
+  );
+  pane.addEventListener(
+    'pointerup',
+    (event) => {
+      const [from, to] = [pressed, placeOf(event)];
+      pressed = null;
+      if (from && Math.hypot(to[0] - from[0], to[1] - from[1]) <= CLICK_WITHIN) {
+        pointAt(to).then(setRulerPoint, recover);
+      }
+    },
+    { signal: stop.signal },
+  );
+  return () => stop.abort();
+}

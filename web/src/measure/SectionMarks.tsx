@@ -1,0 +1,71 @@
+/** The lumen of a measured section: its contour, its shortest and its longest diameter, and its numbers. */
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { MeasuredSection } from '../core/measuring';
+import type { LineId, Pair, Plane, Vector } from '../core/messages';
+import { engine } from '../core/shared';
+import { pickedPlace } from '../state/store';
+import { Latest } from '../views/latest';
+import { pixelOn } from '../views/planes';
+import { currentProfile, currentVessel } from './current';
+import { meanings } from './flags';
+import { nearestSection, sectionNumbers } from './sections';
+import { area, mm, spread } from './words';
+
+/** Contours of sections that count, and of those that are left out; as in the pictures of `lumencut measure`. */
+export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a' } as const;
+const AXES = { shortest: '#ffdc00', longest: '#ffffff' } as const;
+
+/** A section, and the line that it is of. */
+interface Found {
+  readonly line: LineId;
+  readonly section: MeasuredSection;
+}
+
+export function SectionMarks({ plane }: { readonly plane: Plane }) {
+  const [vessel, profile] = [currentVessel.value, currentProfile.value];
+  const at = pickedPlace.value;
+  const [found, setFound] = useState<Found | null>(null);
+  const latest = useRef(new Latest());
+  useEffect(() => {
+    if (!vessel || !profile) {
+      setFound(null);
+      return;
+    }
+    latest.current.run(async () => {
+      const { line } = vessel;
+      const section = await engine.measuring.section(line, at).catch(() => null);
+      setFound(section && { line, section });
+    });
+  }, [vessel?.line, profile, at]);
+  if (!profile) {
+    return null;
+  }
+  const numbers = sectionNumbers(profile, at);
+  // The contour of a section that was left meanwhile is not drawn on another one.
+  const isShown = found?.line === vessel?.line && found?.section.number === nearestSection(profile, at);
+  const section = isShown ? found?.section : null;
+  const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));
+  return (
+    <>
+      {section && section.contour.length > 0 && (
+        <svg class="section-marks" width={plane.size[0]} height={plane.size[1]} aria-hidden="true">
+          <path
+            d={`M${pixels(section.contour).join('L')}Z`}
+            stroke={numbers.counts ? CONTOUR.counts : CONTOUR.leftOut}
+          />
+          {section.longest && <path d={`M${pixels(section.longest).join('L')}`} stroke={AXES.longest} />}
+          {section.shortest && <path d={`M${pixels(section.shortest).join('L')}`} stroke={AXES.shortest} />}
+        </svg>
+      )}
+      <div class="section-numbers" data-testid="section-numbers">
+        <div>{mm(numbers.at, 1)}</div>
+        <div>{`diameter ${spread(numbers.diameter, numbers.uncertainty)}`}</div>
+        <div style={{ color: AXES.shortest }}>{`shortest ${mm(numbers.shortest)}`}</div>
+        <div style={{ color: AXES.longest }}>{`longest ${mm(numbers.longest)}`}</div>
+        <div>{`area ${area(numbers.area)}`}</div>
+        {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
+        {numbers.flags.length > 0 && <div title={meanings(numbers.flags)}>{numbers.flags.join(', ')}</div>}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,155 @@
+/** A stenosis that the reader marked: never a percentage without its method, its references and mm. */
+import type { Profile, StenosisMethod, Territory } from '../core/measuring';
+import type { VesselMarks } from '../edit/document';
+import { attempt } from '../output/attempt';
+import { saveReport } from '../output/report';
+import { answers, currentMarks, currentPlaces } from './current';
+import { changeMarks, confirmAll } from './editing';
+import { flagsAt } from './flags';
+import { missingWords } from './marks';
+import { METHOD_NAMES, stenosisWords, told } from './words';
+
+const METHODS: readonly StenosisMethod[] = ['nascet', 'ecst', 'area'];
+
+export function StenosisPart({ profile }: { readonly profile: Profile }) {
+  const marks = currentMarks.value;
+  if (!marks) {
+    return null;
+  }
+  return (
+    <section aria-label="Stenosis">
+      <h3>Stenosis</h3>
+      <Result marks={marks} />
+      <Doubts profile={profile} />
+      <button type="button" class="save-report" onClick={() => attempt(saveReport)}>
+        Save report
+      </button>
+      <div class="fields">
+        <label>
+          Method
+          <select
+            value={marks.method}
+            onChange={(event) =>
+              set('choose the method', { method: event.currentTarget.value as StenosisMethod })
+            }
+          >
+            {METHODS.map((method) => (
+              <option key={method} value={method}>
+                {METHOD_NAMES[method]}
+              </option>
+            ))}
+          </select>
+        </label>
+        {marks.method === 'ecst' && (
+          <Length
+            name="Original diameter"
+            value={marks.original}
+            onGive={(original) => set('give the original diameter', { original })}
+          />
+        )}
+        {marks.method === 'nascet' && (
+          <Length
+            name="Other side"
+            value={marks.comparison}
+            onGive={(comparison) => set('give the diameter of a vessel like it', { comparison })}
+          />
+        )}
+        <label>
+          Groups
+          <select
+            value={marks.group ?? ''}
+            onChange={(event) =>
+              set('choose the groups', { group: (event.currentTarget.value || null) as Territory | null })
+            }
+          >
+            <option value="">none</option>
+            <option value="carotid">carotid</option>
+            <option value="coronary">coronary</option>
+          </select>
+        </label>
+      </div>
+    </section>
+  );
+}
+
+function set(words: string, some: Partial<VesselMarks>): void {
+  changeMarks(words, (marks) => ({ ...marks, ...some }));
+}
+
+/** What was graded, why it cannot be, or what is still to be marked. */
+function Result({ marks }: { readonly marks: VesselMarks }) {
+  const { stenosis, problem } = answers.value;
+  if (problem) {
+    return (
+      <p class="refused" role="status" data-testid="stenosis">
+        {`No percentage: ${problem.subject}: ${told(problem.found)}. ${sentence(told(problem.mend || `Expected ${problem.expected}`))}`}
+      </p>
+    );
+  }
+  if (stenosis) {
+    return (
+      <div role="status" data-testid="stenosis">
+        <p class="graded">{stenosisWords(stenosis)}</p>
+        {stenosis.group && <p>{`Group of the field: ${told(stenosis.group)}`}</p>}
+      </div>
+    );
+  }
+  return <Missing marks={marks} />;
+}
+
+/** What makes the percentage doubtful: the flags of the places that it comes from. */
+function Doubts({ profile }: { readonly profile: Profile }) {
+  const { stenosis } = answers.value;
+  const flags = stenosis ? flagsAt(profile, stenosis) : '';
+  return flags ? (
+    <p class="doubts" data-testid="doubts">
+      {flags}
+    </p>
+  ) : null;
+}
+
+function Missing({ marks }: { readonly marks: VesselMarks }) {
+  const suggestions = currentPlaces.value.filter((place) => place.isSuggestion);
+  return (
+    <div role="status" data-testid="stenosis">
+      <p>{missingWords(marks)}</p>
+      {suggestions.length > 0 && (
+        <button type="button" onClick={confirmAll}>
+          {suggestions.length === 1 ? 'Confirm the suggested place' : 'Confirm the suggested places'}
+        </button>
+      )}
+    </div>
+  );
+}
+
+const sentence = (text: string): string => `${text[0]?.toUpperCase() ?? ''}${text.slice(1)}.`;
+
+interface LengthProps {
+  readonly name: string;
+  readonly value: number | null;
+  onGive(value: number | null): void;
+}
+
+/** A diameter that the reader gives (mm). */
+function Length({ name, value, onGive }: LengthProps) {
+  return (
+    <label>
+      {name}
+      <span>
+        <input
+          class="number"
+          type="number"
+          min="0"
+          max="100"
+          step="any"
+          value={value === null ? '' : String(value)}
+          onChange={(event) => {
+            const number = Number(event.currentTarget.value);
+            onGive(number > 0 ? number : null);
+          }}
+        />{' '}
+        mm
+      </span>
+    </label>
+  );
+}

@@ -1,0 +1,35 @@
+/** The places of a vessel that is measured, as lines with grips across the straightened vessel that stands. */
+import type { Pair } from '../core/messages';
+import { currentPlaces, currentVessel } from './current';
+import { COLORS, PlaceHandles } from './PlaceHandles';
+import { pixelAt, valueAt } from './scale';
+
+/** How far the grips are from the right edge (CSS pixels). */
+const GRIP = 16;
+
+export function UprightPlaces({ size, spacing }: { readonly size: Pair; readonly spacing: number }) {
+  const length = currentVessel.value?.length ?? 0;
+  if (length === 0) {
+    return null;
+  }
+  const y = { low: 0, high: length, start: 0, end: length / spacing };
+  return (
+    <>
+      <svg class="place-lines" width={size[0]} height={size[1]} aria-hidden="true">
+        {currentPlaces.value.map((place) => (
+          <path
+            key={`${place.kind} ${place.slot}`}
+            d={`M0 ${pixelAt(y, place.at)}H${size[0]}`}
+            stroke={COLORS[place.kind]}
+            stroke-dasharray={place.isSuggestion ? '4 4' : undefined}
+          />
+        ))}
+      </svg>
+      <PlaceHandles
+        view="in the CPR"
+        pixelAt={(at) => [size[0] - GRIP, pixelAt(y, at)]}
+        atOf={([, row]) => valueAt(y, row)}
+      />
+    </>
+  );
+}

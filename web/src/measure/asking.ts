@@ -1,0 +1,116 @@
+/** Asks the engine what the marks measure, whenever they or the vessel change. */
+import { untracked, useSignalEffect } from '@preact/signals';
+import { useRef } from 'preact/hooks';
+import { Failure } from '../core/failure';
+import type { Profile } from '../core/measuring';
+import type { LineId } from '../core/messages';
+import { engine } from '../core/shared';
+import type { VesselMarks } from '../edit/document';
+import { moveTo } from '../link/along';
+import * as store from '../state/store';
+import { Latest } from '../views/latest';
+import { isArriving } from './arriving';
+import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
+import { isGraded, mainPlace, NOTHING_SUGGESTED, type Suggested } from './marks';
+import { beingMeasured, forgetProfiles, measure, profiles, stopped } from './profiles';
+
+/** Keeps profile and answers of the picked vessel up to date; the layout uses it once. */
+export function useMeasuring(): void {
+  const latest = useRef(new Latest());
+  const answered = useRef<LineId | null>(null);
+  const lines = useRef('');
+  useSignalEffect(() => {
+    // The other vessels tell where branches are: a profile holds among the vessels that it was measured among.
+    const now = (store.report.value?.vessels ?? []).map(({ line }) => line).join();
+    if (now !== lines.current) {
+      lines.current = now;
+      untracked(forgetProfiles);
+    }
+  });
+  useSignalEffect(() => {
+    const vessel = currentVessel.value;
+    // Read here, so that each of them lets the effect run again.
+    const isFree = beingMeasured.value === null && !profiles.value.has(vessel?.line ?? -1);
+    const isWanted = store.layout.value === 'measure' && store.hasVolume.value;
+    if (vessel && isWanted && isFree && stopped.value !== vessel.line) {
+      void measure(engine.measuring, vessel.line);
+    }
+  });
+  useSignalEffect(arrive);
+  useSignalEffect(() => {
+    const [vessel, profile, marks] = [currentVessel.value, currentProfile.value, currentMarks.value];
+    if (vessel?.line !== answered.current) {
+      // No number of a vessel is shown beside the name of another one.
+      answered.current = vessel?.line ?? null;
+      answers.value = NO_ANSWERS;
+    }
+    if (vessel && profile && marks) {
+      latest.current.run(async () => {
+        const found = await asked(vessel.line, profile, marks);
+        // What another vessel is called by now is not overwritten.
+        if (currentVessel.value?.line === vessel.line) {
+          answers.value = found;
+        }
+      });
+    } else {
+      answers.value = NO_ANSWERS;
+    }
+  });
+}
+
+/** Shows the narrowest place, marked or suggested, as soon as it is known after measuring was opened. */
+function arrive(): void {
+  const [profile, marks] = [currentProfile.value, currentMarks.value];
+  if (isArriving.value && store.layout.value === 'measure' && profile && marks) {
+    const main = mainPlace(profile, marks);
+    untracked(() => {
+      isArriving.value = false;
+      if (main) {
+        moveTo(main.at);
+      }
+    });
+  }
+}
+
+/** All that the engine says of marks. */
+export async function asked(line: LineId, profile: Profile, marks: VesselMarks): Promise<Answers> {
+  const [suggested, graded, stretches] = await Promise.all([
+    suggestedFor(line, profile, marks),
+    gradedBy(line, marks),
+    stretchesOf(line, marks),
+  ]);
+  return { suggested, ...graded, ...stretches };
+}
+
+async function suggestedFor(line: LineId, profile: Profile, marks: VesselMarks): Promise<Suggested> {
+  const main = mainPlace(profile, marks);
+  try {
+    return main ? await engine.measuring.suggestedReferences(line, main.at) : NOTHING_SUGGESTED;
+  } catch {
+    // A place where nothing was measured has no suggestions: grading says why.
+    return NOTHING_SUGGESTED;
+  }
+}
+
+async function gradedBy(line: LineId, marks: VesselMarks): Promise<Pick<Answers, 'stenosis' | 'problem'>> {
+  if (!isGraded(marks)) {
+    return { stenosis: null, problem: null };
+  }
+  try {
+    return { stenosis: await engine.measuring.stenosis(line, marks), problem: null };
+  } catch (error) {
+    return { stenosis: null, problem: Failure.of(error) };
+  }
+}
+
+async function stretchesOf(
+  line: LineId,
+  { stretch, secondStretch }: VesselMarks,
+): Promise<Pick<Answers, 'stretch' | 'secondStretch' | 'angle'>> {
+  const [first, second, angle] = await Promise.all([
+    stretch && engine.measuring.stretch(line, stretch),
+    secondStretch && engine.measuring.stretch(line, secondStretch),
+    stretch && secondStretch && engine.measuring.angleBetween(line, stretch, secondStretch),
+  ]);
+  return { stretch: first, secondStretch: second, angle };
+}

@@ -1,0 +1,76 @@
+/** The vessel that is measured: the one that is picked, with its profile and what is marked on it. */
+import { computed, signal } from '@preact/signals';
+import type { Failure } from '../core/failure';
+import type { Profile, Stenosis, Stretch } from '../core/measuring';
+import type { LineId } from '../core/messages';
+import type { VesselMarks } from '../edit/document';
+import { document_ } from '../edit/history';
+import * as store from '../state/store';
+import { NOTHING_SUGGESTED, type Place, placesOf, type Suggested } from './marks';
+import { profiles } from './profiles';
+import { marksOf } from './vessels';
+
+export interface CurrentVessel {
+  readonly line: LineId;
+  /** Its name; its number, counted from 1, where it has none. */
+  readonly name: string;
+  /** mm */
+  readonly length: number;
+}
+
+export const currentVessel = computed<CurrentVessel | null>(() => {
+  const number = store.pickedVessel.value;
+  const vessel = number === null ? undefined : store.report.value?.vessels?.[number];
+  return vessel && number !== null
+    ? { line: vessel.line, name: vessel.name || `vessel ${number + 1}`, length: vessel.length }
+    : null;
+});
+
+const measured = computed(() => {
+  const vessel = currentVessel.value;
+  return vessel ? (profiles.value.get(vessel.line) ?? null) : null;
+});
+
+export const currentProfile = computed<Profile | null>(() => {
+  const found = measured.value;
+  return found && 'profile' in found ? found.profile : null;
+});
+
+/** Why the vessel cannot be measured. */
+export const currentFailure = computed<Failure | null>(() => {
+  const found = measured.value;
+  return found && 'failure' in found ? found.failure : null;
+});
+
+export const currentMarks = computed<VesselMarks | null>(() => {
+  const vessel = currentVessel.value;
+  return vessel && marksOf(document_.value, vessel.line);
+});
+
+/** What the engine said of the marks; `problem` in place of a stenosis that cannot be graded. */
+export interface Answers {
+  readonly suggested: Suggested;
+  readonly stenosis: Stenosis | null;
+  readonly problem: Failure | null;
+  readonly stretch: Stretch | null;
+  readonly secondStretch: Stretch | null;
+  /** Between both stretches (radians). */
+  readonly angle: number | null;
+}
+
+export const NO_ANSWERS: Answers = {
+  suggested: NOTHING_SUGGESTED,
+  stenosis: null,
+  problem: null,
+  stretch: null,
+  secondStretch: null,
+  angle: null,
+};
+
+export const answers = signal<Answers>(NO_ANSWERS);
+
+/** The places of the vessel, marked or suggested; none before it is measured. */
+export const currentPlaces = computed<readonly Place[]>(() => {
+  const [profile, marks] = [currentProfile.value, currentMarks.value];
+  return profile && marks ? placesOf(profile, marks, answers.value.suggested) : [];
+});

@@ -1,0 +1,87 @@
+/** The curves of a profile as paths of an SVG. */
+import type { Profile } from '../core/measuring';
+import { type Axis, pixelAt } from './scale';
+
+/** How many standard deviations the band reaches to both sides. */
+export const DEVIATIONS = 2;
+/** The largest diameter that counts takes this share more. */
+const ROOM = 1.12;
+
+/** Values that belong to sections which count; the others are none. */
+export function counted({ counts }: Profile, values: readonly (number | null)[]): (number | null)[] {
+  return values.map((value, n) => (counts[n] ? value : null));
+}
+
+/** Stretches of sections that have a value, as their numbers. */
+export function stretches(values: readonly (number | null)[]): number[][] {
+  const found: number[][] = [];
+  values.forEach((value, n) => {
+    if (value === null) {
+      return;
+    }
+    if (n > 0 && values[n - 1] !== null) {
+      found.at(-1)?.push(n);
+    } else {
+      found.push([n]);
+    }
+  });
+  return found;
+}
+
+/** The largest diameter (mm) that has room. */
+export function topOf(profile: Profile): number {
+  const some = (values: readonly (number | null)[]) => values.filter((value) => value !== null);
+  const wide = some(counted(profile, profile.diameter_max));
+  const all = wide.length > 0 ? wide : some(profile.diameter_max);
+  return all.length > 0 ? ROOM * Math.max(...all) : 1;
+}
+
+/** A line through the values; sections between two without one are no line. */
+export function linePath(
+  x: Axis,
+  y: Axis,
+  at: readonly number[],
+  values: readonly (number | null)[],
+): string {
+  return stretches(values)
+    .filter((run) => run.length > 1)
+    .map((run) => `M${run.map((n) => pointOf(x, y, at[n], values[n])).join('L')}`)
+    .join('');
+}
+
+/** The area between two lines. */
+export function bandPath(
+  x: Axis,
+  y: Axis,
+  at: readonly number[],
+  [low, high]: readonly [readonly (number | null)[], readonly (number | null)[]],
+): string {
+  const both = low.map((value, n) => (high[n] === null ? null : value));
+  return stretches(both)
+    .filter((run) => run.length > 1)
+    .map((run) => {
+      const upper = run.map((n) => pointOf(x, y, at[n], high[n]));
+      const lower = run.map((n) => pointOf(x, y, at[n], low[n])).reverse();
+      return `M${[...upper, ...lower].join('L')}Z`;
+    })
+    .join('');
+}
+
+/** The numbers of sections that stand alone. */
+export const lonely = (values: readonly (number | null)[]): number[] =>
+  stretches(values).flatMap((run) => (run.length === 1 ? run : []));
+
+function pointOf(x: Axis, y: Axis, at = 0, value: number | null = 0): string {
+  return `${pixelAt(x, at).toFixed(2)} ${pixelAt(y, value ?? 0).toFixed(2)}`;
+}
+
+/** The diameters with so many standard deviations less and more. */
+export function spreadOf(profile: Profile): readonly [(number | null)[], (number | null)[]] {
+  const widths = counted(profile, profile.diameter);
+  const by = (sign: number) =>
+    widths.map((width, n) => {
+      const deviation = profile.uncertainty[n] ?? null;
+      return width === null || deviation === null ? null : Math.max(width + sign * DEVIATIONS * deviation, 0);
+    });
+  return [by(-1), by(1)];
+}

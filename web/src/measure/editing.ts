@@ -1,0 +1,94 @@
+/** Changes marks in the document: a drag is previewed and becomes one step that can be undone. */
+import { batch, signal } from '@preact/signals';
+import { type Document, NO_MARKS, type VesselMarks } from '../edit/document';
+import { change, document_, endPreview, preview } from '../edit/history';
+import { moveTo } from '../link/along';
+import { answers, currentMarks, currentProfile, currentVessel } from './current';
+import { allConfirmed, moved, type Place, placeAfter, removed, taken } from './marks';
+import { snapped } from './sections';
+import { withMarks } from './vessels';
+import { placeName } from './words';
+
+/** A drag under way, as it began: one drag moves one place, on whichever side of the stenosis it is by now. */
+interface Drag {
+  readonly place: Place;
+  readonly marks: VesselMarks;
+  readonly document: Document;
+  readonly wasCrossed: boolean;
+}
+
+let drag: Drag | null = null;
+
+/** Whether a reference passed the stenosis, so that each one goes on with the grip that it was held by. */
+export const isCrossed = signal(false);
+
+/** The document with other marks of the picked vessel. */
+function documentWith(marks: VesselMarks): Document {
+  const vessel = currentVessel.value;
+  return vessel ? withMarks(document_.value, vessel.line, marks) : document_.value;
+}
+
+/** Changes the marks of the picked vessel, as a step that can be undone. */
+export function changeMarks(words: string, how: (marks: VesselMarks) => VesselMarks): void {
+  const before = currentMarks.value ?? NO_MARKS;
+  const after = how(before);
+  if (after !== before) {
+    change(words, documentWith(after));
+  }
+}
+
+export function beginMove(place: Place): void {
+  const marks = currentMarks.value;
+  drag = marks && { place, marks, document: document_.value, wasCrossed: isCrossed.value };
+}
+
+/** Moves the place of the drag to the section nearest to an arc length; the section view goes with it. */
+export function move(to: number): void {
+  const profile = currentProfile.value;
+  if (profile && drag) {
+    const { place, marks, wasCrossed } = drag;
+    const after = moved(profile, marks, place, snapped(profile, to));
+    const now = placeAfter(profile, marks, place, after);
+    batch(() => {
+      isCrossed.value = wasCrossed !== (now.slot !== place.slot);
+      preview(documentWith(after));
+      moveTo(now.at);
+    });
+  }
+}
+
+export function endMove(): void {
+  if (drag) {
+    endPreview(`move the ${placeName({ ...drag.place, isSuggestion: false })}`, drag.document);
+    drag = null;
+  }
+}
+
+/** The drag is taken back. */
+export function putBack(): void {
+  if (drag) {
+    isCrossed.value = drag.wasCrossed;
+    preview(drag.document);
+    drag = null;
+  }
+}
+
+/** Takes a suggestion as a mark. */
+export function confirm(place: Place): void {
+  if (place.isSuggestion) {
+    changeMarks(`take the ${placeName({ ...place, isSuggestion: false })}`, (marks) => taken(marks, place));
+  }
+}
+
+export function confirmAll(): void {
+  const profile = currentProfile.value;
+  if (profile) {
+    changeMarks('take the suggested places', (marks) =>
+      allConfirmed(profile, marks, answers.value.suggested),
+    );
+  }
+}
+
+export function remove(place: Place): void {
+  changeMarks(`remove the ${placeName(place)}`, (marks) => removed(marks, place));
+}

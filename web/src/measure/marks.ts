@@ -1,0 +1,173 @@
+/** Places on a vessel that a reader marked, and those that are suggested for what is not marked yet. */
+import type { Profile, Spot } from '../core/measuring';
+import type { Pair } from '../core/messages';
+import type { VesselMarks } from '../edit/document';
+import { lengthOf } from './sections';
+
+/** `place` is that of a stenosis; slot 0 lies before slot 1 along the vessel. */
+export type Kind = 'place' | 'reference' | 'stretch' | 'secondStretch';
+
+export interface Place {
+  readonly kind: Kind;
+  readonly slot: 0 | 1;
+  readonly at: number;
+  /** Offered by Lumencut, and no mark of a reader yet. */
+  readonly isSuggestion: boolean;
+}
+
+export type Suggested = readonly [Spot | null, Spot | null];
+export const NOTHING_SUGGESTED: Suggested = [null, null];
+
+/** The place of the stenosis: marked, or the narrowest one. */
+export function mainPlace(profile: Profile, marks: VesselMarks): Place | null {
+  const at = marks.at ?? profile.narrowest?.at ?? null;
+  return at === null ? null : { kind: 'place', slot: 0, at, isSuggestion: marks.at === null };
+}
+
+/** The references before and after the stenosis. */
+export function referenceSlots({ references }: VesselMarks, main: number): [number | null, number | null] {
+  const [first, second] = [...references].sort((a, b) => a - b);
+  if (first === undefined) {
+    return [null, null];
+  }
+  return second !== undefined ? [first, second] : first < main ? [first, null] : [null, first];
+}
+
+/** All places of a vessel, marked or suggested. */
+export function placesOf(profile: Profile, marks: VesselMarks, suggested: Suggested): Place[] {
+  const main = mainPlace(profile, marks);
+  const references = main ? shownReferences(marks, main.at, suggested) : [];
+  return [...(main ? [main] : []), ...references, ...stretchEnds(marks)];
+}
+
+function shownReferences(marks: VesselMarks, main: number, suggested: Suggested): Place[] {
+  const places: Place[] = [];
+  referenceSlots(marks, main).forEach((at, n) => {
+    const slot = n as 0 | 1;
+    const offered = suggested[slot]?.at ?? null;
+    if (at !== null) {
+      places.push({ kind: 'reference', slot, at, isSuggestion: false });
+    } else if (offered !== null && marks.references.length < 2) {
+      places.push({ kind: 'reference', slot, at: offered, isSuggestion: true });
+    }
+  });
+  return places;
+}
+
+function stretchEnds(marks: VesselMarks): Place[] {
+  return (['stretch', 'secondStretch'] as const).flatMap((kind) =>
+    (marks[kind] ?? []).map((at, n) => ({ kind, slot: n as 0 | 1, at, isSuggestion: false })),
+  );
+}
+
+/** The marks with a place moved; a suggestion that is moved becomes a mark. Of a drag, `marks` and `place` are those of its beginning. */
+export function moved(profile: Profile, marks: VesselMarks, place: Place, to: number): VesselMarks {
+  const at = within(to, [0, lengthOf(profile)]);
+  if (place.kind === 'place') {
+    return { ...marks, at: within(at, around(marks)) };
+  }
+  if (place.kind === 'reference') {
+    return { ...marks, references: movedReferences(profile, marks, place.slot, at) };
+  }
+  const ends = marks[place.kind] ?? [at, at];
+  const other = ends[1 - place.slot] ?? at;
+  // The ends keep their order, and some length between them.
+  const least = 1;
+  const kept: Pair =
+    place.slot === 0 ? [Math.min(at, other - least), other] : [other, Math.max(at, other + least)];
+  return { ...marks, [place.kind]: kept };
+}
+
+/** Between which references the place of a stenosis stays. */
+function around(marks: VesselMarks): Pair {
+  const [first, second] = referenceSlots(marks, marks.at ?? Number.POSITIVE_INFINITY);
+  // Without a place nothing tells on which side a single reference lies.
+  const isOpen = marks.at === null && marks.references.length < 2;
+  return isOpen
+    ? [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY]
+    : [first ?? Number.NEGATIVE_INFINITY, second ?? Number.POSITIVE_INFINITY];
+}
+
+/** One reference may pass the stenosis; where there is another on that side already, it stops at the stenosis. */
+function movedReferences(profile: Profile, marks: VesselMarks, slot: 0 | 1, at: number): number[] {
+  const main = mainPlace(profile, marks)?.at ?? 0;
+  const slots = referenceSlots(marks, main);
+  const [before, other] = [slots[slot], slots[1 - slot] ?? null];
+  // Two that came from a file on one side stay free.
+  const isAstray = before !== null && (slot === 0 ? before > main : before < main);
+  const side: Pair = slot === 0 ? [0, main] : [main, lengthOf(profile)];
+  const now = other === null || isAstray ? at : within(at, side);
+  return [now, ...(other === null ? [] : [other])].sort((a, b) => a - b);
+}
+
+/** Where a place stands after it was moved from `marks` to `after`: it may have been kept from going further, or be on the other side. */
+export function placeAfter(profile: Profile, marks: VesselMarks, place: Place, after: VesselMarks): Place {
+  const { kind, slot } = place;
+  if (kind === 'place') {
+    return { ...place, at: after.at ?? place.at, isSuggestion: false };
+  }
+  if (kind === 'stretch' || kind === 'secondStretch') {
+    return { ...place, at: after[kind]?.[slot] ?? place.at };
+  }
+  const main = mainPlace(profile, after)?.at ?? 0;
+  const other = referenceSlots(marks, main)[1 - slot] ?? null;
+  const slots = referenceSlots(after, main);
+  const now = slots[slot] !== null && (slots[slot] !== other || slots[0] === slots[1]) ? slot : 1 - slot;
+  return { ...place, slot: now as 0 | 1, at: slots[now] ?? place.at, isSuggestion: false };
+}
+
+/** The marks without a place; a suggestion stays one. A stretch goes as a whole. */
+export function removed(marks: VesselMarks, place: Place): VesselMarks {
+  if (place.isSuggestion) {
+    return marks;
+  }
+  if (place.kind === 'place') {
+    return { ...marks, at: null };
+  }
+  if (place.kind === 'reference') {
+    return { ...marks, references: marks.references.filter((at) => at !== place.at) };
+  }
+  return place.kind === 'stretch'
+    ? { ...marks, stretch: marks.secondStretch, secondStretch: null }
+    : { ...marks, secondStretch: null };
+}
+
+/** The marks with a suggestion taken as a mark, exactly where it is shown. */
+export function taken(marks: VesselMarks, { kind, at }: Place): VesselMarks {
+  return kind === 'place'
+    ? { ...marks, at }
+    : { ...marks, references: [...marks.references, at].sort((a, b) => a - b) };
+}
+
+/** The marks with all suggestions taken as marks. */
+export function allConfirmed(profile: Profile, marks: VesselMarks, suggested: Suggested): VesselMarks {
+  return placesOf(profile, marks, suggested)
+    .filter((place) => place.isSuggestion)
+    .reduce(taken, marks);
+}
+
+/** A stretch around a place: a quarter of the vessel, within it. */
+export function stretchAround(profile: Profile, at: number): Pair {
+  const length = lengthOf(profile);
+  const from = within(at - length / 8, [0, (3 * length) / 4]);
+  return [from, from + length / 4];
+}
+
+/** What is still to be marked before a stenosis is graded. */
+export function missingWords({ at, references, method, original }: VesselMarks): string {
+  if (at === null) {
+    return 'Nothing is marked. Look at the suggested places, drag them where they belong, or confirm them.';
+  }
+  if (method === 'ecst' && original === null) {
+    return 'ECST needs the diameter that the vessel is assumed to have had there.';
+  }
+  return references.length === 0 ? 'Mark a reference: where the vessel is normal.' : 'Grading…';
+}
+
+/** Whether anything is marked that grades a stenosis. */
+export const isGraded = (marks: VesselMarks): boolean =>
+  marks.at !== null && (marks.method === 'ecst' ? marks.original !== null : marks.references.length > 0);
+
+function within(value: number, [low, high]: Pair): number {
+  return Math.min(Math.max(value, low), high);
+}

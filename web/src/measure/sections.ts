@@ -1,0 +1,112 @@
+/** Sections of a profile by their place. */
+
+import type { Profile } from '../core/measuring';
+import type { Pair, Vector } from '../core/messages';
+
+/** The number of the section that is nearest to an arc length, the first of two. */
+export function nearestSection({ arc_length: places }: Profile, at: number): number {
+  let best = 0;
+  places.forEach((place, n) => {
+    if (Math.abs(place - at) < Math.abs((places[best] ?? 0) - at)) {
+      best = n;
+    }
+  });
+  return best;
+}
+
+/** The arc length of the nearest section: places are marked where there is one. */
+export function snapped(profile: Profile, at: number): number {
+  return profile.arc_length[nearestSection(profile, at)] ?? at;
+}
+
+/** The arc length of the last section (mm). */
+export const lengthOf = (profile: Profile): number => profile.arc_length.at(-1) ?? 0;
+
+/** Sections whose numbers are all there. */
+export interface SectionNumbers {
+  readonly at: number;
+  readonly diameter: number | null;
+  readonly uncertainty: number | null;
+  readonly shortest: number | null;
+  readonly longest: number | null;
+  readonly area: number | null;
+  readonly counts: boolean;
+  readonly flags: readonly string[];
+}
+
+/** The side of pictures of sections: so many times the lumen, within these (mm); that of a vessel that is not measured. */
+const ROOM = 2.5;
+const SIZES: Pair = [12, 120];
+export const UNKNOWN_SIDE = 30;
+
+/** The side of pictures in which nearly all sections of a vessel that count have room (mm). */
+export function fittingSide({ counts, diameter_max: longest }: Profile): number {
+  const all = longest.flatMap((value, n) => (value === null ? [] : [{ value, counts: counts[n] }]));
+  const counted = all.filter((section) => section.counts);
+  const wide = (counted.length > 0 ? counted : all).map(({ value }) => value).sort((a, b) => a - b);
+  const most = wide[Math.floor(0.9 * (wide.length - 1))];
+  return most === undefined ? UNKNOWN_SIDE : Math.min(Math.max(Math.ceil(ROOM * most), SIZES[0]), SIZES[1]);
+}
+
+/** The numbers of the section that is nearest to an arc length. */
+export function sectionNumbers(profile: Profile, at: number): SectionNumbers {
+  const n = nearestSection(profile, at);
+  return {
+    at: profile.arc_length[n] ?? at,
+    diameter: profile.diameter[n] ?? null,
+    uncertainty: profile.uncertainty[n] ?? null,
+    shortest: profile.diameter_min[n] ?? null,
+    longest: profile.diameter_max[n] ?? null,
+    area: profile.area[n] ?? null,
+    counts: profile.counts[n] ?? false,
+    flags: profile.flags[n] ?? [],
+  };
+}
+
+/** The middle of the lumen at an arc length, between the sections on both sides. */
+export function centerAt({ arc_length: places, center }: Profile, at: number): Vector | null {
+  const after = places.findIndex((place) => place >= at);
+  const [b, place] = [center[after], places[after]];
+  if (!b || place === undefined) {
+    return center.at(-1) ?? null;
+  }
+  const [a, before] = [center[after - 1], places[after - 1]];
+  if (!a || before === undefined) {
+    return b;
+  }
+  const share = (at - before) / (place - before);
+  return [0, 1, 2].map(
+    (axis) => (a[axis] ?? 0) + share * ((b[axis] ?? 0) - (a[axis] ?? 0)),
+  ) as unknown as Vector;
+}
+
+/** Places that are about as near as the nearest one (pixels): of those the one that is next to the former place counts. */
+const AS_NEAR = 6;
+
+/** The section whose middle is seen nearest to a pixel; where the vessel crosses itself, the one next to `before` (mm). */
+export function seenNearest(
+  profile: Profile,
+  seen: (point: Vector) => Pair,
+  pixel: Pair,
+  before: number,
+): number {
+  const away = profile.center.map((point) => {
+    const [x, y] = seen(point);
+    return Math.hypot(x - pixel[0], y - pixel[1]);
+  });
+  const limit = Math.min(...away) + AS_NEAR;
+  let best = before;
+  let least = Number.POSITIVE_INFINITY;
+  profile.arc_length.forEach((place, n) => {
+    // Of those that are about as near, a little nearer to the pointer beats a little nearer along the vessel.
+    const distance = away[n] ?? Number.POSITIVE_INFINITY;
+    if (distance > limit) {
+      return;
+    }
+    const cost = distance + 0.5 * Math.max(Math.abs(place - before) - 2 * AS_NEAR, 0);
+    if (cost < least) {
+      [least, best] = [cost, place];
+    }
+  });
+  return best;
+}

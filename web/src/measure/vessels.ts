@@ -1,0 +1,16 @@
+/** Marks of vessels in the document. */
+import type { LineId } from '../core/messages';
+import { type Document, NO_MARKS, type VesselMarks } from '../edit/document';
+
+const byLine = (document: Document, line: LineId) => document.vessels.find((vessel) => vessel.line === line);
+
+export function marksOf(document: Document, line: LineId): VesselMarks {
+  const vessel = byLine(document, line);
+  return (vessel && document.marks[vessel.id]) ?? NO_MARKS;
+}
+
+/** The document with other marks of the vessel that has a line; the same where none has it. */
+export function withMarks(document: Document, line: LineId, marks: VesselMarks): Document {
+  const id = byLine(document, line)?.id;
+  return id === undefined ? document : { ...document, marks: { ...document.marks, [id]: marks } };
+}

@@ -1,0 +1,70 @@
+/** Measured numbers as words. Where the file does not state its spacing, no length has a unit. */
+import type { Stenosis, StenosisMethod } from '../core/measuring';
+import { states } from '../state/store';
+import type { Place } from './marks';
+import type { SectionNumbers } from './sections';
+
+export const NOTHING = '–';
+
+export const METHOD_NAMES: Readonly<Record<StenosisMethod, string>> = {
+  nascet: 'NASCET',
+  ecst: 'ECST',
+  area: 'area',
+};
+
+const unit = (name: string): string => (states.value.spacing ? ` ${name}` : '');
+
+/** A length, such as `3.02 mm`. */
+export function mm(value: number | null, digits = 2): string {
+  return value === null ? NOTHING : `${value.toFixed(digits)}${unit('mm')}`;
+}
+
+/** A diameter with its standard deviation, such as `3.02 ± 0.05 mm`. */
+export function spread(diameter: number | null, uncertainty: number | null): string {
+  if (diameter === null) {
+    return NOTHING;
+  }
+  return uncertainty === null ? mm(diameter) : `${diameter.toFixed(2)} ± ${mm(uncertainty)}`;
+}
+
+export function area(value: number | null): string {
+  return value === null ? NOTHING : `${value.toFixed(1)}${unit('mm²')}`;
+}
+
+/** What the engine says, without units where lengths have none. */
+export function told(words: string): string {
+  return states.value.spacing ? words : words.replaceAll(' mm²', '').replaceAll(' mm', '');
+}
+
+/** A graded stenosis in one line. */
+export const stenosisWords = (stenosis: Stenosis): string => told(stenosis.words);
+
+/** How a place is called. */
+export function placeName({ kind, slot, isSuggestion }: Place): string {
+  const end = slot === 0 ? 'start' : 'end';
+  const names = {
+    place: isSuggestion ? 'narrowest place' : 'marked place',
+    reference: slot === 0 ? 'reference before' : 'reference after',
+    stretch: `${end} of the stretch`,
+    secondStretch: `${end} of the second stretch`,
+  };
+  return `${names[kind]}${isSuggestion ? ' (suggestion)' : ''}`;
+}
+
+/** A section in one line. */
+export function sectionWords(section: SectionNumbers): string {
+  const { at, diameter, uncertainty, shortest, longest, flags, counts } = section;
+  const parts = [`${mm(at, 1)}:`];
+  if (diameter === null) {
+    parts.push('not measured');
+  } else {
+    parts.push(`diameter ${spread(diameter, uncertainty)},`);
+    parts.push(`${shortest?.toFixed(2) ?? NOTHING} to ${mm(longest)},`);
+    parts.push(`area ${area(section.area)}`);
+  }
+  const words = [...(counts ? [] : ['left out']), ...flags].join(', ');
+  return `${parts.join(' ')}${words ? ` · ${words}` : ''}`;
+}
+
+/** An angle of so many radians in whole degrees. */
+export const degrees = (radians: number): string => `${Math.round((radians * 180) / Math.PI)}°`;

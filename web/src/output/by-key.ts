@@ -1,0 +1,17 @@
+/** What is saved by keys. */
+import { Failure } from '../core/failure';
+import type { Action } from '../input/bindings';
+import { problem, report } from '../state/store';
+import { saveReport } from './report';
+import { saveSession } from './session';
+
+/** Saves what a key stands for; says whether it stands for that. Whether the report names the scan is chosen in the menu. */
+export function saveByKey(action: Action): boolean {
+  const save = { 'save session': saveSession, 'save report': saveReport }[action as string];
+  if (save && report.value) {
+    save().catch((error: unknown) => {
+      problem.value = Failure.of(error);
+    });
+  }
+  return save !== undefined;
+}

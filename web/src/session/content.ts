@@ -1,0 +1,149 @@
+/** A document and a view as the content of a session file, and back. */
+import type { StenosisMethod, Territory } from '../core/measuring';
+import type { Camera, Pair, Report, Settings, Vector } from '../core/messages';
+import type { SavedMarks, SavedScan, SavedView, SessionContent } from '../core/session-file';
+import type { Document, DocumentVessel, VesselMarks } from '../edit/document';
+
+/** How a scan is looked at when it is saved. */
+export interface Looked {
+  readonly camera: Camera;
+  readonly method: string;
+  readonly settings: Settings;
+  readonly layout: string;
+  readonly crossHair: Vector | null;
+  /** The vessel of the document that is picked, and the place on it (mm). */
+  readonly picked: { readonly id: number; readonly at: number } | null;
+}
+
+/** The content of a session file of a document. */
+export function contentOf(document: Document, report: Report, looked: Looked | null): SessionContent {
+  const isSure = (vessel: DocumentVessel) => vessel.doubt === null;
+  const sure = document.vessels.filter(isSure);
+  const doubtful = document.vessels.filter((vessel) => !isSure(vessel));
+  const lineOf = ({ line, name }: DocumentVessel) => ({ line, name });
+  return {
+    lines: sure.map(lineOf),
+    doubtful_lines: doubtful.map(lineOf),
+    session: {
+      scan: scanOf(report),
+      vessels: sure.map(({ id, color, isHidden, clicks }) => ({
+        color,
+        hidden: isHidden,
+        clicks,
+        marks: savedMarks(document.marks[id]),
+      })),
+      doubtful: doubtful.map(({ color, doubt }) => ({ color, doubt: doubt ?? '' })),
+      stoppers: document.stoppers.map(({ center, radius }) => ({ center, radius_mm: radius })),
+      bridge: document.bridge,
+      rulers: document.rulers,
+      view: looked && viewOf(looked, sure),
+    },
+  };
+}
+
+function scanOf(report: Report): SavedScan | null {
+  const { volume } = report;
+  return volume && { size: volume.size, world_from_index: volume.world_from_index };
+}
+
+function viewOf(looked: Looked, vessels: readonly DocumentVessel[]): SavedView {
+  const { camera, method, settings, layout, crossHair, picked } = looked;
+  const { center, direction, up } = camera;
+  const number = picked ? vessels.findIndex((vessel) => vessel.id === picked.id) : -1;
+  return {
+    camera: { center, direction, up, ...pixelsOf(camera) },
+    method,
+    settings,
+    layout,
+    cross_hair: crossHair,
+    picked: picked && number >= 0 ? { vessel: number, at_mm: picked.at } : null,
+  };
+}
+
+/** So many digits are the same after panes of other sizes. */
+const DIGITS = 12;
+
+/** Panes have parts of pixels, pictures have none: as much is seen along the shorter side. */
+function pixelsOf({ size, pixel_spacing }: Camera): Pick<Camera, 'size' | 'pixel_spacing'> {
+  const whole: Pair = [Math.round(size[0]), Math.round(size[1])];
+  const spacing = (pixel_spacing * Math.min(...size)) / Math.min(...whole);
+  return { size: whole, pixel_spacing: Number(spacing.toPrecision(DIGITS)) };
+}
+
+function savedMarks(marks: VesselMarks | undefined): SavedMarks | null {
+  return marks
+    ? {
+        at_mm: marks.at,
+        references_mm: marks.references,
+        method: marks.method,
+        original_mm: marks.original,
+        comparison_mm: marks.comparison,
+        group: marks.group,
+        stretch_mm: marks.stretch,
+        second_stretch_mm: marks.secondStretch,
+      }
+    : null;
+}
+
+/** The document of a session; its vessels are numbered from 0. */
+export function documentOf({ lines, doubtful_lines, session }: SessionContent): Document {
+  const sure = session.vessels.map((vessel, id): DocumentVessel => {
+    const { line, name } = lines[id] ?? { line: -1, name: '' };
+    return {
+      id,
+      line,
+      name,
+      color: vessel.color,
+      isHidden: vessel.hidden,
+      clicks: vessel.clicks,
+      doubt: null,
+    };
+  });
+  const doubtful = session.doubtful.map(({ color, doubt }, number): DocumentVessel => {
+    const { line, name } = doubtful_lines[number] ?? { line: -1, name: '' };
+    return { id: sure.length + number, line, name, color, isHidden: false, clicks: null, doubt };
+  });
+  const marks = session.vessels.flatMap((vessel, id) => (vessel.marks ? [[id, marksOf(vessel.marks)]] : []));
+  return {
+    vessels: [...sure, ...doubtful],
+    stoppers: session.stoppers.map(({ center, radius_mm }) => ({ center, radius: radius_mm })),
+    bridge: session.bridge,
+    marks: Object.fromEntries(marks) as Document['marks'],
+    rulers: session.rulers,
+  };
+}
+
+function marksOf(saved: SavedMarks): VesselMarks {
+  return {
+    at: saved.at_mm,
+    references: saved.references_mm,
+    method: saved.method as StenosisMethod,
+    original: saved.original_mm,
+    comparison: saved.comparison_mm,
+    group: saved.group as Territory | null,
+    stretch: saved.stretch_mm,
+    secondStretch: saved.second_stretch_mm,
+  };
+}
+
+/** By how much the grids of one scan may differ after they were written and read (mm). */
+const ROUNDING = 1e-3;
+
+/** Whether a session was made of the scan that is open. */
+export function isOfScan(saved: SavedScan, report: Report): boolean {
+  const { volume } = report;
+  const rows = volume?.world_from_index ?? [];
+  const isNear = (here: number | undefined, there: number) =>
+    here !== undefined && Math.abs(here - there) <= ROUNDING;
+  return (
+    volume !== null &&
+    saved.size.every((count, axis) => count === volume.size[axis]) &&
+    saved.world_from_index.every((row, i) => row.every((value, j) => isNear(rows[i]?.[j], value)))
+  );
+}
+
+/** The camera of a saved view in a pane of another size: as much is seen along the shorter side. */
+export function cameraOf({ camera }: SavedView, size: Pair): Camera {
+  const scale = Math.min(...camera.size) / Math.min(...size);
+  return { ...camera, size, pixel_spacing: camera.pixel_spacing * scale };
+}

@@ -1,0 +1,123 @@
+/** Saving the session, and going on with a saved one. */
+import { batch, effect, untracked } from '@preact/signals';
+import { Failure } from '../core/failure';
+import type { GivenFile, Method } from '../core/messages';
+import type { SavedView } from '../core/session-file';
+import { engine } from '../core/shared';
+import { shownVessels } from '../edit/changes';
+import type { Document, DocumentVessel } from '../edit/document';
+import { document_ } from '../edit/history';
+import { beginDocument, pickedId, tree } from '../edit/shown';
+import { recover } from '../state/device';
+import * as store from '../state/store';
+import { cameraOf, contentOf, documentOf, isOfScan, type Looked } from './content';
+
+/** Where the field of a session stands in its file: in the first lines, before the curves. */
+const HEAD = 4096;
+const FIELD = '"LumencutSession"';
+
+/** Whether a file is a session. */
+export async function isSession({ file }: GivenFile): Promise<boolean> {
+  return /\.json$/i.test(file.name) && (await file.slice(0, HEAD).text()).includes(FIELD);
+}
+
+/** The bytes of the session as it is now. */
+export function savedSession(): Promise<Uint8Array<ArrayBuffer>> {
+  const report = store.report.value;
+  if (!report?.volume) {
+    throw new Failure('session', 'session', 'no scan', 'a scan that is open');
+  }
+  return engine.sessions.write(contentOf(document_.value, report, looked()));
+}
+
+function looked(): Looked | null {
+  const camera = store.camera.value;
+  const id = pickedId();
+  return (
+    camera && {
+      camera,
+      method: store.method.value,
+      settings: store.viewSettings.value,
+      layout: store.layout.value,
+      crossHair: store.crossHair.value?.point ?? null,
+      picked: id === null ? null : { id, at: store.pickedPlace.value },
+    }
+  );
+}
+
+/** Goes on with a saved session of the scan that is open. */
+export async function openSession({ file }: GivenFile): Promise<void> {
+  const report = store.report.value;
+  const mend = 'open the scan that the session was made of, then the session';
+  if (!report?.volume) {
+    throw new Failure('session', file.name, 'a session without its scan', 'a scan that is open', mend);
+  }
+  const content = await engine.sessions.read(new Uint8Array(await file.arrayBuffer()), file.name);
+  const { scan, view } = content.session;
+  if (scan && !isOfScan(scan, report)) {
+    const found = `a session of a scan of ${scan.size.join(' × ')} voxels in another place`;
+    throw new Failure('session', file.name, found, 'a session of the scan that is open', mend);
+  }
+  const document = documentOf(content);
+  batch(() => {
+    beginDocument(document);
+    if (view) {
+      look(view);
+    }
+  });
+  if (view) {
+    onceShown(document, () => point(view, document));
+  }
+}
+
+/** Does something as soon as the tree of a document is shown, unless the document is changed before. */
+function onceShown(document: Document, work: () => void): void {
+  const wanted = shownVessels(document);
+  const end = effect(() => {
+    const isChanged = document_.value !== document;
+    const isShown =
+      tree.value.length === wanted.length && wanted.every((vessel, n) => vessel === tree.value[n]);
+    if (isChanged || isShown) {
+      queueMicrotask(() => end());
+    }
+    if (isShown && !isChanged) {
+      untracked(work);
+    }
+  });
+}
+
+/** Picks the vessel that the session had picked, and tells what is at its cross-hair. */
+function point({ picked, cross_hair: place }: SavedView, document: Document): void {
+  const number = picked ? tree.value.indexOf(document.vessels[picked.vessel] as DocumentVessel) : -1;
+  if (picked && number >= 0) {
+    store.pickedVessel.value = number;
+    store.pickedPlace.value = picked.at_mm;
+  }
+  if (place) {
+    void engine.at(place).then(({ value, vessel, arc_length: arcLength }) => {
+      if (store.crossHair.value?.point === place) {
+        store.crossHair.value = { point: place, value, vessel, arcLength };
+      }
+    }, recover);
+  }
+}
+
+/** Looks at the scan as the session did. */
+function look(view: SavedView): void {
+  const { window, context_window: _, ...settings } = view.settings;
+  const size = store.camera.value?.size ?? view.camera.size;
+  store.camera.value = cameraOf(view, size);
+  store.method.value = view.method as Method;
+  store.settings.value = settings;
+  if (Array.isArray(window)) {
+    store.window_.value = [Number(window[0]), Number(window[1])];
+  }
+  const isLayout = (name: string): name is store.Layout =>
+    (store.LAYOUTS as readonly string[]).includes(name);
+  if (isLayout(view.layout)) {
+    store.layout.value = view.layout;
+  }
+  if (view.cross_hair) {
+    store.crossHair.value = { point: view.cross_hair, value: null, vessel: null, arcLength: null };
+  }
+}

@@ -1,0 +1,34 @@
+/** Asks what a volume is that came while a scan is open. */
+import { engine } from '../core/shared';
+import { addMask } from '../edit/branches';
+import { leave } from '../state/leaving';
+import { openFiles, question } from '../state/opening';
+
+export function FileQuestion() {
+  const files = question.value;
+  if (!files) {
+    return null;
+  }
+  const answer = (work: () => Promise<unknown>) => {
+    question.value = null;
+    void work();
+  };
+  return (
+    <div class="file-question" role="alertdialog" aria-label="What is this file?">
+      <p>{`What is ${files.map(({ file }) => file.name).join(', ')}?`}</p>
+      <button type="button" onClick={() => answer(() => leave(() => openFiles(engine, files)))}>
+        Open as a new scan
+      </button>
+      <button
+        type="button"
+        ref={(button) => button?.focus()}
+        onClick={() => answer(() => addMask(engine.tracing, files))}
+      >
+        Use as a mask of vessels
+      </button>
+      <button type="button" onClick={() => answer(async () => undefined)}>
+        Neither
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,128 @@
+/** What can be done next about vessels, over the views: the offer to trace, what a click does now, and a doubtful branch. */
+import { useSignal } from '@preact/signals';
+import { engine } from '../core/shared';
+import { accept, leaveOut } from '../edit/branches';
+import { nameOf, vesselOf } from '../edit/changes';
+import { waiting } from '../edit/committing';
+import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
+import { document_ } from '../edit/history';
+import { chosenDoubt } from '../edit/mode';
+import { performAny } from '../edit/performing';
+import { acceptCandidate, endVessel } from '../edit/pointing';
+import { STOPPER } from '../edit/stoppers';
+import { type Tool, tool } from '../edit/tool';
+import { hasVolume, report } from '../state/store';
+
+export function TraceBar() {
+  const doubt = vesselOf(document_.value, chosenDoubt.value);
+  if (tool.value === 'trace' || tool.value === 'stopper') {
+    return <Hint />;
+  }
+  // A vessel that was ended is not there yet as long as its points are traced.
+  if (coming.value.length > 0) {
+    return (
+      <div class="trace-bar" role="status">
+        <span>Tracing …</span>
+      </div>
+    );
+  }
+  if (doubt?.doubt) {
+    return <Doubt id={doubt.id} words={`${nameOf(doubt)} is doubtful: ${doubt.doubt}`} />;
+  }
+  return hasVolume.value && document_.value.vessels.length === 0 ? (
+    <Offer key={report.value?.volume} />
+  ) : null;
+}
+
+/** Without centerlines the page offers to trace them. */
+function Offer() {
+  const isClosed = useSignal(false);
+  if (isClosed.value) {
+    return null;
+  }
+  return (
+    <div class="trace-bar" role="note">
+      <span>No vessels yet: click along one, or drop its centerlines or a mask.</span>
+      <button type="button" onClick={() => performAny(engine, 'trace')}>
+        Trace vessels
+      </button>
+      <button
+        type="button"
+        aria-label="Close the offer"
+        onClick={() => {
+          isClosed.value = true;
+        }}
+      >
+        ✕
+      </button>
+    </div>
+  );
+}
+
+/** What the next click does. */
+function Hint() {
+  const take = (wanted: Tool) => () => {
+    tool.value = wanted;
+  };
+  return (
+    <div class="trace-bar" role="status">
+      <span>{hintWords()}</span>
+      {candidate.value && (
+        <button type="button" onClick={() => acceptCandidate(engine.tracing)}>
+          Set the point here
+        </button>
+      )}
+      {isDrawing.value && !candidate.value && tool.value === 'trace' && (
+        <button type="button" onClick={endVessel}>
+          End this vessel
+        </button>
+      )}
+      <button
+        type="button"
+        title={tool.value === 'trace' ? STOPPER : 'Go on with the points of vessels'}
+        onClick={take(tool.value === 'trace' ? 'stopper' : 'trace')}
+      >
+        {tool.value === 'trace' ? 'Stopper' : 'Trace'}
+      </button>
+      <button type="button" onClick={take('look')}>
+        Done
+      </button>
+    </div>
+  );
+}
+
+function hintWords(): string {
+  if (waiting.value > 0) {
+    return 'Tracing …';
+  }
+  if (candidate.value) {
+    return 'The brightest place under the pointer. Is it right in the slices? Then click it again. If it is not the vessel, click it in a slice.';
+  }
+  if (tool.value === 'stopper') {
+    return 'Click, or press Enter at the cross-hair, where no vessel may pass.';
+  }
+  if (drawn.value) {
+    return `Click, or press Enter at the cross-hair, further along ${nameOf(drawn.value)}; a double click ends it.`;
+  }
+  return isDrawing.value
+    ? 'Click, or press Enter at the cross-hair, further along the same vessel.'
+    : 'Click, or press Enter at the cross-hair, where a vessel begins.';
+}
+
+function Doubt({ id, words }: { readonly id: number; readonly words: string }) {
+  const answer = (work: (ids: readonly number[]) => Promise<boolean>) => () => {
+    chosenDoubt.value = null;
+    void work([id]);
+  };
+  return (
+    <div class="trace-bar over" role="status">
+      <span>{words}</span>
+      <button type="button" onClick={answer(accept)}>
+        Accept
+      </button>
+      <button type="button" onClick={answer(leaveOut)}>
+        Leave out
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,152 @@
+/** The list of vessels: their names, colours and lengths, and what can be done with all of them. */
+import { engine } from '../core/shared';
+import { accept, leaveOut } from '../edit/branches';
+import { doubtful, nameOf } from '../edit/changes';
+import { setBridge } from '../edit/clicks';
+import type { DocumentVessel } from '../edit/document';
+import { document_, redo, redoWords, undoWords } from '../edit/history';
+import { lengthOf } from '../edit/lines';
+import { isListOpen, isTracing, toggleTool } from '../edit/mode';
+import { performAny, undoLast } from '../edit/performing';
+import { STOPPER } from '../edit/stoppers';
+import { remove } from '../edit/vessels';
+import { states } from '../state/store';
+import { CenterlineFiles } from './CenterlineFiles';
+import { VesselRow } from './VesselRow';
+
+export function VesselList() {
+  if (!isListOpen.value) {
+    return null;
+  }
+  const vessels = document_.value.vessels.filter((vessel) => vessel.doubt === null);
+  return (
+    <aside class="vessels" aria-label="List of vessels">
+      <Steps />
+      <Means />
+      <Doubtful vessels={doubtful(document_.value)} />
+      {vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
+      <ul class="vessel-rows">
+        {vessels.map((vessel) => (
+          <VesselRow key={vessel.id} vessel={vessel} />
+        ))}
+      </ul>
+      {vessels.length > 1 && (
+        <div class="buttons">
+          <button type="button" onClick={() => void remove(vessels.map((vessel) => vessel.id))}>
+            Delete all
+          </button>
+        </div>
+      )}
+      <CenterlineFiles />
+    </aside>
+  );
+}
+
+function Steps() {
+  const [back, forth] = [undoWords.value, redoWords.value];
+  return (
+    <div class="buttons">
+      <button
+        type="button"
+        disabled={back === null}
+        title={back ? `Undo: ${back} (Ctrl+z)` : 'Nothing to undo'}
+        onClick={() => undoLast(engine)}
+      >
+        Undo
+      </button>
+      <button
+        type="button"
+        disabled={forth === null}
+        title={forth ? `Redo: ${forth} (Ctrl+Shift+z)` : 'Nothing to redo'}
+        onClick={redo}
+      >
+        Redo
+      </button>
+      <span class="spring" />
+      <button
+        type="button"
+        aria-label="Close the list"
+        onClick={() => {
+          isListOpen.value = false;
+        }}
+      >
+        ✕
+      </button>
+    </div>
+  );
+}
+
+/** How vessels come to the list. */
+function Means() {
+  return (
+    <div class="buttons">
+      <button type="button" title="From the cross-hair (b)" onClick={() => performAny(engine, 'branches')}>
+        All branches from here
+      </button>
+      {!isTracing() && (
+        <button type="button" title={STOPPER} onClick={() => toggleTool('stopper')}>
+          Stopper
+        </button>
+      )}
+      <label title="A vessel goes on where no lumen is seen between two clicks, as in an occlusion; without it such a click is refused">
+        <input
+          type="checkbox"
+          checked={document_.value.bridge}
+          onChange={(event) => void setBridge(engine.tracing, event.currentTarget.checked)}
+        />
+        Bridge gaps without lumen
+      </label>
+    </div>
+  );
+}
+
+/** Branches that are to be accepted or left out. */
+function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) {
+  const ids = vessels.map((vessel) => vessel.id);
+  if (ids.length === 0) {
+    return null;
+  }
+  return (
+    <section class="doubtful-rows" aria-label="Doubtful branches">
+      <h3>{ids.length === 1 ? '1 doubtful branch' : `${ids.length} doubtful branches`}</h3>
+      {[...new Set(vessels.map((vessel) => vessel.doubt))].map((doubt) => (
+        <p key={doubt} class="notice">
+          {`${doubt?.[0]?.toUpperCase() ?? ''}${doubt?.slice(1) ?? ''}.`}
+        </p>
+      ))}
+      <div class="buttons">
+        <button type="button" onClick={() => void accept(ids)}>
+          Accept all
+        </button>
+        <button type="button" onClick={() => void leaveOut(ids)}>
+          Leave all out
+        </button>
+      </div>
+      <ul class="vessel-rows">
+        {vessels.map((vessel) => (
+          <li key={vessel.id} title={vessel.doubt ?? ''}>
+            <span class="name">{nameOf(vessel)}</span>
+            <span class="length">{lengthText(vessel)}</span>
+            <button
+              type="button"
+              aria-label={`Accept ${nameOf(vessel)}`}
+              onClick={() => void accept([vessel.id])}
+            >
+              ✓
+            </button>
+            <button
+              type="button"
+              aria-label={`Leave ${nameOf(vessel)} out`}
+              onClick={() => void leaveOut([vessel.id])}
+            >
+              ✕
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+const lengthText = (vessel: DocumentVessel): string =>
+  `${lengthOf(vessel.line).toFixed(1)}${states.value.spacing ? ' mm' : ''}`;

@@ -1,0 +1,157 @@
+/** A vessel of the list; the one that is picked shows what can be done with it. */
+import { batch } from '@preact/signals';
+import { useState } from 'preact/hooks';
+import { engine } from '../core/shared';
+import { nameOf } from '../edit/changes';
+import type { DocumentVessel } from '../edit/document';
+import { document_ } from '../edit/history';
+import { lengthOf } from '../edit/lines';
+import { PALETTE } from '../edit/palette';
+import { pickedId, tree } from '../edit/shown';
+import { active, tool } from '../edit/tool';
+import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
+import { placeCrossHair } from '../link/cross-hair';
+import { recover } from '../state/device';
+import { pickedPlace, pickedVessel, report, states } from '../state/store';
+
+interface RowProps {
+  readonly vessel: DocumentVessel;
+}
+
+export function VesselRow({ vessel }: RowProps) {
+  const isPicked = vessel.id === pickedId();
+  const name = nameOf(vessel);
+  return (
+    <li class={isPicked ? 'picked' : ''} data-vessel={vessel.id}>
+      <input
+        type="radio"
+        name="picked-vessel"
+        checked={isPicked}
+        disabled={vessel.isHidden}
+        aria-label={`Show ${name} straightened`}
+        onChange={() => void pick(vessel)}
+      />
+      <ColorChoice vessel={vessel} />
+      <NameField vessel={vessel} />
+      <span class="length">{`${lengthText(vessel)}${states.value.spacing ? ' mm' : ''}`}</span>
+      <button
+        type="button"
+        class="eye"
+        aria-pressed={!vessel.isHidden}
+        aria-label={vessel.isHidden ? `Show ${name}` : `Hide ${name}`}
+        title={vessel.isHidden ? 'Show' : 'Hide'}
+        onClick={() => void hide(vessel.id, !vessel.isHidden)}
+      >
+        {vessel.isHidden ? '◌' : '◉'}
+      </button>
+      {isPicked || vessel.isHidden ? <Means vessel={vessel} /> : null}
+    </li>
+  );
+}
+
+/** The name of a vessel, as it is typed until that is done. */
+function NameField({ vessel }: RowProps) {
+  const [typed, setTyped] = useState<string | null>(null);
+  const done = (text: string) => {
+    setTyped(null);
+    void rename(vessel.id, text.trim());
+  };
+  return (
+    <input
+      class="name"
+      value={typed ?? vessel.name}
+      placeholder={nameOf(vessel)}
+      aria-label={`Name of ${nameOf(vessel)}`}
+      onInput={(event) => setTyped(event.currentTarget.value)}
+      onChange={(event) => done(event.currentTarget.value)}
+    />
+  );
+}
+
+/** The length of a vessel; as long as it is traced anew, what it was. */
+function lengthText({ id, line }: DocumentVessel): string {
+  const shown = report.value?.vessels ?? [];
+  const before = shown[tree.value.findIndex((vessel) => vessel.id === id)];
+  const now = shown.find((vessel) => vessel.line === line)?.length ?? lengthOf(line);
+  return (now || (before?.length ?? 0)).toFixed(1);
+}
+
+function ColorChoice({ vessel }: RowProps) {
+  return (
+    <select
+      class="swatch"
+      style={{ background: vessel.color, color: vessel.color }}
+      value={vessel.color}
+      aria-label={`Colour of ${nameOf(vessel)}`}
+      onChange={(event) => void recolor(vessel.id, event.currentTarget.value)}
+    >
+      {PALETTE.map(([color, words]) => (
+        <option key={color} value={color} style={{ background: color, color: '#000' }}>
+          {words}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+/** What can be done with the vessel that is picked. */
+function Means({ vessel }: RowProps) {
+  const { id } = vessel;
+  const others = document_.value.vessels.filter((one) => one.id !== id && one.doubt === null);
+  const goOn = () => {
+    tool.value = 'trace';
+    active.value = id;
+  };
+  return (
+    <div class="buttons">
+      {vessel.clicks && !vessel.isHidden && (
+        <button type="button" title="Add points at its end" onClick={goOn}>
+          Go on
+        </button>
+      )}
+      {!vessel.isHidden && (
+        <button
+          type="button"
+          title="Cut it where the section stands"
+          onClick={() => void cut(engine.tracing, id, pickedPlace.value)}
+        >
+          Cut here
+        </button>
+      )}
+      {others.length > 0 && (
+        <select
+          value=""
+          aria-label={`Join ${nameOf(vessel)} with`}
+          onChange={(event) => void join(engine.tracing, id, Number(event.currentTarget.value))}
+        >
+          <option value="">Join with …</option>
+          {others.map((other) => (
+            <option key={other.id} value={other.id}>
+              {nameOf(other)}
+            </option>
+          ))}
+        </select>
+      )}
+      <button type="button" onClick={() => void remove([id])}>
+        Delete
+      </button>
+    </div>
+  );
+}
+
+/** Shows a vessel in all views, at half its length. */
+async function pick({ id }: DocumentVessel): Promise<void> {
+  const vessel = tree.value.findIndex((one) => one.id === id);
+  const length = report.value?.vessels?.[vessel]?.length ?? 0;
+  batch(() => {
+    pickedVessel.value = vessel;
+    pickedPlace.value = length / 2;
+  });
+  try {
+    const [point] = await engine.across(vessel, length / 2);
+    const { value } = await engine.at(point);
+    placeCrossHair({ point, value, vessel, arc_length: length / 2 }, 'turning');
+  } catch (error) {
+    recover(error);
+  }
+}

@@ -1,0 +1,36 @@
+/** Menus that close by themselves: after a choice, by Escape, and by a press elsewhere. */
+import type { RefObject } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+
+/** The menu that is to close so. */
+export function useClosing(): RefObject<HTMLDetailsElement | null> {
+  const menu = useRef<HTMLDetailsElement>(null);
+  useEffect(() => {
+    const ended = new AbortController();
+    const { signal } = ended;
+    const close = () => menu.current?.removeAttribute('open');
+    const pressed = ({ target }: Event) => {
+      if (!menu.current?.contains(target as Node)) {
+        close();
+      }
+    };
+    const keyed = (event: KeyboardEvent) => {
+      if (event.key === 'Escape' && menu.current?.open) {
+        // It closes the menu alone, and takes nothing else back.
+        event.stopPropagation();
+        close();
+        menu.current.querySelector('summary')?.focus();
+      }
+    };
+    const clicked = ({ target }: Event) => {
+      if ((target as Element).closest('button')) {
+        close();
+      }
+    };
+    document.addEventListener('pointerdown', pressed, { signal, capture: true });
+    document.addEventListener('keydown', keyed, { signal, capture: true });
+    menu.current?.addEventListener('click', clicked, { signal });
+    return () => ended.abort();
+  }, []);
+  return menu;
+}

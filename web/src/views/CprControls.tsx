@@ -1,0 +1,39 @@
+/** What can be chosen of a straightened vessel. */
+import type { Feature } from '../core/messages';
+import * as store from '../state/store';
+
+/** The rotation of one step of the wheel (radians). */
+export const TURN_STEP = Math.PI / 36;
+
+/** The rotation about the vessel, and which value a pixel shows. */
+export function CprControls() {
+  const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
+  return (
+    <div class="pane-controls">
+      <input
+        type="range"
+        min="-180"
+        max="180"
+        step="5"
+        value={String(((((degrees + 180) % 360) + 360) % 360) - 180)}
+        aria-label="Rotation about the vessel (degrees)"
+        onInput={(event) => {
+          store.cprAngle.value = (Number(event.currentTarget.value) * Math.PI) / 180;
+        }}
+      />
+      <output>{`${degrees}°`}</output>
+      <select
+        aria-label="What a pixel shows"
+        value={store.cprFeature.value ?? ''}
+        onChange={(event) => {
+          store.cprFeature.value = (event.currentTarget.value || null) as Feature | null;
+        }}
+      >
+        <option value="">CPR</option>
+        <option value="max">CFA, largest</option>
+        <option value="mean">CFA, mean</option>
+        <option value="min">CFA, smallest</option>
+      </select>
+    </div>
+  );
+}

@@ -1,0 +1,58 @@
+/** Places over a view that are no points of a vessel: those that wait to become one, and the one where no lumen was found. */
+import type { Failure } from '../core/failure';
+import type { Vector } from '../core/messages';
+import { isGap, refusal } from '../edit/committing';
+import { candidate, coming, drawnColor, first } from '../edit/drawing';
+import { problem } from '../state/store';
+import { isNear } from './curves';
+import type { Projection } from './projection';
+
+export function Places({ projection }: { readonly projection: Projection }) {
+  const refused = refusal.value?.failure;
+  // What was closed is no longer pointed at.
+  const weakest = refused && refused === problem.value ? refused.place : null;
+  return (
+    <>
+      {first.value && <Place kind="first" point={first.value} projection={projection} />}
+      {coming.value.map(({ point }) => (
+        <Place key={point.join()} kind="coming" point={point} projection={projection} />
+      ))}
+      {candidate.value && <Place kind="candidate" point={candidate.value} projection={projection} />}
+      {weakest && (
+        <Place
+          kind="weakest"
+          point={weakest}
+          projection={projection}
+          words={refused ? wordsOf(refused) : ''}
+        />
+      )}
+    </>
+  );
+}
+
+function wordsOf(failure: Failure): string {
+  const { value } = failure;
+  const words = isGap(failure) ? 'least like lumen here' : 'here';
+  return value === null ? words : `${words}: ${Number.isInteger(value) ? value : value.toFixed(1)}`;
+}
+
+interface PlaceProps {
+  readonly kind: string;
+  readonly point: Vector;
+  readonly projection: Projection;
+  readonly words?: string;
+}
+
+function Place({ kind, point, projection, words }: PlaceProps) {
+  const [left, top] = projection.pixel(point);
+  const isFar = !isNear(projection, point);
+  return (
+    <span
+      class={`place ${kind}${isFar ? ' far' : ''}`}
+      data-place={kind}
+      style={{ left: `${left}px`, top: `${top}px`, '--color': drawnColor.value }}
+    >
+      {words && !isFar ? <b>{words}</b> : null}
+    </span>
+  );
+}

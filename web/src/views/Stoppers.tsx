@@ -1,0 +1,74 @@
+/** Stoppers over a view: the circles that slices cut out of them, which can be dragged and removed. */
+import type { Vector } from '../core/messages';
+import { engine } from '../core/shared';
+import type { Stopper } from '../core/tracing';
+import { add } from '../core/vectors';
+import { draggedStopper } from '../edit/drawing';
+import { document_ } from '../edit/history';
+import { isTracing } from '../edit/mode';
+import { moveStopper, removeStopper } from '../edit/stoppers';
+import { Handle } from './Handle';
+import { lookAt } from './look-at';
+import type { Projection } from './projection';
+
+const COLOR = '#ff4d4d';
+
+export function Stoppers({ projection }: { readonly projection: Projection }) {
+  if (!isTracing()) {
+    return null;
+  }
+  return (
+    <>
+      {document_.value.stoppers.map((stopper, number) => (
+        <Ball key={number} number={number} stopper={stopper} projection={projection} />
+      ))}
+    </>
+  );
+}
+
+interface BallProps {
+  readonly number: number;
+  readonly stopper: Stopper;
+  readonly projection: Projection;
+}
+
+function Ball({ number, stopper, projection }: BallProps) {
+  const moved = draggedStopper.value?.number === number ? draggedStopper.value.point : null;
+  const center = moved ?? stopper.center;
+  const away = projection.isThrough ? 0 : projection.depth(center);
+  const radius = Math.sqrt(Math.max(stopper.radius ** 2 - away ** 2, 0)) / projection.spacing;
+  if (radius === 0) {
+    return null;
+  }
+  const drag = (point: Vector) => {
+    draggedStopper.value = { number, point };
+  };
+  const end = async () => {
+    if (draggedStopper.value) {
+      await moveStopper(engine.tracing, number, draggedStopper.value.point);
+      draggedStopper.value = null;
+    }
+  };
+  const [x, y] = projection.pixel(center);
+  return (
+    <>
+      <svg class="curves" aria-hidden="true">
+        <circle class="stopper" cx={x} cy={y} r={radius} stroke={COLOR} />
+      </svg>
+      <Handle
+        at={[x, y]}
+        words={`Stopper ${number + 1}`}
+        color={COLOR}
+        kind="point"
+        onBegin={() => void lookAt(center)}
+        onDrag={(at) => drag(projection.at(at, center))}
+        onArrow={(by) => drag(add(center, projection.step(by)))}
+        onEnd={() => void end()}
+        onPutBack={() => {
+          draggedStopper.value = null;
+        }}
+        onRemove={() => void removeStopper(engine.tracing, number)}
+      />
+    </>
+  );
+}

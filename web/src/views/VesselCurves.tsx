@@ -1,0 +1,95 @@
+/** The vessels of the document as curves over a view, and the way to the pointer. */
+import type { Vector } from '../core/messages';
+import type { DocumentVessel } from '../edit/document';
+import { drawnColor, livePaths } from '../edit/drawing';
+import { document_ } from '../edit/history';
+import { contents } from '../edit/lines';
+import { isTracing } from '../edit/mode';
+import { DOUBTFUL } from '../edit/palette';
+import { tree } from '../edit/shown';
+import { tool } from '../edit/tool';
+import { pickedVessel } from '../state/store';
+import { pathData } from './curves';
+import type { Projection } from './projection';
+
+interface OverProps {
+  readonly projection: Projection;
+}
+
+export function VesselCurves({ projection }: OverProps) {
+  const isOn = isTracing();
+  const picked = tree.value[pickedVessel.value ?? -1]?.id;
+  // Over vessels that are cut open curves would hide what is looked at.
+  const isSeen = (vessel: DocumentVessel) =>
+    !vessel.isHidden && (isOn || !projection.isThrough || vessel.doubt !== null);
+  return (
+    <svg class="curves" aria-hidden="true">
+      {document_.value.vessels.filter(isSeen).map((vessel) => (
+        <Curve
+          key={vessel.id}
+          vessel={vessel}
+          projection={projection}
+          isPicked={vessel.id === picked}
+          hasFar={isOn}
+        />
+      ))}
+      <LivePaths projection={projection} />
+    </svg>
+  );
+}
+
+interface CurveProps extends OverProps {
+  readonly vessel: DocumentVessel;
+  readonly isPicked: boolean;
+  readonly hasFar: boolean;
+}
+
+function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
+  const points = contents.value.get(vessel.line)?.points;
+  if (!points) {
+    return null;
+  }
+  const kind = vessel.doubt === null ? (isPicked ? 'curve picked' : 'curve') : 'curve doubtful';
+  const color = vessel.doubt === null ? vessel.color : DOUBTFUL;
+  return (
+    <g class={kind} stroke={color} data-vessel={vessel.id}>
+      {hasFar && !projection.isThrough && <path class="far" d={pathData(points, projection, 'far')} />}
+      {vessel.doubt === null ? (
+        <Cased kind="near" d={pathData(points, projection, 'near')} />
+      ) : (
+        <path class="near" d={pathData(points, projection, 'near')} />
+      )}
+    </g>
+  );
+}
+
+/** The way that the vessel would take to the pointer; dashed and straight where none is found. */
+function LivePaths({ projection }: OverProps) {
+  if (tool.value === 'look') {
+    return null;
+  }
+  return (
+    <>
+      {livePaths.value.map(({ points, isFound }) => (
+        <g key={textOf(points)} stroke={drawnColor.value}>
+          <Cased
+            kind={isFound ? 'live' : 'live missing'}
+            d={`${pathData(points, projection, 'near')}${pathData(points, projection, 'far')}`}
+          />
+        </g>
+      ))}
+    </>
+  );
+}
+
+/** A curve with a dark edge, which is seen on bright and on dark. */
+function Cased({ kind, d }: { readonly kind: string; readonly d: string }) {
+  return (
+    <>
+      <path class="casing" d={d} />
+      <path class={kind} d={d} />
+    </>
+  );
+}
+
+const textOf = (points: readonly Vector[]): string => `${points[0]?.join()} ${points.at(-1)?.join()}`;

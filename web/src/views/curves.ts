@@ -1,0 +1,77 @@
+/** Lines in space as curves over a view: their paths, and which of them a pixel is on. */
+import type { Pair, Vector } from '../core/messages';
+import type { DocumentVessel } from '../edit/document';
+import { document_ } from '../edit/history';
+import { contents } from '../edit/lines';
+import type { Projection } from './projection';
+
+/** What is nearer to a slice than this is drawn as lying in it (mm). */
+export const NEAR = 2;
+/** A click is on a curve or a point where it is as near as this (CSS pixels). */
+const REACH = 7;
+
+export const isNear = (projection: Projection, point: Vector): boolean =>
+  projection.isThrough || Math.abs(projection.depth(point)) <= NEAR;
+
+/** The path of those pieces of a line that are in the slice (`near`), or before and behind it (`far`). */
+export function pathData(points: readonly Vector[], projection: Projection, which: 'near' | 'far'): string {
+  const areNear = points.map((point) => isNear(projection, point));
+  const pixels = points.map((point) =>
+    projection
+      .pixel(point)
+      .map((part) => part.toFixed(1))
+      .join(' '),
+  );
+  let path = '';
+  let end = -1;
+  for (let n = 0; n + 1 < points.length; n++) {
+    if ((areNear[n] && areNear[n + 1]) === (which === 'near')) {
+      path += end === n ? '' : `M${pixels[n]}`;
+      path += `L${pixels[n + 1]}`;
+      end = n + 1;
+    }
+  }
+  return path;
+}
+
+/** A place on a vessel that a pixel is on. */
+export interface Hit {
+  readonly vessel: DocumentVessel;
+  /** The number of the point of its line. */
+  readonly number: number;
+  readonly point: Vector;
+}
+
+/** Whether a point is seen at a pixel, or next to it. */
+export function isAt(projection: Projection, point: Vector, [x, y]: Pair): boolean {
+  const [column, row] = projection.pixel(point);
+  return Math.hypot(column - x, row - y) <= REACH;
+}
+
+/** The vessel whose curve is at a pixel, the nearest one of several; in a slice only where it lies in it. */
+export function curveAt(projection: Projection, [x, y]: Pair): Hit | null {
+  let best: Hit | null = null;
+  let least = REACH;
+  for (const vessel of document_.value.vessels) {
+    const points = vessel.isHidden ? [] : (contents.value.get(vessel.line)?.points ?? []);
+    points.forEach((point, number) => {
+      const [column, row] = projection.pixel(point);
+      const away = Math.hypot(column - x, row - y);
+      if (away < least && isNear(projection, point)) {
+        least = away;
+        best = { vessel, number, point };
+      }
+    });
+  }
+  return best;
+}
+
+/** Before which click of a vessel a point of its line lies. */
+export function clickAfter(clicks: readonly Vector[], points: readonly Vector[], number: number): number {
+  const placeOf = (click: Vector) => {
+    const distances = points.map((point) => Math.hypot(...point.map((part, n) => part - (click[n] ?? 0))));
+    return distances.indexOf(Math.min(...distances));
+  };
+  const after = clicks.findIndex((click) => placeOf(click) > number);
+  return after < 0 ? clicks.length - 1 : Math.max(after, 1);
+}

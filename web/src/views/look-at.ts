@@ -1,0 +1,13 @@
+/** Puts the cross-hair of all views at a place. */
+import type { Vector } from '../core/messages';
+import { engine } from '../core/shared';
+import { placeCrossHair } from '../link/cross-hair';
+import { recover } from '../state/device';
+
+export async function lookAt(point: Vector): Promise<void> {
+  try {
+    placeCrossHair(await engine.at(point), 'turning');
+  } catch (error) {
+    recover(error);
+  }
+}

@@ -1,0 +1,59 @@
+/** What the page asks its worker for to measure vessels. All numbers are the engine's. */
+import { proxyMarker } from 'comlink';
+import type {
+  Marks,
+  MeasuredSection,
+  MeasuredVessel,
+  Profile,
+  Spot,
+  Stenosis,
+  Stretch,
+} from '../core/measuring';
+import type { LineId, Pair } from '../core/messages';
+import type { Engine } from '../core/module';
+
+/** Runs work on the engine, after all that was asked for before. */
+export type Run = <T>(work: (engine: Engine) => T) => Promise<T>;
+
+export class MeasuringHost {
+  /** The page calls it where it is, in the worker. */
+  readonly [proxyMarker] = true;
+
+  constructor(private readonly run: Run) {}
+
+  profile(line: LineId, fwhm: number | null): Promise<Profile> {
+    return this.run((engine) => JSON.parse(engine.profile(line, fwhm ?? undefined)));
+  }
+
+  stenosis(line: LineId, marks: Marks): Promise<Stenosis | null> {
+    return this.run((engine) => JSON.parse(engine.stenosis(line, JSON.stringify(marks))));
+  }
+
+  suggestedReferences(line: LineId, at: number): Promise<readonly [Spot | null, Spot | null]> {
+    return this.run((engine) => JSON.parse(engine.suggested_references(line, at)));
+  }
+
+  diameterAt(line: LineId, at: number): Promise<{ diameter: number; uncertainty: number | null }> {
+    return this.run((engine) => JSON.parse(engine.diameter_at(line, at)));
+  }
+
+  section(line: LineId, at: number): Promise<MeasuredSection> {
+    return this.run((engine) => JSON.parse(engine.measured_section(line, at)));
+  }
+
+  stretch(line: LineId, [start, end]: Pair): Promise<Stretch> {
+    return this.run((engine) => JSON.parse(engine.stretch(line, start, end)));
+  }
+
+  angleBetween(line: LineId, first: Pair, second: Pair): Promise<number> {
+    return this.run((engine) => engine.angle_between(line, JSON.stringify([first, second])));
+  }
+
+  csv(vessels: readonly MeasuredVessel[]): Promise<string> {
+    return this.run((engine) => engine.profiles_csv(JSON.stringify(vessels)));
+  }
+
+  json(vessels: readonly MeasuredVessel[]): Promise<string> {
+    return this.run((engine) => engine.profiles_json(JSON.stringify(vessels)));
+  }
+}

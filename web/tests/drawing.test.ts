@@ -1,0 +1,302 @@
+import { afterEach, beforeEach, describe, expect, test } from 'vitest';
+import type { Vector } from '../src/core/messages';
+import {
+  anchor,
+  candidate,
+  coming,
+  dragged,
+  drawn,
+  first,
+  followPointer,
+  livePaths,
+  target,
+} from '../src/edit/drawing';
+import { document_, undo } from '../src/edit/history';
+import {
+  acceptCandidate,
+  checkFirst,
+  endVessel,
+  enter,
+  leave,
+  removeLast,
+  setPoint,
+} from '../src/edit/pointing';
+import { beginStudy } from '../src/edit/shown';
+import { active, tool } from '../src/edit/tool';
+import * as store from '../src/state/store';
+import { FakeTracing, FLOOR, reportOf } from './fake-tracing';
+
+const A: Vector = [0, 0, 0];
+const B: Vector = [10, 0, 0];
+const C: Vector = [20, 5, 0];
+
+let tracing: FakeTracing;
+let end: () => void;
+const idle = () => new Promise((resolve) => setTimeout(resolve, 5));
+const clicks = () => document_.value.vessels.map((vessel) => vessel.clicks);
+
+beforeEach(() => {
+  tracing = new FakeTracing();
+  beginStudy(reportOf([]));
+  tool.value = 'trace';
+  endVessel();
+  end = followPointer(tracing);
+});
+
+afterEach(() => {
+  end();
+  tool.value = 'look';
+});
+
+const hairAt = (point: Vector) => {
+  store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
+};
+
+describe('points', () => {
+  test('the second begins a vessel, further ones go on, and after its end another begins', async () => {
+    await setPoint(tracing, A);
+    expect(first.value).toEqual(A);
+    expect(clicks()).toEqual([]);
+    await setPoint(tracing, B);
+    await setPoint(tracing, C);
+    expect(clicks()).toEqual([[A, B, C]]);
+    endVessel();
+    await setPoint(tracing, C);
+    await setPoint(tracing, A);
+    expect(clicks()).toEqual([
+      [A, B, C],
+      [C, A],
+    ]);
+  });
+
+  test('that are set while the first two are traced are of the same vessel', async () => {
+    await Promise.all([setPoint(tracing, A), setPoint(tracing, B), setPoint(tracing, C)]);
+    expect(clicks()).toEqual([[A, B, C]]);
+    expect(drawn.value?.clicks).toHaveLength(3);
+  });
+
+  test('a vessel that was ended while it was traced does not go on', async () => {
+    await setPoint(tracing, A);
+    const setting = setPoint(tracing, B);
+    endVessel();
+    await setting;
+    expect(active.value).toBeNull();
+    expect(anchor.value).toBeNull();
+  });
+
+  describe('that are still traced', () => {
+    let open: () => void;
+    beforeEach(async () => {
+      tracing.gate = new Promise((resolve) => {
+        open = resolve;
+      });
+      await setPoint(tracing, A);
+      hairAt(B);
+    });
+
+    const layDown = () => {
+      tool.value = 'look';
+      endVessel();
+    };
+
+    test.each([
+      ['Enter', () => enter(tracing)],
+      ['Done and t', layDown],
+    ])('are finished after %s, and the next point is of another vessel', async (_, end) => {
+      const setting = [setPoint(tracing, B), setPoint(tracing, C)];
+      hairAt(C);
+      end();
+      expect(anchor.value).toBeNull();
+      expect(coming.value).toHaveLength(2);
+      tool.value = 'trace';
+      setting.push(setPoint(tracing, [1, 2, 3]), setPoint(tracing, [4, 5, 6]));
+      open();
+      await Promise.all(setting);
+      expect(clicks()).toEqual([
+        [A, B, C],
+        [
+          [1, 2, 3],
+          [4, 5, 6],
+        ],
+      ]);
+      expect(coming.value).toEqual([]);
+      expect(drawn.value?.clicks?.[0]).toEqual([1, 2, 3]);
+    });
+
+    test('are told where they are refused though the vessel was ended', async () => {
+      const setting = setPoint(tracing, [0, 0, FLOOR - 1]);
+      layDown();
+      open();
+      await setting;
+      expect(clicks()).toEqual([]);
+      expect(store.problem.value?.found).toBe('no lumen');
+    });
+  });
+
+  test.each([
+    [null, null],
+    [300, A],
+  ])('the first, where the scan has %s, is set as %j', async (value, expected) => {
+    store.problem.value = null;
+    const found = () => store.problem.value?.found ?? 'nothing wrong';
+    await setPoint(tracing, A);
+    await checkFirst({ at: async (point) => ({ point, value, vessel: null, arc_length: null }) });
+    expect(first.value).toEqual(expected);
+    expect(found()).toBe(value === null ? 'a place outside of the scan' : 'nothing wrong');
+  });
+
+  test('a second point that is refused leaves the first', async () => {
+    await setPoint(tracing, A);
+    await setPoint(tracing, [0, 0, FLOOR - 1]);
+    expect(clicks()).toEqual([]);
+    expect(anchor.value).toEqual(A);
+    await setPoint(tracing, B);
+    expect(clicks()).toEqual([[A, B]]);
+  });
+
+  test('after the vessel was undone the next point begins one', async () => {
+    await setPoint(tracing, A);
+    await setPoint(tracing, B);
+    undo();
+    await setPoint(tracing, C);
+    expect(first.value).toEqual(C);
+  });
+
+  test('the last one is removed, down to the first', async () => {
+    for (const point of [A, B, C]) {
+      await setPoint(tracing, point);
+    }
+    removeLast(tracing);
+    await idle();
+    expect(clicks()).toEqual([[A, B]]);
+    removeLast(tracing);
+    await idle();
+    expect(clicks()).toEqual([]);
+    expect(anchor.value).toEqual(A);
+    removeLast(tracing);
+    expect(anchor.value).toBeNull();
+  });
+
+  test('in the tool for stoppers are stoppers', async () => {
+    tool.value = 'stopper';
+    await setPoint(tracing, A);
+    expect(document_.value.stoppers).toEqual([{ center: A, radius: 3 }]);
+  });
+});
+
+describe('by keys', () => {
+  test('Enter sets points at the cross-hair, and twice at one place ends the vessel', async () => {
+    for (const point of [A, B, C]) {
+      hairAt(point);
+      enter(tracing);
+      await idle();
+    }
+    expect(clicks()).toEqual([[A, B, C]]);
+    enter(tracing);
+    expect(active.value).toBeNull();
+    expect(clicks()).toEqual([[A, B, C]]);
+  });
+
+  test('Enter accepts the place of a projection before all else', async () => {
+    hairAt(C);
+    candidate.value = A;
+    enter(tracing);
+    expect(first.value).toEqual(A);
+    expect(candidate.value).toBeNull();
+    expect(acceptCandidate(tracing)).toBe(false);
+  });
+
+  test('Escape goes back step by step: the place, the vessel, the tool', () => {
+    first.value = A;
+    candidate.value = B;
+    expect(leave()).toBe(true);
+    expect([candidate.value, first.value]).toEqual([null, A]);
+    expect(leave()).toBe(true);
+    expect([first.value, tool.value]).toEqual([null, 'trace']);
+    expect(leave()).toBe(true);
+    expect(tool.value).toBe('look');
+    expect(leave()).toBe(false);
+  });
+});
+
+describe('the live path', () => {
+  test('leads from the last point to the pointer, and ends with the vessel', async () => {
+    await setPoint(tracing, A);
+    target.value = C;
+    await idle();
+    expect(livePaths.value).toEqual([{ points: [A, [20, 0, 0], C], isFound: true }]);
+    endVessel();
+    await idle();
+    expect(livePaths.value).toEqual([]);
+  });
+
+  test('that comes after the vessel was left is not shown', async () => {
+    await setPoint(tracing, A);
+    let open = () => {};
+    tracing.gate = new Promise((resolve) => {
+      open = resolve;
+    });
+    target.value = C;
+    leave();
+    const seen: number[] = [];
+    const watching = livePaths.subscribe((paths) => seen.push(paths.length));
+    open();
+    await idle();
+    watching();
+    expect(Math.max(...seen)).toBe(0);
+  });
+
+  test('is straight and told so where none is found', async () => {
+    await setPoint(tracing, A);
+    const far: Vector = [1, 1, FLOOR - 1];
+    target.value = far;
+    await idle();
+    expect(livePaths.value).toEqual([{ points: [A, far], isFound: false }]);
+  });
+
+  test('is asked for again while it is not found and the pointer rests, but not for ever', async () => {
+    await setPoint(tracing, A);
+    let asked = 0;
+    const path = tracing.path.bind(tracing);
+    tracing.path = async (request) => {
+      asked += 1;
+      return asked < 3 ? null : path(request);
+    };
+    target.value = C;
+    await idle();
+    expect(asked).toBe(3);
+    expect(livePaths.value[0]?.isFound).toBe(true);
+    target.value = [1, 1, FLOOR - 1];
+    await idle();
+    expect(asked).toBe(43);
+  });
+
+  test('leads to both neighbours of a point that is dragged', async () => {
+    for (const point of [A, B, C]) {
+      await setPoint(tracing, point);
+    }
+    dragged.value = { id: drawn.value?.id ?? -1, number: 1, point: [9, 9, 9] };
+    await idle();
+    expect(livePaths.value.map(({ points }) => [points[0], points.at(-1)])).toEqual([
+      [A, [9, 9, 9]],
+      [C, [9, 9, 9]],
+    ]);
+  });
+
+  test('only the latest place is asked for while one is under way', async () => {
+    await setPoint(tracing, A);
+    await idle();
+    let asked = 0;
+    const path = tracing.path.bind(tracing);
+    tracing.path = (request) => {
+      asked += 1;
+      return path(request);
+    };
+    for (let n = 1; n <= 20; n++) {
+      target.value = [n, 0, 0];
+    }
+    await idle();
+    expect(asked).toBe(2);
+    expect(livePaths.value[0]?.points.at(-1)).toEqual([20, 0, 0]);
+  });
+});

@@ -1,0 +1,53 @@
+/** What was not saved is not lost unasked. */
+import { beforeEach, expect, test } from 'vitest';
+import { withVessels } from '../src/edit/changes';
+import { EMPTY } from '../src/edit/document';
+import { begin, change, document_, markSaved, undo } from '../src/edit/history';
+import { leave, leaving, lossWords } from '../src/state/leaving';
+
+const more = (...lines: number[]) =>
+  withVessels(
+    document_.value,
+    lines.map((line) => ({ line })),
+  );
+let gone = 0;
+const go = async () => {
+  gone += 1;
+};
+
+beforeEach(() => {
+  begin(EMPTY);
+  leaving.value = null;
+  gone = 0;
+});
+
+test('where nothing was edited, or the edits are undone, nothing is asked', async () => {
+  await leave(go);
+  change('add', more(1));
+  undo();
+  await leave(go);
+  expect([gone, leaving.value]).toEqual([2, null]);
+});
+
+test('vessels that were not saved are counted', async () => {
+  begin(more(7));
+  change('add', more(8));
+  await leave(go);
+  expect([gone, leaving.value?.words]).toEqual([0, 'Discard 1 vessel that was not saved?']);
+  change('add', more(9));
+  await leave(go);
+  expect(leaving.value?.words).toBe('Discard 2 vessels that were not saved?');
+  await leaving.value?.go();
+  expect(gone).toBe(1);
+});
+
+test('other changes are told of, as those since it was saved', async () => {
+  change('add', more(8));
+  markSaved(document_.value);
+  await leave(go);
+  expect(gone).toBe(1);
+  change('bridge', { ...document_.value, bridge: true });
+  await leave(go);
+  expect([gone, leaving.value?.words]).toEqual([1, 'Discard changes that were not saved?']);
+  expect(lossWords(EMPTY, document_.value)).toBe('Discard changes that were not saved?');
+});

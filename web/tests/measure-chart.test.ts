@@ -1,0 +1,189 @@
+/** The axes of a profile, its curves and its flags; the lying vessel on the same axis. */
+import { describe, expect, test } from 'vitest';
+import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
+import { bandPath, counted, linePath, lonely, spreadOf, stretches, topOf } from '../src/measure/curves';
+import { flagsAt, flagsIn, offeredWidest, runs } from '../src/measure/flags';
+import { lyingBox, lyingIn, lyingPicture } from '../src/measure/lying';
+import { pixelAt, ticks, valueAt } from '../src/measure/scale';
+import { fittingSide } from '../src/measure/sections';
+import { madeProfile } from './measured';
+
+const AXIS = { low: 0, high: 60, start: 50, end: 650 };
+
+describe('an axis', () => {
+  test('goes from lengths to pixels and back', () => {
+    expect(pixelAt(AXIS, 0)).toBe(50);
+    expect(pixelAt(AXIS, 30)).toBe(350);
+    expect(valueAt(AXIS, pixelAt(AXIS, 12.5))).toBeCloseTo(12.5, 12);
+  });
+
+  test('ends where the vessel does', () => {
+    expect(valueAt(AXIS, -1000)).toBe(0);
+    expect(valueAt(AXIS, 5000)).toBe(60);
+  });
+
+  test('may go upwards', () => {
+    const up = { low: 0, high: 10, start: 200, end: 20 };
+    expect(pixelAt(up, 10)).toBe(20);
+    expect(valueAt(up, 110)).toBeCloseTo(5, 12);
+  });
+});
+
+describe('ticks', () => {
+  test.each([
+    [0, 60, 6, [0, 10, 20, 30, 40, 50, 60]],
+    [0, 60, 5, [0, 20, 40, 60]],
+    [0, 9.4, 5, [0, 2, 4, 6, 8]],
+    [0, 0.7, 4, [0, 0.2, 0.4, 0.6]],
+    [12, 118, 4, [50, 100]],
+  ])('from %d to %d, %d at most', (low, high, most, expected) => {
+    expect(ticks(low, high, most)).toEqual(expected);
+  });
+
+  test('there are none on an axis without length', () => {
+    expect(ticks(3, 3, 5)).toEqual([]);
+    expect(ticks(0, Number.NaN, 5)).toEqual([]);
+  });
+});
+
+describe('curves', () => {
+  const axes = [
+    { low: 0, high: 4, start: 0, end: 4 },
+    { low: 0, high: 10, start: 10, end: 0 },
+  ] as const;
+  const places = [0, 1, 2, 3, 4];
+
+  test('are interrupted where nothing counts', () => {
+    expect(stretches([1, 2, null, 3, null])).toEqual([[0, 1], [3]]);
+    expect(linePath(...axes, places, [1, 2, null, 3, 4])).toBe('M0.00 9.00L1.00 8.00M3.00 7.00L4.00 6.00');
+  });
+
+  test('sections that stand alone are dots', () => {
+    expect(lonely([1, null, 2, null, null])).toEqual([0, 2]);
+    expect(linePath(...axes, places, [1, null, 2, null, null])).toBe('');
+  });
+
+  test('a band goes forth above and back below', () => {
+    const path = bandPath(...axes, places, [
+      [1, 1, null, null, null],
+      [2, 3, 4, null, null],
+    ]);
+    expect(path).toBe('M0.00 8.00L1.00 7.00L1.00 9.00L0.00 9.00Z');
+  });
+
+  test('the band is two standard deviations wide to both sides', () => {
+    const profile = madeProfile();
+    const [low, high] = spreadOf(profile);
+    expect(low[20]).toBeCloseTo(7.8, 12);
+    expect(high[20]).toBeCloseTo(8.2, 12);
+    // Sections that do not count have none.
+    expect(low[118]).toBeNull();
+  });
+
+  test('the largest diameter that counts has room', () => {
+    expect(topOf(madeProfile())).toBeCloseTo(1.12 * 8.8, 12);
+    const none = { ...madeProfile(), counts: madeProfile().counts.map(() => false) };
+    expect(topOf(none)).toBeCloseTo(1.12 * 8.8, 12);
+    expect(counted(none, none.diameter).every((value) => value === null)).toBe(true);
+    expect(topOf({ ...none, diameter_max: none.diameter_max.map(() => null) })).toBe(1);
+  });
+});
+
+describe('flags', () => {
+  test('each has a row in the order of Python, where it is set', () => {
+    expect(flagsIn(madeProfile()).map(({ word }) => word)).toEqual(['branch', 'calcium']);
+  });
+
+  test('runs reach half a step beyond their sections', () => {
+    expect(runs(madeProfile(), 'calcium')).toEqual([[18.75, 21.25]]);
+    expect(runs(madeProfile(), 'branch')).toEqual([[50.25, 60.25]]);
+    expect(runs(madeProfile(), 'metal')).toEqual([]);
+  });
+
+  test('two stretches are two runs', () => {
+    const profile = madeProfile(4);
+    const flags = profile.flags.map((_, n) => (n === 1 || n === 3 ? ['metal'] : []));
+    expect(runs({ ...profile, flags }, 'metal')).toEqual([
+      [0.25, 0.75],
+      [1.25, 1.75],
+    ]);
+  });
+});
+
+describe('the lying vessel', () => {
+  const size = [900, 260] as const;
+
+  test('has the axis of the chart', () => {
+    expect(chartLayout(madeProfile(), size).x).toEqual(axisAlong(60, 900));
+    expect(axisAlong(60, 900)).toEqual({ low: 0, high: 60, start: LEFT, end: 900 - RIGHT });
+  });
+
+  test('the middle of each column is at the arc length of its row in the CPR', () => {
+    const x = axisAlong(60, 900);
+    const lying = lyingIn(x, { height: 150, density: 2, fitting: 22 });
+    // As the engine lays it out: a row every `spacing` mm, the first one at the first point.
+    const columns = Math.floor(60 / lying.spacing + 1e-9) + 1;
+    const box = lyingBox(x, lying, [columns, 41]);
+    const pixel = box.width / columns;
+    for (const n of [0, 100, columns - 1]) {
+      expect(box.left + (n + 0.5) * pixel).toBeCloseTo(pixelAt(x, n * lying.spacing), 9);
+    }
+  });
+
+  test('a long vessel is true to scale, a short one shows at least its lumen', () => {
+    const long = lyingIn(axisAlong(400, 900), { height: 150, density: 1, fitting: 22 });
+    expect(long.stretch).toBeCloseTo(1, 12);
+    const short = lyingIn(axisAlong(40, 900), { height: 150, density: 1, fitting: 60 });
+    expect(short.width).toBe(36);
+    expect(short.stretch).toBeLessThan(0.5);
+    expect(short.height).toBe(150);
+  });
+
+  test('its first row is its first column, its last column its first row', () => {
+    const pixels = new Uint32Array([1, 2, 3, 4, 5, 6]);
+    const picture = { size: [2, 3] as const, bytes: new Uint8ClampedArray(pixels.buffer) };
+    const { size: turned, bytes } = lyingPicture(picture);
+    expect(turned).toEqual([3, 2]);
+    expect([...new Uint32Array(bytes.buffer)]).toEqual([2, 4, 6, 1, 3, 5]);
+  });
+
+  test('pictures of sections fit the lumens that count', () => {
+    expect(fittingSide(madeProfile())).toBe(22);
+    const nothing = madeProfile().diameter_max.map(() => null);
+    expect(fittingSide({ ...madeProfile(), diameter_max: nothing })).toBe(30);
+  });
+});
+
+describe('doubts', () => {
+  const profile = madeProfile();
+  const stenosis = (at: number, ...references: number[]) => ({
+    percent: 50,
+    at,
+    diameter: 4,
+    uncertainty: null,
+    reference: 8,
+    references: references.map((place) => ({ at: place, diameter: 8 })),
+    method: 'nascet' as const,
+    words: '',
+    group: null,
+  });
+
+  test('a percentage has the flags of all places that it comes from, each once', () => {
+    expect(flagsAt(profile, stenosis(30, 15, 45))).toBe('');
+    expect(flagsAt(profile, stenosis(30, 20, 45))).toBe('At these places: calcium');
+    expect(flagsAt(profile, stenosis(20.5, 20, 55))).toBe('At these places: branch, calcium');
+  });
+
+  test('a widest place at or beside a branch, or of an irregular outline, is not offered', () => {
+    const widestAt = (at: number) => offeredWidest({ ...profile, widest: { at, diameter: 9 } });
+    expect(widestAt(10)).toEqual({ at: 10, diameter: 9 });
+    // Calcium is told beside it.
+    expect(widestAt(20)?.at).toBe(20);
+    expect(widestAt(49)?.at).toBe(49);
+    expect(widestAt(49.5)).toBeNull();
+    expect(widestAt(55)).toBeNull();
+    const irregular = profile.flags.map((_, n) => (n === 20 ? ['irregular'] : []));
+    expect(offeredWidest({ ...profile, flags: irregular })).toBeNull();
+    expect(offeredWidest({ ...profile, widest: null })).toBeNull();
+  });
+});

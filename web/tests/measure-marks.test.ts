@@ -1,0 +1,221 @@
+/** What a reader marks on a vessel, and what is suggested meanwhile. */
+import { describe, expect, test } from 'vitest';
+import type { Pair, Vector } from '../src/core/messages';
+import { EMPTY } from '../src/edit/document';
+import {
+  allConfirmed,
+  isGraded,
+  moved,
+  NOTHING_SUGGESTED,
+  type Place,
+  placeAfter,
+  placesOf,
+  referenceSlots,
+  removed,
+  type Suggested,
+  stretchAround,
+} from '../src/measure/marks';
+import { centerAt, seenNearest, snapped } from '../src/measure/sections';
+import { marksOf, withMarks } from '../src/measure/vessels';
+import { madeProfile, marks } from './measured';
+
+const profile = madeProfile();
+const SUGGESTED: Suggested = [
+  { at: 15, diameter: 8 },
+  { at: 45, diameter: 8 },
+];
+const found = (given: ReturnType<typeof marks>, suggested = SUGGESTED) => placesOf(profile, given, suggested);
+const short = (places: readonly Place[]) =>
+  places.map(({ kind, slot, at, isSuggestion }) => `${kind} ${slot} ${at}${isSuggestion ? '?' : ''}`);
+function place(given: ReturnType<typeof marks>, kind: string, slot = 0): Place {
+  const one = found(given).find((each) => each.kind === kind && each.slot === slot);
+  if (!one) {
+    throw new Error(`no ${kind} ${slot}`);
+  }
+  return one;
+}
+
+describe('places', () => {
+  test('all are suggestions while nothing is marked', () => {
+    expect(short(found(marks({})))).toEqual(['place 0 30?', 'reference 0 15?', 'reference 1 45?']);
+  });
+
+  test('a vessel of which no section counts has none', () => {
+    expect(placesOf({ ...profile, narrowest: null }, marks({}), NOTHING_SUGGESTED)).toEqual([]);
+  });
+
+  test('a reference stands on its side of the stenosis, and the other side is still suggested', () => {
+    expect(short(found(marks({ at: 30, references: [40] })))).toEqual([
+      'place 0 30',
+      'reference 0 15?',
+      'reference 1 40',
+    ]);
+    expect(referenceSlots(marks({ references: [12] }), 30)).toEqual([12, null]);
+    expect(referenceSlots(marks({ references: [50, 40] }), 30)).toEqual([40, 50]);
+  });
+
+  test('with two references nothing more is suggested', () => {
+    expect(short(found(marks({ at: 30, references: [10, 50] })))).toEqual([
+      'place 0 30',
+      'reference 0 10',
+      'reference 1 50',
+    ]);
+  });
+});
+
+describe('moving', () => {
+  test('a suggestion that is moved becomes a mark, and nothing else does', () => {
+    const given = marks({});
+    const after = moved(profile, given, place(given, 'reference', 1), 42);
+    expect(after).toEqual(marks({ references: [42] }));
+    expect(moved(profile, given, place(given, 'place'), 28)).toEqual(marks({ at: 28 }));
+  });
+
+  test('references stay on their side, and both in order', () => {
+    const given = marks({ at: 30, references: [15, 45] });
+    expect(moved(profile, given, place(given, 'reference', 0), 50).references).toEqual([30, 45]);
+    expect(moved(profile, given, place(given, 'reference', 1), 3).references).toEqual([15, 30]);
+    expect(moved(profile, given, place(given, 'reference', 1), 1000).references).toEqual([15, 60]);
+  });
+
+  test('a single reference passes the stenosis, and is the one on the other side then', () => {
+    for (const given of [marks({}), marks({ references: [45] }), marks({ at: 30, references: [45] })]) {
+      const one = place(given, 'reference', 1);
+      for (const [to, slot] of [
+        [30.5, 1],
+        [30, 1],
+        [29.5, 0],
+        [12, 0],
+        [33, 1],
+      ] as const) {
+        const after = moved(profile, given, one, to);
+        expect(after).toEqual({ ...given, references: [to] });
+        expect(placeAfter(profile, given, one, after)).toMatchObject({ slot, at: to, isSuggestion: false });
+      }
+    }
+  });
+
+  test('a reference that lies exactly at the stenosis is kept from passing another one', () => {
+    const given = marks({ at: 30, references: [15, 30] });
+    const one = place(given, 'reference', 1);
+    const after = moved(profile, given, one, 20);
+    expect(after.references).toEqual([15, 30]);
+    expect(placeAfter(profile, given, one, after)).toMatchObject({ slot: 1, at: 30 });
+  });
+
+  test('the stenosis stays between its references', () => {
+    const given = marks({ at: 30, references: [15, 45] });
+    expect(moved(profile, given, place(given, 'place'), 5).at).toBe(15);
+    expect(moved(profile, given, place(given, 'place'), 55).at).toBe(45);
+    expect(moved(profile, marks({}), place(marks({}), 'place'), -4).at).toBe(0);
+  });
+
+  test('two references of a file that lie on one side can both be moved', () => {
+    const given = marks({ at: 10, references: [20, 40] });
+    expect(moved(profile, given, place(given, 'reference', 0), 25).references).toEqual([25, 40]);
+  });
+
+  test('the ends of a stretch keep their order', () => {
+    const given = marks({ at: 30, stretch: [20, 40] });
+    expect(moved(profile, given, place(given, 'stretch', 0), 55).stretch).toEqual([39, 40]);
+    expect(moved(profile, given, place(given, 'stretch', 1), 2).stretch).toEqual([20, 21]);
+  });
+});
+
+describe('taking and removing', () => {
+  test('all suggestions are taken at once', () => {
+    const after = allConfirmed(profile, marks({}), SUGGESTED);
+    expect(after).toEqual(marks({ at: 30, references: [15, 45] }));
+    expect(isGraded(after)).toBe(true);
+  });
+
+  test('what is taken stands where it was shown, also beside references that lie on one side', () => {
+    for (const references of [[10, 20], [35, 50], [20], [40]]) {
+      const given = marks({ references });
+      const dashed = found(given).filter(({ isSuggestion }) => isSuggestion);
+      expect(dashed.length).toBeGreaterThan(0);
+      const after = allConfirmed(profile, given, SUGGESTED);
+      expect(after.at).toBe(30);
+      const offered = dashed.filter(({ kind }) => kind === 'reference').map(({ at }) => at);
+      expect(after.references).toEqual([...references, ...offered].sort((a, b) => a - b));
+    }
+  });
+
+  test('nothing is graded by suggestions, and nothing by ECST without an original diameter', () => {
+    expect(isGraded(marks({}))).toBe(false);
+    expect(isGraded(marks({ at: 30 }))).toBe(false);
+    expect(isGraded(marks({ at: 30, references: [45], method: 'ecst' }))).toBe(false);
+    expect(isGraded(marks({ at: 30, method: 'ecst', original: 9 }))).toBe(true);
+  });
+
+  test('a mark that is removed is a suggestion again; a suggestion stays', () => {
+    const given = marks({ at: 30, references: [15, 45] });
+    expect(removed(given, place(given, 'reference', 0)).references).toEqual([45]);
+    expect(removed(given, place(given, 'place')).at).toBeNull();
+    expect(removed(marks({}), place(marks({}), 'place'))).toEqual(marks({}));
+  });
+
+  test('where the first stretch goes the second one takes its place', () => {
+    const given = marks({ stretch: [1, 5], secondStretch: [9, 20] });
+    expect(removed(given, place(given, 'stretch', 1))).toEqual(marks({ stretch: [9, 20] }));
+    expect(removed(given, place(given, 'secondStretch'))).toEqual(marks({ stretch: [1, 5] }));
+  });
+
+  test('a stretch lies within the vessel', () => {
+    expect(stretchAround(profile, 30)).toEqual([22.5, 37.5]);
+    expect(stretchAround(profile, 1)).toEqual([0, 15]);
+    expect(stretchAround(profile, 60)).toEqual([45, 60]);
+  });
+});
+
+describe('sections', () => {
+  test('the nearest one counts, of two the first', () => {
+    expect(snapped(profile, 12.3)).toBe(12.5);
+    expect(snapped(profile, 12.25)).toBe(12);
+    expect(snapped(profile, 99)).toBe(60);
+  });
+
+  test('between two sections the middle lies between their middles', () => {
+    expect(centerAt(profile, 12.2)).toEqual([0, 0, 12.2]);
+    expect(centerAt(profile, 0)).toEqual([0, 0, 0]);
+    expect(centerAt(profile, 70)).toEqual([0, 0, 60]);
+  });
+
+  test('what is seen nearest to the pointer is found', () => {
+    const seen = ([, , z]: Vector): Pair => [10, 4 * z];
+    expect(seenNearest(profile, seen, [17, 81], 5)).toBe(20);
+  });
+
+  test('where the vessel crosses itself the place stays on its side of the loop', () => {
+    // Seen from the end of a bend: 20 mm and 40 mm lie at the same pixel.
+    const seen = ([, , z]: Vector): Pair => [200 - 10 * Math.abs(z - 30), 0];
+    expect(seenNearest(profile, seen, [100, 2], 23)).toBe(20);
+    expect(seenNearest(profile, seen, [100, 2], 37)).toBe(40);
+  });
+});
+
+describe('the document', () => {
+  const vessel = (id: number, line: number) => ({
+    id,
+    line,
+    name: '',
+    color: '#ffffff',
+    isHidden: false,
+    clicks: null,
+    doubt: null,
+  });
+  const before = { ...EMPTY, vessels: [vessel(4, 9), vessel(5, 7)] };
+
+  test('keeps marks by the ids of vessels, which stay when their lines change', () => {
+    const after = withMarks(before, 9, marks({ at: 3 }));
+    expect(after.marks).toEqual({ 4: marks({ at: 3 }) });
+    expect(marksOf(after, 9).at).toBe(3);
+    expect(marksOf(after, 7)).toEqual(marks({}));
+    const edited = { ...after, vessels: [vessel(4, 12), vessel(5, 7)] };
+    expect(marksOf(edited, 12).at).toBe(3);
+  });
+
+  test('stays as it is where no vessel has the line', () => {
+    expect(withMarks(before, 12345, marks({ at: 5 }))).toBe(before);
+  });
+});

@@ -1,0 +1,104 @@
+/** Profiles are measured once, kept by their lines, and can be stopped. */
+import { beforeEach, expect, test } from 'vitest';
+import { Failure } from '../src/core/failure';
+import type { Measuring, Profile } from '../src/core/measuring';
+import {
+  beingMeasured,
+  forgetProfiles,
+  giveFwhm,
+  givenFwhm,
+  measure,
+  measureAgain,
+  profiles,
+  stopMeasuring,
+  stopped,
+} from '../src/measure/profiles';
+import * as store from '../src/state/store';
+import { madeProfile } from './measured';
+
+/** Measures when it is told to, and notes what it was asked for. */
+class Fake {
+  readonly asked: [number, number | null][] = [];
+  answer: (profile: Profile) => void = () => undefined;
+  refuse: (error: Failure) => void = () => undefined;
+
+  profile(line: number, fwhm: number | null, told: (progress: typeof store.progress.value & object) => void) {
+    this.asked.push([line, fwhm]);
+    told({ words: 'measuring', done: 0, total: null });
+    return new Promise<Profile>((resolve, reject) => {
+      this.answer = resolve;
+      this.refuse = reject;
+    });
+  }
+}
+
+let fake: Fake;
+let measuring: Measuring;
+beforeEach(() => {
+  fake = new Fake();
+  measuring = fake as unknown as Measuring;
+  forgetProfiles();
+  givenFwhm.value = null;
+  store.progress.value = null;
+});
+
+test('a line is measured once', async () => {
+  const first = measure(measuring, 3);
+  await measure(measuring, 3);
+  expect(store.progress.value?.words).toBe('measuring');
+  fake.answer(madeProfile());
+  await first;
+  await measure(measuring, 3);
+  expect(fake.asked).toEqual([[3, null]]);
+  expect(profiles.value.get(3)).toHaveProperty('profile');
+  expect(store.progress.value).toBeNull();
+});
+
+test('why a line cannot be measured is kept too', async () => {
+  const asked = measure(measuring, 3);
+  fake.refuse(new Failure('measuring', 'vessel', 'nothing', 'lumen'));
+  await asked;
+  expect(profiles.value.get(3)).toHaveProperty('failure.found', 'nothing');
+  await measure(measuring, 3);
+  expect(fake.asked).toHaveLength(1);
+});
+
+test('what was stopped is measured only when it is asked for again', async () => {
+  const asked = measure(measuring, 3);
+  stopMeasuring();
+  expect([beingMeasured.value, stopped.value]).toEqual([null, 3]);
+  fake.refuse(new Failure('interrupted', 'view', 'a stop', 'none'));
+  await asked;
+  expect(profiles.value.size).toBe(0);
+  await measure(measuring, 3);
+  expect(fake.asked).toHaveLength(1);
+  measureAgain();
+  void measure(measuring, 3);
+  expect(fake.asked).toHaveLength(2);
+});
+
+test('a stop while nothing is measured does nothing', () => {
+  stopMeasuring();
+  expect(stopped.value).toBeNull();
+});
+
+test('an answer of another study is not kept', async () => {
+  const asked = measure(measuring, 3);
+  forgetProfiles();
+  fake.answer(madeProfile());
+  await asked;
+  expect(profiles.value.size).toBe(0);
+});
+
+test('with another width all is measured again', async () => {
+  const asked = measure(measuring, 3);
+  fake.answer(madeProfile());
+  await asked;
+  giveFwhm(0.8);
+  expect(profiles.value.size).toBe(0);
+  void measure(measuring, 3);
+  expect(fake.asked).toEqual([
+    [3, null],
+    [3, 0.8],
+  ]);
+});

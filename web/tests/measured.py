@@ -1,0 +1,89 @@
+"""Measure the vessels of a phantom with the Python package: what the page must show.
+
+The command line names the phantom. What was measured is written to standard output as JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from typing import Any
+
+from lumencut import Profile, measure, phantom
+from lumencut.measured_vessel import Marked, MeasuredVessel, profiles_of, vessels_json
+from lumencut.profile_files import csv_text
+from lumencut.profile_sections import counts, flag_words, nearest
+
+#: Where the first vessel is asked, in parts of its length.
+PLACE, BEFORE, AFTER = 0.5, 0.2, 0.8
+
+
+def numbers(profile: Profile) -> dict[str, Any]:
+    """The numbers of a profile by the names that the page has for them."""
+
+    def listed(values: Any) -> list[float | None]:
+        return [float(value) if math.isfinite(value) else None for value in values]
+
+    narrowest, widest = profile.narrowest(), profile.widest()
+    return {
+        "arc_length": listed(profile.arc_length),
+        "diameter": listed(profile.diameter_equivalent),
+        "diameter_min": listed(profile.diameter_min),
+        "diameter_max": listed(profile.diameter_max),
+        "area": listed(profile.area),
+        "uncertainty": listed(profile.uncertainty),
+        "counts": counts(profile).tolist(),
+        "flags": [flag_words(int(flags)) for flags in profile.flags],
+        "center": profile.center.tolist(),
+        "normal": profile.normal.tolist(),
+        "fwhm": profile.fwhm,
+        "fwhm_source": profile.fwhm_source,
+        "narrowest": None if narrowest is None else {"at": narrowest[0], "diameter": narrowest[1]},
+        "widest": None if widest is None else {"at": widest[0], "diameter": widest[1]},
+    }
+
+
+def asked(profile: Profile) -> dict[str, Any]:
+    """What the first vessel answers."""
+    length = float(profile.arc_length[-1])
+    at, before, after = (part * length for part in (PLACE, BEFORE, AFTER))
+    graded = profile.stenosis(at, (before, after), "area")
+    number = nearest(profile, at)
+    return {
+        "at": at,
+        "references": [before, after],
+        "percent": graded.percent,
+        "words": str(graded),
+        "suggested": [spot and spot._asdict() for spot in profile.suggested_references(at)],
+        "diameter_at": profile.diameter_at(at),
+        "number": number,
+        "contour": profile.contour[number].tolist(),
+        "length": profile.stretch(before, after).length,
+        "straight": profile.stretch(before, after).straight,
+        "direction": profile.direction(before, after).tolist(),
+        "c_arm": str(profile.c_arm(before, after)),
+        "angle": profile.angle_between((0.0, before), (after, length)),
+    }
+
+
+def main() -> None:
+    """Write it."""
+    scene = getattr(phantom, sys.argv[1])()
+    profiles = [measure(scene.volume, vessel, tree=scene.tree) for vessel in scene.tree]
+    options = dict.fromkeys(("fwhm", "at", "reference", "method", "original", "comparison", "group"))
+    measured = [
+        MeasuredVessel.of(str(n), vessel, profile, Marked())
+        for n, (vessel, profile) in enumerate(zip(scene.tree, profiles, strict=True))
+    ]
+    found = {
+        "profiles": [numbers(profile) for profile in profiles],
+        "asked": asked(profiles[0]),
+        "csv": csv_text(profiles_of(measured)),
+        "json": vessels_json(options | {"step": 0.5}, measured),
+    }
+    json.dump(found, sys.stdout, allow_nan=False)
+
+
+if __name__ == "__main__":
+    main()

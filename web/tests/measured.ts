@@ -1,0 +1,30 @@
+/** A vessel that is measured, made by formulas. */
+import type { Profile } from '../src/core/measuring';
+import type { Vector } from '../src/core/messages';
+import { NO_MARKS, type VesselMarks } from '../src/edit/document';
+
+/** So many mm long, with a section every 0.5 mm; 8 mm wide but for 4 mm at the middle, and not measured in its first 1 mm. */
+export function madeProfile(length = 60): Profile {
+  const places = Array.from({ length: 2 * length + 1 }, (_, n) => n / 2);
+  const width = (at: number) => (Math.abs(at - length / 2) < 4 ? 4 : 8);
+  const diameter = places.map((at) => (at < 1 ? null : width(at)));
+  const scaled = (factor: number) => diameter.map((value) => (value === null ? null : factor * value));
+  return {
+    arc_length: places,
+    diameter,
+    diameter_min: scaled(0.9),
+    diameter_max: scaled(1.1),
+    area: diameter.map((value) => (value === null ? null : (Math.PI * value * value) / 4)),
+    uncertainty: diameter.map((value) => (value === null ? null : 0.1)),
+    counts: places.map((at) => at >= 1 && at <= length - 10),
+    flags: places.map((at) => (at > length - 10 ? ['branch'] : Math.abs(at - 20) <= 1 ? ['calcium'] : [])),
+    center: places.map((at): Vector => [0, 0, at]),
+    normal: places.map((): Vector => [0, 0, 1]),
+    fwhm: 1.2,
+    fwhm_source: 'given',
+    narrowest: { at: length / 2, diameter: 4 },
+    widest: { at: 10, diameter: 8.8 },
+  };
+}
+
+export const marks = (some: Partial<VesselMarks>): VesselMarks => ({ ...NO_MARKS, ...some });

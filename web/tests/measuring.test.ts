@@ -1,0 +1,128 @@
+/** What the page measures is what the Python package measures (`measured.py`). */
+import { spawnSync } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { describe, expect, test } from 'vitest';
+import type { Marks, MeasuredVessel, Profile } from '../src/core/measuring';
+import type { Pair } from '../src/core/messages';
+import { MeasuringHost } from '../src/worker/measuring-host';
+import { opened } from './traced';
+
+/** Two compilers round sums and sines differently: by parts of a number, or of a mm. */
+const ROUNDING = 1e-9;
+
+interface Truth {
+  readonly profiles: readonly Profile[];
+  readonly asked: { readonly at: number; readonly references: Pair; readonly [name: string]: unknown };
+  readonly csv: string;
+  readonly json: string;
+}
+
+const UNMARKED: Marks = {
+  at: null,
+  references: [],
+  method: 'nascet',
+  original: null,
+  comparison: null,
+  group: null,
+};
+
+const here = import.meta.dirname;
+const python = join(here, '../../.venv/bin/python');
+
+/** What Python measured. */
+function truth(phantom: string): Truth {
+  const done = spawnSync(python, [join(here, 'measured.py'), phantom], {
+    encoding: 'utf-8',
+    maxBuffer: 1 << 26,
+  });
+  if (done.status !== 0) {
+    throw new Error(`measured.py ended with ${done.status}: ${done.stderr}`);
+  }
+  return JSON.parse(done.stdout);
+}
+
+/** Where two values of JSON differ by more than rounding; empty where nowhere. */
+function apart(found: unknown, expected: unknown, path = ''): string {
+  if (typeof found === 'number' && typeof expected === 'number') {
+    const most = ROUNDING * Math.max(1, Math.abs(expected));
+    return Math.abs(found - expected) <= most ? '' : `${path}: ${found}, not ${expected}`;
+  }
+  if (found && expected && typeof found === 'object' && typeof expected === 'object') {
+    const names = Object.keys(expected);
+    if (Object.keys(found).join() !== names.join()) {
+      return `${path}: ${Object.keys(found)}, not ${names}`;
+    }
+    const at = (value: object, name: string) => (value as Record<string, unknown>)[name];
+    const differences = names.map((name) => apart(at(found, name), at(expected, name), `${path}/${name}`));
+    return differences.find((difference) => difference !== '') ?? '';
+  }
+  return found === expected ? '' : `${path}: ${found}, not ${expected}`;
+}
+
+/** The fields of a table, each as a number where it is one. */
+function fields(table: string): (number | string)[] {
+  const words = table.split(/[,\n]/);
+  return words.map((word) => (word === '' || Number.isNaN(Number(word)) ? word : Number(word)));
+}
+
+const withoutNumbers = (json: string) => json.replace(/-?\d+\.\d+(e[+-]?\d+)?/g, '0');
+
+/** What the first vessel answers, by the names that `measured.py` has. */
+async function answers(
+  host: MeasuringHost,
+  line: number,
+  length: number,
+  { at, references }: Truth['asked'],
+) {
+  const graded = await host.stenosis(line, { ...UNMARKED, at, references, method: 'area' });
+  const section = await host.section(line, at);
+  const stretch = await host.stretch(line, references);
+  const spots = await host.suggestedReferences(line, at);
+  const { diameter, uncertainty } = await host.diameterAt(line, at);
+  return {
+    at: graded?.at,
+    references: graded?.references.map((spot) => spot.at),
+    percent: graded?.percent,
+    words: graded?.words,
+    suggested: spots.map((spot) => spot && { arc_length: spot.at, diameter: spot.diameter }),
+    diameter_at: [diameter, uncertainty],
+    number: section.number,
+    contour: section.contour,
+    length: stretch.length,
+    straight: stretch.straight,
+    direction: stretch.direction,
+    c_arm: stretch.c_arm,
+    angle: await host.angleBetween(line, [0, references[0]], [references[1], length]),
+  };
+}
+
+test('numbers that differ are told', () => {
+  const same = { a: [1, null], b: 'x' };
+  expect(apart(same, { a: [1 + 1e-12, null], b: 'x' })).toBe('');
+  expect(apart(same, { a: [1 + 1e-6, null], b: 'x' })).toBe('/a/0: 1, not 1.000001');
+  expect(apart(same, { a: [1, 2], b: 'x' })).toBe('/a/1: null, not 2');
+  expect(apart(same, { a: [1, null] })).toBe(': a,b, not a');
+  expect(apart(fields('1,x\n2,'), fields('1,x\n3,'))).toBe('/2: 2, not 3');
+});
+
+describe.skipIf(!existsSync(python))('measuring is that of Python', () => {
+  test.each(['stenosis', 'y_junction'])('on the phantom %s', { timeout: 60_000 }, async (phantom) => {
+    const expected = truth(phantom);
+    const { engine, report } = await opened(phantom);
+    const host = new MeasuringHost(async (work) => work(engine));
+    const vessels = report().vessels ?? [];
+    const profiles = await Promise.all(vessels.map(({ line }) => host.profile(line, null)));
+    expect(profiles.length).toBe(expected.profiles.length);
+    expect(apart(profiles, expected.profiles)).toBe('');
+    const [{ line, length }] = vessels as [(typeof vessels)[0]];
+    expect(apart(await answers(host, line, length, expected.asked), expected.asked)).toBe('');
+    const measured: MeasuredVessel[] = vessels.map(({ line, name }, n) => {
+      return { id: `${n}`, name, line, marks: UNMARKED };
+    });
+    expect(apart(fields(await host.csv(measured)), fields(expected.csv))).toBe('');
+    const json = await host.json(measured);
+    expect(apart(JSON.parse(json), JSON.parse(expected.json))).toBe('');
+    expect(withoutNumbers(json)).toBe(withoutNumbers(expected.json));
+  });
+});

@@ -1,0 +1,122 @@
+/** A document goes into a session file and comes back; a session of another scan is told apart. */
+import { describe, expect, test } from 'vitest';
+import type { Report } from '../src/core/messages';
+import { type Document, NO_MARKS } from '../src/edit/document';
+import { cameraOf, contentOf, documentOf, isOfScan, type Looked } from '../src/session/content';
+
+const GRID = [
+  [0.5, 0, 0, -10],
+  [0, 0.5, 0, 20],
+  [0, 0, 1, 30],
+  [0, 0, 0, 1],
+];
+const REPORT: Report = {
+  volume: { size: [10, 11, 12], world_from_index: GRID, corners: [], smallest_side: 0.5 },
+  vessels: [],
+  windows: null,
+};
+const COLOR = '#1177aa';
+const DOCUMENT: Document = {
+  vessels: [
+    {
+      id: 0,
+      line: 4,
+      name: 'aorta',
+      color: COLOR,
+      isHidden: false,
+      clicks: [
+        [1, 2, 3],
+        [4, 5, 6],
+      ],
+      doubt: null,
+    },
+    { id: 1, line: 7, name: '', color: '#cc6600', isHidden: true, clicks: null, doubt: null },
+    {
+      id: 2,
+      line: 9,
+      name: '',
+      color: '#cc6600',
+      isHidden: false,
+      clicks: null,
+      doubt: 'it leaves sideways',
+    },
+  ],
+  stoppers: [{ center: [1, 1, 1], radius: 3 }],
+  bridge: true,
+  marks: { 1: { ...NO_MARKS, at: 12.5, references: [3, 40], method: 'area', stretch: [1, 9] } },
+  rulers: [{ from: [0, 0, 0], to: [3, 4, 0] }],
+};
+const LOOKED: Looked = {
+  camera: {
+    center: [0, 0, 0],
+    direction: [0, 1, 0],
+    up: [0, 0, 1],
+    size: [640.4, 480.6],
+    pixel_spacing: 0.5,
+  },
+  method: 'csr',
+  settings: { window: [300, 900] },
+  layout: 'strip',
+  crossHair: [1, 2, 3],
+  picked: { id: 1, at: 12.5 },
+};
+
+describe('the content of a session', () => {
+  test('gives the document back', () => {
+    expect(documentOf(contentOf(DOCUMENT, REPORT, LOOKED))).toEqual(DOCUMENT);
+  });
+
+  test('is made of numbers from 0, whatever the ids were', () => {
+    const [first, second, third] = DOCUMENT.vessels;
+    if (!first || !second || !third) {
+      throw new Error('three vessels');
+    }
+    const vessels = [third, { ...second, id: 8 }, { ...first, id: 5 }];
+    const odd = { ...DOCUMENT, vessels, marks: { 8: DOCUMENT.marks[1] ?? NO_MARKS } };
+    const content = contentOf(odd, REPORT, { ...LOOKED, picked: { id: 5, at: 1 } });
+    expect(content.session.view?.picked).toEqual({ vessel: 1, at_mm: 1 });
+    expect(content.lines.map((line) => line.line)).toEqual([7, 4]);
+    expect(content.doubtful_lines.map((line) => line.line)).toEqual([9]);
+    const back = documentOf(content);
+    expect(back.vessels.map(({ id, line }) => [id, line])).toEqual([
+      [0, 7],
+      [1, 4],
+      [2, 9],
+    ]);
+    expect(back.marks[0]?.at).toBe(12.5);
+  });
+
+  test('has whole pixels, and no view where there is none', () => {
+    expect(contentOf(DOCUMENT, REPORT, LOOKED).session.view?.camera.size).toEqual([640, 481]);
+    expect(contentOf(DOCUMENT, REPORT, null).session.view).toBeNull();
+  });
+
+  test('says nothing of files or the patient', () => {
+    const keys = Object.keys(contentOf(DOCUMENT, REPORT, LOOKED).session);
+    expect(keys).toEqual(['scan', 'vessels', 'doubtful', 'stoppers', 'bridge', 'rulers', 'view']);
+  });
+});
+
+describe('the scan of a session', () => {
+  const saved = contentOf(DOCUMENT, REPORT, null).session.scan;
+
+  test('is known again', () => expect(saved && isOfScan(saved, REPORT)).toBe(true));
+
+  test.each([
+    ['size', { size: [10, 11, 13] as const, world_from_index: GRID }],
+    ['place', { size: [10, 11, 12] as const, world_from_index: GRID.map((row) => row.map((n) => n + 0.1)) }],
+  ])('is told from one of another %s', (_, other) => expect(isOfScan(other, REPORT)).toBe(false));
+
+  test('is not known where no scan is open', () =>
+    expect(saved && isOfScan(saved, { ...REPORT, volume: null })).toBe(false));
+});
+
+test('a camera shows as much in a pane of another size', () => {
+  const view = contentOf(DOCUMENT, REPORT, LOOKED).session.view;
+  const camera = view && cameraOf(view, [1000, 962]);
+  expect(camera?.pixel_spacing).toBeCloseTo((0.5 * 480.6) / 962, 11);
+  expect(camera?.size).toEqual([1000, 962]);
+  // Saved and opened again and again in the same pane, it does not drift.
+  const again = view && cameraOf(view, LOOKED.camera.size);
+  expect(again?.pixel_spacing).toBeCloseTo(0.5, 11);
+});

@@ -1,0 +1,98 @@
+/** What the page traces and writes is what Python traces and writes. */
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { describe, expect, test } from 'vitest';
+import type { Vector } from '../src/core/messages';
+import type { CenterlineKind, LineContent } from '../src/core/tracing';
+import { opened, unheard } from './traced';
+
+interface Truth {
+  readonly phantom: string;
+  /** A file of a mask of it. */
+  readonly mask: string;
+  readonly clicks: readonly (readonly Vector[])[];
+  readonly lines: readonly LineContent[];
+  readonly files: Readonly<Record<CenterlineKind, string>>;
+  readonly branches: readonly LineContent[];
+  readonly masked: readonly LineContent[];
+  readonly notes: readonly string[];
+}
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+
+/** The truth; none where there is no Python that has the package. */
+function everyTruth(): readonly Truth[] {
+  const python = join(root, '.venv/bin/python');
+  if (!existsSync(python)) {
+    return [];
+  }
+  const folder = mkdtempSync(join(tmpdir(), 'lumencut-traced-'));
+  const done = spawnSync(python, [join(root, 'web/tests/traced.py'), folder], {
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
+  expect(done.status).toBe(0);
+  return JSON.parse(readFileSync(join(folder, 'truth.json'), 'utf-8'));
+}
+
+/** The largest difference of any number of two lines, which have the same numbers of points. */
+function apart(found: LineContent, truth: LineContent): number {
+  const flat = ({ points, radius, confidence }: LineContent) => [
+    ...points.flat(),
+    ...(radius ?? []).map(Number),
+    ...(confidence ?? []),
+  ];
+  expect(found.points.length).toBe(truth.points.length);
+  const [own, others] = [flat(found), flat(truth)];
+  expect(own.length).toBe(others.length);
+  return Math.max(...own.map((number, n) => Math.abs(number - (others[n] ?? Number.NaN))));
+}
+
+/** Sines and the like differ in their last bit from machine to machine (mm). */
+const LAST_BITS = 1e-9;
+/** Where voxels go by their distance to the wall, a last bit tells which of two equal ones goes first (mm). */
+const SHOWN = 1e-3;
+
+const every = everyTruth();
+
+describe.skipIf(every.length === 0)('as Python', () => {
+  test.each(every)('traces $phantom', async ({ phantom, clicks, lines, files }) => {
+    const { tracing } = await opened(phantom);
+    const request = { vessels: clicks, stoppers: [], bridge: false, beside: [] };
+    const traced = await tracing.trace(request, unheard);
+    expect(traced.length).toBe(lines.length);
+    for (const [n, truth] of lines.entries()) {
+      const found = await tracing.line(traced[n] ?? -1);
+      expect(apart(found, truth)).toBeLessThan(LAST_BITS);
+      expect(found.bridged).toEqual(truth.bridged);
+    }
+    // The same numbers give the same bytes.
+    const own = await Promise.all(lines.map((line) => tracing.add(line)));
+    const named = own.map((line, n) => ({ line, name: `vessel ${n}` }));
+    for (const kind of ['vtp', 'mrk.json'] as const) {
+      expect(new TextDecoder().decode(await tracing.write(named, kind))).toBe(files[kind]);
+    }
+  });
+
+  test.each(every)('finds the branches of $phantom', async ({ phantom, clicks, branches }) => {
+    const { tracing } = await opened(phantom);
+    const found = await tracing.traceFrom(clicks[0]?.[0] ?? [0, 0, 0], 1, unheard);
+    expect(found.length).toBe(branches.length);
+    for (const [n, truth] of branches.entries()) {
+      expect(apart(await tracing.line(found[n]?.line ?? -1), truth)).toBeLessThan(SHOWN);
+    }
+  });
+
+  test.each(every)('traces a mask of $phantom', async ({ phantom, mask, masked, notes }) => {
+    const { tracing } = await opened(phantom);
+    const file = new File([readFileSync(mask)], 'mask.nii.gz');
+    const found = await tracing.traceMask([{ path: 'mask.nii.gz', file }], unheard);
+    expect(found.notes).toEqual(notes);
+    expect(found.lines.map(({ name }) => name)).toEqual(masked.map(() => ''));
+    for (const [n, truth] of masked.entries()) {
+      expect(apart(await tracing.line(found.lines[n]?.line ?? -1), truth)).toBeLessThan(SHOWN);
+    }
+  });
+});
