@@ -35,6 +35,7 @@ SCRIPTS = tuple(
     )
 )
 TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")
+FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
 
@@ -93,6 +94,8 @@ def lint_checks() -> list[Check]:
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
+        # Fuzzing has a lock file of its own and comes last: what a crate newly depends on is asked for at once.
+        Check("lock file of fuzzing", (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)),
         Check("licences", (sys.executable, "scripts/licences.py", "--check")),
         Check("tools", ("make", "--no-print-directory", "tools")),
         Check("format of Python", (f"{BIN}/ruff", "format", "--check")),
