@@ -40,11 +40,13 @@ export const fileOf = (name: string, buffer: Buffer): MadeFile => ({
   buffer,
 });
 
-/** What a button of the menu "Save" saves. */
+/** What is saved by a button of the menu "Save", which closes; the page says the name of the file. */
 export async function saved(viewer: Viewer, words: string): Promise<Buffer> {
+  const { page } = viewer;
   await menu(viewer).click();
-  const [download] = await Promise.all([viewer.page.waitForEvent('download'), button(viewer, words).click()]);
-  await menu(viewer).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), button(viewer, words).click()]);
+  await expect(page.locator('.menu[open]')).toHaveCount(0);
+  await expect(page.getByTestId('told')).toContainText(`Saved as ${download.suggestedFilename()}`);
   return readFileSync(await download.path());
 }
 

@@ -1,0 +1,42 @@
+/** A scan is closed, and another one is opened. */
+import { expect, test } from '@playwright/test';
+import { SIZE } from './measured-tube';
+import { Viewer } from './page';
+
+test('what was not saved is not closed unasked, and measuring does not go on in the next scan', async ({
+  browser,
+}) => {
+  const tube = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
+  const { page } = tube;
+  await tube.rest();
+  const close = page.getByRole('button', { name: 'Close the scan' });
+  const question = page.getByRole('alertdialog');
+  await tube.press('m');
+  await page.getByRole('button', { name: 'Confirm the suggested places' }).click();
+  await expect(page.getByTestId('stenosis')).toContainText('% of the diameter');
+  await close.click();
+  await expect(question).toContainText('Discard changes that were not saved?');
+  await expect(question.getByRole('button', { name: 'Go back' })).toBeFocused();
+  await tube.press('Escape');
+  await expect(question).toHaveCount(0);
+  await expect(page.getByTestId('stenosis')).toContainText('% of the diameter');
+  await page.getByRole('button', { name: 'Ruler' }).click();
+  await close.click();
+  await question.getByRole('button', { name: 'Discard' }).click();
+  await expect(page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
+  await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
+  await tube.rest();
+  await expect(page.getByRole('alert')).toHaveCount(0);
+  // Nothing was done since: it closes at once, as it does where a tool is still in hand.
+  await tube.press('m', 't');
+  await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'four');
+  await close.click();
+  await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
+  await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
+  await expect(page.getByRole('button', { name: 'Trace vessels' })).toHaveAttribute('aria-pressed', 'false');
+  await tube.rest();
+  await expect(page.getByRole('alert')).toHaveCount(0);
+  tube.expectNoFault();
+  await tube.close();
+});

@@ -1,0 +1,139 @@
+/** The places of a measurement, by mouse and by keys: the numbers are those of the Python package (`expected/make.py`). */
+import { expect, test } from '@playwright/test';
+import { MeasuredTube, PYTHON } from './measured-tube';
+
+let tube: MeasuredTube;
+test.beforeAll(async ({ browser }) => {
+  tube = await MeasuredTube.open(browser);
+});
+test.afterEach(() => tube.viewer.expectNoFault());
+test.afterAll(() => tube.viewer.close());
+
+test('measuring begins at the narrowest place, with the section and with the cross-hair', async () => {
+  const [at] = PYTHON.narrowest;
+  await expect(tube.viewer.page.getByTestId('section-numbers')).toContainText(`${at.toFixed(1)} mm`);
+  await expect(tube.viewer.readOut).toContainText(`${at.toFixed(1)} mm`);
+});
+
+test('places are suggested, and nothing is graded before a reader marks one', async () => {
+  await tube.nothingMarked();
+  const [at, diameter] = PYTHON.narrowest;
+  await expect(tube.row('place-0')).toContainText(`${diameter.toFixed(2)} ± `);
+  await expect(tube.row('place-0')).toContainText(` at ${at.toFixed(1)} mm`);
+  for (const [slot, [place]] of PYTHON.references.entries()) {
+    await expect(tube.row(`reference-${slot}`)).toContainText(`at ${place.toFixed(1)} mm`);
+  }
+  await expect(tube.stenosis()).toContainText('Nothing is marked');
+  await expect(tube.viewer.page.getByTestId('numbers')).not.toContainText('%');
+  await expect(tube.viewer.page.getByTestId('numbers')).toContainText(
+    `${PYTHON.widest[1].toFixed(2)} mm at ${PYTHON.widest[0].toFixed(1)} mm`,
+  );
+});
+
+test('by keys alone: the stenosis is that of Python', async () => {
+  await tube.marked();
+  await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
+  await tube.viewer.screenshot('measuring');
+});
+
+test('each place can be dragged in the profile, the CPR and on the vessel, and moves in all of them', async () => {
+  await tube.nothingMarked();
+  const three = async (name: string, at: string) => {
+    for (const where of ['in the profile', 'in the CPR', 'on the vessel']) {
+      await expect(tube.handle(`${name}, ${at} mm`, where)).toBeVisible();
+    }
+  };
+  await tube.dragBy(tube.handle('narrowest place', 'in the profile'), [await tube.pixels(-2.5), 0]);
+  await three('marked place', '30.0');
+  await tube.dragBy(tube.handle('reference before', 'in the CPR'), [await tube.pixels(-11.5), 12]);
+  await three('reference before', '10.0');
+  // On the vessel, which runs downwards from its first point at the feet: upwards in this view.
+  const [, low] = await tube.middleOf(tube.handle('marked place', 'on the vessel'));
+  const [, high] = await tube.middleOf(tube.handle('reference before', 'on the vessel'));
+  const [, from] = await tube.middleOf(tube.handle('reference after', 'on the vessel'));
+  const perMm = (low - high) / 20;
+  const target = low + 20 * perMm;
+  await tube.dragBy(tube.handle('reference after', 'on the vessel'), [3, target - from]);
+  await three('reference after', '50.0');
+  await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
+});
+
+test('one drag moves one place: a reference passes the stenosis, and stops there where one is behind', async () => {
+  await tube.nothingMarked();
+  const main = await tube.arcLength('place-0');
+  const from = await tube.arcLength('reference-1');
+  const { mouse } = tube.viewer.page;
+  const [x, y] = await tube.middleOf(tube.handle('reference after', 'in the profile'));
+  await mouse.move(x, y);
+  await mouse.down();
+  await mouse.move(x + (await tube.pixels(12 - from)), y, { steps: 25 });
+  await mouse.up();
+  await expect(tube.row('reference-0')).toContainText('at 12.0 mm');
+  await expect(tube.row('reference-0')).not.toContainText('(suggestion)');
+  // On the side that it left there is no mark.
+  await expect(tube.row('reference-1')).toContainText('(suggestion)');
+  const shown = [main, await tube.arcLength('reference-1')];
+  await tube.button('Confirm the suggested places').click();
+  await expect(tube.stenosis()).toContainText('% of the diameter');
+  expect([await tube.arcLength('place-0'), await tube.arcLength('reference-1')]).toEqual(shown);
+  await expect(tube.row('reference-0')).toContainText('at 12.0 mm');
+  await tube.dragBy(tube.handle('reference after', 'in the CPR'), [
+    await tube.pixels(10 - (shown[1] ?? 0)),
+    0,
+  ]);
+  await expect(tube.row('reference-1')).toContainText(`at ${main.toFixed(1)} mm`);
+  await expect(tube.row('reference-0')).toContainText('at 12.0 mm');
+});
+
+test('by keys a reference passes the stenosis too, and stays the one that has the focus', async () => {
+  await tube.nothingMarked();
+  const steps = (await tube.arcLength('reference-1')) - (await tube.arcLength('place-0'));
+  await tube.handle('reference after', 'in the profile').focus();
+  for (let n = 0; n < Math.ceil(steps / 5) + 2; n++) {
+    await tube.viewer.press('Shift+ArrowLeft');
+  }
+  await expect(tube.row('reference-0')).not.toContainText('(suggestion)');
+  await expect(tube.row('reference-1')).toContainText('(suggestion)');
+  await expect(tube.viewer.page.locator(':focus')).toHaveAttribute('aria-label', /^reference before, /);
+});
+
+test('values change while a place is dragged, and Escape takes the drag back', async () => {
+  await tube.marked();
+  const { mouse } = tube.viewer.page;
+  const [x, y] = await tube.middleOf(tube.handle('marked place', 'in the profile'));
+  await mouse.move(x, y);
+  await mouse.down();
+  await mouse.move(x + (await tube.pixels(-10)), y, { steps: 5 });
+  await expect(tube.row('place-0')).toContainText('at 20.0 mm');
+  await expect(tube.stenosis()).not.toHaveText(PYTHON.nascet);
+  await tube.viewer.press('Escape');
+  await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
+  await mouse.up();
+  await expect(tube.row('place-0')).toContainText('at 30.0 mm');
+});
+
+test('every step is undone and done again', async () => {
+  await tube.marked();
+  await tube.handle('marked place', 'in the profile').focus();
+  await tube.viewer.press('ArrowRight', 'ArrowRight');
+  await tube.dragBy(tube.handle('reference after', 'in the CPR'), [await tube.pixels(5), 0]);
+  await expect(tube.row('reference-1')).toContainText('at 55.0 mm');
+  await tube.viewer.press('Control+z');
+  await expect(tube.row('reference-1')).toContainText('at 50.0 mm');
+  await tube.viewer.press('Control+z', 'Control+z');
+  await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
+  await tube.viewer.press('Control+Shift+Z');
+  await expect(tube.row('place-0')).toContainText('at 30.5 mm');
+  await tube.viewer.press('Control+z');
+});
+
+test('Enter takes a suggestion, Delete takes a mark away', async () => {
+  await tube.nothingMarked();
+  await tube.handle('narrowest place', 'in the CPR').focus();
+  await tube.viewer.press('Enter');
+  await expect(tube.row('place-0')).toContainText('marked place');
+  await expect(tube.stenosis()).toContainText('Mark a reference');
+  await tube.handle('marked place', 'in the CPR').focus();
+  await tube.viewer.press('Delete');
+  await expect(tube.row('place-0')).toContainText('(suggestion)');
+});

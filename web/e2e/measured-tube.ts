@@ -1,0 +1,114 @@
+/** The tube with a narrowing at 30 mm in the layout of measuring: what can be done with its places. */
+import { readFileSync } from 'node:fs';
+import { type Browser, expect, type Locator } from '@playwright/test';
+import { saved, stenosis } from './controls';
+import { Viewer } from './page';
+
+/** A file that the Python package wrote (`expected/make.py`). */
+export const expected = (name: string): string =>
+  readFileSync(new URL(`./expected/${name}`, import.meta.url), 'utf-8');
+export const PYTHON = JSON.parse(expected('measuring.json'));
+export const SIZE = { width: 1280, height: 800 };
+
+export class MeasuredTube {
+  private constructor(readonly viewer: Viewer) {}
+
+  static async open(browser: Browser): Promise<MeasuredTube> {
+    const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', {
+      viewport: SIZE,
+      acceptDownloads: true,
+    });
+    const tube = new MeasuredTube(viewer);
+    await viewer.rest();
+    await viewer.press('m');
+    await expect(tube.row('place-0')).toBeVisible();
+    return tube;
+  }
+
+  row(name: string): Locator {
+    return this.viewer.page.getByTestId(`row-${name}`);
+  }
+
+  stenosis(): Locator {
+    return stenosis(this.viewer);
+  }
+
+  button(name: string | RegExp): Locator {
+    return this.viewer.page.getByRole('button', { name });
+  }
+
+  handle(place: string, where: string): Locator {
+    return this.button(new RegExp(`^${place}.*, ${where}$`));
+  }
+
+  tick(text: string): Locator {
+    const ticks = this.viewer.page.locator('.profile-chart text[text-anchor=middle]');
+    return ticks.filter({ hasText: new RegExp(`^${text}$`) });
+  }
+
+  async middleOf(locator: Locator): Promise<[number, number]> {
+    const box = await locator.boundingBox();
+    if (!box) {
+      throw new Error('it is not shown');
+    }
+    return [box.x + box.width / 2, box.y + box.height / 2];
+  }
+
+  /** Drags a handle by so many pixels. */
+  async dragBy(of: Locator, [dx, dy]: readonly [number, number]): Promise<void> {
+    const { mouse } = this.viewer.page;
+    const [x, y] = await this.middleOf(of);
+    await mouse.move(x, y);
+    await mouse.down();
+    await mouse.move(x + dx / 2, y + dy / 2, { steps: 3 });
+    await mouse.move(x + dx, y + dy, { steps: 3 });
+    await mouse.up();
+  }
+
+  /** Pixels of the chart for so many mm along the vessel of 60 mm. */
+  async pixels(mm: number): Promise<number> {
+    const [from, to] = await Promise.all([this.middleOf(this.tick('0')), this.middleOf(this.tick('60'))]);
+    return ((to[0] - from[0]) * mm) / 60;
+  }
+
+  /** Pixels of the section view for 1 mm: 50 mm have room in it. */
+  async sectionPixels(): Promise<number> {
+    return Math.min(...(await this.viewer.size('section'))) / 50;
+  }
+
+  /** The arc length that a row tells (mm). */
+  async arcLength(name: string): Promise<number> {
+    const words = (await this.row(name).textContent()) ?? '';
+    return Number.parseFloat(/ at ([\d.]+) mm/.exec(words)?.[1] ?? '');
+  }
+
+  /** Nothing is marked: all marks that were made before are removed. */
+  async nothingMarked(): Promise<void> {
+    for (const name of ['place-0', 'reference-0', 'reference-1']) {
+      const remove = this.row(name).getByRole('button', { name: /^Remove/ });
+      if (await remove.isVisible()) {
+        await remove.click();
+      }
+    }
+    await expect(this.row('place-0')).toContainText('(suggestion)');
+  }
+
+  /** The stenosis at 30 mm, with references at 10 and 50 mm, moved there by keys alone. */
+  async marked(): Promise<void> {
+    await this.nothingMarked();
+    await this.handle('narrowest place', 'in the profile').focus();
+    await this.viewer.press(...Array<string>(5).fill('ArrowLeft'));
+    await expect(this.row('place-0')).toContainText('at 30.0 mm');
+    await this.handle('reference before', 'in the CPR').focus();
+    await this.viewer.press('Shift+ArrowLeft', 'Shift+ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'ArrowLeft');
+    await this.handle('reference after', 'on the vessel').focus();
+    await this.viewer.press('Shift+ArrowDown', 'Shift+ArrowDown', 'ArrowRight', 'ArrowDown', 'ArrowDown');
+    await expect(this.row('reference-0')).toContainText('at 10.0 mm');
+    await expect(this.row('reference-1')).toContainText('at 50.0 mm');
+  }
+
+  /** The text that is saved by a button of the menu "Save". */
+  async saved(name: string): Promise<string> {
+    return (await saved(this.viewer, name)).toString('utf-8');
+  }
+}

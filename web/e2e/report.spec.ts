@@ -1,0 +1,95 @@
+/** What is taken away of a measured vessel: its table, its JSON and its report. */
+import { readFileSync } from 'node:fs';
+import { expect, test } from '@playwright/test';
+import { menu, REPORT, SESSION } from './controls';
+import { expected, MeasuredTube, PYTHON } from './measured-tube';
+
+let tube: MeasuredTube;
+test.beforeAll(async ({ browser }) => {
+  tube = await MeasuredTube.open(browser);
+});
+test.afterEach(() => tube.viewer.expectNoFault());
+test.afterAll(() => tube.viewer.close());
+
+test('the table and the JSON are those of Python', async () => {
+  await tube.marked();
+  const table = await tube.saved('Numbers of measured vessels (CSV)');
+  expect(table.split('\n').map(withoutRounding)).toEqual(
+    expected('measuring.csv').split('\n').map(withoutRounding),
+  );
+  const told = JSON.parse(await tube.saved('Numbers of measured vessels (JSON)'));
+  expect(told.vessels[0].stenosis.method).toBe('nascet');
+  expect(PYTHON.nascet).toContain(`${told.vessels[0].stenosis.percent.toFixed(0)} % of the diameter`);
+});
+
+/** A line of the table in which coordinates that are 0 but for rounding are 0: the last digits of those differ by the compiler. */
+const withoutRounding = (line: string): string =>
+  line
+    .split(',')
+    .map((cell) => (Math.abs(Number(cell)) < 1e-4 ? '0' : cell))
+    .join();
+
+test('the menu closes by Escape and by a press elsewhere', async () => {
+  const save = menu(tube.viewer);
+  const body = tube.button(SESSION);
+  await tube.marked();
+  await save.click();
+  await expect(body).toBeVisible();
+  expect(await tube.viewer.page.locator('.menu[open] button').first().textContent()).toMatch(/^Report/);
+  await tube.viewer.press('Escape');
+  await expect(body).not.toBeVisible();
+  await expect(save).toBeFocused();
+  await save.click();
+  await expect(body).toBeVisible();
+  await tube.viewer.page.getByRole('heading', { name: 'Places' }).click();
+  await expect(body).not.toBeVisible();
+});
+
+test('a report without a percentage says so where a place is marked, and what nobody looked at stands apart', async () => {
+  await tube.nothingMarked();
+  await tube.row('place-0').getByRole('button', { name: 'Confirm' }).click();
+  const [download] = await Promise.all([
+    tube.viewer.page.waitForEvent('download'),
+    tube.button('Save report').click(),
+  ]);
+  const words = 'No percentage: a place is marked and not graded. Mark a reference';
+  await expect(tube.viewer.page.getByTestId('told')).toContainText(`Saved as lumencut-report.html. ${words}`);
+  const html = readFileSync(await download.path(), 'utf-8');
+  expect(html).toContain(words);
+  expect(html).toMatch(/Saved on \d{4}-\d\d-\d\d \d\d:\d\d/);
+  const [looked = '', offered = ''] = html.split('Suggestions, not looked at');
+  expect(looked).toContain('marked place</td>');
+  expect(looked).not.toContain('reference before</td>');
+  expect(offered).toContain('reference before</td>');
+  await tube.marked();
+});
+
+test('the report opens offline, on one page of paper', async ({ browser }) => {
+  await tube.marked();
+  const html = await tube.saved(REPORT);
+  expect(html).not.toMatch(/:\/\/|<script/);
+  expect(html).not.toContain('phantom stenosis');
+  const page = await browser.newPage({ viewport: { width: 900, height: 1200 }, offline: true });
+  const requests: string[] = [];
+  page.on('request', (request) => requests.push(request.url()));
+  await page.setContent(html);
+  expect(requests.filter((address) => !address.startsWith('data:'))).toEqual([]);
+  await expect(page.locator('body')).toContainText(PYTHON.nascet);
+  await expect(page.locator('body')).toContainText('Lumencut is not a medical device.');
+  const widths = await page
+    .locator('img')
+    .evaluateAll((images) => images.map((image) => (image as HTMLImageElement).naturalWidth));
+  expect(widths).toHaveLength(4);
+  expect(widths.every((width) => width > 100)).toBe(true);
+  await page.screenshot({ path: 'test-results/screens/report.png', fullPage: true });
+  const paper = (await page.pdf({ format: 'A4' })).toString('latin1');
+  expect(paper.match(/\/Type \/Page\b/g)).toHaveLength(1);
+  await page.close();
+});
+
+test('the name of the scan is in the report where it is ticked', async () => {
+  await menu(tube.viewer).click();
+  await tube.viewer.page.getByLabel('with the name of the scan').check();
+  await menu(tube.viewer).click();
+  expect(await tube.saved(REPORT)).toContain('Scan: phantom stenosis');
+});
