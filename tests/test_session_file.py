@@ -50,7 +50,7 @@ MARKS = {
 }
 
 
-def write_session(path, tree, view=VIEW, hidden=(), marks=None):
+def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None):
     """Write a session file as the viewer does: markups with a field of their own."""
     write_centerlines(tree, path)
     vessels = [
@@ -74,6 +74,7 @@ def write_session(path, tree, view=VIEW, hidden=(), marks=None):
         "stoppers": [],
         "bridge": False,
         "rulers": [],
+        "fwhm_mm": fwhm,
         "view": view,
     }
     content = json.loads(path.read_text()) | {"LumencutSession": session}
@@ -148,6 +149,16 @@ def test_measure_grades_what_was_marked_in_the_viewer(tmp_path):
     # A place that an option names comes first.
     result = run("measure", volume, session, "-o", tmp_path / "other.json", "--at", 20)
     assert json.loads((tmp_path / "other.json").read_text())["vessels"][0]["stenosis"] is None
+
+
+def test_measure_reckons_with_the_point_spread_that_was_given_in_the_viewer(tmp_path):
+    scene = phantom.stenosis(60)
+    volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
+    session = write_session(tmp_path / "saved.mrk.json", scene.tree, fwhm=0.9)
+    for words, expected in (((), 0.9), (("--fwhm", 0.7), 0.7)):
+        result = run("measure", volume, session, "-o", tmp_path / "out.json", *words)
+        assert result.exit_code == 0, result.output
+        assert f"FWHM {expected:.2f} mm given" in result.output
 
 
 def test_markups_of_others_are_no_sessions(branches, tmp_path):

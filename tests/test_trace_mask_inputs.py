@@ -92,12 +92,22 @@ def test_a_gap_leads_to_the_wall_of_a_vessel_that_goes_on():
     assert any((vessel.points == bridge.points[-1]).all(axis=1).any() for vessel in tree[:2])
 
 
+def test_floats_that_are_whole_numbers_are_labels(tube):
+    mask = labelled(tube)
+    whole, floats = trace_mask(mask), trace_mask(Volume(mask.array.astype(np.float32)))
+    assert sorted(vessel.name for vessel in floats) == ["label 1", "label 7"]
+    for one, other in zip(whole, floats, strict=True):
+        np.testing.assert_array_equal(one.points, other.points)
+
+
 def test_what_is_no_mask_is_refused(tube):
     for mask, message in (
         (Volume(np.zeros((9, 9, 9), np.uint8)), "found only zeros"),
         (Volume(np.ones((9, 9, 9), np.uint8)), "found lumen in every voxel"),
         (Volume(np.eye(9, dtype=np.uint8)[None]), "at least 2 voxels along each axis.*give the whole mask"),
-        (Volume(tube.array.astype(np.float32)), "voxels of type float32; expected whole numbers; compare"),
+        (Volume(tube.array.astype(np.float32) * 0.5), "a voxel of 0.5; expected whole numbers.*Compare"),
+        (Volume(tube.array * np.nan), "a voxel of NaN; expected whole numbers"),
+        (Volume(tube.array * 1e9), "a voxel of 1000000000; expected whole numbers"),
         (tubes([[(15, 15, 15), (15.1, 15, 15)]], 6), "nowhere longer than wide"),
     ):
         with pytest.raises(VolumeError, match=message):

@@ -9,7 +9,7 @@ import numpy as np
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number
-from lumencut.errors import SettingsError, VolumeError
+from lumencut.errors import SettingsError
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
@@ -77,17 +77,14 @@ def trace_mask(
     Raises
     ------
     VolumeError
-        For a mask that has no lumen or no background, is of a float type, is a single slice, is nowhere
-        longer than wide, or lies on another grid than the volume.
+        For a mask that has no lumen or no background, holds floats that are no whole numbers, is a single
+        slice, is nowhere longer than wide, or lies on another grid than the volume.
     SettingsError
         For labels, a shortest branch or a bridge of another kind.
     KeyboardInterrupt
         After Ctrl-C.
     """
     grid = as_volume(mask)
-    if grid.dtype.kind == "f":
-        mend = "compare the values with a threshold, as --threshold does: Volume(mask.array >= 0.5, …)"
-        raise VolumeError("mask", f"voxels of type {grid.dtype}", "whole numbers", mend)
     names = _names(labels)
     shown = None if volume is None else as_volume(volume)
     shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)

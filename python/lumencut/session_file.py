@@ -39,12 +39,16 @@ class SessionFile:
         What was marked on each vessel, in the order of the file.
     hidden : tuple of int
         The ids of the vessels that the viewer did not show.
+    fwhm : float or None
+        The full width at half maximum of the point spread that the reader gave (mm); None where it was
+        estimated.
     """
 
     path: Path
     recipe: Recipe | None
     marks: tuple[Marked, ...]
     hidden: tuple[int, ...]
+    fwhm: float | None
 
 
 def is_session_file(path: Path) -> bool:
@@ -78,7 +82,8 @@ def read_session(path: str | Path) -> SessionFile:
     marks = tuple(_marked(vessel["marks"]) for vessel in vessels)
     view = session["view"]
     shown = len(vessels) - len(hidden)
-    return SessionFile(place, None if view is None else _recipe(place, view, shown), marks, hidden)
+    recipe = None if view is None else _recipe(place, view, shown)
+    return SessionFile(place, recipe, marks, hidden, session["fwhm_mm"])
 
 
 def _marked(marks: dict[str, Any] | None) -> Marked:

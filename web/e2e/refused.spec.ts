@@ -70,10 +70,17 @@ test('in a vessel that does not meet the other one, which can be bridged', async
   await expect(button(viewer, 'Undo')).toHaveAttribute('title', /begin a vessel/);
 });
 
-test('also as its first two clicks; once bridged, that vessel goes on', async () => {
+test('as the first click of a vessel, at once', async () => {
   await button(viewer, 'End this vessel').click();
+  await expectRefused(() => clickAt(viewer, [0, 10]), /Found fat: the volume has -100 there/, /here: -100/);
+  await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
+});
+
+test('also as its first two clicks; once bridged, that vessel goes on', async () => {
   await clickAt(viewer, [STRAIGHT, -15]);
   await expectBegun(viewer);
+  await expect(viewer.problem).toHaveCount(0);
+  await expect(viewer.page.locator('[data-place=weakest]')).toHaveCount(0);
   await clickAt(viewer, [NARROWED, -15]);
   await expect(rows(viewer)).toHaveCount(1);
   await bridge().click();

@@ -37,6 +37,8 @@ const started = (browser: Browser, query = '?device=cpu') =>
   Viewer.open(browser, query, { viewport: SIZE, acceptDownloads: true });
 const fileNow = (bytes = session) => fileOf('lumencut-session.mrk.json', bytes);
 
+const blur = () => viewer.page.getByRole('region', { name: 'Blur of the scan' });
+
 /** All that the page tells of a session. */
 async function told() {
   const { page } = viewer;
@@ -59,6 +61,7 @@ async function told() {
     section: await page.getByTestId('section-numbers').textContent(),
     window: await viewer.window.textContent(),
     readOut: await viewer.readOut.textContent(),
+    blur: await blur().textContent(),
     layout: await page.locator('main').getAttribute('data-layout'),
     method: await viewer.field('Method').inputValue(),
     context: await viewer.field('Context').inputValue(),
@@ -81,6 +84,9 @@ async function work(): Promise<void> {
   await viewer.press('2');
   await viewer.field('Context').selectOption('dvr');
   await viewer.press('m');
+  await blur().getByLabel('Give it').fill('0.8');
+  await blur().getByLabel('Give it').press('Enter');
+  await expect(blur()).toContainText('0.80 mm, given', { timeout: 30_000 });
   await button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 });
   await expect(stenosis(viewer)).toContainText('%');
   await button(viewer, 'Ruler').click();

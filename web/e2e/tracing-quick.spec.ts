@@ -57,7 +57,7 @@ test('a first click outside of the scan is refused at once', async ({ browser })
   await expect(viewer.pane('coronal')).toBeVisible();
   await viewer.rest();
   await viewer.click([3, 120], 'coronal');
-  await expect(viewer.problem).toContainText('outside of the scan');
+  await expect(viewer.problem).toContainText('outside the volume; expected a point between its corners');
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
   viewer.expectNoFault();
 });

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { Failure } from '../src/core/failure';
-import { EverySecond } from '../src/io/every-second';
+import { ARRAYS, EverySecond } from '../src/io/every-second';
 import { random } from './helpers';
 import { Memory } from './opened';
 
@@ -10,13 +10,6 @@ const AFFINE = [
   [0, 0.1, 2, 11],
   [0, 0, 0, 1],
 ];
-
-const ARRAYS = {
-  uint8: Uint8Array,
-  int16: Int16Array,
-  uint16: Uint16Array,
-  float32: Float32Array,
-} as const;
 
 class Closable extends Memory {
   close(): void {}

@@ -38,6 +38,12 @@ export class FakeTracing implements Tracing {
     return request.vessels.map((clicks) => this.straight(clicks));
   }
 
+  async checkClick(click: Vector): Promise<void> {
+    if (click[2] < FLOOR) {
+      throw new Failure('tracing', 'point', 'fat', 'lumen', '', { place: click, value: -80 });
+    }
+  }
+
   async path({ from, to }: Parameters<Tracing['path']>[0]): Promise<readonly Vector[] | null> {
     await this.gate;
     return to[2] < FLOOR ? null : [from, [to[0], from[1], from[2]], to];

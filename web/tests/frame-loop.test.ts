@@ -8,7 +8,7 @@ import { CAMERA } from './helpers';
 const VIEW: View = { camera: CAMERA, method: 'csr', settings: { levels: 3 } };
 const other = (x: number): View => ({ ...VIEW, camera: { ...CAMERA, center: [x, 0, 0] } });
 
-/** An engine whose pictures take `time(view)` ms, and that stops at once where it is told to. */
+/** An engine whose pictures take `time(view)` ms, that fails at once for NaN and after a time below 0, and that stops at once where it is told to. */
 class FakeEngine {
   readonly asked: View[] = [];
   underWay = 0;
@@ -25,10 +25,14 @@ class FakeEngine {
     const milliseconds = this.time(view);
     return new Promise<Drawn>((resolve, reject) => {
       this.refuse = reject;
+      const lost = new Failure('device', 'the GPU', 'it was lost', 'one that works');
       if (Number.isNaN(milliseconds)) {
-        reject(new Failure('device', 'the GPU', 'it was lost', 'one that works'));
+        reject(lost);
+      } else if (milliseconds < 0) {
+        setTimeout(() => reject(lost), -milliseconds);
+      } else {
+        setTimeout(() => resolve({ picture: null, milliseconds }), milliseconds);
       }
-      setTimeout(() => resolve({ picture: null, milliseconds }), milliseconds);
     }).finally(() => {
       this.underWay -= 1;
       this.refuse = null;
@@ -245,4 +249,38 @@ test('nothing is shown after the end', async () => {
   await vi.advanceTimersByTimeAsync(5000);
   expect(shown).toEqual([]);
   expect(engine.asked).toHaveLength(1);
+});
+
+describe('after what draws was exchanged while a picture was under way', () => {
+  test('that picture is not shown, and the view is drawn anew', async () => {
+    const { engine, loop } = loopOf(() => 50);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(20);
+    loop.again();
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(engine.asked).toHaveLength(3);
+    expect(stages()).toEqual(['full', 'samples']);
+    expect(engine.most).toBe(1);
+  });
+
+  test('its failure is not told', async () => {
+    let time = -50;
+    const { loop } = loopOf(() => time);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(20);
+    time = 30;
+    loop.again();
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(failures).toEqual([]);
+    expect(stages()).toEqual(['full', 'samples']);
+  });
+
+  test('a failure after that is told', async () => {
+    const { loop } = loopOf(() => -50);
+    loop.want(VIEW);
+    await vi.advanceTimersByTimeAsync(20);
+    loop.again();
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(failures.map(({ kind }) => kind)).toEqual(['device']);
+  });
 });

@@ -3,8 +3,9 @@ import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
-import type { Marks, MeasuredVessel, Profile } from '../src/core/measuring';
+import type { MeasuredVessel, Profile } from '../src/core/measuring';
 import type { Pair } from '../src/core/messages';
+import { NO_MARKS } from '../src/edit/document';
 import { MeasuringHost } from '../src/worker/measuring-host';
 import { opened } from './traced';
 
@@ -17,15 +18,6 @@ interface Truth {
   readonly csv: string;
   readonly json: string;
 }
-
-const UNMARKED: Marks = {
-  at: null,
-  references: [],
-  method: 'nascet',
-  original: null,
-  comparison: null,
-  group: null,
-};
 
 const here = import.meta.dirname;
 const python = join(here, '../../.venv/bin/python');
@@ -75,7 +67,7 @@ async function answers(
   length: number,
   { at, references }: Truth['asked'],
 ) {
-  const graded = await host.stenosis(line, { ...UNMARKED, at, references, method: 'area' });
+  const graded = await host.stenosis(line, { ...NO_MARKS, at, references, method: 'area' });
   const section = await host.section(line, at);
   const stretch = await host.stretch(line, references);
   const spots = await host.suggestedReferences(line, at);
@@ -118,7 +110,7 @@ describe.skipIf(!existsSync(python))('measuring is that of Python', () => {
     const [{ line, length }] = vessels as [(typeof vessels)[0]];
     expect(apart(await answers(host, line, length, expected.asked), expected.asked)).toBe('');
     const measured: MeasuredVessel[] = vessels.map(({ line, name }, n) => {
-      return { id: `${n}`, name, line, marks: UNMARKED };
+      return { id: `${n}`, name, line, marks: NO_MARKS };
     });
     expect(apart(fields(await host.csv(measured)), fields(expected.csv))).toBe('');
     const json = await host.json(measured);

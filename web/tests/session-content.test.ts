@@ -91,9 +91,14 @@ describe('the content of a session', () => {
     expect(contentOf(DOCUMENT, REPORT, null).session.view).toBeNull();
   });
 
+  test('has the width of the point spread that the reader gave', () => {
+    expect(contentOf(DOCUMENT, REPORT, null, 0.9).session.fwhm_mm).toBe(0.9);
+    expect(contentOf(DOCUMENT, REPORT, null).session.fwhm_mm).toBeNull();
+  });
+
   test('says nothing of files or the patient', () => {
     const keys = Object.keys(contentOf(DOCUMENT, REPORT, LOOKED).session);
-    expect(keys).toEqual(['scan', 'vessels', 'doubtful', 'stoppers', 'bridge', 'rulers', 'view']);
+    expect(keys).toEqual(['scan', 'vessels', 'doubtful', 'stoppers', 'bridge', 'rulers', 'fwhm_mm', 'view']);
   });
 });
 

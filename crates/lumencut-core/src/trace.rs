@@ -11,6 +11,7 @@ pub mod gaps;
 pub mod graph;
 pub mod grey_values;
 pub mod junctions;
+pub mod label_value;
 pub mod labels;
 pub mod lumen;
 pub mod lumen_model;

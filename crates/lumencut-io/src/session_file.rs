@@ -58,6 +58,8 @@ pub struct Session {
     pub bridge: bool,
     /// Straight distances.
     pub rulers: Vec<Ruler>,
+    /// The full width at half maximum of the point spread that the reader gave (mm); none where it is estimated.
+    pub fwhm_mm: Option<f64>,
     /// How the scan is looked at.
     pub view: Option<View>,
 }
@@ -286,6 +288,9 @@ fn check(lines: &[Line], session: &Session) -> Result<()> {
         }
         check_count(&subject, "radii", branch.radius.as_deref(), count)?;
         check_count(&subject, "confidences", branch.confidence.as_deref(), count)?;
+    }
+    if let Some(fwhm) = session.fwhm_mm.filter(|fwhm| !(fwhm.is_finite() && *fwhm > 0.0)) {
+        return Err(Error::new("FWHM of the session", fwhm.to_string(), "more than 0 mm"));
     }
     let picked = session.view.as_ref().and_then(|view| view.picked.as_ref());
     if let Some(picked) = picked.filter(|picked| picked.vessel >= lines.len()) {

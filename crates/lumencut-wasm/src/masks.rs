@@ -1,5 +1,7 @@
 //! The lines of a mask of vessels that comes beside the volume: its voxels are held as long as it is traced.
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 use lumencut::error::{Error, ErrorKind};
 use lumencut::mask_notes::{check_same_grid, notes};
@@ -68,7 +70,7 @@ impl Session {
         let mask = self.mask.take().ok_or_else(no_mask)?;
         let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
         check_same_grid(&mask.volume()?, &volume)?;
-        let mask = Held { stored: labels(mask.stored)?, ..mask };
+        check_labels(&mask.stored)?;
         let traced = traced(&mask.volume()?, &volume, watch)?;
         let notes = notes(&traced, &mask.volume()?, true);
         drop(mask);
@@ -103,37 +105,36 @@ fn line_of(vessel: MaskVessel) -> Line {
     Line { bridged, ..Line::from(Centerline { points, radius, confidence }) }
 }
 
-/// The voxels as labels: floats that are all whole numbers become integers.
-fn labels(stored: Stored) -> Result<Stored> {
-    let whole = match &stored {
-        Stored::F32(values) => {
-            let fits = |value: &f32| value.fract() == 0.0 && (0.0..=65535.0).contains(value);
-            if let Some(odd) = values.iter().find(|value| !fits(value)) {
-                let expected = "whole numbers from 0 to 65535, 0 for background";
-                return Err(refused(format!("a voxel of {odd}"), expected));
-            }
-            Stored::U16(values.iter().map(|value| *value as u16).collect())
-        }
-        _ => stored,
+/// Refuses a mask with as many values as a scan has.
+fn check_labels(stored: &Stored) -> Result<()> {
+    let is_scan = match stored {
+        Stored::U8(_) => return Ok(()),
+        Stored::U16(values) => has_many(values.iter().map(|value| u32::from(*value))),
+        Stored::I16(values) => has_many(values.iter().map(|value| *value as u32)),
+        Stored::F32(values) => has_many(values.iter().map(|value| value.to_bits())),
     };
-    let mut is_there = vec![false; 1 << 16];
-    match &whole {
-        Stored::U8(values) => values.iter().for_each(|value| is_there[usize::from(*value)] = true),
-        Stored::U16(values) => values.iter().for_each(|value| is_there[usize::from(*value)] = true),
-        Stored::I16(values) => values.iter().for_each(|value| is_there[usize::from(*value as u16)] = true),
-        Stored::F32(_) => {}
-    }
-    let count = is_there.into_iter().filter(|is_there| *is_there).count();
-    if count > MOST_LABELS {
+    if is_scan {
         let expected = format!("a mask with at most {MOST_LABELS} labels");
-        return Err(refused(format!("{count} different values, as a scan has"), &expected));
+        let error = Error::new(ErrorKind::Volume, "mask", "more different values, as a scan has", expected);
+        return Err(error.mend("open the segmentation of the vessels, or open the file as a scan").into());
     }
-    Ok(whole)
+    Ok(())
 }
 
-fn refused(found: String, expected: &str) -> Failure {
-    let error = Error::new(ErrorKind::Volume, "mask", found, expected);
-    error.mend("open the segmentation of the vessels, or open the file as a scan").into()
+/// Whether there are more different values than labels may be; most are as the one before.
+fn has_many(values: impl Iterator<Item = u32>) -> bool {
+    let mut different = HashSet::new();
+    let mut last = None;
+    for value in values {
+        if last != Some(value) {
+            last = Some(value);
+            different.insert(value);
+            if different.len() > MOST_LABELS {
+                return true;
+            }
+        }
+    }
+    false
 }
 
 fn no_mask() -> Failure {

@@ -114,7 +114,7 @@ mod tests {
         let vessel = json!({"color": "#1177aa", "hidden": true, "clicks": [[0.0, 0.0, 0.0]], "marks": null});
         json!({
             "scan": null, "vessels": [vessel], "doubtful": [{"color": "#ff8800", "doubt": "it leaves sideways"}],
-            "stoppers": [], "bridge": false, "rulers": [], "view": null,
+            "stoppers": [], "bridge": false, "rulers": [], "fwhm_mm": null, "view": null,
         })
     }
 

@@ -116,6 +116,20 @@ fn a_click_in_no_lumen_is_refused_with_its_place_and_value() {
 }
 
 #[test]
+fn a_click_that_no_vessel_can_begin_at_is_refused_alone() {
+    let session = opened("y_junction");
+    let [lumen, _] = clicks(&session, 0, 3)[..] else { panic!("two clicks") };
+    session.check_click(lumen).expect("lumen");
+    let corner = session.study.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
+    let fat = corner.lerp(DVec3::from_array(lumen), 0.05);
+    let failure = session.check_click(fat.to_array()).expect_err("no lumen");
+    assert_eq!(failure.seen.map(|seen| seen.place), Some(fat.to_array()));
+    let outside = corner + 2.0 * (corner - DVec3::from_array(lumen));
+    let failure = session.check_click(outside.to_array()).expect_err("outside");
+    assert!(failure.found.contains("outside the volume"), "{failure:?}");
+}
+
+#[test]
 fn two_vessels_that_do_not_meet_are_refused_at_the_weakest_place() {
     let mut session = holding(lumencut_phantom::crossing().expect("a phantom"));
     let [first, second] = [0, 1].map(|vessel| points(&session, vessel));

@@ -94,6 +94,15 @@ impl Session {
         Ok(self.traced.clone())
     }
 
+    /// Refuses a place that no vessel can begin at.
+    ///
+    /// # Errors
+    /// `tracing` as [`lumencut::trace::tracer::Tracer::check_click`], `volume` where none is open.
+    pub fn check_click(&self, click: [f64; 3]) -> Result<()> {
+        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)
+    }
+
     /// The way that a vessel would take to where the pointer is; none where it is not found before `stop` says so.
     ///
     /// # Errors

@@ -21,6 +21,14 @@ impl Engine {
         told(request.and_then(|request| watched(listener, |watch| self.session.trace(&request, watch))))
     }
 
+    /// Refuses a place, given as JSON, that no vessel can begin at.
+    ///
+    /// # Errors
+    /// `tracing` for a place outside of the volume, and one whose value alone shows that it is no lumen.
+    pub fn check_click(&self, click: &str) -> Answer<()> {
+        answer(read("click", click).and_then(|click| self.session.check_click(click)))
+    }
+
     /// Long work can begin again: the page's cancellation has been heard.
     pub fn cancellation_was_heard() {
         heard(LONG);

@@ -20,6 +20,7 @@ from lumencut.errors import MeasuringError
 if TYPE_CHECKING:
     from lumencut.measured_vessel import Marked, MeasuredVessel
     from lumencut.profile import Profile
+    from lumencut.session_file import SessionFile
     from lumencut.vessel import Vessel
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
@@ -58,7 +59,7 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     type=click.FloatRange(min=0, min_open=True, max=20),
     metavar="MM",
     help="The full width at half maximum of the scanner's point spread (mm); default: estimated where the "
-    "vessel is wide, else assumed, and said which.",
+    "vessel is wide, else assumed, and said which; a session file may give one.",
 )
 @click.option("--at", type=float, metavar="MM", help="The place of a stenosis: its arc length on the vessel.")
 @click.option(
@@ -160,11 +161,15 @@ def _measured(
     from lumencut.measuring import measure as library
 
     found, marked = [], _marked(chosen)
-    marks_of = _session_marks(chosen)
+    session = _session(chosen)
+    # Options that mark a place or give the blur count more than the file.
+    marks = session.marks if session and chosen["at"] is None else ()
+    marks_of = {str(number): each for number, each in enumerate(marks)}
+    fwhm = session.fwhm if session and chosen["fwhm"] is None else chosen["fwhm"]
     with bar("measuring", "vessel") as told:
         for number, (ids, vessel) in enumerate(vessels, 1):
             try:
-                profile = library(voxels, vessel, chosen["step"], chosen["fwhm"], tree=tree)
+                profile = library(voxels, vessel, chosen["step"], fwhm, tree=tree)
                 found.append(MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked)))
             except MeasuringError as error:
                 if number == len(vessels) and not found:
@@ -174,14 +179,12 @@ def _measured(
     return found
 
 
-def _session_marks(chosen: dict[str, Any]) -> dict[str, Marked]:
-    """What was marked in the viewer, by the ids of vessels; nothing where options mark a place."""
+def _session(chosen: dict[str, Any]) -> SessionFile | None:
+    """The session file that stands for CENTERLINES, where it is one."""
     from lumencut.session_file import is_session_file, read_session
 
     files = chosen["centerlines"]
-    if chosen["at"] is not None or len(files) != 1 or not is_session_file(files[0]):
-        return {}
-    return {str(number): marked for number, marked in enumerate(read_session(files[0]).marks)}
+    return read_session(files[0]) if len(files) == 1 and is_session_file(files[0]) else None
 
 
 def _marked(chosen: dict[str, Any]) -> Marked:

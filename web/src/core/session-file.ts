@@ -55,6 +55,8 @@ export interface SavedSession {
   readonly stoppers: readonly { readonly center: Vector; readonly radius_mm: number }[];
   readonly bridge: boolean;
   readonly rulers: readonly { readonly from: Vector; readonly to: Vector }[];
+  /** The width of the point spread that the reader gave; null where it is estimated. */
+  readonly fwhm_mm: number | null;
   readonly view: SavedView | null;
 }
 

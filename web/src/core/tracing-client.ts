@@ -26,6 +26,10 @@ export class TracingClient implements Tracing {
     return this.first(this.host.trace(request, proxy(told)));
   }
 
+  checkClick(click: Vector): Promise<void> {
+    return this.first(this.host.checkClick(click));
+  }
+
   path(request: PathRequest): Promise<readonly Vector[] | null> {
     return this.first(this.host.path(request));
   }

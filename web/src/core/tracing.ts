@@ -61,6 +61,8 @@ export type CenterlineKind = 'vtp' | 'mrk.json';
 export interface Tracing {
   /** The lines of vessels that were clicked, in their order. */
   trace(request: TraceRequest, told: (progress: Progress) => void): Promise<readonly LineId[]>;
+  /** Refuses a place that no vessel can begin at: one outside of the scan, and one whose value alone shows that it is no lumen. */
+  checkClick(click: Vector): Promise<void>;
   /** The way to the pointer, through the middles of voxels; null where none is found within 40 ms. Never throws for places without lumen. */
   path(request: PathRequest): Promise<readonly Vector[] | null>;
   /** The brightest voxel on the ray of a pixel (CSS pixels of the camera). */

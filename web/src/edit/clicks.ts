@@ -37,6 +37,11 @@ export function insertClick(tracing: Tracing, id: number, before: number, point:
   return edited(tracing, 'add a point', id, (clicks) => clicks.toSpliced(before, 0, point));
 }
 
+/** Gives a vessel that was not clicked points, between which it is traced from then on. */
+export function giveClicks(tracing: Tracing, id: number, clicks: readonly Vector[]): Promise<boolean> {
+  return commit(tracing, 'add a point', (document) => changed(document, id, { clicks }));
+}
+
 export function moveClick(tracing: Tracing, id: number, number: number, point: Vector): Promise<boolean> {
   return edited(tracing, 'move a point', id, (clicks) => clicks.with(number, point));
 }

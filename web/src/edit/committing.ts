@@ -78,12 +78,17 @@ async function doEdit(words: string, work: Work, own: number, bridge: (() => voi
 function refuse(failure: Failure, bridge: (() => void) | null): void {
   generation += 1;
   if (failure.kind !== 'interrupted') {
-    refusal.value = { failure, bridge: isGap(failure) ? bridge : null };
-    problem.value = failure;
-    if (failure.place) {
-      const { place: point, value } = failure;
-      placeCrossHair({ point, value, vessel: null, arc_length: null }, 'turning');
-    }
+    tellRefusal(failure, isGap(failure) ? bridge : null);
+  }
+}
+
+/** Tells what was refused, and shows its place in all views. */
+export function tellRefusal(failure: Failure, bridge: (() => void) | null = null): void {
+  refusal.value = { failure, bridge };
+  problem.value = failure;
+  if (failure.place) {
+    const { place: point, value } = failure;
+    placeCrossHair({ point, value, vessel: null, arc_length: null }, 'turning');
   }
 }
 
@@ -91,7 +96,7 @@ function refuse(failure: Failure, bridge: (() => void) | null): void {
 export const isGap = (failure: Failure): boolean => failure.mend.includes('bridge');
 
 /** What was refused is no longer told once something else is tried. */
-function forgetRefusal(): void {
+export function forgetRefusal(): void {
   if (refusal.value && problem.value === refusal.value.failure) {
     problem.value = null;
   }

@@ -2,14 +2,13 @@
 import type { EngineClient } from '../core/engine';
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
-import { recover } from '../state/device';
 import { crossHair, hasVolume, isHelpOpen, problem, progress } from '../state/store';
 import { addBranches } from './branches';
 import { dropEdits, waiting } from './committing';
 import { candidate, first, target } from './drawing';
 import { redo, undo } from './history';
 import { isListOpen, isTracing, toggleTool } from './mode';
-import { checkFirst, enter, leave, removeLast } from './pointing';
+import { enter, leave, removeLast } from './pointing';
 import { tool } from './tool';
 
 export function performAny(engine: EngineClient, action: Action): void {
@@ -47,7 +46,6 @@ function edit(engine: EngineClient, action: Action): boolean {
 function point(engine: EngineClient, action: Action): boolean {
   if (action === 'enter') {
     enter(engine.tracing);
-    checkFirst(engine).catch(recover);
   } else if (action === 'remove point' && tool.value === 'trace') {
     removeLast(engine.tracing);
   } else {

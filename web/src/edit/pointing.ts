@@ -1,13 +1,12 @@
 /** What a click, Enter and Escape do with the tools that trace. */
 import { batch } from '@preact/signals';
-import type { EngineClient } from '../core/engine';
 import { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
 import type { Tracing } from '../core/tracing';
 import { length, subtract } from '../core/vectors';
-import { crossHair, problem } from '../state/store';
+import { crossHair } from '../state/store';
 import { addClick, beginVessel, removeClick } from './clicks';
-import { refusal } from './committing';
+import { forgetRefusal, refusal, tellRefusal } from './committing';
 import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
 import { addStopper } from './stoppers';
 import { active, tool } from './tool';
@@ -24,7 +23,9 @@ export async function setPoint(tracing: Tracing, point: Vector): Promise<void> {
   if (tool.value === 'stopper') {
     await addStopper(tracing, point);
   } else if (anchor.value === null) {
+    forgetRefusal();
     first.value = point;
+    await checkFirst(tracing, point);
   } else {
     const own = { point, drawing: drawing.value };
     coming.value = [...coming.value, own];
@@ -60,18 +61,12 @@ async function goOn(tracing: Tracing, point: Vector): Promise<void> {
   }
 }
 
-/** Takes a first point back at once that lies outside of the scan: no second one would make a vessel of it. */
-export async function checkFirst(engine: Pick<EngineClient, 'at'>): Promise<void> {
-  const point = first.value;
-  if (point && (await engine.at(point)).value === null && first.value === point) {
+/** Takes a first point back at once that no vessel can begin at: no second one would make a vessel of it. */
+async function checkFirst(tracing: Tracing, point: Vector): Promise<void> {
+  const refused = await tracing.checkClick(point).then(() => null, Failure.of);
+  if (refused && first.value === point) {
     first.value = null;
-    problem.value = new Failure(
-      'tracing',
-      'this point',
-      'a place outside of the scan',
-      'a place within a vessel',
-      'click on the vessel in a slice',
-    );
+    tellRefusal(refused);
   }
 }
 

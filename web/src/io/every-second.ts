@@ -15,7 +15,7 @@ interface Header {
 }
 
 /** Arrays of the types that the engine has. */
-const ARRAYS = {
+export const ARRAYS = {
   uint8: Uint8Array,
   int16: Int16Array,
   uint16: Uint16Array,

@@ -57,9 +57,11 @@ function pick(vessel: number): void {
 
 /** The point spread that was reckoned with, and a field to give it. */
 function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string }) {
-  const give = (text: string) => {
-    const width = Number(text);
-    giveFwhm(text.trim() !== '' && width > 0 ? width : null);
+  const give = (field: HTMLInputElement) => {
+    // What the field does not allow, the browser says beside it.
+    if (field.reportValidity()) {
+      giveFwhm(field.value === '' ? null : Number(field.value));
+    }
   };
   return (
     <section aria-label="Blur of the scan">
@@ -71,11 +73,11 @@ function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string
           class="number"
           type="number"
           min="0.05"
-          max="10"
+          max="20"
           step="any"
           placeholder="as found"
           value={source === 'given' ? String(fwhm) : ''}
-          onChange={(event) => give(event.currentTarget.value)}
+          onChange={(event) => give(event.currentTarget)}
         />
         mm
       </label>

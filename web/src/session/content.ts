@@ -15,8 +15,13 @@ export interface Looked {
   readonly picked: { readonly id: number; readonly at: number } | null;
 }
 
-/** The content of a session file of a document. */
-export function contentOf(document: Document, report: Report, looked: Looked | null): SessionContent {
+/** The content of a session file of a document; `fwhm` is the width of the point spread that the reader gave (mm). */
+export function contentOf(
+  document: Document,
+  report: Report,
+  looked: Looked | null,
+  fwhm: number | null = null,
+): SessionContent {
   const isSure = (vessel: DocumentVessel) => vessel.doubt === null;
   const sure = document.vessels.filter(isSure);
   const doubtful = document.vessels.filter((vessel) => !isSure(vessel));
@@ -36,6 +41,7 @@ export function contentOf(document: Document, report: Report, looked: Looked | n
       stoppers: document.stoppers.map(({ center, radius }) => ({ center, radius_mm: radius })),
       bridge: document.bridge,
       rulers: document.rulers,
+      fwhm_mm: fwhm,
       view: looked && viewOf(looked, sure),
     },
   };

@@ -8,6 +8,7 @@ import { shownVessels } from '../edit/changes';
 import type { Document, DocumentVessel } from '../edit/document';
 import { document_ } from '../edit/history';
 import { beginDocument, pickedId, tree } from '../edit/shown';
+import { giveFwhm, givenFwhm } from '../measure/profiles';
 import { recover } from '../state/device';
 import * as store from '../state/store';
 import { cameraOf, contentOf, documentOf, isOfScan, type Looked } from './content';
@@ -27,7 +28,7 @@ export function savedSession(): Promise<Uint8Array<ArrayBuffer>> {
   if (!report?.volume) {
     throw new Failure('session', 'session', 'no scan', 'a scan that is open');
   }
-  return engine.sessions.write(contentOf(document_.value, report, looked()));
+  return engine.sessions.write(contentOf(document_.value, report, looked(), givenFwhm.value));
 }
 
 function looked(): Looked | null {
@@ -61,6 +62,7 @@ export async function openSession({ file }: GivenFile): Promise<void> {
   const document = documentOf(content);
   batch(() => {
     beginDocument(document);
+    giveFwhm(content.session.fwhm_mm);
     if (view) {
       look(view);
     }

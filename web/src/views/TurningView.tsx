@@ -37,6 +37,7 @@ export function TurningView() {
   useEffect(() => {
     const element = canvas.current;
     if (element && store.started.value?.isGpu) {
+      handedOver.add(element);
       void engine.drawOn(element.transferControlToOffscreen()).then(() => loop.current?.again());
     } else {
       loop.current?.again();
@@ -103,7 +104,14 @@ function wantedView(): View | null {
 /** The brightest values of a slab through all of a scan (mm): a projection, whatever is traced already. */
 const PROJECTED: Settings = { slab: [1000, 'max'], silhouettes: false };
 
+/** The canvases that the GPU draws on. */
+const handedOver = new WeakSet<HTMLCanvasElement>();
+
 function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted }: Shown): void {
+  // It was under way before the GPU got its canvas, on which nothing else can draw: the view is drawn again there.
+  if (canvas && drawn.picture && handedOver.has(canvas)) {
+    return;
+  }
   // The last picture at rest takes as long as its samples do: it says nothing of the rate.
   if (stage !== 'samples') {
     store.frameTime.value = drawn.milliseconds;

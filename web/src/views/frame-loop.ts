@@ -37,6 +37,8 @@ export class FrameLoop {
   private stage: Stage = 'done';
   private isBusy = false;
   private isStopped = false;
+  /** What draws was exchanged while a picture was under way: that one counts no longer, nor does its failure. */
+  private isOutdated = false;
   private factor = 1;
   /** How often in a row the view gave way to something else. */
   private gaveWay = 0;
@@ -62,7 +64,9 @@ export class FrameLoop {
 
   /** Shows the same view again, after what draws it was exchanged. */
   again(): void {
-    if (this.wanted) {
+    if (this.isBusy) {
+      this.isOutdated = true;
+    } else if (this.wanted) {
       this.stage = 'full';
       this.next();
     }
@@ -87,15 +91,20 @@ export class FrameLoop {
     try {
       const drawn = await this.engine.render(asked);
       this.gaveWay = 0;
-      if (!this.isStopped) {
+      if (!this.isStopped && !this.isOutdated) {
         this.adapt(asked, view, drawn.milliseconds, stage);
         this.show({ wanted: view, view: asked, drawn, stage });
       }
       this.isBusy = false;
-      this.goOn(view, stage, drawn.milliseconds);
+      if (!this.beginsAnew()) {
+        this.goOn(view, stage, drawn.milliseconds);
+      }
     } catch (error) {
       this.isBusy = false;
       const failure = Failure.of(error);
+      if (this.beginsAnew()) {
+        return;
+      }
       if (failure.kind === 'interrupted') {
         this.tryAgain(stage);
       } else if (!this.isStopped) {
@@ -103,6 +112,16 @@ export class FrameLoop {
         this.fail(failure);
       }
     }
+  }
+
+  /** Draws the view again where what draws was exchanged meanwhile; says whether it was. */
+  private beginsAnew(): boolean {
+    const isOutdated = this.isOutdated;
+    this.isOutdated = false;
+    if (isOutdated) {
+      this.again();
+    }
+    return isOutdated;
   }
 
   /** The view with the pixels and samples of a stage. */

@@ -1,11 +1,12 @@
 /** Clicks and moves of the pointer in a view, while a tool is in use that sets points. */
 import type { Pair, Vector } from '../core/messages';
 import { engine } from '../core/shared';
-import { insertClick } from '../edit/clicks';
+import { giveClicks, insertClick } from '../edit/clicks';
 import { anchor, candidate, drawn, first, target } from '../edit/drawing';
 import { contents } from '../edit/lines';
 import { chosenDoubt, isTracing } from '../edit/mode';
-import { acceptCandidate, checkFirst, endVessel, setPoint } from '../edit/pointing';
+import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
+import { pointsAlong } from '../edit/points';
 import { tool } from '../edit/tool';
 import type { Action, Where } from '../input/bindings';
 import { placeCrossHair } from '../link/cross-hair';
@@ -63,7 +64,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
       // The point is set before the engine answers anything: Enter may follow at once.
       const point = view.place(at) as Vector;
       void setPoint(engine.tracing, point);
-      await Promise.all([lookAt(view, point), checkFirst(engine)]);
+      await lookAt(view, point);
     }
   } catch (error) {
     recover(error);
@@ -107,9 +108,14 @@ function endAt(view: Pointed, at: Pair): void {
 function addOnCurve({ projection }: Pointed, at: Pair): void {
   const hit = curveAt(projection, at);
   const points = hit && contents.value.get(hit.vessel.line)?.points;
-  if (hit?.vessel.clicks && points) {
-    const before = clickAfter(hit.vessel.clicks, points, hit.number);
-    void insertClick(engine.tracing, hit.vessel.id, before, hit.point);
+  if (!points || hit.vessel.doubt !== null) {
+    return;
+  }
+  const { id, clicks } = hit.vessel;
+  if (clicks) {
+    void insertClick(engine.tracing, id, clickAfter(clicks, points, hit.number), hit.point);
+  } else {
+    void giveClicks(engine.tracing, id, pointsAlong(points, hit.number));
   }
 }
 

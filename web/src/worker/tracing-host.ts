@@ -38,6 +38,10 @@ export class TracingHost {
     return this.long('Tracing', told, (engine, heard) => engine.trace(JSON.stringify(request), heard));
   }
 
+  checkClick(click: Vector): Promise<void> {
+    return this.lent.run((engine) => engine.check_click(JSON.stringify(click)));
+  }
+
   path(request: PathRequest): Promise<Vector[] | null> {
     return this.asked((engine) => engine.path(JSON.stringify(request)));
   }

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::label_value::LabelValue;
 use crate::error::{Error, ErrorKind, Result};
 use crate::stop::{Stop, go_on};
 use crate::volume::{Volume, Voxels};
@@ -32,7 +33,7 @@ impl Foreground {
     /// same grid, and so the same centerlines.
     ///
     /// # Errors
-    /// [`ErrorKind::Volume`] for voxels that are no integers, for a single slice, and where no voxel or every voxel is
+    /// [`ErrorKind::Volume`] for voxels that are no whole numbers, for a single slice, and where no voxel or every voxel is
     /// lumen.
     pub fn new(mask: &Volume, labels: Option<&[i64]>, stop: Stop) -> Result<Self> {
         if mask.size().contains(&1) {
@@ -54,10 +55,9 @@ impl Foreground {
             Voxels::I64(voxels) => Self::of(mask, voxels, labels, stop),
             #[cfg(not(target_arch = "wasm32"))]
             Voxels::U64(voxels) => Self::of(mask, voxels, labels, stop),
-            _ => {
-                let error = Error::new(ErrorKind::Volume, "mask", "voxels of a float type", "whole numbers");
-                Err(error.mend("compare the values with a threshold first"))
-            }
+            Voxels::F32(voxels) => Self::of(mask, voxels, labels, stop),
+            #[cfg(not(target_arch = "wasm32"))]
+            Voxels::F64(voxels) => Self::of(mask, voxels, labels, stop),
         }
     }
 
@@ -70,6 +70,7 @@ impl Foreground {
         let rows = Rows { voxels, size: mask.size(), strides: mask.strides() };
         let is_lumen =
             |value: T| value != T::default() && labels.is_none_or(|labels| labels.contains(&value.label()));
+        check_whole(&rows, stop)?;
         let extent = Extent::of(&rows, is_lumen, stop)?;
         let found = match extent.count {
             0 => labels.map_or_else(
@@ -118,43 +119,27 @@ impl Foreground {
     }
 }
 
-/// Whole numbers as labels.
-trait LabelValue {
-    fn label(self) -> i64;
-}
-
-macro_rules! label_values {
-    ($($type:ty),*) => {$(
-        impl LabelValue for $type {
-            #[allow(clippy::cast_lossless)]
-            fn label(self) -> i64 {
-                self as i64
-            }
-        }
-    )*};
-}
-label_values!(i8, u8, i16, u16, i32, u32, i64, u64);
-
-/// The value of the voxel at an index, 0 for voxels of a float type.
-pub fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
-    let place: usize = (0..3).map(|a| index[a] * mask.strides()[a]).sum();
-    match mask.voxels() {
-        #[cfg(not(target_arch = "wasm32"))]
-        Voxels::I8(voxels) => voxels[place].label(),
-        Voxels::U8(voxels) => voxels[place].label(),
-        Voxels::I16(voxels) => voxels[place].label(),
-        Voxels::U16(voxels) => voxels[place].label(),
-        #[cfg(not(target_arch = "wasm32"))]
-        Voxels::I32(voxels) => voxels[place].label(),
-        #[cfg(not(target_arch = "wasm32"))]
-        Voxels::U32(voxels) => voxels[place].label(),
-        #[cfg(not(target_arch = "wasm32"))]
-        Voxels::I64(voxels) => voxels[place].label(),
-        #[cfg(not(target_arch = "wasm32"))]
-        Voxels::U64(voxels) => voxels[place].label(),
-        _ => 0,
+/// Refuses floats that are no whole numbers: parts of lumen, or the values of a scan.
+fn check_whole<T: Copy + LabelValue>(rows: &Rows<T>, stop: Stop) -> Result<()> {
+    if T::IS_WHOLE {
+        return Ok(());
     }
+    let along = rows.along();
+    for (number, start) in rows.starts(along).enumerate() {
+        if number % 4096 == 0 {
+            go_on(stop)?;
+        }
+        if let Some(odd) = rows.values(along, rows.place(start)).find_map(LabelValue::odd) {
+            let found = format!("a voxel of {odd}");
+            let error = Error::new(ErrorKind::Volume, "mask", found, "whole numbers, 0 for background");
+            return Err(error.mend(THRESHOLD));
+        }
+    }
+    Ok(())
 }
+
+/// What mends a mask of parts.
+const THRESHOLD: &str = "compare the values with a threshold first, as --threshold of the command line does";
 
 /// The voxels of a mask row by row.
 struct Rows<'a, T> {

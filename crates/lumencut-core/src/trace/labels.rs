@@ -1,7 +1,7 @@
 //! The labels of a label map along a vessel, which part it where one label ends and another begins.
 
 use crate::math::arc_length::arc_lengths;
-use crate::trace::foreground::label_at;
+use crate::trace::label_value::label_at;
 use crate::trace::mask_vessels::MaskVessel;
 use crate::volume::Volume;
 

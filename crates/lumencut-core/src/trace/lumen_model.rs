@@ -144,10 +144,10 @@ impl Surroundings {
     /// [`ErrorKind::Tracing`] for a click that lies in no lumen: of those that are unlike each other the one that looks least
     /// like lumen, and in doubt the later one.
     pub fn model(&self, voxels: &Voxels, clicks: &[DVec3]) -> Result<LumenModel> {
-        let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
-        for (click, value) in clicks.iter().zip(&values) {
-            self.check(voxels, *click, *value, self.mistaken(*value))?;
+        for click in clicks {
+            self.check_alone(voxels, *click)?;
         }
+        let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
         let hits: Vec<Hit> =
             clicks.iter().zip(&values).map(|(click, value)| self.hit(voxels, *click, *value)).collect();
         let usual = lower_median(hits.iter().map(|hit| hit.lumen).collect());
@@ -160,6 +160,15 @@ impl Surroundings {
             }
         }
         Ok(self.model_of(&hits, usual))
+    }
+
+    /// Refuses a click whose value alone shows that it lies in no lumen, whatever the others hit.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Tracing`] for air, fat, soft tissue and bone in Hounsfield units, and for what is no number.
+    pub fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
+        let value = value_at(voxels, click);
+        self.check(voxels, click, value, self.mistaken(value))
     }
 
     fn hit(&self, voxels: &Voxels, click: DVec3, value: f64) -> Hit {

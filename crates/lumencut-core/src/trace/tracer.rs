@@ -112,6 +112,18 @@ impl Tracer {
         way
     }
 
+    /// Refuses a click that no vessel can begin at, before there is a second one: what it refuses, [`Tracer::trace`] refuses
+    /// too. A click that is no lumen only beside others is not refused. Every call must be of the volume that is traced.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Tracing`] for a click outside of the volume, and for one whose value alone shows that it is no lumen.
+    pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
+        let voxels = &Voxels::new(volume);
+        check_place(voxels, click, || format!("point {}", at(click)))?;
+        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &[click]));
+        surroundings.check_alone(voxels, click)
+    }
+
     /// Makes the model of the lumen fit the clicks; what was kept under another model is forgotten.
     fn prepare(&mut self, voxels: &Voxels, clicks: &Clicks) -> Result<()> {
         let all: Vec<DVec3> = clicks.vessels.iter().flatten().copied().collect();
@@ -272,24 +284,7 @@ fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
             return wrong(format!("points of vessel {n}"), found, "2 or more, in order along the vessel");
         }
         for (i, point) in points.iter().enumerate() {
-            if !point.is_finite() {
-                return wrong(
-                    format!("point {i} of vessel {n}"),
-                    format!("{point}"),
-                    "finite coordinates (mm, LPS)",
-                );
-            }
-            if voxels.voxel_at(*point).is_none() {
-                let corner = |c: [f64; 3]| at(voxels.world_from_index.transform_point3(DVec3::from_array(c)));
-                let last = voxels.size.map(|n| n as f64 - 1.0);
-                let expected =
-                    format!("a point between its corners {} and {}", corner([0.0; 3]), corner(last));
-                return wrong(
-                    format!("point {i} of vessel {n}"),
-                    format!("{}, outside the volume", at(*point)),
-                    &expected,
-                );
-            }
+            check_place(voxels, *point, || format!("point {i} of vessel {n}"))?;
         }
         let near = 0.5 * voxels.smallest_side;
         if let Some(i) = (1..points.len()).find(|i| points[*i].distance(points[i - 1]) < near) {
@@ -307,6 +302,22 @@ fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
             let found = format!("{} with radius {}", stopper.center, stopper.radius);
             return wrong("stopper".to_owned(), found, "a finite position and a positive radius (mm)");
         }
+    }
+    Ok(())
+}
+
+/// Refuses a click that is no place in the volume.
+fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> String) -> Result<()> {
+    let wrong =
+        |found: String, expected: String| Err(Error::new(ErrorKind::Tracing, subject(), found, expected));
+    if !point.is_finite() {
+        return wrong(format!("{point}"), "finite coordinates (mm, LPS)".to_owned());
+    }
+    if voxels.voxel_at(point).is_none() {
+        let corner = |c: [f64; 3]| at(voxels.world_from_index.transform_point3(DVec3::from_array(c)));
+        let last = voxels.size.map(|n| n as f64 - 1.0);
+        let expected = format!("a point between its corners {} and {}", corner([0.0; 3]), corner(last));
+        return wrong(format!("{}, outside the volume", at(point)), expected);
     }
     Ok(())
 }

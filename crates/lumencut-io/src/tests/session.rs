@@ -59,6 +59,7 @@ fn sample() -> SessionFile {
         stoppers: vec![Stopper { center: [5.0; 3], radius_mm: 3.0 }],
         bridge: true,
         rulers: vec![Ruler { from: [0.0; 3], to: [3.0, 4.0, 0.0] }],
+        fwhm_mm: Some(0.9),
         view: Some(view),
     };
     SessionFile { lines: vec![line], session }
@@ -117,6 +118,7 @@ fn damaged_sessions_are_refused_by_name() {
         (text.replace("\"nascet\"", "\"guessed\""), "method of vessel 0"),
         (text.replace("[1.0,0.5,0.0]", "[1.0,0.5]"), "found 2 for 3 points"),
         (text.replace("\"vessel\":0", "\"vessel\":7"), "picked vessel"),
+        (text.replace("\"fwhm_mm\":0.9", "\"fwhm_mm\":0"), "FWHM of the session"),
         (text.replace("[0.5,3.0]", "[0.5,3.0,4.0]"), "found 3 references"),
     ];
     for (damaged, expected) in cases {
