@@ -94,8 +94,10 @@ def lint_checks() -> list[Check]:
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
-        # Fuzzing has a lock file of its own and comes last: what a crate newly depends on is asked for at once.
-        Check("lock file of fuzzing", (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)),
+        # Fuzzing comes last and has a lock file of its own: what a crate newly depends on is asked for here.
+        Check(
+            "lock file of fuzzing", (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)
+        ),
         Check("licences", (sys.executable, "scripts/licences.py", "--check")),
         Check("tools", ("make", "--no-print-directory", "tools")),
         Check("format of Python", (f"{BIN}/ruff", "format", "--check")),

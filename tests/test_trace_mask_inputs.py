@@ -105,7 +105,7 @@ def test_what_is_no_mask_is_refused(tube):
         (Volume(np.zeros((9, 9, 9), np.uint8)), "found only zeros"),
         (Volume(np.ones((9, 9, 9), np.uint8)), "found lumen in every voxel"),
         (Volume(np.eye(9, dtype=np.uint8)[None]), "at least 2 voxels along each axis.*give the whole mask"),
-        (Volume(tube.array.astype(np.float32) * 0.5), "a voxel of 0.5; expected whole numbers.*Compare"),
+        (Volume(tube.array.astype(np.float32) * 0.5), "a voxel of 0.5; expected whole numbers.*compare"),
         (Volume(tube.array * np.nan), "a voxel of NaN; expected whole numbers"),
         (Volume(tube.array * 1e9), "a voxel of 1000000000; expected whole numbers"),
         (tubes([[(15, 15, 15), (15.1, 15, 15)]], 6), "nowhere longer than wide"),
