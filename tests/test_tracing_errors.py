@@ -223,6 +223,7 @@ def test_voxels_that_are_no_numbers_are_no_lumen():
 
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="no signals between threads here")
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_the_tracing():
     volume = Volume(np.full((260, 260, 260), 300, dtype=np.int16))
     array = np.array(volume.array)
