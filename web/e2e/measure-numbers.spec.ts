@@ -92,6 +92,7 @@ test('the section shows its contour and its diameters', async () => {
 
 test('a ruler measures between two clicks; its ends can be dragged, and it can be removed', async () => {
   await tube.button('Ruler').click();
+  await expect(tube.button('Ruler')).toHaveAttribute('aria-pressed', 'true');
   const [x, y] = await tube.viewer.place([0.5, 0.5], 'section');
   const perMm = await tube.sectionPixels();
   await tube.viewer.page.mouse.click(x - 6 * perMm, y);

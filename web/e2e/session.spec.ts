@@ -90,6 +90,7 @@ async function work(): Promise<void> {
   await button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 });
   await expect(stenosis(viewer)).toContainText('%');
   await button(viewer, 'Ruler').click();
+  await expect(button(viewer, 'Ruler')).toHaveAttribute('aria-pressed', 'true');
   await viewer.click([0.4, 0.5], 'section');
   await viewer.click([0.6, 0.4], 'section');
   await expect(viewer.page.getByTestId('ruler')).toHaveCount(1);

@@ -1,5 +1,5 @@
 /** Rulers over a picture: those of which both ends are seen there, and the first point of one that is drawn. */
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { Pair, Vector } from '../core/messages';
 import type { Ruler } from '../edit/document';
 import { document_ } from '../edit/history';
@@ -40,7 +40,8 @@ export function RulerLayer({ seen }: { readonly seen: Seen }) {
   const current = useRef(seen);
   current.current = seen;
   const isDrawing = tool.value === 'ruler';
-  useEffect(() => {
+  // Before the button is seen pressed: a click that follows at once is heard.
+  useLayoutEffect(() => {
     const pane = place.current?.closest<HTMLElement>('.pane-body');
     return isDrawing && pane ? listenToClicks(pane, (pixel) => current.current.pointAt(pixel)) : undefined;
   }, [isDrawing]);
