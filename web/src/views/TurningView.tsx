@@ -38,7 +38,8 @@ export function TurningView() {
     const element = canvas.current;
     if (element && store.started.value?.isGpu) {
       handedOver.add(element);
-      void engine.drawOn(element.transferControlToOffscreen()).then(() => loop.current?.again());
+      const handed = engine.drawOn(element.transferControlToOffscreen());
+      void handed.then(() => loop.current?.again(), recover);
     } else {
       loop.current?.again();
     }
