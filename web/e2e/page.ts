@@ -13,7 +13,6 @@ const NO_SAMPLES = 700;
 const WRITTEN = 400;
 
 interface TestHook {
-  loseDevice(): Promise<void>;
   memory(): Promise<number>;
   report(): Promise<Report>;
   readonly measuring: Measuring;
@@ -226,13 +225,6 @@ export class Viewer {
         Number.parseFloat(hair.style.left),
         Number.parseFloat(hair.style.top),
       ]);
-  }
-
-  /** Calls what the page has for its tests. */
-  loseDevice(): Promise<void> {
-    return this.page.evaluate(() =>
-      (window as unknown as { lumencutTest: TestHook }).lumencutTest.loseDevice(),
-    );
   }
 
   /** Bytes of the memory of the module. */

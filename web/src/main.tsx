@@ -54,10 +54,9 @@ if (root) {
 listenToKeys();
 followEdits(engine.tracing);
 if (asked.has('test')) {
-  // What the tests of the page need and no user: the loss of a GPU, the size of the memory, and measuring without its panel.
+  // What the tests of the page need and no user: the size of the memory, and measuring without its panel.
   Object.assign(window, {
     lumencutTest: {
-      loseDevice: () => engine.loseDevice(),
       memory: () => engine.memory(),
       report: () => engine.report(),
       measuring: engine.measuring,

@@ -235,7 +235,7 @@ describe('failures', () => {
     isBroken = false;
     loop.again();
     await vi.advanceTimersByTimeAsync(2000);
-    expect(stages()).toEqual(['full', 'samples']);
+    expect(stages()).toEqual(['moving', 'full', 'samples']);
   });
 });
 
@@ -258,8 +258,8 @@ describe('after what draws was exchanged while a picture was under way', () => {
     await vi.advanceTimersByTimeAsync(20);
     loop.again();
     await vi.advanceTimersByTimeAsync(1000);
-    expect(engine.asked).toHaveLength(3);
-    expect(stages()).toEqual(['full', 'samples']);
+    expect(engine.asked).toHaveLength(4);
+    expect(stages()).toEqual(['moving', 'full', 'samples']);
     expect(engine.most).toBe(1);
   });
 
@@ -272,7 +272,7 @@ describe('after what draws was exchanged while a picture was under way', () => {
     loop.again();
     await vi.advanceTimersByTimeAsync(1000);
     expect(failures).toEqual([]);
-    expect(stages()).toEqual(['full', 'samples']);
+    expect(stages()).toEqual(['moving', 'full', 'samples']);
   });
 
   test('a failure after that is told', async () => {

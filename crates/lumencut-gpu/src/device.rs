@@ -18,11 +18,17 @@ pub struct Device {
     pub(crate) limits: Limits,
     pub(crate) has_timestamps: bool,
     description: Description,
-    failure: Failure,
+    trouble: Arc<Mutex<Trouble>>,
 }
 
-/// The first thing that went wrong since it was last asked for.
-type Failure = Arc<Mutex<Option<String>>>;
+/// What the driver reported between calls.
+#[derive(Debug, Default)]
+struct Trouble {
+    /// The first error since it was last asked for.
+    error: Option<String>,
+    /// Why the device computes no more; it never comes back.
+    loss: Option<String>,
+}
 
 impl Device {
     /// Opens a GPU.
@@ -49,9 +55,9 @@ impl Device {
         };
         let opened = adapter.request_device(&descriptor).await;
         let (device, queue) = opened.map_err(|error| broken(&description.name, &error.to_string()))?;
-        let failure = Failure::default();
-        watch(&device, &failure);
-        Ok(Self { limits: device.limits(), device, queue, has_timestamps, description, failure })
+        let trouble = Arc::default();
+        watch(&device, &trouble);
+        Ok(Self { limits: device.limits(), device, queue, has_timestamps, description, trouble })
     }
 
     /// What its driver says of it.
@@ -59,13 +65,19 @@ impl Device {
         &self.description
     }
 
-    /// An error where something went wrong since the last call.
+    /// An error where something went wrong since the last call, or where the device is lost.
     ///
     /// # Errors
     /// [`ErrorKind::Device`] with the driver's words.
     pub fn check(&self) -> Result<()> {
-        let failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
-        failure.map_or(Ok(()), |words| Err(broken(&self.description.name, &words)))
+        let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
+        let words = trouble.loss.clone().or_else(|| trouble.error.take());
+        words.map_or(Ok(()), |words| Err(broken(&self.description.name, &words)))
+    }
+
+    /// Whether it computes no more, as far as the driver has told.
+    pub fn is_lost(&self) -> bool {
+        self.trouble.lock().unwrap_or_else(PoisonError::into_inner).loss.is_some()
     }
 
     /// An error for work that the GPU did not finish.
@@ -86,14 +98,15 @@ impl Device {
 }
 
 /// Listens for what the driver reports between calls.
-fn watch(device: &wgpu::Device, failure: &Failure) {
-    let note = |failure: &Failure, words: String| {
-        failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(words);
-    };
-    let (on_error, on_loss) = (Arc::clone(failure), Arc::clone(failure));
-    device.on_uncaptured_error(Arc::new(move |error| note(&on_error, error.to_string())));
+fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Trouble>>) {
+    let (on_error, on_loss) = (Arc::clone(trouble), Arc::clone(trouble));
+    device.on_uncaptured_error(Arc::new(move |error| {
+        let mut trouble = on_error.lock().unwrap_or_else(PoisonError::into_inner);
+        trouble.error.get_or_insert_with(|| error.to_string());
+    }));
     device.set_device_lost_callback(move |reason, words| {
-        note(&on_loss, format!("device lost ({reason:?}) {words}"));
+        let mut trouble = on_loss.lock().unwrap_or_else(PoisonError::into_inner);
+        trouble.loss = Some(format!("device lost ({reason:?}) {words}"));
     });
 }
 

@@ -80,7 +80,8 @@ impl Engine {
         self.backend.name().to_owned()
     }
 
-    /// Computes on another device from now on, or on the same one after it was lost; the study stays open.
+    /// Computes on another device from now on, or on the same one after it was lost; the study stays open, and a GPU needs
+    /// a canvas anew: the one before stays black once the process of the browser that drew on it has failed.
     ///
     /// # Errors
     /// As [`Engine::open`].
@@ -88,11 +89,6 @@ impl Engine {
         self.screen = None;
         self.backend = backend(device).await?;
         Ok(())
-    }
-
-    /// Simulates the loss of the GPU, for tests of what follows.
-    pub fn lose_device(&self) {
-        self.backend.lose();
     }
 
     /// From now on a GPU draws the turning view on this canvas.

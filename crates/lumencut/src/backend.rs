@@ -113,40 +113,30 @@ impl Backend {
     /// surface, never leaves it.
     ///
     /// # Errors
-    /// As [`Backend::render_by`]; [`ErrorKind::Device`] also where the CPU could stand in, so that the caller can try the GPU
-    /// again.
+    /// As [`Backend::render_by`]; [`ErrorKind::Device`] also where the CPU could stand in, so that the caller can choose anew
+    /// what computes.
     #[cfg(target_arch = "wasm32")]
     pub async fn draw(
         &mut self,
         method: Method,
         scene: &Scene<'_>,
         request: &Request<'_>,
-        screen: Option<&mut Screen>,
+        mut screen: Option<&mut Screen>,
     ) -> Result<Drawn> {
         let is_alone = method == Method::CutSurface && request.settings.samples == 1;
-        let (Some(screen), Computer::Gpu(gpu)) = (screen, &mut self.computer) else {
-            return self.render_by(method, scene, request).await.map(|(frame, _)| Drawn::Frame(frame));
-        };
-        if is_alone {
-            gpu.open().await?.draw(scene, request, screen).await?;
+        if is_alone && let (Some(screen), Computer::Gpu(gpu)) = (screen.as_deref_mut(), &mut self.computer) {
+            gpu.draw(scene, request, screen).await?;
             return Ok(Drawn::OnScreen);
         }
         let (frame, lost) = self.render_by(method, scene, request).await?;
-        match (lost, &mut self.computer) {
-            (None, Computer::Gpu(gpu)) => gpu.open().await?.show(&frame.image, frame.size(), screen).await?,
-            (lost, _) => return Err(lost.unwrap_or_else(Error::interrupted)),
+        if let Some(lost) = lost {
+            return Err(lost);
         }
+        let (Some(screen), Computer::Gpu(gpu)) = (screen, &mut self.computer) else {
+            return Ok(Drawn::Frame(frame));
+        };
+        gpu.show(&frame, screen).await?;
         Ok(Drawn::OnScreen)
-    }
-
-    /// Simulates the loss of the GPU, for tests of what follows.
-    #[cfg(target_arch = "wasm32")]
-    pub fn lose(&self) {
-        if let Computer::Gpu(gpu) = &self.computer
-            && let Some(renderer) = &gpu.renderer
-        {
-            renderer.device().lose();
-        }
     }
 
     /// Shows a volume where another method than the cut surface looks: in the places of the frame that `places` makes, once
@@ -168,7 +158,6 @@ impl Backend {
             Err(error) if error.kind == ErrorKind::Device => error,
             other => return Ok((other?, None)),
         };
-        gpu.let_go();
         if !gpu.is_optional {
             return Err(error);
         }
@@ -202,7 +191,6 @@ impl Backend {
             Err(error) if error.kind == ErrorKind::Device => error,
             other => return other,
         };
-        gpu.let_go();
         if !gpu.is_optional {
             return Err(error);
         }
@@ -270,7 +258,8 @@ impl Gpu {
     }
 
     async fn render(&mut self, method: Method, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
-        method.on_gpu(self.open().await?, scene, request).await
+        let outcome = async { method.on_gpu(self.open().await?, scene, request).await }.await;
+        self.kept_unless_failed(outcome)
     }
 
     async fn look(
@@ -279,14 +268,29 @@ impl Gpu {
         frame: Frame,
         request: &Request<'_>,
     ) -> Result<Frame> {
-        self.open().await?.look(volume, frame, request).await
+        let outcome = async { self.open().await?.look(volume, frame, request).await }.await;
+        self.kept_unless_failed(outcome)
     }
 
-    /// Keeps nothing on a GPU that failed.
-    fn let_go(&mut self) {
-        if let Some(renderer) = self.renderer.take() {
+    #[cfg(target_arch = "wasm32")]
+    async fn draw(&mut self, scene: &Scene<'_>, request: &Request<'_>, screen: &mut Screen) -> Result<()> {
+        let outcome = async { self.open().await?.draw(scene, request, screen).await }.await;
+        self.kept_unless_failed(outcome)
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    async fn show(&mut self, frame: &Frame, screen: &mut Screen) -> Result<()> {
+        let outcome = async { self.open().await?.show(&frame.image, frame.size(), screen).await }.await;
+        self.kept_unless_failed(outcome)
+    }
+
+    /// Keeps nothing on a GPU that failed, so that whoever asks next opens it anew.
+    fn kept_unless_failed<T>(&mut self, outcome: Result<T>) -> Result<T> {
+        let has_failed = outcome.as_ref().is_err_and(|error| error.kind == ErrorKind::Device);
+        if has_failed && let Some(renderer) = self.renderer.take() {
             devices::forget(renderer.device());
         }
+        outcome
     }
 
     /// A forked process cannot use, or free, what its parent has on the GPU.

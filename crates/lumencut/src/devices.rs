@@ -64,7 +64,7 @@ struct Opened {
 impl Opened {
     fn will_do(&self, choice: Choice) -> bool {
         let is_hardware = !self.device.description().is_software;
-        self.process == process() && (choice == Choice::Any || is_hardware)
+        self.process == process() && !self.device.is_lost() && (choice == Choice::Any || is_hardware)
     }
 }
 

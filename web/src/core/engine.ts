@@ -85,10 +85,6 @@ export class EngineClient {
     return heard(this.host.changeDevice(device));
   }
 
-  loseDevice(): Promise<void> {
-    return heard(this.host.loseDevice());
-  }
-
   memory(): Promise<number> {
     return heard(this.host.memory());
   }

@@ -67,8 +67,8 @@ export class FrameLoop {
     if (this.isBusy) {
       this.isOutdated = true;
     } else if (this.wanted) {
-      this.stage = 'full';
-      this.next();
+      // From the start, since the first picture of a device also takes the time that its shaders need to be compiled.
+      this.want(this.wanted);
     }
   }
 

@@ -76,11 +76,6 @@ export class EngineHost {
     });
   }
 
-  /** Simulates the loss of the GPU, for tests. */
-  loseDevice(): Promise<void> {
-    return this.run(() => this.ready().lose_device());
-  }
-
   /** How large the memory of the module is (bytes). */
   memory(): Promise<number> {
     return this.run(memorySize);

@@ -50,6 +50,10 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
         device.lose();
         for _ in 0..2 {
             check(&render(&mut renderer, &scene, &|| false).unwrap_err());
+            // The driver tells of the loss when it is asked for news; then it stays lost, however often it is asked.
+            let _ = device.device.poll(wgpu::PollType::Poll);
+            check(&device.check().unwrap_err());
+            assert!(device.is_lost());
         }
         // What is made on it afterwards does not compute either.
         let mut late = GpuRenderer::new(device);
