@@ -213,9 +213,10 @@ test('in a window of another size all views fill their panes', async () => {
   await viewer.page.setViewportSize({ width: 700, height: 480 });
   await viewer.rest();
   for (const pane of LAYOUTS.four ?? []) {
-    const size = await viewer.size(pane);
-    await expect.poll(async () => (await viewer.pixels(pane)).width).toBe(size[0]);
-    await expect.poll(async () => (await viewer.pixels(pane)).height).toBe(size[1]);
+    await expect(async () => {
+      const { width, height } = await viewer.pixels(pane);
+      expect([width, height]).toEqual([...(await viewer.size(pane))]);
+    }).toPass({ timeout: 10_000 });
   }
   await viewer.page.setViewportSize({ width: 800, height: 560 });
   await viewer.rest();

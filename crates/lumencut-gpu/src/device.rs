@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use futures_channel::oneshot::{Sender, channel};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use wgpu::{Adapter, Features, Limits};
 
@@ -28,6 +29,8 @@ struct Trouble {
     error: Option<String>,
     /// Why the device computes no more; it never comes back.
     loss: Option<String>,
+    /// Those who wait for its loss; they hear of it by the end of their channel.
+    waiting: Vec<Sender<()>>,
 }
 
 impl Device {
@@ -80,6 +83,18 @@ impl Device {
         self.trouble.lock().unwrap_or_else(PoisonError::into_inner).loss.is_some()
     }
 
+    /// Ends once the device is lost, or is not used any more.
+    pub fn loss(&self) -> impl Future<Output = ()> + use<> {
+        let (waiting, lost) = channel();
+        let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
+        if trouble.loss.is_none() {
+            trouble.waiting.push(waiting);
+        }
+        async move {
+            let _ = lost.await;
+        }
+    }
+
     /// An error for work that the GPU did not finish.
     pub(crate) fn unfinished(&self) -> Error {
         self.check().err().unwrap_or_else(|| broken(&self.description.name, "no result"))
@@ -107,6 +122,7 @@ fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Trouble>>) {
     device.set_device_lost_callback(move |reason, words| {
         let mut trouble = on_loss.lock().unwrap_or_else(PoisonError::into_inner);
         trouble.loss = Some(format!("device lost ({reason:?}) {words}"));
+        trouble.waiting.clear();
     });
 }
 

@@ -1,6 +1,6 @@
 //! What the page's worker calls, and the turning view: on the canvas where a GPU computes, else as bytes.
 
-use js_sys::{Uint8Array, Uint8ClampedArray};
+use js_sys::{Promise, Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
 use lumencut::devices::{Choice, Wanted};
 use lumencut::pipeline::Request;
@@ -9,6 +9,7 @@ use lumencut::stages::{Image, ImageSet};
 use serde::Serialize;
 use serde_json::json;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+use wasm_bindgen_futures::future_to_promise;
 use web_sys::OffscreenCanvas;
 
 use crate::choices::table_as_json;
@@ -89,6 +90,15 @@ impl Engine {
         self.screen = None;
         self.backend = backend(device).await?;
         Ok(())
+    }
+
+    /// A promise that is kept once the GPU that computes now is lost.
+    pub fn loss(&self) -> Promise {
+        let loss = self.backend.loss();
+        future_to_promise(async move {
+            loss.await;
+            Ok(JsValue::UNDEFINED)
+        })
     }
 
     /// From now on a GPU draws the turning view on this canvas.

@@ -139,6 +139,21 @@ impl Backend {
         Ok(Drawn::OnScreen)
     }
 
+    /// Ends once the GPU that computes now is lost; at once where none does.
+    #[cfg(target_arch = "wasm32")]
+    pub fn loss(&self) -> impl Future<Output = ()> + use<> {
+        let renderer = match &self.computer {
+            Computer::Gpu(gpu) => gpu.renderer.as_ref(),
+            Computer::Cpu(_) => None,
+        };
+        let loss = renderer.map(|renderer| renderer.device().loss());
+        async move {
+            if let Some(loss) = loss {
+                loss.await;
+            }
+        }
+    }
+
     /// Shows a volume where another method than the cut surface looks: in the places of the frame that `places` makes, once
     /// more where the CPU takes over. One sample per pixel.
     ///

@@ -85,6 +85,11 @@ export class EngineClient {
     return heard(this.host.changeDevice(device));
   }
 
+  /** Ends once the GPU that computes now is lost. */
+  loss(): Promise<void> {
+    return heard(this.host.loss());
+  }
+
   memory(): Promise<number> {
     return heard(this.host.memory());
   }

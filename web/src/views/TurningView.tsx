@@ -40,6 +40,8 @@ export function TurningView() {
       handedOver.add(element);
       const handed = engine.drawOn(element.transferControlToOffscreen());
       void handed.then(() => loop.current?.again(), recover);
+      // Its canvas is black then. Drawn again, the view fails, and what follows finds another device.
+      void engine.loss().then(() => loop.current?.again(), recover);
     } else {
       loop.current?.again();
     }

@@ -76,6 +76,12 @@ export class EngineHost {
     });
   }
 
+  /** Ends once the GPU that computes now is lost; other work goes on meanwhile. */
+  async loss(): Promise<void> {
+    const { lost } = await this.run(() => ({ lost: this.ready().loss() }));
+    await lost;
+  }
+
   /** How large the memory of the module is (bytes). */
   memory(): Promise<number> {
     return this.run(memorySize);

@@ -1,7 +1,9 @@
 //! What a renderer says where the GPU is lost or too small, or where it is to stop.
 
+use std::pin::pin;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::task::{Context, Waker};
 
 use lumencut_core::camera::MAX_PIXELS;
 use lumencut_core::error::{Error, ErrorKind};
@@ -47,6 +49,9 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
         for _ in 0..views_before {
             render(&mut renderer, &scene, &|| false).unwrap();
         }
+        let mut loss = pin!(device.loss());
+        let mut has_ended = || loss.as_mut().poll(&mut Context::from_waker(Waker::noop())).is_ready();
+        assert!(!has_ended());
         device.lose();
         for _ in 0..2 {
             check(&render(&mut renderer, &scene, &|| false).unwrap_err());
@@ -55,6 +60,9 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
             check(&device.check().unwrap_err());
             assert!(device.is_lost());
         }
+        // Who waits hears of it, and who asks later does not wait.
+        assert!(has_ended());
+        pollster::block_on(device.loss());
         // What is made on it afterwards does not compute either.
         let mut late = GpuRenderer::new(device);
         check(&render(&mut late, &scene, &|| false).unwrap_err());
