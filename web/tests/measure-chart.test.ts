@@ -2,7 +2,7 @@
 import { describe, expect, test } from 'vitest';
 import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
 import { bandPath, counted, linePath, lonely, spreadOf, stretches, topOf } from '../src/measure/curves';
-import { flagsAt, flagsIn, offeredWidest, runs } from '../src/measure/flags';
+import { doubtsOf, flagsIn, offeredWidest, runs } from '../src/measure/flags';
 import { lyingBox, lyingIn, lyingPicture } from '../src/measure/lying';
 import { pixelAt, ticks, valueAt } from '../src/measure/scale';
 import { fittingSide } from '../src/measure/sections';
@@ -169,9 +169,22 @@ describe('doubts', () => {
   });
 
   test('a percentage has the flags of all places that it comes from, each once', () => {
-    expect(flagsAt(profile, stenosis(30, 15, 45))).toBe('');
-    expect(flagsAt(profile, stenosis(30, 20, 45))).toBe('At these places: calcium');
-    expect(flagsAt(profile, stenosis(20.5, 20, 55))).toBe('At these places: branch, calcium');
+    expect(doubtsOf(profile, stenosis(30, 15, 45))).toEqual([]);
+    expect(doubtsOf(profile, stenosis(30, 20, 45))).toEqual(['At these places: calcium.']);
+    expect(doubtsOf(profile, stenosis(20.5, 20, 55))[0]).toBe('At these places: branch, calcium.');
+  });
+
+  test('a branch between the place and a reference is told, one beyond the references is not', () => {
+    const between =
+      'A branch lies between the place and a reference: beyond it a vessel may be of another width.';
+    const branchFrom = (from: number, to: number) => ({
+      ...profile,
+      flags: profile.arc_length.map((at) => (at >= from && at <= to ? ['branch'] : [])),
+    });
+    expect(doubtsOf(branchFrom(36, 38), stenosis(30, 15, 45))).toEqual([between]);
+    expect(doubtsOf(branchFrom(20, 22), stenosis(30, 15, 45))).toEqual([between]);
+    expect(doubtsOf(branchFrom(47, 49), stenosis(30, 15, 45))).toEqual([]);
+    expect(doubtsOf(branchFrom(45, 45), stenosis(30, 15, 45))).toEqual(['At these places: branch.']);
   });
 
   test('a widest place at or beside a branch, or of an irregular outline, is not offered', () => {

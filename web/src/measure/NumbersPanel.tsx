@@ -7,13 +7,14 @@ import { giveFwhm } from './profiles';
 import { RulersPart } from './RulersPart';
 import { StenosisPart } from './StenosisPart';
 import { StretchPart } from './StretchPart';
-import { mm } from './words';
+import { mm, unitless } from './words';
 
 export function NumbersPanel() {
   const profile = currentProfile.value;
   return (
     <div class="numbers-panel" data-testid="numbers">
       <VesselChoice />
+      {unitless() && <p data-testid="unitless">{unitless()}</p>}
       {profile && (
         <>
           <StenosisPart profile={profile} />

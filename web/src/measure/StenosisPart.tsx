@@ -5,7 +5,7 @@ import { attempt } from '../output/attempt';
 import { saveReport } from '../output/report';
 import { answers, currentMarks, currentPlaces } from './current';
 import { changeMarks, confirmAll } from './editing';
-import { flagsAt } from './flags';
+import { type ComparedPlaces, doubtsOf } from './flags';
 import { missingWords } from './marks';
 import { METHOD_NAMES, stenosisWords, told } from './words';
 
@@ -97,15 +97,24 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
   return <Missing marks={marks} />;
 }
 
-/** What makes the percentage doubtful: the flags of the places that it comes from. */
+/** What makes the percentage doubtful, or that of the places that are offered. */
 function Doubts({ profile }: { readonly profile: Profile }) {
-  const { stenosis } = answers.value;
-  const flags = stenosis ? flagsAt(profile, stenosis) : '';
-  return flags ? (
+  const compared = answers.value.stenosis ?? offered();
+  const doubts = compared ? doubtsOf(profile, compared) : [];
+  return doubts.length > 0 ? (
     <p class="doubts" data-testid="doubts">
-      {flags}
+      {doubts.join(' ')}
     </p>
   ) : null;
+}
+
+/** The narrowest place and its references, as they stand before they are graded. */
+function offered(): ComparedPlaces | null {
+  const places = currentPlaces.value;
+  const narrowest = places.find(({ kind }) => kind === 'place');
+  return narrowest
+    ? { at: narrowest.at, references: places.filter(({ kind }) => kind === 'reference') }
+    : null;
 }
 
 function Missing({ marks }: { readonly marks: VesselMarks }) {

@@ -1,6 +1,6 @@
 /** What there is to know of sections, in words; the order, words and colours are those of Python's plots. */
 
-import type { Profile, Spot, Stenosis } from '../core/measuring';
+import type { Profile, Spot } from '../core/measuring';
 import type { Pair } from '../core/messages';
 import { nearestSection } from './sections';
 
@@ -77,12 +77,30 @@ export function flagsIn(profile: Profile): readonly FlagLook[] {
   return FLAGS.filter(({ word }) => found.has(word));
 }
 
-/** The flags of the places that a percentage comes from, as a sentence; empty where there are none. */
-export function flagsAt(profile: Profile, { at, references }: Stenosis): string {
-  const places = [at, ...references.map((reference) => reference.at)];
-  const found = new Set(places.flatMap((place) => profile.flags[nearestSection(profile, place)] ?? []));
+/** A place on a vessel, and those that it is compared with (mm). */
+export interface ComparedPlaces {
+  readonly at: number;
+  readonly references: readonly { readonly at: number }[];
+}
+
+/** What makes a percentage doubtful, a sentence each: flags of the places that it comes from, and a branch between them. */
+export function doubtsOf(profile: Profile, { at, references }: ComparedPlaces): string[] {
+  const [place, ...others] = [at, ...references.map((one) => one.at)].map((one) =>
+    nearestSection(profile, one),
+  );
+  const found = new Set([place, ...others].flatMap((n) => profile.flags[n ?? 0] ?? []));
   const words = FLAGS.flatMap(({ word }) => (found.has(word) ? [word] : []));
-  return words.length > 0 ? `At these places: ${words.join(', ')}` : '';
+  const isBeyond = others.some((other) =>
+    profile.flags
+      .slice(Math.min(other, place ?? 0) + 1, Math.max(other, place ?? 0))
+      .some((flags) => flags.includes('branch')),
+  );
+  return [
+    ...(words.length > 0 ? [`At these places: ${words.join(', ')}.`] : []),
+    ...(isBeyond
+      ? ['A branch lies between the place and a reference: beyond it a vessel may be of another width.']
+      : []),
+  ];
 }
 
 /** A section whose outline another vessel or an odd shape changes is no widest place, nor one beside it (mm). */

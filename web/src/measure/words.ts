@@ -14,6 +14,12 @@ export const METHOD_NAMES: Readonly<Record<StenosisMethod, string>> = {
 
 const unit = (name: string): string => (states.value.spacing ? ` ${name}` : '');
 
+/** Why lengths have no unit; nothing where they have one. */
+export const unitless = (): string =>
+  states.value.spacing
+    ? ''
+    : 'The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.';
+
 /** A length, such as `3.02 mm`. */
 export function mm(value: number | null, digits = 2): string {
   return value === null ? NOTHING : `${value.toFixed(digits)}${unit('mm')}`;

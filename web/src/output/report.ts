@@ -13,14 +13,14 @@ import {
   currentProfile,
   currentVessel,
 } from '../measure/current';
-import { flagsAt, offeredWidest } from '../measure/flags';
+import { doubtsOf, offeredWidest } from '../measure/flags';
 import { lyingIn } from '../measure/lying';
 import { missingWords, type Place, placesOf } from '../measure/marks';
 import { COLORS } from '../measure/PlaceHandles';
 import { givenFwhm } from '../measure/profiles';
 import { rulerLength } from '../measure/rulers';
 import { fittingSide, lengthOf, sectionNumbers } from '../measure/sections';
-import { degrees, mm, NOTHING, placeName, stenosisWords, told } from '../measure/words';
+import { degrees, mm, NOTHING, placeName, stenosisWords, told, unitless } from '../measure/words';
 import * as store from '../state/store';
 import { saveAs } from './pictures';
 import { plotMarkup } from './ReportPlot';
@@ -81,7 +81,7 @@ async function reportContent(): Promise<ReportContent> {
     sections: await sectionsAt(marked),
     suggestions: suggestionsOf(profile, suggested),
     suggestedSections: await sectionsAt(suggested),
-    told: settingsWords(vessel, profile),
+    told: [settingsWords(vessel, profile), unitless()].join(' ').trim(),
     unit: store.states.value.spacing ? 'mm' : '',
   };
 }
@@ -89,9 +89,8 @@ async function reportContent(): Promise<ReportContent> {
 /** What was found, in words: never a percentage without its method, its references and mm. */
 function findingsOf({ stenosis, problem, stretch, secondStretch, angle }: Answers, profile: Profile) {
   const findings = stenosis ? [stenosisWords(stenosis)] : [];
-  const flags = stenosis ? flagsAt(profile, stenosis) : '';
   const remarks = [
-    ...(flags ? [`${flags}.`] : []),
+    ...(stenosis ? doubtsOf(profile, stenosis) : []),
     ...(stenosis?.group ? [`Group of the field: ${told(stenosis.group)}`] : []),
     ...(problem ? [`No percentage: ${problem.subject}: ${told(problem.found)}.`] : []),
     ...[stretch, secondStretch].flatMap((one) =>
