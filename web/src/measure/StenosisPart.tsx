@@ -3,9 +3,9 @@ import type { Profile, StenosisMethod, Territory } from '../core/measuring';
 import type { VesselMarks } from '../edit/document';
 import { attempt } from '../output/attempt';
 import { saveReport } from '../output/report';
-import { answers, currentMarks, currentPlaces } from './current';
+import { answers, comparedPlaces, currentMarks, currentPlaces } from './current';
 import { changeMarks, confirmAll } from './editing';
-import { type ComparedPlaces, doubtsOf } from './flags';
+import { doubtsOf } from './flags';
 import { missingWords } from './marks';
 import { METHOD_NAMES, stenosisWords, told } from './words';
 
@@ -99,22 +99,13 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
 
 /** What makes the percentage doubtful, or that of the places that are offered. */
 function Doubts({ profile }: { readonly profile: Profile }) {
-  const compared = answers.value.stenosis ?? offered();
+  const compared = answers.value.stenosis ?? comparedPlaces.value;
   const doubts = compared ? doubtsOf(profile, compared) : [];
   return doubts.length > 0 ? (
     <p class="doubts" data-testid="doubts">
       {doubts.join(' ')}
     </p>
   ) : null;
-}
-
-/** The narrowest place and its references, as they stand before they are graded. */
-function offered(): ComparedPlaces | null {
-  const places = currentPlaces.value;
-  const narrowest = places.find(({ kind }) => kind === 'place');
-  return narrowest
-    ? { at: narrowest.at, references: places.filter(({ kind }) => kind === 'reference') }
-    : null;
 }
 
 function Missing({ marks }: { readonly marks: VesselMarks }) {

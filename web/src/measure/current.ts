@@ -6,6 +6,7 @@ import type { LineId } from '../core/messages';
 import type { VesselMarks } from '../edit/document';
 import { document_ } from '../edit/history';
 import * as store from '../state/store';
+import type { ComparedPlaces } from './flags';
 import { NOTHING_SUGGESTED, type Place, placesOf, type Suggested } from './marks';
 import { profiles } from './profiles';
 import { marksOf } from './vessels';
@@ -73,4 +74,13 @@ export const answers = signal<Answers>(NO_ANSWERS);
 export const currentPlaces = computed<readonly Place[]>(() => {
   const [profile, marks] = [currentProfile.value, currentMarks.value];
   return profile && marks ? placesOf(profile, marks, answers.value.suggested) : [];
+});
+
+/** The narrowest place and its references among them, marked or suggested. */
+export const comparedPlaces = computed<ComparedPlaces | null>(() => {
+  const places = currentPlaces.value;
+  const narrowest = places.find(({ kind }) => kind === 'place');
+  return narrowest
+    ? { at: narrowest.at, references: places.filter(({ kind }) => kind === 'reference') }
+    : null;
 });

@@ -3,7 +3,7 @@ import { batch, signal } from '@preact/signals';
 import { type Document, NO_MARKS, type VesselMarks } from '../edit/document';
 import { change, document_, endPreview, preview } from '../edit/history';
 import { moveTo } from '../link/along';
-import { answers, currentMarks, currentPlaces, currentProfile, currentVessel } from './current';
+import { answers, comparedPlaces, currentMarks, currentProfile, currentVessel } from './current';
 import { allConfirmed, moved, type Place, placeAfter, removed, taken } from './marks';
 import { snapped } from './sections';
 import { withMarks } from './vessels';
@@ -82,14 +82,14 @@ export function confirm(place: Place): void {
 
 export function confirmAll(): void {
   const profile = currentProfile.value;
-  const narrowest = currentPlaces.value.find(({ kind }) => kind === 'place');
+  const compared = comparedPlaces.value;
   if (profile) {
     changeMarks('take the suggested places', (marks) =>
       allConfirmed(profile, marks, answers.value.suggested),
     );
     // What was confirmed is to be looked at.
-    if (narrowest) {
-      moveTo(narrowest.at);
+    if (compared) {
+      moveTo(compared.at);
     }
   }
 }

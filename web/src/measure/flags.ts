@@ -85,16 +85,13 @@ export interface ComparedPlaces {
 
 /** What makes a percentage doubtful, a sentence each: flags of the places that it comes from, and a branch between them. */
 export function doubtsOf(profile: Profile, { at, references }: ComparedPlaces): string[] {
-  const [place, ...others] = [at, ...references.map((one) => one.at)].map((one) =>
-    nearestSection(profile, one),
-  );
-  const found = new Set([place, ...others].flatMap((n) => profile.flags[n ?? 0] ?? []));
+  const place = nearestSection(profile, at);
+  const others = references.map((reference) => nearestSection(profile, reference.at));
+  const found = new Set([place, ...others].flatMap((n) => profile.flags[n] ?? []));
   const words = FLAGS.flatMap(({ word }) => (found.has(word) ? [word] : []));
-  const isBeyond = others.some((other) =>
-    profile.flags
-      .slice(Math.min(other, place ?? 0) + 1, Math.max(other, place ?? 0))
-      .some((flags) => flags.includes('branch')),
-  );
+  const between = (other: number) =>
+    profile.flags.slice(Math.min(place, other) + 1, Math.max(place, other)).flat();
+  const isBeyond = others.some((other) => between(other).includes('branch'));
   return [
     ...(words.length > 0 ? [`At these places: ${words.join(', ')}.`] : []),
     ...(isBeyond
