@@ -6,10 +6,8 @@ use std::collections::HashSet;
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::error::{Error, ErrorKind};
-use lumencut_core::measure::measuring::{Request, measure};
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::{Context, ContextMode, Settings, Slab, SlabMode, Window};
-use lumencut_core::trace::tracer::{Clicks, Tracer};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_scenes::pictures::render;
@@ -64,33 +62,6 @@ fn volume_errors() -> Vec<Error> {
     ]
 }
 
-/// Clicks into a volume of one value, outside it, and twice at the same place.
-fn tracing_errors() -> Vec<Error> {
-    let voxels = [0i16; 27];
-    let volume = Volume::new(Voxels::I16(&voxels), [3; 3], [1, 3, 9], DAffine3::IDENTITY).unwrap();
-    let traced = |points: [DVec3; 2]| {
-        let clicks = Clicks { vessels: vec![points.to_vec()], ..Clicks::default() };
-        Tracer::default().trace(&volume, &clicks, &|| false, None).unwrap_err()
-    };
-    vec![
-        traced([DVec3::ZERO, DVec3::splat(2.0)]),
-        traced([DVec3::ZERO, DVec3::splat(9.0)]),
-        traced([DVec3::ONE, DVec3::ONE]),
-    ]
-}
-
-/// A vessel in a volume of one value, and one outside it.
-fn measuring_errors() -> Vec<Error> {
-    let voxels = [0i16; 1000];
-    let volume = Volume::new(Voxels::I16(&voxels), [10; 3], [1, 10, 100], DAffine3::IDENTITY).unwrap();
-    let measured = |shift: f64| {
-        let points = [0.0, 9.0].map(|z| DVec3::new(5.0 + shift, 5.0, z)).to_vec();
-        let request = Request { step: 1.0, fwhm: None, tree: &[], stop: &|| false };
-        measure(&volume, &Vessel::new(points, None).unwrap(), &request).unwrap_err()
-    };
-    vec![measured(0.0), measured(50.0)]
-}
-
 fn settings_errors() -> Vec<Error> {
     let wrong = |change: fn(&mut Settings)| {
         let mut settings = Settings::default();
@@ -124,8 +95,7 @@ fn settings_errors() -> Vec<Error> {
 }
 
 fn input_errors() -> Vec<Error> {
-    let of_scenes = [vessel_errors(), camera_errors(), volume_errors(), settings_errors()];
-    [of_scenes.concat(), tracing_errors(), measuring_errors()].concat()
+    [vessel_errors(), camera_errors(), volume_errors(), settings_errors()].concat()
 }
 
 #[test]
@@ -137,8 +107,8 @@ fn errors_name_what_was_found_and_what_was_expected() {
     }
 }
 
-/// The kinds that need a GPU to be met; the tests of `lumencut-gpu` meet them.
-const OF_THE_GPU: [ErrorKind; 1] = [ErrorKind::Device];
+/// The kinds that other crates raise, whose tests meet them: `lumencut-gpu` and `lumencut-vessels`.
+const OF_OTHER_CRATES: [ErrorKind; 3] = [ErrorKind::Device, ErrorKind::Tracing, ErrorKind::Measuring];
 
 #[test]
 fn every_kind_of_error_can_be_met() {
@@ -148,5 +118,5 @@ fn every_kind_of_error_can_be_met() {
         render(&Scene::default().with_tree(scene), &camera, &Settings::default(), &|| true).unwrap_err();
     let all = [input_errors(), vec![stopped]].concat();
     let met: HashSet<_> = all.iter().map(|e| e.kind).collect();
-    assert_eq!(met, ErrorKind::ALL.into_iter().filter(|kind| !OF_THE_GPU.contains(kind)).collect());
+    assert_eq!(met, ErrorKind::ALL.into_iter().filter(|kind| !OF_OTHER_CRATES.contains(kind)).collect());
 }

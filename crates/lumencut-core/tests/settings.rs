@@ -3,8 +3,9 @@
 
 use std::collections::HashSet;
 
+use lumencut_core::named::Named;
 use lumencut_core::settings::{
-    Choices, Context, ContextMode, ContextName, ControlPoint, Kind, Named, Opacity, Preset, Settings, Slab,
+    Choices, Context, ContextMode, ContextName, ControlPoint, Kind, Opacity, Preset, Settings, Slab,
     SlabMode, TransferFunction, Value, Window, table,
 };
 

@@ -2,10 +2,10 @@
 
 use glam::{DVec2, DVec3};
 use lumencut::error::{Error, ErrorKind};
+use lumencut::math::path::Path;
+use lumencut::named::Named;
 use lumencut::pipeline;
 use lumencut::reformations::cpr::{self, CprMode, Straightened, View};
-use lumencut::reformations::path::Path;
-use lumencut::settings::Named;
 use lumencut::vessel_tree::Vessel;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;

@@ -10,7 +10,7 @@ use lumencut::measure::radii;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
 use lumencut::measure_words;
-use lumencut::settings::Named;
+use lumencut::named::Named;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 

@@ -1,8 +1,9 @@
 //! Checks of single parts of the settings. The Python class of a part calls its check when it is made, so that it need
 //! not know `lumencut.Settings`, which holds the parts.
 
+use lumencut::named::Named;
 use lumencut::reformations::cr::CrParameters;
-use lumencut::settings::{ControlPoint, Named, Opacity, Slab, SlabMode, TransferFunction, Window};
+use lumencut::settings::{ControlPoint, Opacity, Slab, SlabMode, TransferFunction, Window};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;

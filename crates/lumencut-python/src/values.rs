@@ -2,9 +2,8 @@
 //! transfer functions.
 
 use lumencut::error::Result;
-use lumencut::settings::{
-    ControlPoint, Kind, Named, Opacity, Slab, SlabMode, TransferFunction, Value, Window,
-};
+use lumencut::named::Named;
+use lumencut::settings::{ControlPoint, Kind, Opacity, Slab, SlabMode, TransferFunction, Value, Window};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 

@@ -1,6 +1,7 @@
 //! Settings by name, as JSON: the same table as everywhere.
 
-use lumencut::settings::{Choices, Kind, Named, Settings, Slab, SlabMode, Value, Window, table};
+use lumencut::named::Named;
+use lumencut::settings::{Choices, Kind, Settings, Slab, SlabMode, Value, Window, table};
 use serde_json::{Map, Value as Json, json};
 
 use crate::failure::{Failure, Result};

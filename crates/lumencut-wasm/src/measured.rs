@@ -7,9 +7,9 @@ use lumencut::measure::stenosis::{Compared, Method, Stenosis};
 use lumencut::measure::stretch::{towards_detector, up_at_detector};
 use lumencut::measure::suggestions::Spot;
 use lumencut::measure_words::{of_c_arm, of_flags, of_source, of_stenosis};
+use lumencut::named::Named;
 use lumencut::profile_marks::Marked;
 use lumencut::profile_record::Asked;
-use lumencut::settings::Named;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Result;

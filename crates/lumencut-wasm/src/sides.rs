@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use lumencut::feature_aggregation::Feature;
+use lumencut::math::path::Path;
 use lumencut::reformations::cpr::{Cpr, CprMode, View};
-use lumencut::reformations::path::Path;
 use lumencut::vessel_tree::Vessel;
 use serde::Deserialize;
 

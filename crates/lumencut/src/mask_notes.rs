@@ -1,8 +1,8 @@
 //! Whether a mask lies where its volume does, and what is to be told of its lines.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
-use lumencut_core::trace::mask::TracedMask;
 use lumencut_core::volume::Volume;
+use lumencut_vessels::trace::mask::TracedMask;
 
 use crate::text::rounded;
 

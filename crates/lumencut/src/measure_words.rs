@@ -1,10 +1,10 @@
 //! What was measured in words, the same in every host.
 
-use lumencut_core::measure::flags::names_of;
-use lumencut_core::measure::profile::Source;
-use lumencut_core::measure::stenosis::{Method, Stenosis};
-use lumencut_core::measure::stretch::CArm;
-use lumencut_core::settings::Named;
+use lumencut_core::named::Named;
+use lumencut_vessels::measure::flags::names_of;
+use lumencut_vessels::measure::profile::Source;
+use lumencut_vessels::measure::stenosis::{Method, Stenosis};
+use lumencut_vessels::measure::stretch::CArm;
 
 use crate::text::fixed;
 

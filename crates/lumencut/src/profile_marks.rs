@@ -1,8 +1,8 @@
 //! Places on a measured vessel: those that a reader marked, and suggestions for what was not marked.
 
 use lumencut_core::error::Result;
-use lumencut_core::measure::profile::Profile;
-use lumencut_core::measure::stenosis::{Compared, Method, Stenosis};
+use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
 
 /// What a reader marked on one vessel to have it graded.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Profiles as JSON for programs. Numbers have all their digits, and what could not be measured is null.
 
-use lumencut_core::measure::profile::Profile;
-use lumencut_core::measure::stenosis::Stenosis;
-use lumencut_core::settings::Named;
+use lumencut_core::named::Named;
+use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::stenosis::Stenosis;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
@@ -114,7 +114,7 @@ struct ProfileRecord {
 
 impl ProfileRecord {
     fn of(profile: &Profile) -> Self {
-        let longest = |spot: lumencut_core::measure::suggestions::Spot| Longest {
+        let longest = |spot: lumencut_vessels::measure::suggestions::Spot| Longest {
             arc_length_mm: spot.at,
             diameter_max_mm: spot.diameter,
         };

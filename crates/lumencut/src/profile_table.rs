@@ -1,6 +1,6 @@
 //! Profiles as a table: CSV with one line for each section.
 
-use lumencut_core::measure::profile::Profile;
+use lumencut_vessels::measure::profile::Profile;
 
 use crate::measure_words::{of_flags, of_source};
 use crate::text::rounded;

@@ -24,11 +24,11 @@ pub use self::straightened::Straightened;
 use self::stretched::Stretched;
 use self::surface::Surface;
 pub use self::view::View;
-use super::path::Path;
 use crate::camera::{MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Curved;
-use crate::settings::Named;
+use crate::math::path::Path;
+use crate::named::Named;
 
 /// What a default width leaves free on each side of the vessel (mm).
 const MARGIN: f64 = 25.0;

@@ -5,9 +5,7 @@ mod connections;
 pub mod cpr;
 pub mod cr;
 mod found;
-pub mod frames;
 pub mod mpcpr;
-pub mod path;
 
 pub use connections::Connections;
 pub use found::NO_VESSEL;

@@ -1,10 +1,10 @@
 //! Settings as hosts choose them, one by one and in any order, and the checked settings that they stand for.
 
 use super::context::{Context, ContextMode, ContextName};
-use super::named::Named;
 use super::table::{ContextChoices, Settings};
 use super::value::{Transfer, Value};
 use crate::error::{Error, ErrorKind, Result};
+use crate::named::Named;
 
 /// What a host chose; the rest has its default.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,8 +1,8 @@
 //! The context: what the rays gather where the cut surface shows nothing, and the names of the ways to do so.
 
-use super::named::Named;
 use super::transfer::{Preset, TransferFunction};
 use super::window::Window;
+use crate::named::Named;
 
 /// The ways to show the context, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,12 +1,12 @@
 //! The types that the fields of settings have: what hosts give for them, and how they are checked.
 
-use super::limits::Limits;
-use super::named::Named;
 use super::slab::{Slab, SlabMode};
 use super::transfer::{Preset, TransferFunction};
 use super::value::{Kind, Transfer, Value};
 use super::window::{Opacity, Window};
 use crate::error::{Error, ErrorKind, Result};
+use crate::limits::Limits;
+use crate::named::Named;
 
 /// A type that the field of a setting can have.
 pub(super) trait Field: Sized {

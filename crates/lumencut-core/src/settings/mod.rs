@@ -3,8 +3,6 @@
 mod choices;
 mod context;
 mod field;
-mod limits;
-mod named;
 mod paper;
 mod rules;
 mod setting;
@@ -16,8 +14,6 @@ mod window;
 
 pub use choices::Choices;
 pub use context::{Context, ContextMode, ContextName};
-pub use limits::Limits;
-pub use named::Named;
 pub use rules::{LevelChoice, SilhouetteRule};
 pub use setting::Setting;
 pub use slab::{Slab, SlabMode};

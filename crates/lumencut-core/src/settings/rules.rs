@@ -1,6 +1,6 @@
 //! The rules of the cut surface that are chosen by name.
 
-use super::named::Named;
+use crate::named::Named;
 
 /// Which vessel the levels of detail of a pixel belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

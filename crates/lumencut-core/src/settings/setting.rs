@@ -1,7 +1,7 @@
 //! One setting as hosts and documents see it, and the macro that declares settings.
 
-use super::limits::Limits;
 use super::value::{Kind, Value};
+use crate::limits::Limits;
 
 /// A row of the table of settings.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! The slab: how thick the cut surface is, and what it shows of its thickness.
 
-use super::limits::Limits;
-use super::named::Named;
 use crate::error::Result;
+use crate::limits::Limits;
+use crate::named::Named;
 
 /// The thicknesses that a slab can have.
 const THICKNESS: Limits = Limits::new(0.0, 1e3, "mm");

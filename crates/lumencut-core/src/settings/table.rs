@@ -2,13 +2,13 @@
 
 use super::context::{Context, ContextName};
 use super::field::Field;
-use super::limits::Limits;
 use super::rules::{LevelChoice, SilhouetteRule};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
 use super::value::{Transfer, Value};
 use super::window::{Opacity, Window};
 use crate::error::{Error, ErrorKind, Result};
+use crate::limits::Limits;
 
 /// The most levels of detail beyond the finest.
 pub const MAX_LEVELS: usize = 15;

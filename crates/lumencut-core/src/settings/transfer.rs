@@ -1,9 +1,9 @@
 //! Transfer functions: the colour and the opacity that an intensity has in the context, and those that have a name.
 
-use super::limits::Limits;
-use super::named::Named;
 use super::window::Window;
 use crate::error::{Error, ErrorKind, Result};
+use crate::limits::Limits;
+use crate::named::Named;
 
 /// The opacities that a control point can have.
 const OPACITY: Limits = Limits::new(0.0, 1.0, "per mm");

@@ -1,7 +1,7 @@
 //! The window (level, width) that maps intensities to grey, and the ramp that maps them to opacity.
 
-use super::limits::Limits;
 use crate::error::Result;
+use crate::limits::Limits;
 
 /// The widths that a window can have.
 const WIDTH: Limits = Limits::new(1e-12, Limits::LARGEST_INTENSITY, Limits::INTENSITY.unit);

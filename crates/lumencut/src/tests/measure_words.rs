@@ -1,5 +1,5 @@
 use super::*;
-use lumencut_core::measure::flags::{AT_LIMIT, NO_EDGE};
+use lumencut_vessels::measure::flags::{AT_LIMIT, NO_EDGE};
 
 fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
     Stenosis {

@@ -9,7 +9,7 @@ use super::row::{Anchor, Row, Run};
 use super::surface::{SAME_PLACE, Surface, one_row};
 use super::view::Axes;
 use crate::error::Result;
-use crate::reformations::path::Path;
+use crate::math::path::Path;
 
 /// The surface of the mode.
 pub(super) struct Projected {

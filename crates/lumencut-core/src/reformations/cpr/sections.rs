@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::surface::SAME_PLACE;
-use crate::reformations::frames::{Frames, MovingFrame, Station};
-use crate::reformations::path::Path;
+use crate::math::frames::{Frames, MovingFrame, Station};
+use crate::math::path::Path;
 
 /// How often an interval is halved at most to find a section: below what a number can tell.
 const HALVINGS: usize = 60;

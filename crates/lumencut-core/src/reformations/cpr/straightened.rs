@@ -10,8 +10,8 @@ use super::sections::{Section, Sections};
 use super::surface::{SAME_PLACE, Surface, comes_first};
 use super::view::{PARALLEL, View, unit};
 use crate::error::{Error, ErrorKind, Result};
-use crate::reformations::frames::{Frames, MovingFrame};
-use crate::reformations::path::Path;
+use crate::math::frames::{Frames, MovingFrame};
+use crate::math::path::Path;
 
 /// The space around a straightened vessel: x across the picture to the right, y into it, z along the vessel, all in mm.
 /// Before and after the vessel it goes on straight.

@@ -10,7 +10,7 @@ use super::row::{Anchor, Row, Run};
 use super::surface::{SAME_PLACE, Surface, comes_first, one_row};
 use super::view::Axes;
 use crate::error::Result;
-use crate::reformations::path::Path;
+use crate::math::path::Path;
 
 /// A segment that is not parallel to the lines.
 #[derive(Clone, Copy, Debug)]

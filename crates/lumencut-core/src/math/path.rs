@@ -1,0 +1,92 @@
+//! The centerline of one vessel as a curve: a polyline that is walked along by its arc length.
+
+use glam::DVec3;
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::limits::Limits;
+use crate::math::arc_length::arc_lengths;
+use crate::math::centerline_smoothing::smooth_centerlines;
+use crate::vessel_tree::{Vessel, VesselTree};
+
+/// A point no farther from the one before it (mm) is the same point.
+const SAME_PLACE: f64 = 1e-9;
+
+/// How strongly a path can be smoothed.
+const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
+
+/// A polyline without repeated points. Beyond both ends it goes on straight.
+#[derive(Clone, Debug)]
+pub struct Path {
+    points: Vec<DVec3>,
+    arc_length: Vec<f64>,
+    direction: Vec<DVec3>,
+}
+
+impl Path {
+    /// The centerline of a vessel, smoothed along its arc length by a Gaussian with a standard deviation of `smoothing` mm;
+    /// 0 leaves it as it is. Both ends stay where they are.
+    ///
+    /// # Errors
+    /// [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Settings`] for a smoothing outside 0 to 1000 mm.
+    pub fn new(vessel: &Vessel, smoothing: f64) -> Result<Self> {
+        SMOOTHING.check("smoothing of the centerline", smoothing)?;
+        let smoothed = if smoothing > 0.0 { smoothed(vessel, smoothing)? } else { vessel.clone() };
+        let mut points: Vec<DVec3> = Vec::with_capacity(smoothed.points().len());
+        for point in smoothed.points() {
+            if points.last().is_none_or(|last| last.distance(*point) > SAME_PLACE) {
+                points.push(*point);
+            }
+        }
+        if points.len() < 2 {
+            let found = "a vessel without length: all of its points lie at one place";
+            let expected = "points at two places at least";
+            return Err(Error::new(ErrorKind::VesselTree, "points of the vessel", found, expected));
+        }
+        let direction: Vec<_> = points.windows(2).map(|ends| (ends[1] - ends[0]).normalize()).collect();
+        let arc_length = arc_lengths(&points);
+        Ok(Self { points, arc_length, direction })
+    }
+
+    /// The points (mm, LPS).
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// The length of the path from its first point to each point (mm).
+    pub fn arc_length(&self) -> &[f64] {
+        &self.arc_length
+    }
+
+    /// The unit vectors along the segments, one less than points.
+    pub fn direction(&self) -> &[DVec3] {
+        &self.direction
+    }
+
+    /// The length of the path (mm).
+    pub fn length(&self) -> f64 {
+        self.arc_length[self.arc_length.len() - 1]
+    }
+
+    /// The segment at arc length `t` (mm), the first or the last one beyond the ends.
+    pub fn segment(&self, t: f64) -> usize {
+        self.arc_length.partition_point(|at| *at <= t).clamp(1, self.direction.len()) - 1
+    }
+
+    /// The point at arc length `t` (mm).
+    pub fn at(&self, t: f64) -> DVec3 {
+        let segment = self.segment(t);
+        self.points[segment] + self.direction[segment] * (t - self.arc_length[segment])
+    }
+}
+
+/// The vessel smoothed as quiet centerlines are, by one length everywhere.
+fn smoothed(vessel: &Vessel, length: f64) -> Result<Vessel> {
+    let points = vessel.points().to_vec();
+    let lengths = vec![length; points.len()];
+    let tree = VesselTree::new(vec![Vessel::new(points, Some(lengths))?])?;
+    Ok(smooth_centerlines(&tree, 1.0).vessels()[0].clone())
+}
+
+#[cfg(test)]
+#[path = "tests/path.rs"]
+mod tests;

@@ -1,0 +1,66 @@
+//! Where the lumen of a vessel is that of another one, too.
+
+use glam::DVec3;
+
+use super::place::Place;
+use lumencut_core::vessel_tree::Vessel;
+
+/// Vessels whose points all lie this near (mm) to those of the measured one are parts of it.
+const SAME_PLACE: f64 = 1e-3;
+
+/// Lines are followed in steps of at most this (mm).
+const STEP: f64 = 0.5;
+
+/// Whether a section, a disc of this radius (mm), meets the lumen of any other vessel.
+pub fn meets(place: &Place, center: DVec3, radius: f64, others: &[Lumen]) -> bool {
+    others.iter().any(|other| other.meets(place, center, radius))
+}
+
+/// The lumen of another vessel: balls along its line, and a ball around all of them.
+#[derive(Clone, Debug)]
+pub struct Lumen {
+    balls: Vec<(DVec3, f64)>,
+    around: (DVec3, f64),
+}
+
+impl Lumen {
+    /// The lumens of the vessels of a tree but of those that a measured vessel is made of. A vessel without radii has none
+    /// but its line.
+    pub fn of_others(tree: &[Vessel], measured: &Vessel) -> Vec<Self> {
+        tree.iter().filter(|vessel| !is_part(vessel, measured)).map(Self::new).collect()
+    }
+
+    fn new(vessel: &Vessel) -> Self {
+        let points = vessel.points();
+        let mut balls = vec![(points[0], vessel.radius_or_zero(0))];
+        for n in 1..points.len() {
+            let parts = (points[n].distance(points[n - 1]) / STEP).ceil().clamp(1.0, 1e4);
+            let [from, to] = [n - 1, n].map(|i| vessel.radius_or_zero(i));
+            for part in 1..=parts as usize {
+                let share = part as f64 / parts;
+                balls.push((points[n - 1].lerp(points[n], share), from + (to - from) * share));
+            }
+        }
+        let middle = balls.iter().map(|(center, _)| *center).sum::<DVec3>() / balls.len() as f64;
+        let reach = balls.iter().map(|(center, radius)| center.distance(middle) + radius).fold(0.0, f64::max);
+        Self { balls, around: (middle, reach) }
+    }
+
+    fn meets(&self, place: &Place, center: DVec3, radius: f64) -> bool {
+        if self.around.0.distance(center) > self.around.1 + radius {
+            return false;
+        }
+        self.balls.iter().any(|(ball, wide)| {
+            let [x, y, along] = place.coordinates(*ball - center);
+            let beside = (x.hypot(y) - radius).max(0.0);
+            along * along + beside * beside < wide * wide
+                || (*wide == 0.0 && beside == 0.0 && along.abs() < STEP)
+        })
+    }
+}
+
+/// Whether a vessel is a part of another one: each of its points is a point of that.
+fn is_part(vessel: &Vessel, whole: &Vessel) -> bool {
+    let is_there = |point: &DVec3| whole.points().iter().any(|other| other.distance(*point) < SAME_PLACE);
+    vessel.points().iter().all(is_there)
+}

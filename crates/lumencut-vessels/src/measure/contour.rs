@@ -1,0 +1,145 @@
+//! The wall along rays, corrected for what the blur moves it by, and what follows from it.
+
+use glam::{DVec2, DVec3};
+
+use super::ellipse::{Boundary, Ellipse};
+use super::place::Place;
+use super::rays::{RAYS, Ray, direction};
+use lumencut_core::math::lanes::FAN;
+use lumencut_core::math::statistics::median;
+
+/// A ray tells the wall where it is off the ellipse by no more than this share of the way there, or so many mm.
+const FARTHEST: (f64, f64) = (0.5, 0.5);
+
+/// The wall at each ray (mm from the centre of the ellipse): where the volume crosses a level along a ray, less what the blurred
+/// ellipse crosses it off its own boundary. Where a ray does not tell, it is that of the ellipse.
+pub fn wall(ellipse: &Ellipse, boundary: &Boundary, rays: &[Ray], level: f64) -> Vec<f64> {
+    let walls: Vec<f64> = (0..RAYS)
+        .map(|n| {
+            let own = ellipse.radius_towards(direction(n));
+            let ray = &rays[n];
+            let told = ray.edge.filter(|edge| *edge < ray.limit).and_then(|edge| {
+                let blurred = crossing(boundary, ellipse.center, direction(n), level, own)?;
+                Some(own + edge - blurred)
+            });
+            let most = (FARTHEST.0 * own).max(FARTHEST.1);
+            told.filter(|wall| (wall - own).abs() <= most && *wall > 0.0).unwrap_or(own)
+        })
+        .collect();
+    quiet(&walls, |n| ellipse.radius_towards(direction(n)))
+}
+
+/// Walls without spikes of one ray or two: the median of five neighbours, in shares of a radius that is known.
+fn quiet(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
+    let shares: Vec<f64> = walls.iter().enumerate().map(|(n, wall)| wall / own(n)).collect();
+    (0..RAYS)
+        .map(|n| {
+            let mut five: [f64; 5] = std::array::from_fn(|m| shares[(n + RAYS + m - 2) % RAYS]);
+            five.sort_unstable_by(f64::total_cmp);
+            five[2] * own(n)
+        })
+        .collect()
+}
+
+/// The walls by where rays end alone, under a blur of this width (mm); None where fewer than half of them do.
+pub fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
+    let end = |ray: &Ray| ray.edge.or_else(|| ray.bright_at.map(|_| within_rim(ray.rim, width)));
+    let mut ends: Vec<f64> = rays.iter().filter_map(end).collect();
+    if ends.len() < RAYS / 2 {
+        return None;
+    }
+    let middle = median(&mut ends)?;
+    // Between the struts of a stent rays leave it.
+    let walls: Vec<f64> = rays.iter().map(|ray| end(ray).unwrap_or(middle).min(1.5 * middle)).collect();
+    Some(quiet(&quiet(&walls, |_| middle), |_| middle))
+}
+
+/// Where a bright rim begins whose blurred one lies above half of its brightest share from one place to another: a strut of a
+/// stent is thinner than it looks.
+fn within_rim([begins, ends]: [f64; 2], width: f64) -> f64 {
+    let seen = ends - begins;
+    let true_width = (seen * seen - width * width).max(0.0).sqrt();
+    f64::midpoint(begins, ends) - 0.5 * true_width
+}
+
+/// Where the blurred ellipse crosses a level along a ray (mm), looked for around its boundary.
+fn crossing(boundary: &Boundary, center: DVec2, direction: DVec2, level: f64, own: f64) -> Option<f64> {
+    let reach = 0.6 * own + 0.4;
+    let first = (own - reach).max(0.0);
+    let step = (own + reach - first) / (FAN - 1) as f64;
+    let at = |n: usize| first + n as f64 * step;
+    let x = std::array::from_fn(|n| (center.x + direction.x * at(n)) as f32);
+    let y = std::array::from_fn(|n| (center.y + direction.y * at(n)) as f32);
+    let values = boundary.blurred(&x, &y).value.map(f64::from);
+    let n = (1..FAN).find(|n| values[*n] < level && values[n - 1] >= level)?;
+    Some(at(n) - step * (level - values[n]) / (values[n - 1] - values[n]))
+}
+
+/// How far walls lie from an ellipse, as a root of the mean square of their shares.
+pub fn irregularity(ellipse: &Ellipse, wall: &[f64]) -> f64 {
+    let off = |n: usize| (wall[n] / ellipse.radius_towards(direction(n)) - 1.0).powi(2);
+    ((0..RAYS).map(off).sum::<f64>() / RAYS as f64).sqrt()
+}
+
+/// The points of the wall (mm, LPS).
+pub fn points(place: &Place, center: DVec2, wall: &[f64]) -> Vec<DVec3> {
+    (0..RAYS).map(|n| place.point(center + direction(n) * wall[n])).collect()
+}
+
+/// The ellipse with the area, the centre and the second moments of what walls enclose around a point; None of nothing.
+pub fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
+    let corner = |n: usize| direction(n % RAYS) * wall[n % RAYS];
+    let (mut area, mut first, mut xx, mut xy, mut yy) = (0.0, DVec2::ZERO, 0.0, 0.0, 0.0);
+    for n in 0..RAYS {
+        let [a, b] = [corner(n), corner(n + 1)];
+        let triangle = 0.5 * a.perp_dot(b);
+        area += triangle;
+        first += (a + b) * (triangle / 3.0);
+        xx += triangle / 6.0 * (a.x * a.x + a.x * b.x + b.x * b.x);
+        yy += triangle / 6.0 * (a.y * a.y + a.y * b.y + b.y * b.y);
+        xy += triangle / 12.0 * (2.0 * a.x * a.y + 2.0 * b.x * b.y + a.x * b.y + b.x * a.y);
+    }
+    let middle = first / area;
+    let [xx, yy, xy] =
+        [xx / area - middle.x * middle.x, yy / area - middle.y * middle.y, xy / area - middle.x * middle.y];
+    // The covariance of a filled ellipse is a quarter of S S.
+    let root = (xx * yy - xy * xy).max(0.0).sqrt();
+    let scale = 2.0 / (xx + yy + 2.0 * root).sqrt();
+    let ellipse = Ellipse {
+        center: center + middle,
+        mean: 0.5 * scale * (xx + yy + 2.0 * root),
+        stretch: DVec2::new(0.5 * (xx - yy), xy) * scale,
+    };
+    let is_one = area > 0.0 && ellipse.mean.is_finite() && ellipse.semi_axes()[0] > 0.0;
+    is_one.then_some(ellipse)
+}
+
+/// For each centre the distance to the nearest wall, of its own section and of those around it: the radius of a ball within
+/// the lumen (mm). NaN where a section has no wall.
+pub fn inscribed(at: &[f64], centers: &[DVec3], contours: &[Vec<DVec3>]) -> Vec<f64> {
+    (0..at.len())
+        .map(|n| {
+            let mut nearest = distance(centers[n], &contours[n]);
+            for step in [-1, 1] {
+                let mut m = n;
+                while let Some(next) = m.checked_add_signed(step).filter(|next| *next < at.len()) {
+                    // Walls at a section that far away along the vessel are farther away than the nearest one.
+                    if nearest.is_nan() || (at[next] - at[n]).abs() > nearest {
+                        break;
+                    }
+                    m = next;
+                    nearest = nearest.min(distance(centers[n], &contours[m]));
+                }
+            }
+            nearest
+        })
+        .collect()
+}
+
+fn distance(center: DVec3, contour: &[DVec3]) -> f64 {
+    contour.iter().map(|point| point.distance(center)).fold(f64::NAN, f64::min)
+}
+
+#[cfg(test)]
+#[path = "tests/contour.rs"]
+mod tests;

@@ -1,0 +1,72 @@
+//! The picture of a section: the volume in a plane across a vessel.
+
+use glam::{DVec2, DVec3};
+
+use super::place::{Place, Track};
+use crate::trace::voxels::Voxels;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::limits::Limits;
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_core::volume::Volume;
+
+const SIDE: Limits = Limits::new(1e-3, 1e3, "mm");
+
+/// The most pixels along a side.
+const MOST_PIXELS: f64 = 4096.0;
+
+/// Directions are smoothed by a Gaussian of this standard deviation (mm) where nothing else is known.
+pub const SMOOTHING: f64 = 1.0;
+
+/// A section as an image of square pixels, its middle on the vessel.
+#[derive(Clone, Debug)]
+pub struct CrossSection {
+    /// The plane.
+    pub place: Place,
+    /// Pixels along each side.
+    pub pixels: usize,
+    /// The side of a pixel (mm).
+    pub pixel_spacing: f64,
+    /// The volume, row by row from the top; NaN outside.
+    pub value: Vec<f32>,
+}
+
+impl CrossSection {
+    /// The section at an arc length (mm), of a side of `size` mm.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for a place beyond the vessel, [`ErrorKind::Settings`] for a size or pixels that are none,
+    /// [`ErrorKind::VesselTree`] for a vessel without length.
+    pub fn new(volume: &Volume, vessel: &Vessel, at: f64, size: f64, pixel_spacing: f64) -> Result<Self> {
+        SIDE.check("size of the cross-section", size)?;
+        SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
+        let pixels = (size / pixel_spacing).round().max(1.0);
+        if pixels > MOST_PIXELS {
+            let found = format!("{pixels} × {pixels} pixels");
+            let expected = format!("at most {MOST_PIXELS} along a side");
+            return Err(Error::new(ErrorKind::Settings, "size of the cross-section", found, expected));
+        }
+        let track = Track::new(vessel, SMOOTHING)?;
+        let length = track.length();
+        if !(0.0..=length).contains(&at) {
+            let expected = format!("an arc length from 0 to {length:.3} mm");
+            return Err(Error::new(
+                ErrorKind::Measuring,
+                "place on the vessel",
+                format!("{at} mm"),
+                expected,
+            ));
+        }
+        let voxels = Voxels::new(volume);
+        let mut section =
+            Self { place: track.at(at), pixels: pixels as usize, pixel_spacing, value: Vec::new() };
+        section.value = section.positions().into_iter().map(|point| voxels.at(point)).collect();
+        Ok(section)
+    }
+
+    /// The place of each pixel (mm, LPS), row by row from the top.
+    pub fn positions(&self) -> Vec<DVec3> {
+        let n = self.pixels;
+        let away = |i: usize| (i as f64 + 0.5 - n as f64 / 2.0) * self.pixel_spacing;
+        (0..n * n).map(|pixel| self.place.point(DVec2::new(away(pixel % n), away(pixel / n)))).collect()
+    }
+}

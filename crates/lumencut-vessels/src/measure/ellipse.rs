@@ -1,0 +1,232 @@
+//! An ellipse blurred by a Gaussian: what a scanner shows of a lumen whose wall is sharp.
+//!
+//! The integral of the Gaussian over the ellipse is one along its boundary, by Green's theorem: with r the way from a place to
+//! the boundary, the field r (1 - exp(-r²/2)) / (2 π r²) has the Gaussian of standard deviation 1 as its divergence. What is
+//! integrated along the boundary is periodic and smooth, so that the trapezoidal rule converges exponentially (Trefethen and
+//! Weideman 2014, doi:10.1137/130932132). The derivatives by the shape are Gaussians along the same boundary.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DMat2, DVec2};
+
+use lumencut_core::math::lanes::FAN;
+
+/// The parameters of an ellipse: its centre, the mean of its semi-axes, and what makes it longer one way than the other.
+pub const SHAPE: usize = 5;
+
+/// Nodes along the boundary lie so many standard deviations of the blur apart, at most: what the rule leaves out is then
+/// below a thousandth of a percent.
+const NODE_DISTANCE: f64 = 1.3;
+
+const FEWEST_NODES: usize = 12;
+
+/// More nodes are never needed for a lumen (its radius is then 40 times the blur).
+const MOST_NODES: usize = 400;
+
+/// The points centre + S (cos t, sin t), where the symmetric matrix S has the elements mean ± `stretch.x` on its diagonal and
+/// `stretch.y` beside it. So a circle is nothing special, and its direction need not be known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipse {
+    /// The centre (mm).
+    pub center: DVec2,
+    /// The mean of the semi-axes (mm).
+    pub mean: f64,
+    /// Half of their difference as a vector at twice the angle of the longer one (mm).
+    pub stretch: DVec2,
+}
+
+impl Ellipse {
+    /// A circle.
+    pub fn circle(center: DVec2, radius: f64) -> Self {
+        Self { center, mean: radius, stretch: DVec2::ZERO }
+    }
+
+    /// The ellipse with these parameters; None where a semi-axis is not above 0.
+    pub fn from_parameters(p: &[f64]) -> Option<Self> {
+        let ellipse = Self { center: DVec2::new(p[0], p[1]), mean: p[2], stretch: DVec2::new(p[3], p[4]) };
+        (ellipse.semi_axes()[0] > 0.0).then_some(ellipse)
+    }
+
+    /// Its parameters, in the order of the derivatives.
+    pub fn parameters(&self) -> [f64; SHAPE] {
+        [self.center.x, self.center.y, self.mean, self.stretch.x, self.stretch.y]
+    }
+
+    /// The shorter and the longer semi-axis (mm).
+    pub fn semi_axes(&self) -> [f64; 2] {
+        let half = self.stretch.length();
+        [self.mean - half, self.mean + half]
+    }
+
+    /// From the centre to the ends of the shorter and of the longer axis (mm); those of a circle are one as good as another.
+    pub fn half_axes(&self) -> [DVec2; 2] {
+        let [short, long] = self.semi_axes();
+        let direction = DVec2::from_angle(0.5 * self.stretch.y.atan2(self.stretch.x));
+        [direction.perp() * short, direction * long]
+    }
+
+    /// The area (mm²).
+    pub fn area(&self) -> f64 {
+        PI * (self.mean * self.mean - self.stretch.length_squared())
+    }
+
+    /// The diameter of a circle of the same area (mm).
+    pub fn equivalent_diameter(&self) -> f64 {
+        2.0 * (self.area() / PI).max(0.0).sqrt()
+    }
+
+    /// The same ellipse, so many times as wide.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
+    }
+
+    fn matrix(&self) -> DMat2 {
+        let DVec2 { x, y } = self.stretch;
+        DMat2::from_cols(DVec2::new(self.mean + x, y), DVec2::new(y, self.mean - x))
+    }
+
+    /// The distance from the centre to the boundary along a unit vector (mm).
+    pub fn radius_towards(&self, direction: DVec2) -> f64 {
+        1.0 / (self.matrix().inverse() * direction).length().max(1e-12)
+    }
+}
+
+/// A Gaussian blur in a plane, by the matrix that makes it one of standard deviation 1 in all directions.
+#[derive(Clone, Copy, Debug)]
+pub struct Whitening(pub DMat2);
+
+impl Whitening {
+    /// The whitening of a blur with this covariance (mm²), which must be positive definite: its inverse square root.
+    pub fn new(covariance: DMat2) -> Self {
+        let (a, b, d) = (covariance.x_axis.x, covariance.x_axis.y, covariance.y_axis.y);
+        // The square root of a matrix of two by two: (C + √det) / √(trace + 2 √det).
+        let root = (a * d - b * b).max(0.0).sqrt();
+        let scale = (a + d + 2.0 * root).sqrt();
+        let square_root = DMat2::from_cols(DVec2::new(a + root, b), DVec2::new(b, d + root)) * (1.0 / scale);
+        Self(square_root.inverse())
+    }
+}
+
+/// A place on the boundary of a whitened ellipse: where it is, its tangent, and how far the boundary moves outwards there
+/// with each parameter. Tangent and ways are those of the node's share of the boundary, over 2 π.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    place: [f32; 2],
+    tangent: [f32; 2],
+    outwards: [f32; SHAPE],
+}
+
+/// The boundary of an ellipse under a blur.
+#[derive(Clone, Debug)]
+pub struct Boundary {
+    nodes: Vec<Node>,
+    whitening: [f32; 3],
+    center: [f32; 2],
+}
+
+/// The blurred ellipse at some places, and its derivatives by the parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Blurred {
+    /// From 0 outside to 1 inside.
+    pub value: [f32; FAN],
+    /// Derivatives of the value (1/mm), in the order of [`Ellipse::parameters`].
+    pub slopes: [[f32; FAN]; SHAPE],
+}
+
+impl Boundary {
+    /// The boundary of an ellipse under a blur.
+    pub fn new(ellipse: &Ellipse, Whitening(whitening): Whitening) -> Self {
+        let matrix = ellipse.matrix();
+        let needed = TAU * longest(whitening * matrix).max(1e-9) / NODE_DISTANCE;
+        let count = (needed.ceil() as usize).clamp(FEWEST_NODES, MOST_NODES);
+        let share = 1.0 / count as f64;
+        let scale = whitening.determinant() * share;
+        let nodes = (0..count).map(|n| {
+            let (sin, cos) = (TAU * n as f64 * share).sin_cos();
+            let place = matrix * DVec2::new(cos, sin);
+            let tangent = matrix * DVec2::new(-sin, cos);
+            let outwards = |way: DVec2| (way.perp_dot(tangent) * scale) as f32;
+            Node {
+                place: (whitening * place).as_vec2().to_array(),
+                tangent: (whitening * tangent * share).as_vec2().to_array(),
+                outwards: [
+                    outwards(DVec2::X),
+                    outwards(DVec2::Y),
+                    outwards(DVec2::new(cos, sin)),
+                    outwards(DVec2::new(cos, -sin)),
+                    outwards(DVec2::new(sin, cos)),
+                ],
+            }
+        });
+        Self {
+            nodes: nodes.collect(),
+            whitening: [whitening.x_axis.x as f32, whitening.x_axis.y as f32, whitening.y_axis.y as f32],
+            center: ellipse.center.as_vec2().to_array(),
+        }
+    }
+
+    /// The blurred ellipse at sixteen places (mm).
+    #[inline(always)]
+    pub fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
+        let [xx, xy, yy] = self.whitening;
+        let mut place = [[0.0; FAN]; 2];
+        for l in 0..FAN {
+            let (dx, dy) = (x[l] - self.center[0], y[l] - self.center[1]);
+            place[0][l] = xx * dx + xy * dy;
+            place[1][l] = xy * dx + yy * dy;
+        }
+        let mut sum = Blurred { value: [0.0; FAN], slopes: [[0.0; FAN]; SHAPE] };
+        for node in &self.nodes {
+            for l in 0..FAN {
+                let dx = node.place[0] - place[0][l];
+                let dy = node.place[1] - place[1][l];
+                let square = dx * dx + dy * dy;
+                let bell = exponential(-0.5 * square);
+                let near = 0.5 + square * (-0.125 + square * (1.0 / 48.0));
+                let far = (1.0 - bell) / square;
+                let field = if square < 0.03 { near } else { far };
+                sum.value[l] += field * (dx * node.tangent[1] - dy * node.tangent[0]);
+                sum.slopes[0][l] += bell * node.outwards[0];
+                sum.slopes[1][l] += bell * node.outwards[1];
+                sum.slopes[2][l] += bell * node.outwards[2];
+                sum.slopes[3][l] += bell * node.outwards[3];
+                sum.slopes[4][l] += bell * node.outwards[4];
+            }
+        }
+        sum
+    }
+
+    /// The blurred ellipse at one place (mm), 0 to 1.
+    pub fn value(&self, place: DVec2) -> f64 {
+        f64::from(self.blurred(&[place.x as f32; FAN], &[place.y as f32; FAN]).value[0])
+    }
+}
+
+/// By how much a matrix makes vectors longer, at most: its larger singular value.
+fn longest(matrix: DMat2) -> f64 {
+    let (x, y) = (matrix.x_axis, matrix.y_axis);
+    let half = 0.5 * (x.length_squared() + y.length_squared());
+    let difference = 0.5 * (x.length_squared() - y.length_squared());
+    (half + difference.hypot(x.dot(y))).sqrt()
+}
+
+/// exp(x) of a number up to 0, to two millionths: a power of two by its bits, and a polynomial.
+#[inline(always)]
+fn exponential(x: f32) -> f32 {
+    /// From here on the last bit of a float counts ones.
+    const ONES: f32 = 12_582_912.0;
+    const LN_2: f32 = std::f32::consts::LN_2;
+    let power = if x > -80.0 { x } else { -80.0 } * std::f32::consts::LOG2_E;
+    let rounded = power + ONES;
+    let f = power - (rounded - ONES);
+    // The Taylor series of 2^f, |f| ≤ 1/2.
+    let tail = 0.009_618_13 + f * 0.001_333_36;
+    let part = 1.0 + f * (LN_2 + f * (0.240_226_5 + f * (0.055_504_11 + f * tail)));
+    // 2 to the whole part: its bits moved to where a float keeps its exponent.
+    part * f32::from_bits(rounded.to_bits().wrapping_add(127) << 23)
+}
+
+#[cfg(test)]
+#[path = "tests/ellipse.rs"]
+mod tests;

@@ -1,0 +1,106 @@
+//! What lies in the way across a section, and which voxels it spoils.
+
+use std::f64::consts::TAU;
+
+use glam::DVec2;
+
+use super::flags::{BRANCH, CALCIUM, METAL, NEIGHBOR, OUTSIDE};
+use super::rays::{RAYS, Ray};
+use lumencut_core::math::statistics::median;
+
+/// Calcium spoils what is nearer to it than this, in widths of the blur.
+const BRIGHT_MARGIN: f64 = 0.8;
+
+/// Calcium belongs to the wall, and a neighbour is beside it, up to this distance (mm).
+const BESIDE: f64 = 1.5;
+
+/// So many rays must meet something for it to be there, and so many of them all around for a stent.
+const LEAST_RAYS: usize = 3;
+const ALL_AROUND: usize = RAYS * 3 / 5;
+
+/// Above this share there is metal: four times the contrast of the lumen above its level.
+const METAL_SHARE: f64 = 5.0;
+
+/// Lumen goes on sideways where rays stay in it so many times as far as others.
+const OPEN: f64 = 1.6;
+
+/// How far from the centre voxels count in each direction.
+#[derive(Clone, Debug)]
+pub struct Obstacles {
+    center: DVec2,
+    limit: [f64; RAYS],
+    /// The share of all directions in which nothing is in the way of the wall.
+    pub free: f64,
+}
+
+impl Obstacles {
+    /// What rays from a centre met, under a blur of this width (mm).
+    pub fn new(rays: &[Ray], center: DVec2, width: f64) -> Self {
+        let mut edges: Vec<f64> = rays.iter().filter_map(|ray| ray.edge).collect();
+        let middle = median(&mut edges).unwrap_or(f64::INFINITY);
+        let own: Vec<f64> = rays.iter().map(|ray| limit(ray, middle, width)).collect();
+        let mut all = Self { center, limit: [f64::INFINITY; RAYS], free: 0.0 };
+        for (n, &limit) in own.iter().enumerate() {
+            if !limit.is_finite() {
+                continue;
+            }
+            // The blur of what is in the way reaches sideways too.
+            let beside = (0.5 * width / limit.max(0.5 * width)).asin();
+            let count = ((beside / TAU * RAYS as f64).ceil() as usize).min(RAYS / 4);
+            for m in n + RAYS - count..=n + RAYS + count {
+                let there = &mut all.limit[m % RAYS];
+                *there = there.min(limit);
+            }
+        }
+        let is_free = |limit: &&f64| **limit > middle + 0.5 * width;
+        all.free = all.limit.iter().filter(is_free).count() as f64 / RAYS as f64;
+        all
+    }
+
+    /// Whether a voxel counts.
+    pub fn keeps(&self, point: DVec2) -> bool {
+        let away = point - self.center;
+        let turn = away.y.atan2(away.x).rem_euclid(TAU) / TAU;
+        let ray = (turn * RAYS as f64).round() as usize % RAYS;
+        away.length() <= self.limit[ray]
+    }
+}
+
+/// How far a ray's voxels count.
+fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
+    let is_open = ray.edge.is_none_or(|edge| edge > OPEN * middle + 0.5 * width);
+    match ray.bright_at {
+        Some(at) if ray.edge.is_none() => (at - BRIGHT_MARGIN * width).max(0.0),
+        None if is_open && ray.outside_at.is_none() => 0.7 * middle,
+        _ => ray.limit,
+    }
+}
+
+/// What is said of a section whose rays met this, with the wall so far away in each direction (mm), under a blur of this
+/// width (mm).
+pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
+    let count = |is: &dyn Fn(usize, &Ray) -> bool| rays.iter().enumerate().filter(|(n, r)| is(*n, r)).count();
+    let beside = BESIDE.max(width);
+    let is_bright = |n: usize, ray: &Ray| ray.bright_at.is_some_and(|at| at < wall(n) + beside);
+    let bright = count(&is_bright);
+    let is_metal = |n: usize, ray: &Ray| is_bright(n, ray) && ray.brightest > METAL_SHARE;
+    let neighbors = count(&|n, ray| ray.edge.is_some() && ray.limit < wall(n) + beside);
+    let open = count(&|n, ray| {
+        let reached = ray.edge.unwrap_or(ray.limit.min(1e9));
+        ray.bright_at.is_none() && ray.outside_at.is_none() && reached > OPEN * wall(n) + 0.5 * width
+    });
+    let mut flags = 0;
+    if bright >= LEAST_RAYS {
+        flags |= if bright >= ALL_AROUND || count(&is_metal) >= LEAST_RAYS { METAL } else { CALCIUM };
+    }
+    if neighbors >= LEAST_RAYS {
+        flags |= NEIGHBOR;
+    }
+    if open >= LEAST_RAYS {
+        flags |= BRANCH;
+    }
+    if count(&|n, ray| ray.outside_at.is_some_and(|at| at < wall(n) + width)) > 0 {
+        flags |= OUTSIDE;
+    }
+    flags
+}

@@ -1,0 +1,105 @@
+//! Where a vessel is cut across: places along it, in the frame that does not turn about it.
+
+use glam::{DVec2, DVec3};
+
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::frames::{Frames, MovingFrame};
+use lumencut_core::math::path::Path;
+use lumencut_core::vessel_tree::Vessel;
+
+/// The most sections of a vessel.
+const MOST_SECTIONS: f64 = 1e5;
+
+/// A vessel runs along an axis from this cosine on.
+const ALONG: f64 = 0.9;
+
+/// A place along a vessel and the plane across it.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Arc length on the vessel (mm).
+    pub at: f64,
+    /// The point of the vessel (mm, LPS).
+    pub origin: DVec3,
+    /// Two unit vectors in the plane: to the right and downwards in a picture of it. A vessel that begins towards the head is
+    /// seen along its way, others against it: so the patient's left is on the right where a section is axial.
+    pub axes: [DVec3; 2],
+    /// The unit vector along the vessel.
+    pub normal: DVec3,
+}
+
+impl Place {
+    /// The point of the plane (mm, LPS) with these coordinates (mm).
+    pub fn point(&self, place: DVec2) -> DVec3 {
+        self.origin + self.axes[0] * place.x + self.axes[1] * place.y
+    }
+
+    /// The coordinates of a vector in the plane and along the vessel (mm).
+    pub fn coordinates(&self, vector: DVec3) -> [f64; 3] {
+        [vector.dot(self.axes[0]), vector.dot(self.axes[1]), vector.dot(self.normal)]
+    }
+}
+
+/// A vessel by its arc length, with planes across it.
+#[derive(Clone, Debug)]
+pub struct Track {
+    path: Path,
+    /// The same points, quieter: what directions are taken from.
+    quiet: Path,
+    frames: Frames,
+    /// Whether sections are seen along the way of the vessel.
+    is_seen_along: bool,
+}
+
+impl Track {
+    /// The track of a vessel, its directions smoothed by a Gaussian of these standard deviations (mm), one for each point, or
+    /// the same one for all.
+    ///
+    /// # Errors
+    /// [`ErrorKind::VesselTree`] for a vessel without length.
+    pub fn new(vessel: &Vessel, smoothing: f64) -> Result<Self> {
+        let path = Path::new(vessel, 0.0)?;
+        let distinct = Vessel::new(path.points().to_vec(), None)?;
+        let quiet = Path::new(&distinct, smoothing)?;
+        let begins = quiet.direction()[0];
+        // Downwards is the patient's back, or the feet where the vessel runs to the back.
+        let down = if begins.y.abs() > ALONG { DVec3::NEG_Z } else { DVec3::Y };
+        let frames = Frames::new(&quiet, MovingFrame::looking(begins, down));
+        Ok(Self { path, quiet, frames, is_seen_along: begins.z >= 0.0 })
+    }
+
+    /// The length of the vessel (mm).
+    pub fn length(&self) -> f64 {
+        self.path.length()
+    }
+
+    /// The place at an arc length (mm).
+    pub fn at(&self, at: f64) -> Place {
+        let frame = self.frames.at(self.along_quiet(at));
+        let right = if self.is_seen_along { -frame.across } else { frame.across };
+        Place { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
+    }
+
+    /// Places from the beginning to the end, at most `step` mm apart.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for a step that is none, or that gives more places than can be measured.
+    pub fn places(&self, step: f64) -> Result<Vec<Place>> {
+        let count = (self.length() / step).ceil();
+        if !(step > 0.0 && step.is_finite() && count <= MOST_SECTIONS) {
+            let expected =
+                format!("a number above 0 mm that gives at most {MOST_SECTIONS} sections of this vessel");
+            return Err(Error::new(ErrorKind::Settings, "step", format!("{step} mm"), expected));
+        }
+        let count = count.max(1.0);
+        Ok((0..=count as usize).map(|n| self.at(self.length() * n as f64 / count)).collect())
+    }
+
+    /// An arc length on the vessel as one on its quiet line.
+    fn along_quiet(&self, at: f64) -> f64 {
+        let [own, quiet] = [self.path.arc_length(), self.quiet.arc_length()];
+        let last = own.len().min(quiet.len()) - 1;
+        let i = self.path.segment(at).min(last - 1);
+        let share = (at - own[i]) / (own[i + 1] - own[i]);
+        quiet[i] + share * (quiet[i + 1] - quiet[i])
+    }
+}

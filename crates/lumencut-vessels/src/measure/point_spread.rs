@@ -1,0 +1,149 @@
+//! The point spread of the scanner, estimated where the vessel is wide.
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::blur::Blur;
+use super::fit::Fit;
+use super::golden::least;
+use super::place::Place;
+use super::sections::{Bench, Known, noise};
+use lumencut_core::error::Result;
+use lumencut_core::math::statistics::median;
+use lumencut_core::stop::{Stop, go_on};
+
+/// At most so many sections tell the point spread, and at least so many.
+const SECTIONS: (usize, usize) = (16, 3);
+
+/// A section tells the point spread from so many times its width on.
+const WIDE: f64 = 3.0;
+
+/// It must be free of other things in this share of all directions, miss at most so many times what others do, and its longer
+/// axis be at most so many times the shorter one.
+const FREE: f64 = 0.95;
+const LEAST_MISSED: f64 = 1.5;
+const ROUND: f64 = 1.35;
+
+/// What is looked for: from so many of the smallest sides of a voxel to so many of its largest ones, and at most this share
+/// of the width of a section.
+const RANGE: [f64; 2] = [0.3, 3.0];
+const SHARE: f64 = 0.5;
+
+/// The middle half of all estimates lies within this share of their median, or else they tell nothing.
+const AGREED: f64 = 0.25;
+
+/// How often the range is narrowed.
+const ROUNDS: usize = 14;
+
+/// A point spread and what it was estimated on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SharpEdges {
+    /// Its full width at half maximum (mm).
+    pub fwhm: f64,
+    /// How many sections told it.
+    pub count: usize,
+    /// The arc lengths of the first and the last of them (mm).
+    pub ends: [f64; 2],
+}
+
+impl SharpEdges {
+    /// What it was estimated on, in words.
+    pub fn on(&self) -> String {
+        let [low, high] = self.ends;
+        format!("{} wide sections from {low:.0} to {high:.0} mm", self.count)
+    }
+}
+
+/// What sections tell of the point spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Told {
+    /// A point spread.
+    Width(SharpEdges),
+    /// Nothing, for this reason.
+    Nothing(&'static str),
+}
+
+/// The reason why a vessel tells nothing that is too narrow.
+pub const NARROW: &str = "no vessel is wide enough to tell it";
+
+/// The point spread with which the widest of the sections fit best while the level of the lumen stays as it is seen, and what
+/// it was estimated on.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn estimated(
+    bench: &Bench,
+    sides: DMat3,
+    places: &[Place],
+    fits: &[Option<Fit>],
+    stop: Stop,
+) -> Result<Told> {
+    let noise = noise(fits);
+    let wide = wide_sections(bench, fits, noise);
+    if wide.len() < SECTIONS.1 {
+        return Ok(Told::Nothing(NARROW));
+    }
+    let largest =
+        [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length).into_iter().fold(0.0, f64::max);
+    let [low, high] = [RANGE[0] * bench.rays.voxels.smallest_side, RANGE[1] * largest];
+    let found: Vec<Result<Option<f64>>> = wide
+        .par_iter()
+        .map(|n| {
+            go_on(stop)?;
+            let Some(fit) = fits[*n] else { return Ok(None) };
+            let known = Known { ellipse: fit.ellipse, lumen: [fit.lumen[0], 0.5], noise: Some(noise) };
+            let cost = |fwhm: f64| {
+                let fit = bench.fit_blurred(&places[*n], &known, &Blur::new(fwhm, sides));
+                fit.map(|fit| fit.missed).ok_or(())
+            };
+            let widest = high.min(SHARE * 2.0 * fit.ellipse.semi_axes()[0]);
+            Ok(least([low, widest], ROUNDS, cost).ok())
+        })
+        .collect();
+    let mut best = Vec::new();
+    for one in found {
+        best.extend(one?);
+    }
+    let agreed = match agreed(&mut best, [low, high]) {
+        Ok(fwhm) => fwhm,
+        Err(reason) => return Ok(Told::Nothing(reason)),
+    };
+    let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));
+    Ok(Told::Width(SharpEdges { fwhm: agreed, count: best.len(), ends: [first, last] }))
+}
+
+/// The median of estimates that agree and lie within a range; else the reason why there is none.
+fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<f64, &'static str> {
+    let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(NARROW) };
+    let margin = 0.02 * (high - low);
+    if fwhm < low + margin {
+        return Err("the walls of wide vessels are sharper than voxels tell");
+    }
+    let away: Vec<f64> = best.iter().map(|one| (one - fwhm).abs()).collect();
+    if fwhm > high - margin || median(&mut { away }).is_none_or(|away| away > AGREED * fwhm) {
+        return Err("the walls of wide vessels do not agree on it");
+    }
+    Ok(fwhm)
+}
+
+/// Round, free sections that are wide, evenly along the vessel.
+fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> {
+    let side = bench.rays.voxels.smallest_side;
+    let mut wide: Vec<(f64, usize)> = (0..fits.len())
+        .filter_map(|n| {
+            let fit = fits[n]?;
+            let [short, long] = fit.ellipse.semi_axes();
+            let is_good = fit.free > FREE && fit.missed <= LEAST_MISSED * noise && long < ROUND * short;
+            (is_good && 2.0 * short > WIDE * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
+        })
+        .collect();
+    wide.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    // The wider half of what is wide, evenly along the vessel.
+    wide.truncate(wide.len().div_ceil(2).max(SECTIONS.0));
+    let every = wide.len().div_ceil(SECTIONS.0).max(1);
+    wide.into_iter().step_by(every).map(|(_, n)| n).collect()
+}
+
+#[cfg(test)]
+#[path = "tests/point_spread.rs"]
+mod tests;

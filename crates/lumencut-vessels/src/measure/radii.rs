@@ -1,0 +1,99 @@
+//! Measured radii for the points of a tree.
+
+use std::f64::consts::PI;
+
+use super::flags::{LEFT_OUT, RECENTERED};
+use super::measuring::{Request, measure_under, point_spread_of};
+use super::profile::Profile;
+use lumencut_core::error::{ErrorKind, Result};
+use lumencut_core::stop::Stop;
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_core::volume::Volume;
+
+/// Between measured sections no farther apart than this (mm) radii are interpolated.
+const GAP: f64 = 10.0;
+
+/// A section whose diameter is unsure by this share of it or more tells none.
+const UNSURE: f64 = 0.25;
+
+/// The radii of one vessel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Radii {
+    /// A radius for each point (mm); None where nothing was measured and none was known.
+    pub radius: Option<Vec<f64>>,
+    /// How many points have the radius of a section that was measured, or of two that it lies between.
+    pub measured: usize,
+    /// How many points kept the radius that they had, or were given that of the nearest measured section.
+    pub kept: usize,
+}
+
+/// The measured radii of all vessels of a tree. Where the point spread is not given, the widest vessels tell it for all.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for a step or a point spread that is none, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
+/// keeps its radii.
+pub fn measured_radii(
+    volume: &Volume,
+    tree: &[Vessel],
+    step: f64,
+    fwhm: Option<f64>,
+    stop: Stop,
+) -> Result<Vec<Radii>> {
+    let request = Request { step, fwhm, tree, stop };
+    let fwhm = point_spread_of(volume, &request)?;
+    let radii = |vessel: &Vessel| match measure_under(fwhm.clone(), volume, vessel, &request) {
+        Ok(profile) => Ok(of_profile(vessel, &profile)),
+        Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
+            let kept = vessel.points().len();
+            Ok(Radii { radius: vessel.radius().map(<[f64]>::to_vec), measured: 0, kept })
+        }
+        Err(error) => Err(error),
+    };
+    tree.iter().map(radii).collect()
+}
+
+/// The radii at the points of a vessel, of circles with the measured areas.
+fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
+    // A lumen beside the line may be that of another vessel.
+    let left_out = LEFT_OUT | RECENTERED;
+    let is_told = |n: &usize| {
+        let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
+        profile.flags[*n] & left_out == 0 && profile.uncertainty[*n] < UNSURE * diameter
+    };
+    let told: Vec<(f64, f64)> = (0..profile.len())
+        .filter(is_told)
+        .map(|n| (profile.arc_length[n], (profile.area[n] / PI).sqrt()))
+        .collect();
+    let (mut measured, mut kept) = (0, 0);
+    let mut radius = Vec::with_capacity(vessel.points().len());
+    for (n, at) in vessel.arc_length().iter().enumerate() {
+        let here = between(&told, *at);
+        measured += usize::from(here.is_some());
+        kept += usize::from(here.is_none());
+        radius.push(here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest(&told, *at)));
+    }
+    Radii { radius: radius.into_iter().collect(), measured, kept }
+}
+
+/// The radius at an arc length between two sections that are not far apart.
+fn between(told: &[(f64, f64)], at: f64) -> Option<f64> {
+    let after = told.partition_point(|(there, _)| *there < at);
+    let next = told.get(after);
+    if let Some((there, radius)) = next
+        && *there - at <= 1e-9
+    {
+        return Some(*radius);
+    }
+    let (before, next) = (told.get(after.checked_sub(1)?)?, next?);
+    let apart = next.0 - before.0;
+    (apart <= GAP).then(|| before.1 + (next.1 - before.1) * (at - before.0) / apart)
+}
+
+fn nearest(told: &[(f64, f64)], at: f64) -> Option<f64> {
+    let away = |one: &&(f64, f64)| (one.0 - at).abs();
+    told.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(_, radius)| *radius)
+}
+
+#[cfg(test)]
+#[path = "tests/radii.rs"]
+mod tests;

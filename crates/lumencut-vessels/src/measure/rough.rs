@@ -1,0 +1,109 @@
+//! About where the lumen of a section is and how wide, before anything is fitted.
+
+use std::f64::consts::PI;
+
+use glam::DVec2;
+
+use super::place::Place;
+use super::rays::{Look, RAYS, Ray, Rays, direction};
+use lumencut_core::math::statistics::median;
+
+/// The lumen must be this much of what the whole vessel's is, as a share.
+const LEAST_LUMEN: f64 = 0.25;
+
+/// A ray counts up to so many times the median of all rays, as where a branch leaves the vessel.
+const LONGEST_RAY: f64 = 1.6;
+
+/// How often the middle is looked for anew.
+const ROUNDS: usize = 4;
+
+/// About where a lumen is.
+#[derive(Clone, Copy, Debug)]
+pub struct Rough {
+    /// The middle (mm in the plane).
+    pub center: DVec2,
+    /// The radius (mm).
+    pub radius: f64,
+    /// The lumen's level there, as a share.
+    pub lumen: f64,
+}
+
+/// Above this share of the vessel's lumen there is metal or calcium.
+const BRIGHT: f64 = 1.6;
+
+impl Rough {
+    /// About where the lumen is within `search` mm of the vessel's point, up to a radius of `widest` mm; None where there is
+    /// none.
+    pub fn find(rays: &Rays, place: &Place, search: f64, widest: f64) -> Option<Self> {
+        let mut center = start(rays, place, search)?;
+        let mut found = None;
+        for _ in 0..ROUNDS {
+            let lumen = level(rays, place, center);
+            if lumen.is_nan() || lumen < LEAST_LUMEN {
+                break;
+            }
+            let bright = if rays.scale.contrast > 0.0 { BRIGHT.max(1.5 * lumen) } else { f64::INFINITY };
+            let look = Look { levels: [lumen, 0.0], bright, rise: 0.25, reach: widest, beyond: 0.0 };
+            let (moved, radius) = polygon(&rays.all(place, center, &look))?;
+            center += moved;
+            found = Some(Self { center, radius, lumen });
+            if moved.length() < 0.05 * radius {
+                break;
+            }
+        }
+        found
+    }
+}
+
+/// Where rays may begin: the vessel's own point where that is lumen, else the most lumen around it.
+fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
+    if level(rays, place, DVec2::ZERO) > 0.5 {
+        return Some(DVec2::ZERO);
+    }
+    let step = rays.voxels.smallest_side;
+    let count = (search / step).ceil() as i32;
+    let mut best: Option<(f64, DVec2)> = None;
+    for j in -count..=count {
+        for i in -count..=count {
+            let point = DVec2::new(f64::from(i), f64::from(j)) * step;
+            if point.length() > search {
+                continue;
+            }
+            let lumen = level(rays, place, point);
+            // What is farther away must be more lumen.
+            let score = lumen.min(1.0) - 0.3 * point.length() / search;
+            if lumen.is_finite() && best.is_none_or(|(most, _)| score > most) {
+                best = Some((score, point));
+            }
+        }
+    }
+    best.map(|(_, point)| point)
+}
+
+/// The level near a point, as a share: the median of a few samples.
+fn level(rays: &Rays, place: &Place, center: DVec2) -> f64 {
+    let near = 0.5 * rays.voxels.smallest_side;
+    let mut values = vec![rays.at(place, center)];
+    values.extend((0..8).map(|n| rays.at(place, center + direction(n * RAYS / 8) * near)));
+    values.retain(|value| value.is_finite());
+    median(&mut values).unwrap_or(f64::NAN)
+}
+
+/// The middle of the area that rays enclose, and the radius of a circle of the same area.
+fn polygon(rays: &[Ray]) -> Option<(DVec2, f64)> {
+    let mut edges: Vec<f64> = rays.iter().filter_map(Ray::end).collect();
+    if edges.len() < RAYS / 4 {
+        return None;
+    }
+    let middle = median(&mut edges)?;
+    let length = |n: usize| rays[n].end().unwrap_or(middle).min(LONGEST_RAY * middle);
+    let (mut area, mut moment) = (0.0, DVec2::ZERO);
+    for n in 0..RAYS {
+        let next = (n + 1) % RAYS;
+        let [a, b] = [direction(n) * length(n), direction(next) * length(next)];
+        let triangle = 0.5 * a.perp_dot(b);
+        area += triangle;
+        moment += (a + b) * (triangle / 3.0);
+    }
+    (area > 0.0).then(|| (moment / area, (area / PI).sqrt()))
+}

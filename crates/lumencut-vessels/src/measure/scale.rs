@@ -1,0 +1,125 @@
+//! What a vessel's lumen and its surroundings look like, by and large.
+
+use glam::DVec2;
+
+use super::place::Place;
+use crate::trace::voxels::Voxels;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::statistics::median;
+
+/// Directions that are looked into at each place.
+const DIRECTIONS: usize = 16;
+
+/// At most so many places are looked at.
+const MOST_PLACES: usize = 150;
+
+/// How far around a vessel whose radius is not known (mm).
+const REACH: f64 = 30.0;
+
+/// The wall is the first place where values change by this share of what they change by anywhere.
+const STEEP: f64 = 0.4;
+
+/// What lies outside of the wall is looked for so far beyond it (mm).
+const BEYOND: f64 = 1.5;
+
+/// A rim is at most so wide (mm), and beyond it values are below that of the lumen by this share of what they are above it.
+const RIM: f64 = 4.0;
+const RIM_SHARE: f64 = 0.1;
+
+/// Values of a volume as shares: 0 outside of the vessel, 1 in its lumen.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale {
+    /// What the volume shows outside of the vessel.
+    pub outside: f64,
+    /// What it shows in the lumen, less what it shows outside; negative for dark lumens.
+    pub contrast: f64,
+}
+
+impl Scale {
+    /// A value of the volume as a share.
+    pub fn share(&self, value: f64) -> f64 {
+        (value - self.outside) / self.contrast
+    }
+
+    /// A share as a value of the volume.
+    pub fn value(&self, share: f64) -> f64 {
+        self.outside + share * self.contrast
+    }
+
+    /// The scale of a vessel, from the medians of rings around all of its places. `radius` is about that of the vessel (mm),
+    /// where known.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] where the lumen differs in nothing from what is around it.
+    pub fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
+        let step = 0.5 * voxels.smallest_side;
+        let reach = radius.map_or(REACH, |radius| 2.5 * radius + 3.0);
+        let rings = rings(voxels, places, step, (reach / step).ceil() as usize);
+        let [Some(lumen), ..] = rings[..] else {
+            let expected = "a vessel within the volume";
+            return Err(Error::new(
+                ErrorKind::Measuring,
+                "points of the vessel",
+                "none within the volume",
+                expected,
+            ));
+        };
+        let rings: Vec<f64> = rings.into_iter().flatten().collect();
+        // A slope over two rings, which is a voxel.
+        let slopes: Vec<f64> = rings.windows(3).map(|three| three[2] - three[0]).collect();
+        let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
+        let none = || {
+            let found = format!("{lumen:.4} on the vessel and as much around it");
+            let expected = "a lumen that is brighter or darker than what is around it";
+            Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected)
+        };
+        let mut wall = slopes.iter().position(|slope| slope.abs() >= STEEP * steepest).ok_or_else(none)?;
+        // On to the steepest place of this wall.
+        while wall + 1 < slopes.len() && slopes[wall + 1].abs() > slopes[wall].abs() {
+            wall += 1;
+        }
+        let within = |mm: f64| wall + 1..rings.len().min(wall + 2 + (mm / step).ceil() as usize);
+        let lowest = |mm: f64| rings[within(mm)].iter().copied().fold(f64::MAX, f64::min);
+        let highest = rings[within(BEYOND)].iter().copied().fold(f64::MIN, f64::max);
+        // What is brighter than the lumen around it is a rim, such as a stent, where it is darker beyond.
+        let is_rim = slopes[wall] > 0.0 && lowest(RIM) < lumen - RIM_SHARE * (highest - lumen);
+        let outside = if slopes[wall] < 0.0 {
+            lowest(BEYOND)
+        } else if is_rim {
+            lowest(RIM)
+        } else {
+            highest
+        };
+        let contrast = lumen - outside;
+        let is_one =
+            contrast.abs() >= scatter(voxels, places, lumen) && (is_rim || contrast * slopes[wall] < 0.0);
+        if is_one { Ok(Self { outside, contrast }) } else { Err(none()) }
+    }
+}
+
+/// How far the values on a vessel lie from its lumen by and large, as the standard deviation of a normal distribution.
+fn scatter(voxels: &Voxels, places: &[Place], lumen: f64) -> f64 {
+    let values = places.iter().map(|place| f64::from(voxels.at(place.origin)));
+    let mut off: Vec<f64> = values.filter(|value| value.is_finite()).map(|v| (v - lumen).abs()).collect();
+    1.4826 * median(&mut off).unwrap_or(f64::INFINITY)
+}
+
+/// The median at each distance from the vessel, of all places and directions, as far as there are values.
+fn rings(voxels: &Voxels, places: &[Place], step: f64, count: usize) -> Vec<Option<f64>> {
+    let every = places.len().div_ceil(MOST_PLACES);
+    (0..=count)
+        .map(|n| {
+            let mut values = Vec::new();
+            for place in places.iter().step_by(every) {
+                for direction in 0..DIRECTIONS {
+                    let angle = std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64;
+                    let value = voxels.at(place.point(DVec2::from_angle(angle) * (n as f64 * step)));
+                    if value.is_finite() {
+                        values.push(f64::from(value));
+                    }
+                }
+            }
+            median(&mut values)
+        })
+        .collect()
+}

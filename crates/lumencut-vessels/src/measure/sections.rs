@@ -1,0 +1,313 @@
+//! The sections of a vessel: looked at, fitted, and fitted again with what all of them tell of each other.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::blur::Blur;
+use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
+use super::ellipse::{Boundary, Ellipse, Whitening};
+use super::fit::{Expected, Fit};
+use super::flags::{AT_LIMIT, IRREGULAR, METAL, NO_EDGE, RECENTERED};
+use super::obstacles::{Obstacles, flags_of};
+use super::place::Place;
+use super::pooled::Level;
+use super::rays::{Look, RAYS, Rays, direction};
+use super::rough::Rough;
+use super::slab::{Samples, Window};
+use lumencut_core::error::Result;
+use lumencut_core::math::statistics::median;
+use lumencut_core::stop::{Stop, go_on};
+
+/// What is brighter than lumen by this share of the contrast, and by so many times the noise, is none.
+pub const BRIGHT: (f64, f64) = (0.35, 5.0);
+
+/// Values rise by this share of the contrast, and by so many times the noise, where a neighbour begins.
+const RISE: (f64, f64) = (0.2, 4.0);
+
+/// Voxels count as far beyond the wall as so many widths of the blur.
+const BEYOND: f64 = 1.5;
+
+/// How far beyond the wall rays are followed (mm, and widths of the blur).
+const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
+
+/// Semi-axes differ by this share of their mean, by and large; in lumens as narrow as the blur, whose shape cannot be seen,
+/// by less.
+const STRETCH: (f64, f64) = (0.4, 0.06);
+
+/// Diameters below so many times the point spread are at the limit.
+pub const LIMIT: f64 = 1.5;
+
+/// Walls that lie off the ellipse by this share are irregular.
+const ROUGH_WALL: f64 = 0.12;
+
+/// The wall must be free in this share of all directions, or else it is not fitted.
+const LEAST_FREE: f64 = 0.35;
+
+/// Below so many times the noise there is no contrast.
+pub const LEAST_CONTRAST: f64 = 2.0;
+
+/// Where the blur is not taken into account diameters are unsure by this share of its width.
+const UNSURE: f64 = 0.5;
+
+/// The level of a lumen is seen within this share of its radius, where the blur leaves so much of its peak.
+const MIDDLE: f64 = 1.0 / 3.0;
+const LEAST_PEAK: f64 = 0.95;
+
+/// How far that lies from the level (standard deviation): as a share, and as a share of the noise of a voxel.
+const SEEN: (f64, f64) = (0.02, 0.33);
+
+/// The noise before it is known, as a share.
+const FIRST_NOISE: f64 = 0.1;
+
+/// What sections are looked at with.
+pub struct Bench<'a, 'v> {
+    /// The volume along rays.
+    pub rays: Rays<'a, 'v>,
+    /// Its blur.
+    pub blur: Blur,
+    /// The point spread alone (FWHM, mm).
+    pub fwhm: f64,
+}
+
+/// What is known of a section before it is fitted.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    /// About where the lumen is.
+    pub ellipse: Ellipse,
+    /// The level of the lumen and its standard deviation, as shares.
+    pub lumen: Level,
+    /// The noise of a voxel, as a share, where it is known.
+    pub noise: Option<f64>,
+}
+
+impl Known {
+    fn noise(&self) -> f64 {
+        self.noise.unwrap_or(FIRST_NOISE)
+    }
+}
+
+/// A section as it was measured.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// The fit; None where no lumen was found.
+    pub fit: Option<Fit>,
+    /// The points of the wall (mm, LPS), one for each ray; none where no lumen was found.
+    pub contour: Vec<DVec3>,
+    /// What there is to know of it.
+    pub flags: u32,
+}
+
+impl Section {
+    /// A section without lumen.
+    pub fn none() -> Self {
+        Self { fit: None, contour: Vec::new(), flags: NO_EDGE }
+    }
+
+    /// Makes the lumen so many times as wide.
+    pub fn scale(&mut self, by: f64) {
+        let middle = self.contour.iter().sum::<DVec3>() / self.contour.len().max(1) as f64;
+        for point in &mut self.contour {
+            *point = middle + (*point - middle) * by;
+        }
+        if let Some(fit) = &mut self.fit {
+            fit.ellipse = fit.ellipse.scaled(by);
+        }
+    }
+}
+
+impl Bench<'_, '_> {
+    /// About where the lumen is at each place.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    pub fn rough(
+        &self,
+        places: &[Place],
+        search: f64,
+        widest: f64,
+        stop: Stop,
+    ) -> Result<Vec<Option<Rough>>> {
+        let look = |place: &Place| go_on(stop).map(|()| Rough::find(&self.rays, place, search, widest));
+        places.par_iter().map(look).collect()
+    }
+
+    /// The fits of sections by themselves, from where their lumens are about.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    pub fn first_fits(
+        &self,
+        places: &[Place],
+        rough: &[Option<Rough>],
+        stop: Stop,
+    ) -> Result<Vec<Option<Fit>>> {
+        let fit = |(place, rough): (&Place, &Option<Rough>)| {
+            go_on(stop)?;
+            let Some(rough) = rough else { return Ok(None) };
+            let known = Known {
+                ellipse: Ellipse::circle(rough.center, rough.radius),
+                lumen: [rough.lumen.max(0.8), 0.5],
+                noise: None,
+            };
+            Ok(self.fit(place, &known))
+        };
+        places.par_iter().zip(rough).map(fit).collect()
+    }
+
+    /// The fit of a section, without what is in its way; None where too much is, or no ellipse fits.
+    pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
+        self.fit_blurred(place, known, &self.blur)
+    }
+
+    /// The fit of a section to the same voxels as [`Self::fit`], by another blur.
+    pub fn fit_blurred(&self, place: &Place, known: &Known, blur: &Blur) -> Option<Fit> {
+        let width = self.blur.width(place);
+        let ellipse = &known.ellipse;
+        let look = self.look(place, known);
+        let rays = self.rays.all(place, ellipse.center, &look);
+        let obstacles = Obstacles::new(&rays, ellipse.center, width);
+        if obstacles.free < LEAST_FREE {
+            return None;
+        }
+        let [short, long] = ellipse.semi_axes();
+        let window = Window {
+            center: ellipse.center,
+            reach: 1.1 * long + BEYOND * width,
+            wall: [ellipse.mean, 1.3 * width + 0.6 * (long - short)],
+        };
+        let voxels = self.rays.voxels;
+        let samples =
+            Samples::gather(voxels, &self.rays.scale, place, &window, |point| obstacles.keeps(point));
+        let whitening = Whitening::new(blur.of_voxels(place));
+        let seen = self.level_seen(place, known, |point| obstacles.keeps(point));
+        let expected = Expected {
+            // Where a wall is sharp an ellipse too small and a level too high may fit it as well: what is seen decides.
+            lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
+            background: [0.0, 0.5],
+            stretch: stretch(2.0 * ellipse.mean, width),
+            noise: known.noise(),
+            is_guessed: known.noise.is_none(),
+        };
+        let fit = Fit::new(&samples, whitening, ellipse, &expected)?;
+        Some(Fit { free: obstacles.free, ..fit })
+    }
+
+    /// The level that is seen in the middle of a lumen, where it is wide enough to show it, of the points that may be kept.
+    fn level_seen(&self, place: &Place, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
+        let ellipse = &known.ellipse;
+        let peak =
+            Boundary::new(ellipse, Whitening::new(self.blur.interpolated(place))).value(ellipse.center);
+        if peak < LEAST_PEAK {
+            return None;
+        }
+        let mut values: Vec<f64> = (0..RAYS)
+            .map(|n| {
+                let share = MIDDLE * ((n % 4) as f64 / 3.0);
+                ellipse.center + direction(n) * (share * ellipse.radius_towards(direction(n)))
+            })
+            .filter(|point| keep(*point))
+            .map(|point| self.rays.at(place, point))
+            .filter(|value| value.is_finite())
+            .collect();
+        if values.len() < RAYS / 2 {
+            return None;
+        }
+        let deviation = SEEN.0.hypot(SEEN.1 * known.noise()) + 1.0 - peak;
+        median(&mut values).map(|seen| [seen / peak, deviation])
+    }
+
+    fn look(&self, place: &Place, known: &Known) -> Look {
+        let width = self.blur.width(place);
+        let noise = known.noise();
+        let is_bright_lumen = self.rays.scale.contrast > 0.0;
+        let bright = known.lumen[0].max(0.5) + BRIGHT.0.max(BRIGHT.1 * noise);
+        Look {
+            levels: [known.lumen[0], 0.0],
+            // What is darker than a dark lumen is no calcium.
+            bright: if is_bright_lumen { bright } else { f64::INFINITY },
+            rise: RISE.0.max(RISE.1 * noise),
+            reach: known.ellipse.semi_axes()[1] * 2.0 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
+            beyond: RAY_BEYOND.0 + RAY_BEYOND.1 * width,
+        }
+    }
+
+    /// A section measured with what is known of it from all sections.
+    pub fn section(&self, place: &Place, known: &Known) -> Section {
+        let fitted = self.fit(place, known).map(|fit| self.fitted(place, known, fit));
+        match fitted {
+            Some(section) if section.flags & METAL == 0 => section,
+            _ => self.by_rays(place, known).unwrap_or_else(Section::none),
+        }
+    }
+
+    /// A section with the wall along rays, and what there is to know of it.
+    fn fitted(&self, place: &Place, known: &Known, fit: Fit) -> Section {
+        let (ellipse, width) = (fit.ellipse, self.blur.width(place));
+        let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
+        // Where the lumen is narrow its peak is lower than its level.
+        let level = 0.5 * boundary.value(ellipse.center);
+        let half = fit.background + level * (fit.lumen[0] - fit.background);
+        let look = Look { levels: [half; 2], ..self.look(place, &Known { ellipse, ..*known }) };
+        let rays = self.rays.all(place, ellipse.center, &look);
+        let walls = wall(&ellipse, &boundary, &rays, level);
+        let mut flags = flags_of(&rays, |n| ellipse.radius_towards(direction(n)), width);
+        let diameter = ellipse.equivalent_diameter();
+        if diameter > 2.0 * width && irregularity(&ellipse, &walls) > ROUGH_WALL {
+            flags |= IRREGULAR;
+        }
+        if fit.lumen[0] - fit.background < LEAST_CONTRAST * known.noise() || fit.uncertainty > 0.5 * diameter
+        {
+            flags |= NO_EDGE;
+        }
+        let contour = points(place, ellipse.center, &walls);
+        Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse) }
+    }
+
+    /// A section whose wall is where rays end, as within a stent.
+    fn by_rays(&self, place: &Place, known: &Known) -> Option<Section> {
+        let width = self.blur.width(place);
+        let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
+        let walls = wall_by_rays(&rays, width)?;
+        let ellipse = ellipse_within(known.ellipse.center, &walls)?;
+        let mut flags = flags_of(&rays, |n| walls[n], width);
+        if known.lumen[0] < LEAST_CONTRAST * known.noise() {
+            flags |= NO_EDGE;
+        }
+        let fit = Fit {
+            ellipse,
+            lumen: known.lumen,
+            background: 0.0,
+            missed: f64::NAN,
+            uncertainty: UNSURE * width,
+            free: 0.0,
+        };
+        let contour = points(place, known.ellipse.center, &walls);
+        Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse) })
+    }
+
+    /// What the place and the size of a lumen say.
+    fn place_flags(&self, ellipse: &Ellipse) -> u32 {
+        let towards = -ellipse.center;
+        let reach = towards.try_normalize().map_or(f64::INFINITY, |d| ellipse.radius_towards(d));
+        let recentered = if towards.length() > reach { RECENTERED } else { 0 };
+        let limit = if ellipse.equivalent_diameter() < LIMIT * self.fwhm { AT_LIMIT } else { 0 };
+        recentered | limit
+    }
+}
+
+/// How far semi-axes differ from their mean by and large, as a share of it.
+fn stretch(diameter: f64, width: f64) -> f64 {
+    let seen = ((diameter / width - 1.0) / 1.0).clamp(0.0, 1.0);
+    STRETCH.1 + seen * (STRETCH.0 - STRETCH.1)
+}
+
+/// The noise of a voxel as a share: the median of what fits miss.
+pub fn noise(fits: &[Option<Fit>]) -> f64 {
+    let mut missed: Vec<f64> = fits.iter().flatten().map(|fit| fit.missed).collect();
+    median(&mut missed).unwrap_or(FIRST_NOISE).max(1e-4)
+}
+
+/// The middle of a section (mm, LPS).
+pub fn center(place: &Place, fit: &Fit) -> DVec3 {
+    place.point(fit.ellipse.center)
+}

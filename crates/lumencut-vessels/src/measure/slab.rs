@@ -1,0 +1,124 @@
+//! The voxels around the plane of a section, by where they lie in it.
+//!
+//! A vessel that goes straight on looks the same everywhere along itself, so that each voxel shows the blurred section at its
+//! own place: nothing is interpolated, and the noise of neighbours stays independent.
+
+use glam::{DVec2, DVec3};
+
+use super::place::Place;
+use super::scale::Scale;
+use crate::trace::voxels::Voxels;
+use lumencut_core::math::lanes::FAN;
+
+/// The most voxels around the wall, and the most elsewhere.
+const MOST: [usize; 2] = [448, 160];
+
+/// Which voxels are taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    /// The middle (mm in the plane).
+    pub center: DVec2,
+    /// How far they reach (mm).
+    pub reach: f64,
+    /// Where the wall is, by and large, and how far from it is near (mm from the middle).
+    pub wall: [f64; 2],
+}
+
+/// Voxels in the plane of a section, sixteen together; those that fill the last sixteen weigh nothing.
+#[derive(Clone, Debug, Default)]
+pub struct Samples {
+    /// Where they lie (mm).
+    pub x: Vec<[f32; FAN]>,
+    /// Where they lie (mm).
+    pub y: Vec<[f32; FAN]>,
+    /// Their values as shares.
+    pub share: Vec<[f32; FAN]>,
+    /// How much they count: the more, the nearer to the plane.
+    pub weight: Vec<[f32; FAN]>,
+    /// How many they are.
+    pub count: usize,
+}
+
+/// A voxel: place, share and weight.
+type Sample = [f32; 4];
+
+impl Samples {
+    /// The voxels of a window that may be kept.
+    pub fn gather(
+        voxels: &Voxels,
+        scale: &Scale,
+        place: &Place,
+        window: &Window,
+        keep: impl Fn(DVec2) -> bool,
+    ) -> Self {
+        let mut found: [Vec<Sample>; 2] = [Vec::new(), Vec::new()];
+        let thickness = thickness(voxels, place);
+        let middle = place.point(window.center);
+        let (first, count) = voxels.around(middle, window.reach.hypot(thickness));
+        let side = voxels.world_from_index.matrix3.x_axis;
+        let [dx, dy, dz] = place.coordinates(side);
+        for k in 0..count[2] {
+            for j in 0..count[1] {
+                let row = voxels.center([first[0], first[1] + j, first[2] + k]);
+                let [x, y, z] = place.coordinates(row - place.origin);
+                let Some((low, high)) = within(z, dz, thickness, count[0]) else { continue };
+                for i in low..=high {
+                    let n = f64::from(i);
+                    let point = DVec2::new(x + n * dx, y + n * dy);
+                    let length = point.distance(window.center);
+                    if length > window.reach || !keep(point) {
+                        continue;
+                    }
+                    let weight = 1.0 - (z + n * dz).abs() / thickness;
+                    let voxel =
+                        DVec3::new(f64::from(first[0] + i), f64::from(first[1] + j), f64::from(first[2] + k));
+                    let share = scale.share(f64::from(voxels.at_index(voxel)));
+                    let is_near = (length - window.wall[0]).abs() <= window.wall[1];
+                    let sample = [point.x as f32, point.y as f32, share as f32, weight as f32];
+                    if weight > 0.0 && share.is_finite() {
+                        found[usize::from(!is_near)].push(sample);
+                    }
+                }
+            }
+        }
+        Self::new(found)
+    }
+
+    fn new([near, far]: [Vec<Sample>; 2]) -> Self {
+        let mut all = thinned(near, MOST[0]);
+        all.append(&mut thinned(far, MOST[1]));
+        let count = all.len();
+        all.resize(count.next_multiple_of(FAN), [0.0; 4]);
+        let column =
+            |part: usize| all.chunks_exact(FAN).map(|c| std::array::from_fn(|l| c[l][part])).collect();
+        Self { x: column(0), y: column(1), share: column(2), weight: column(3), count }
+    }
+}
+
+/// How far from the plane voxels count (mm): as far as interpolation reaches.
+pub fn thickness(voxels: &Voxels, place: &Place) -> f64 {
+    let sides = voxels.world_from_index.matrix3;
+    [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
+}
+
+/// The voxels of a row within a distance of the plane, where there are any: `z` is the distance of its first one, which grows
+/// by `dz`.
+fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
+    let last = f64::from(count - 1);
+    if dz.abs() < 1e-9 {
+        return (z.abs() < thickness).then_some((0, count - 1));
+    }
+    let [a, b] = [(-thickness - z) / dz, (thickness - z) / dz];
+    let (low, high) = (a.min(b).ceil().max(0.0), a.max(b).floor().min(last));
+    (low <= high).then_some((low as i32, high as i32))
+}
+
+/// About so many of the samples, picked without any pattern, the same ones each time.
+fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
+    if samples.len() <= most {
+        return samples;
+    }
+    let limit = (u64::from(u32::MAX) * most as u64 / samples.len() as u64) as u32;
+    let picked = |n: u32| n.wrapping_mul(2_654_435_761).rotate_left(13).wrapping_mul(2_246_822_519) <= limit;
+    samples.into_iter().zip(0u32..).filter(|(_, n)| picked(*n)).map(|(sample, _)| sample).collect()
+}

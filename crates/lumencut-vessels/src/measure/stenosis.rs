@@ -1,0 +1,234 @@
+//! Stenoses at places that the caller names, by the rules of the field.
+//!
+//! * NASCET: 1 - narrowest / normal distal diameter (NASCET 1991, doi:10.1056/NEJM199108153250701).
+//! * ECST: 1 - narrowest / original diameter at the stenosis, which must be assumed (ECST 1998,
+//!   doi:10.1016/S0140-6736(97)09292-1).
+//! * Area: 1 - narrowest / normal area.
+//!
+//! Behind a near-occlusion the distal vessel is narrowed itself and NASCET's percentage makes no sense (Fox et al. 2005,
+//! AJNR 26:2086).
+
+use std::f64::consts::PI;
+
+use super::profile::Profile;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::statistics::median;
+use lumencut_core::named::Named;
+
+/// A reference is the median of the sections so far around its place (mm).
+pub const REFERENCE_REACH: f64 = 1.5;
+
+/// A distal vessel below this share of the same vessel on the other side of the stenosis is narrowed itself.
+pub const NARROWED: f64 = 0.5;
+
+/// A distal vessel at or below this share of the one it is compared with, such as that of the other side of the body, is narrowed
+/// itself (Bartlett et al. 2006, AJNR 27:632).
+pub const NARROWED_BESIDE: f64 = 0.87;
+
+/// The other side of a stenosis: from so far on to so far away from it (mm).
+const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
+
+/// An arc length so far beyond an end is that end (mm).
+const ROUNDING: f64 = 1e-6;
+
+/// How a stenosis is graded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// By the diameter of the normal vessel.
+    Nascet,
+    /// By the assumed original diameter at the stenosis.
+    Ecst,
+    /// By the area of the normal vessel.
+    Area,
+}
+
+impl Named for Method {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("nascet", Self::Nascet), ("ecst", Self::Ecst), ("area", Self::Area)];
+}
+
+/// What a stenosis is compared with.
+#[derive(Clone, Debug, Default)]
+pub struct Compared {
+    /// Arc lengths of one normal place, or of one on each side of the stenosis (mm).
+    pub reference: Vec<f64>,
+    /// The assumed original diameter at the stenosis (mm), for ECST.
+    pub original: Option<f64>,
+    /// The diameter of a vessel that is like the normal one, such as that of the other side of the body (mm), for NASCET.
+    pub comparison: Option<f64>,
+}
+
+/// A graded stenosis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stenosis {
+    /// By how much it is narrower, 0 to 100: of the diameter, or of the area.
+    pub percent: f64,
+    /// Its place, an arc length (mm).
+    pub at: f64,
+    /// Its diameter, of a circle of the same area (mm).
+    pub diameter: f64,
+    /// The standard deviation of that (mm).
+    pub uncertainty: f64,
+    /// What it was compared with: a diameter (mm); where areas are compared that of a circle of the same area.
+    pub reference: f64,
+    /// The places of the references, and the diameter at each (mm).
+    pub references: Vec<[f64; 2]>,
+    /// How it was graded.
+    pub method: Method,
+}
+
+impl Profile {
+    /// The stenosis at an arc length (mm).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for places beyond the vessel or where nothing was measured, references that are narrower than
+    /// the stenosis or on one side of it, a missing original diameter, and NASCET at a near-occlusion.
+    pub fn stenosis(&self, at: f64, method: Method, compared: &Compared) -> Result<Stenosis> {
+        let (diameter, uncertainty) = self.diameter_at(at)?;
+        let references = compared
+            .reference
+            .iter()
+            .map(|place| self.reference_at(*place).map(|diameter| [*place, diameter]))
+            .collect::<Result<Vec<_>>>()?;
+        let reference = match method {
+            Method::Ecst => original(compared.original)?,
+            Method::Nascet | Method::Area => at_stenosis(at, &references)?,
+        };
+        if reference < diameter {
+            let found =
+                format!("{reference:.2} mm, where the stenosis at {at:.1} mm measures {diameter:.2} mm");
+            let expected = "a diameter that is not below that of the stenosis";
+            return Err(measuring("reference of the stenosis", found, expected));
+        }
+        if method == Method::Nascet {
+            self.refuse_near_occlusion(at, &references, compared.comparison)?;
+        }
+        let share = diameter / reference;
+        let left = if method == Method::Area { share * share } else { share };
+        let percent = 100.0 * (1.0 - left);
+        Ok(Stenosis { percent, at, diameter, uncertainty, reference, references, method })
+    }
+
+    /// The diameter at an arc length (mm), between sections, and its standard deviation (mm).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured.
+    pub fn diameter_at(&self, at: f64) -> Result<(f64, f64)> {
+        self.check_place("place on the vessel", at)?;
+        let after = self.arc_length.partition_point(|there| *there < at).clamp(1, self.len() - 1);
+        let before = after - 1;
+        let weight = (at - self.arc_length[before]) / (self.arc_length[after] - self.arc_length[before]);
+        // A section whose weight is 0 need not have been measured.
+        let mix = |numbers: [f64; 2]| match weight {
+            w if w <= 0.0 => numbers[0],
+            w if w >= 1.0 => numbers[1],
+            w => numbers[0] + w * (numbers[1] - numbers[0]),
+        };
+        let width = |n: usize| 2.0 * (self.area[n] / PI).sqrt();
+        let diameter = mix([width(before), width(after)]);
+        if diameter.is_nan() {
+            return Err(measuring(
+                "place on the vessel",
+                format!("nothing measured at {at:.1} mm"),
+                MEASURED,
+            ));
+        }
+        Ok((diameter, mix([self.uncertainty[before], self.uncertainty[after]])))
+    }
+
+    /// The median diameter around an arc length (mm), of the sections that count.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured that counts.
+    pub fn reference_at(&self, at: f64) -> Result<f64> {
+        self.check_place("reference of the stenosis", at)?;
+        let around = |n: &usize| (self.arc_length[*n] - at).abs() <= REFERENCE_REACH;
+        let mut widths = self.widths((0..self.len()).filter(around));
+        if widths.is_empty() {
+            // Sections may lie farther apart.
+            return self.diameter_at(at).map(|(diameter, _)| diameter);
+        }
+        median(&mut widths)
+            .ok_or_else(|| measuring("reference of the stenosis", format!("nothing at {at:.1} mm"), MEASURED))
+    }
+
+    /// The diameters of the sections that count among some (mm).
+    pub(super) fn widths(&self, sections: impl Iterator<Item = usize>) -> Vec<f64> {
+        sections.filter(|n| self.counts(*n)).map(|n| 2.0 * (self.area[n] / PI).sqrt()).collect()
+    }
+
+    /// Checks that an arc length lies on the vessel.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`].
+    pub fn check_place(&self, subject: &str, at: f64) -> Result<()> {
+        let length = self.arc_length[self.len() - 1];
+        // Lengths of the same line differ by rounding.
+        if at >= -ROUNDING && at <= length + ROUNDING {
+            return Ok(());
+        }
+        Err(measuring(subject, format!("{at} mm"), &format!("an arc length from 0 to {length:.3} mm")))
+    }
+
+    fn refuse_near_occlusion(&self, at: f64, references: &[[f64; 2]], comparison: Option<f64>) -> Result<()> {
+        for [place, diameter] in references {
+            if let Some(beside) = comparison
+                && *diameter <= NARROWED_BESIDE * beside
+            {
+                let found = format!("{diameter:.2} mm at {place:.1} mm, beside {beside:.2} mm");
+                return Err(near_occlusion(found, NARROWED_BESIDE, "the vessel it is compared with"));
+            }
+        }
+        let [[place, diameter]] = references else { return Ok(()) };
+        let is_other = |n: &usize| {
+            let away = self.arc_length[*n] - at;
+            away * (place - at) < 0.0 && (OTHER_SIDE[0]..=OTHER_SIDE[1]).contains(&away.abs())
+        };
+        let mut others = self.widths((0..self.len()).filter(is_other));
+        match median(&mut others) {
+            Some(other) if *diameter < NARROWED * other => {
+                let found = format!("{diameter:.2} mm at {place:.1} mm, {other:.2} mm beyond the stenosis");
+                Err(near_occlusion(found, NARROWED, "the vessel on the other side of the stenosis"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+const MEASURED: &str = "a place where a lumen was measured";
+
+fn measuring(subject: &str, found: String, expected: &str) -> Error {
+    Error::new(ErrorKind::Measuring, subject, found, expected)
+}
+
+fn near_occlusion(found: String, share: f64, of: &str) -> Error {
+    let expected = format!("a reference above {share} of {of}: behind a near-occlusion there is none");
+    measuring("reference of the stenosis", found, &expected).mend("state the diameter in mm alone")
+}
+
+fn original(diameter: Option<f64>) -> Result<f64> {
+    let found = match diameter {
+        Some(mm) if mm > 0.0 && mm.is_finite() => return Ok(mm),
+        Some(mm) => format!("{mm} mm"),
+        None => "none".to_owned(),
+    };
+    Err(measuring("original diameter of the stenosis", found, "the assumed diameter (mm), for ECST"))
+}
+
+/// The reference at a stenosis: the one there is, or what lies between two by their distances.
+fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
+    match references {
+        [[_, diameter]] => Ok(*diameter),
+        [[a, first], [b, second]] if (a - at) * (b - at) < 0.0 => {
+            Ok(first + (second - first) * (at - a) / (b - a))
+        }
+        [[a, _], [b, _]] => {
+            let found = format!("{a:.1} and {b:.1} mm for a stenosis at {at:.1} mm");
+            Err(measuring("reference of the stenosis", found, "one place before it and one after it"))
+        }
+        _ => {
+            let found = format!("{} places", references.len());
+            Err(measuring("reference of the stenosis", found, "one place or two"))
+        }
+    }
+}

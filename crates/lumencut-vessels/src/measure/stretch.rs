@@ -1,0 +1,146 @@
+//! Lengths along a vessel, directions of its stretches, and how a C-arm sees them.
+
+use glam::DVec3;
+
+use super::profile::Profile;
+use lumencut_core::error::{Error, ErrorKind, Result};
+
+/// The length of a stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Along the vessel (mm).
+    pub length: f64,
+    /// Straight from one end to the other (mm).
+    pub straight: f64,
+}
+
+impl Stretch {
+    /// The length along the vessel in straight distances: 1 for a straight stretch, infinite for one that ends where it begins.
+    pub fn tortuosity(&self) -> f64 {
+        if self.straight > 0.0 { self.length / self.straight } else { f64::INFINITY }
+    }
+}
+
+/// How a C-arm is turned (radians).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CArm {
+    /// To the patient's left (LAO); to the right (RAO) below 0.
+    pub lao: f64,
+    /// To the head (cranial); to the feet (caudal) below 0.
+    pub cranial: f64,
+}
+
+impl Profile {
+    /// The length between two places by their arc lengths (mm).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for places beyond the vessel, or one place twice.
+    pub fn stretch(&self, [from, to]: [f64; 2]) -> Result<Stretch> {
+        self.check_stretch([from, to])?;
+        let straight = self.point_at(from).distance(self.point_at(to));
+        Ok(Stretch { length: (to - from).abs(), straight })
+    }
+
+    /// The direction of a stretch from one arc length to another (mm): that of the line that fits the middles of its sections
+    /// best.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for places beyond the vessel, or one place twice.
+    pub fn direction(&self, [from, to]: [f64; 2]) -> Result<DVec3> {
+        self.check_stretch([from, to])?;
+        let [low, high] = [from.min(to), from.max(to)];
+        let inner = (0..self.len()).filter(|n| (low..=high).contains(&self.arc_length[*n]));
+        let mut line: Vec<(f64, DVec3)> = inner.map(|n| (self.arc_length[n], self.center[n])).collect();
+        if line.len() < 3 {
+            line = [from, to].map(|at| (at, self.point_at(at))).to_vec();
+        }
+        let count = line.len() as f64;
+        let middle = line.iter().map(|(at, _)| at).sum::<f64>() / count;
+        // The slope of the line by arc length.
+        let slope: DVec3 = line.iter().map(|(at, point)| *point * (at - middle)).sum();
+        let direction = (slope * (to - from).signum()).try_normalize();
+        direction.ok_or_else(|| {
+            let found = format!("a stretch from {from:.1} to {to:.1} mm without direction");
+            Error::new(ErrorKind::Measuring, "stretch of the vessel", found, "one that leads somewhere")
+        })
+    }
+
+    /// The angle between two stretches (radians): 0 where the second goes on in the direction of the first.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] as for [`Profile::direction`].
+    pub fn angle_between(&self, first: [f64; 2], second: [f64; 2]) -> Result<f64> {
+        Ok(self.direction(first)?.angle_between(self.direction(second)?))
+    }
+
+    /// How a C-arm is turned that sees a stretch in its whole length; with `lao` (radians) at that rotation, else as little as
+    /// possible.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] as for [`Profile::direction`], and for a rotation at which no angulation does.
+    pub fn c_arm(&self, stretch: [f64; 2], lao: Option<f64>) -> Result<CArm> {
+        let along = self.direction(stretch)?;
+        match lao {
+            None => Ok(least_turned(along)),
+            Some(lao) => angulated(along, lao),
+        }
+    }
+
+    /// The vessel's point at an arc length (mm, LPS).
+    pub fn point_at(&self, at: f64) -> DVec3 {
+        let after = self.arc_length.partition_point(|there| *there < at).clamp(1, self.len() - 1);
+        let [a, b] = [self.arc_length[after - 1], self.arc_length[after]];
+        self.on_vessel[after - 1].lerp(self.on_vessel[after], ((at - a) / (b - a)).clamp(0.0, 1.0))
+    }
+
+    fn check_stretch(&self, ends: [f64; 2]) -> Result<()> {
+        for end in ends {
+            self.check_place("end of the stretch", end)?;
+        }
+        if ends[0] == ends[1] {
+            let found = format!("{} mm twice", ends[0]);
+            return Err(Error::new(
+                ErrorKind::Measuring,
+                "ends of the stretch",
+                found,
+                "two different arc lengths",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// From the patient to the detector of a C-arm (LPS): in front of the patient at 0, 0.
+pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
+    DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
+}
+
+/// What is up in the image of a C-arm (LPS): the patient's head, as far as the image shows its direction. Seen from above the head
+/// or from below the feet it is what the head becomes while the C-arm is turned there: the back from above, the front from below.
+pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
+    DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
+}
+
+/// The view across a direction that is nearest to the one from the front.
+fn least_turned(along: DVec3) -> CArm {
+    let front = DVec3::NEG_Y;
+    // What runs towards the viewer is seen from the patient's left.
+    let view = front.reject_from_normalized(along).try_normalize().unwrap_or(DVec3::X);
+    let view = if (front.dot(along).abs() - 1.0).abs() < 1e-9 { DVec3::X } else { view };
+    CArm { lao: view.x.atan2(-view.y), cranial: view.z.clamp(-1.0, 1.0).asin() }
+}
+
+/// The angulation at a rotation from which a direction is seen in its whole length.
+fn angulated(along: DVec3, lao: f64) -> Result<CArm> {
+    let flat = along.x * lao.sin() - along.y * lao.cos();
+    if !lao.is_finite() || (along.z.abs() < 1e-9 && flat.abs() > 1e-9) {
+        let found = format!("{:.1}° for a stretch that lies flat", lao.to_degrees());
+        return Err(Error::new(ErrorKind::Measuring, "rotation of the C-arm", found, "another rotation"));
+    }
+    let cranial = if flat.abs() < 1e-9 { 0.0 } else { (-flat / along.z).atan() };
+    Ok(CArm { lao, cranial })
+}
+
+#[cfg(test)]
+#[path = "tests/stretch.rs"]
+mod tests;

@@ -1,0 +1,76 @@
+//! The values of a mask's voxels as labels, whatever type they are stored in.
+
+use lumencut_core::volume::{Volume, Voxels};
+
+/// Floats beyond this do not hold every whole number.
+const LARGEST_FLOAT: f64 = 16_777_216.0;
+
+/// Values that stand for labels.
+pub trait LabelValue: Sized {
+    /// Whether every value is a whole number.
+    const IS_WHOLE: bool;
+
+    /// The label that it is.
+    fn label(self) -> i64;
+
+    /// A value that is no label.
+    fn odd(self) -> Option<f64> {
+        None
+    }
+}
+
+macro_rules! label_values {
+    ($($type:ty),*) => {$(
+        impl LabelValue for $type {
+            const IS_WHOLE: bool = true;
+
+            #[allow(clippy::cast_lossless)]
+            fn label(self) -> i64 {
+                self as i64
+            }
+        }
+    )*};
+}
+label_values!(i8, u8, i16, u16, i32, u32, i64, u64);
+
+macro_rules! float_label_values {
+    ($($type:ty),*) => {$(
+        impl LabelValue for $type {
+            const IS_WHOLE: bool = false;
+
+            fn label(self) -> i64 {
+                self as i64
+            }
+
+            #[allow(clippy::cast_lossless)]
+            fn odd(self) -> Option<f64> {
+                let value = self as f64;
+                (!(value.fract() == 0.0 && value.abs() <= LARGEST_FLOAT)).then_some(value)
+            }
+        }
+    )*};
+}
+float_label_values!(f32, f64);
+
+/// The value of the voxel at an index.
+pub fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
+    let place: usize = (0..3).map(|a| index[a] * mask.strides()[a]).sum();
+    match mask.voxels() {
+        #[cfg(not(target_arch = "wasm32"))]
+        Voxels::I8(voxels) => voxels[place].label(),
+        Voxels::U8(voxels) => voxels[place].label(),
+        Voxels::I16(voxels) => voxels[place].label(),
+        Voxels::U16(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
+        Voxels::I32(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
+        Voxels::U32(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
+        Voxels::I64(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
+        Voxels::U64(voxels) => voxels[place].label(),
+        Voxels::F32(voxels) => voxels[place].label(),
+        #[cfg(not(target_arch = "wasm32"))]
+        Voxels::F64(voxels) => voxels[place].label(),
+    }
+}

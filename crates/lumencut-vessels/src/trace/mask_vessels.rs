@@ -1,0 +1,87 @@
+//! Vessels that were found, in the order and direction in which a reader follows them.
+
+use std::collections::{HashMap, VecDeque};
+
+use glam::DVec3;
+
+use lumencut_core::math::arc_length::arc_lengths;
+
+/// A vessel that was found.
+#[derive(Clone, Debug)]
+pub struct MaskVessel {
+    /// The points (mm, LPS), at least two.
+    pub points: Vec<DVec3>,
+    /// The radius at each point (mm).
+    pub radius: Vec<f64>,
+    /// How sure each point is, 0 to 1; empty where the volume was not asked, or does not show the vessel.
+    pub confidence: Vec<f64>,
+    /// The nodes of the graph at its start and its end.
+    pub nodes: [usize; 2],
+    /// Whether its first and its last point are ends of the lumen.
+    pub is_free: [bool; 2],
+    /// The value of the mask along most of it.
+    pub label: i64,
+    /// Whether it bridges a gap of the mask.
+    pub is_bridge: bool,
+}
+
+impl MaskVessel {
+    /// Turns the vessel round.
+    fn reverse(&mut self) {
+        self.points.reverse();
+        self.radius.reverse();
+        self.confidence.reverse();
+        self.nodes.reverse();
+        self.is_free.reverse();
+    }
+
+    /// The length (mm).
+    pub fn length(&self) -> f64 {
+        arc_lengths(&self.points).last().copied().unwrap_or(0.0)
+    }
+
+    /// The mean radius (mm).
+    pub fn mean_radius(&self) -> f64 {
+        self.radius.iter().sum::<f64>() / self.radius.len() as f64
+    }
+}
+
+/// The vessels piece by piece, the longest piece first; within a piece from the free end of its widest vessel outwards,
+/// and each vessel in that direction.
+pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
+    let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (number, vessel) in vessels.iter().enumerate() {
+        for node in vessel.nodes {
+            at_node.entry(node).or_default().push(number);
+        }
+    }
+    let mut by_width: Vec<usize> = (0..vessels.len()).collect();
+    let is_inner = |number: usize| !vessels[number].is_free.contains(&true);
+    by_width.sort_by(|&a, &b| {
+        // Without the digits that rounding may change.
+        let width = |number: usize| (vessels[number].mean_radius() * 1e6).round();
+        is_inner(a).cmp(&is_inner(b)).then(width(b).total_cmp(&width(a)))
+    });
+    let mut waiting: Vec<Option<MaskVessel>> = vessels.into_iter().map(Some).collect();
+    let mut pieces: Vec<Vec<MaskVessel>> = Vec::new();
+    for root in by_width {
+        let Some(vessel) = &waiting[root] else { continue };
+        let end = usize::from(vessel.is_free[1] && !vessel.is_free[0]);
+        let mut nodes = VecDeque::from([vessel.nodes[end]]);
+        let mut piece = Vec::new();
+        while let Some(node) = nodes.pop_front() {
+            for &number in &at_node[&node] {
+                let Some(mut vessel) = waiting[number].take() else { continue };
+                if vessel.nodes[0] != node {
+                    vessel.reverse();
+                }
+                nodes.push_back(vessel.nodes[1]);
+                piece.push(vessel);
+            }
+        }
+        pieces.push(piece);
+    }
+    let whole = |piece: &[MaskVessel]| (piece.iter().map(MaskVessel::length).sum::<f64>() * 1e6).round();
+    pieces.sort_by(|a, b| whole(b).total_cmp(&whole(a)));
+    pieces.into_iter().flatten().collect()
+}

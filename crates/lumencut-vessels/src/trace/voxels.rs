@@ -1,0 +1,168 @@
+//! The voxels of a volume as numbers, whatever their type and wherever their grid lies.
+
+use glam::{DAffine3, DVec3};
+
+use lumencut_core::volume::{Real, Volume, Voxel};
+use lumencut_core::with_voxels;
+
+/// What tracing reads of a volume.
+pub trait VoxelSource: Sync {
+    /// The values of a cube of voxels, i fastest, from its first voxel on; NaN outside the volume.
+    fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
+    /// The value at a continuous index, trilinear; NaN more than half a voxel beyond the outermost centres.
+    fn at(&self, index: DVec3) -> f32;
+    /// Appends `count` values at steps of `stride` from `start` on, counted on from those that are there.
+    fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>);
+}
+
+/// A volume as tracing reads it: its voxels and the way from them to the world and back.
+pub struct Voxels<'a> {
+    source: Box<dyn VoxelSource + 'a>,
+    /// The number of voxels along (i, j, k).
+    pub size: [usize; 3],
+    /// World position (LPS, mm) of a continuous index.
+    pub world_from_index: DAffine3,
+    /// Continuous index of a world position.
+    pub index_from_world: DAffine3,
+    /// The smallest side of a voxel (mm).
+    pub smallest_side: f64,
+}
+
+impl<'a> Voxels<'a> {
+    /// The voxels of `volume`.
+    pub fn new(volume: &Volume<'a>) -> Self {
+        let (size, strides) = (volume.size(), volume.strides());
+        let source: Box<dyn VoxelSource + 'a> =
+            with_voxels!(volume.voxels(), voxels => Box::new(Typed { voxels, size, strides }));
+        Self {
+            source,
+            size,
+            world_from_index: volume.world_from_index(),
+            index_from_world: volume.index_from_world(),
+            smallest_side: volume.smallest_side(),
+        }
+    }
+
+    /// The values of a cube of voxels, as [`VoxelSource::cube`] gives them.
+    pub fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]) {
+        self.source.cube(first, side, values);
+    }
+
+    /// The value at a world position (LPS, mm), trilinear; NaN outside.
+    pub fn at(&self, place: DVec3) -> f32 {
+        self.source.at(self.index_from_world.transform_point3(place))
+    }
+
+    /// The value at a continuous index, trilinear; NaN outside.
+    pub fn at_index(&self, index: DVec3) -> f32 {
+        self.source.at(index)
+    }
+
+    /// Appends values along a line in index space, as [`VoxelSource::along`] does.
+    pub fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {
+        self.source.along(start, stride, count, values);
+    }
+
+    /// The voxel nearest to a world position, where one is there.
+    pub fn voxel_at(&self, place: DVec3) -> Option<[i32; 3]> {
+        let voxel = self.index_from_world.transform_point3(place).round();
+        let is_inside = (0..3).all(|a| voxel[a] >= 0.0 && voxel[a] < self.size[a] as f64);
+        is_inside.then(|| voxel.to_array().map(|c| c as i32))
+    }
+
+    /// The world position (LPS, mm) of the centre of a voxel.
+    pub fn center(&self, voxel: [i32; 3]) -> DVec3 {
+        self.world_from_index.transform_point3(DVec3::from_array(voxel.map(f64::from)))
+    }
+
+    /// The voxels whose centres lie in a box around a ball, as the first one and the number along each axis.
+    pub fn around(&self, center: DVec3, radius: f64) -> ([i32; 3], [i32; 3]) {
+        let index = self.index_from_world.transform_point3(center);
+        // The rows of the inverse say how far along each axis a ball reaches.
+        let rows = self.index_from_world.matrix3.transpose();
+        let reach = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * radius;
+        let low = (index - reach).ceil();
+        let high = (index + reach).floor();
+        let first: [i32; 3] = std::array::from_fn(|a| low[a].max(0.0) as i32);
+        let last: [i32; 3] = std::array::from_fn(|a| high[a].min(self.size[a] as f64 - 1.0) as i32);
+        (first, std::array::from_fn(|a| (last[a] - first[a] + 1).max(0)))
+    }
+
+    /// The centres and values of the voxels within a ball.
+    pub fn ball(&self, center: DVec3, radius: f64) -> Vec<(DVec3, f32)> {
+        let (first, count) = self.around(center, radius);
+        let mut found = Vec::new();
+        for k in 0..count[2] {
+            for j in 0..count[1] {
+                for i in 0..count[0] {
+                    let voxel = [first[0] + i, first[1] + j, first[2] + k];
+                    let place = self.center(voxel);
+                    if place.distance_squared(center) <= radius * radius {
+                        found.push((place, self.at_index(DVec3::from_array(voxel.map(f64::from)))));
+                    }
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Voxels of one type.
+struct Typed<'a, T> {
+    voxels: &'a [T],
+    size: [usize; 3],
+    strides: [usize; 3],
+}
+
+impl<T: Voxel> VoxelSource for Typed<'_, T> {
+    fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]) {
+        let within = |a: usize, c: i32| c >= 0 && (c as usize) < self.size[a];
+        for k in 0..side {
+            for j in 0..side {
+                let row = &mut values[(k * side + j) * side..][..side];
+                let (y, z) = (first[1] + j as i32, first[2] + k as i32);
+                if !within(1, y) || !within(2, z) {
+                    row.fill(f32::NAN);
+                    continue;
+                }
+                let start = y as usize * self.strides[1] + z as usize * self.strides[2];
+                for (i, value) in row.iter_mut().enumerate() {
+                    let x = first[0] + i as i32;
+                    *value = if within(0, x) {
+                        self.voxels[start + x as usize * self.strides[0]].real().to_f32()
+                    } else {
+                        f32::NAN
+                    };
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn at(&self, index: DVec3) -> f32 {
+        let mut offset = 0;
+        let mut step = [0; 3];
+        let mut weight = [0.0; 3];
+        for a in 0..3 {
+            let last = self.size[a] as f64 - 1.0;
+            // A place that is no number is inside nothing.
+            if !(index[a] >= -0.5 && index[a] <= last + 0.5) {
+                return f32::NAN;
+            }
+            let place = index[a].clamp(0.0, last);
+            let floor = (place as usize).min(self.size[a].saturating_sub(2));
+            weight[a] = (place - floor as f64) as f32;
+            offset += floor * self.strides[a];
+            step[a] = if self.size[a] > 1 { self.strides[a] } else { 0 };
+        }
+        let value = |n: usize| self.voxels[n].real().to_f32();
+        let line = |n: usize| value(n) + (value(n + step[0]) - value(n)) * weight[0];
+        let plane = |n: usize| line(n) + (line(n + step[1]) - line(n)) * weight[1];
+        plane(offset) + (plane(offset + step[2]) - plane(offset)) * weight[2]
+    }
+
+    fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {
+        let first = values.len();
+        values.extend((first..first + count).map(|n| self.at(start + stride * n as f64)));
+    }
+}

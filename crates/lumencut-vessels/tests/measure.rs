@@ -1,0 +1,79 @@
+//! Vessels whose blurred image has a closed form are measured as they are, and long work stops where it is asked to.
+#![allow(clippy::unwrap_used)]
+
+use glam::{DAffine3, DMat2, DVec2, DVec3};
+use lumencut_core::error::{ErrorKind, Result};
+use lumencut_core::stop::Stop;
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_core::volume::{Volume, Voxels};
+use lumencut_vessels::measure::blur::variance_of;
+use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
+use lumencut_vessels::measure::flags::names_of;
+use lumencut_vessels::measure::measuring::{Request, measure};
+use lumencut_vessels::measure::profile::{Profile, Source};
+use lumencut_vessels::measure::stenosis::{Compared, Method};
+
+const SIZE: usize = 36;
+const SIDE: f64 = 0.5;
+const FWHM: f64 = 0.9;
+
+/// A vessel along z: an ellipse, blurred by the point spread and by voxels, which the values of a slice are.
+fn slices(ellipse: &Ellipse) -> Vec<f32> {
+    let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
+    let boundary = Boundary::new(ellipse, Whitening::new(DMat2::from_diagonal(DVec2::splat(variance))));
+    let slice: Vec<f32> = (0..SIZE * SIZE)
+        .map(|n| {
+            let place = DVec2::new((n % SIZE) as f64, (n / SIZE) as f64) * SIDE;
+            (40.0 + 300.0 * boundary.value(place)) as f32
+        })
+        .collect();
+    slice.repeat(SIZE)
+}
+
+fn measured(ellipse: &Ellipse, fwhm: Option<f64>, stop: Stop) -> Result<Profile> {
+    let values = slices(ellipse);
+    let affine = DAffine3::from_scale(DVec3::splat(SIDE));
+    let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine)?;
+    let points = [2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec();
+    let request = Request { step: 0.5, fwhm, tree: &[], stop };
+    measure(&volume, &Vessel::new(points, None)?, &request)
+}
+
+fn tilted() -> Ellipse {
+    Ellipse { center: DVec2::new(9.0, 9.1), mean: 2.0, stretch: DVec2::new(0.3, -0.4) }
+}
+
+#[test]
+fn an_ellipse_is_measured_as_it_is() {
+    let profile = measured(&tilted(), Some(FWHM), &|| false).unwrap();
+    assert_eq!(profile.len(), 27);
+    for n in 0..profile.len() {
+        assert!((profile.diameter_min[n] - 3.0).abs() < 0.01, "{}", profile.diameter_min[n]);
+        assert!((profile.diameter_max[n] - 5.0).abs() < 0.01, "{}", profile.diameter_max[n]);
+        assert!(profile.center[n].truncate().distance(DVec2::new(9.0, 9.1)) < 0.01);
+        assert!(names_of(profile.flags[n]).is_empty());
+    }
+    assert_eq!(profile.fwhm_source, Source::Given);
+}
+
+#[test]
+fn the_point_spread_is_found() {
+    let profile = measured(&Ellipse::circle(DVec2::new(9.0, 9.1), 2.6), None, &|| false).unwrap();
+    assert!((profile.fwhm - FWHM).abs() < 0.03, "{}", profile.fwhm);
+    assert!(matches!(profile.fwhm_source, Source::Estimated { .. }));
+}
+
+#[test]
+fn long_work_stops_where_it_is_asked_to() {
+    assert_eq!(measured(&tilted(), None, &|| true).unwrap_err().kind, ErrorKind::Interrupted);
+}
+
+#[test]
+fn a_vessel_of_one_width_has_no_stenosis() {
+    let profile = measured(&tilted(), Some(FWHM), &|| false).unwrap();
+    let compared = Compared { original: Some(8.0), ..Compared::default() };
+    let graded = profile.stenosis(6.0, Method::Ecst, &compared).unwrap();
+    assert!((graded.percent - 100.0 * (1.0 - 15.0_f64.sqrt() / 8.0)).abs() < 0.2);
+    let nothing = profile.stenosis(6.0, Method::Nascet, &Compared::default()).unwrap_err();
+    assert_eq!(nothing.kind, ErrorKind::Measuring);
+}
