@@ -11,6 +11,8 @@ import { fileURLToPath } from 'node:url';
 const web = dirname(dirname(fileURLToPath(import.meta.url)));
 const root = dirname(web);
 const target = 'wasm32-unknown-unknown';
+/** Small modules take minutes to link; for trying things out `LUMENCUT_WASM_PROFILE=checks` compiles quickly. */
+const profile = process.env.LUMENCUT_WASM_PROFILE ?? 'wasm';
 const pkg = join(web, 'src/core/pkg');
 const exported = ['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'];
 const linking = [
@@ -47,12 +49,12 @@ function build({ crate, flags, folder, name }) {
   run(
     'cargo',
     [
-      ...['build', '--locked', '--quiet', '--package', crate, '--lib', '--profile', 'wasm'],
+      ...['build', '--locked', '--quiet', '--package', crate, '--lib', '--profile', profile],
       ...['--target', target, '--target-dir', 'target', '-Z', 'build-std=std'],
     ],
     { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') },
   );
-  const compiled = join(root, 'target', target, 'wasm', `${crate.replaceAll('-', '_')}.wasm`);
+  const compiled = join(root, 'target', target, profile, `${crate.replaceAll('-', '_')}.wasm`);
   const fresh = join(root, 'target/page-module');
   rmSync(fresh, { recursive: true, force: true });
   mkdirSync(fresh, { recursive: true });

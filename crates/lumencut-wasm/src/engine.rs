@@ -12,13 +12,13 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use wasm_bindgen_futures::future_to_promise;
 use web_sys::OffscreenCanvas;
 
-use crate::choices::table_as_json;
-use crate::failure::{Failure, Result};
-use crate::planes::Plane;
-use crate::session::{Picture, Session};
-use crate::sides::CprMessage;
-use crate::stopping;
-use crate::view::{View, ViewMessage};
+use crate::{phantoms, stopping};
+use lumencut::study::choices::table_as_json;
+use lumencut::study::failure::{Failure, Result};
+use lumencut::study::planes::Plane;
+use lumencut::study::session::{Picture, Session};
+use lumencut::study::sides::CprMessage;
+use lumencut::study::view::{View, ViewMessage};
 
 /// What computes, and the study that is open. All methods throw the JSON of an error.
 #[wasm_bindgen]
@@ -149,7 +149,7 @@ impl Engine {
     /// # Errors
     /// `settings` for another name, `volume` where there is no memory for it.
     pub fn open_phantom(&mut self, name: &str, scale: f64) -> Answer<()> {
-        answer(self.session.open_phantom(name, scale))
+        answer(phantoms::open(&mut self.session, name, scale))
     }
 
     /// Opens centerlines; tells what was odd about them, as a list in JSON.

@@ -5,12 +5,12 @@ use lumencut::measure::profile::Profile;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::engine::{Answer, Engine, answer, read, told};
-use crate::failure::Result;
-use crate::measured::{
+use crate::stopping::{LONG, is_asked};
+use lumencut::study::failure::Result;
+use lumencut::study::measured::{
     DiameterMessage, MarksMessage, ProfileMessage, SectionMessage, SpotMessage, StenosisMessage,
     StretchMessage, VesselMessage,
 };
-use crate::stopping::{LONG, is_asked};
 
 /// Measuring goes on until the page cancels.
 fn stop() -> bool {

@@ -3,8 +3,22 @@
 use lumencut::error::{Error, ErrorKind};
 use lumencut_phantom::Phantom;
 
-use crate::failure::{Failure, Result};
-use crate::voxels::COARSER;
+use lumencut::study::failure::{Failure, Result};
+use lumencut::study::open::Held;
+use lumencut::study::session::Session;
+use lumencut::study::voxels::{COARSER, Stored};
+
+/// Opens a phantom in the place of all that is open, in `scale` times as many voxels along each axis where it is one that
+/// has scales.
+///
+/// # Errors
+/// As [`phantom`].
+pub fn open(session: &mut Session, name: &str, scale: f64) -> Result<()> {
+    session.close();
+    let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name, scale)?;
+    let held = Held { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
+    session.open(held, tree, vessel_names)
+}
 
 /// The phantom of this name, in `scale` times as many voxels along each axis where it is one that has scales.
 ///
@@ -24,4 +38,22 @@ pub fn phantom(name: &str, scale: f64) -> Result<Phantom> {
     };
     let with_mend = |error: Error| if error.kind == ErrorKind::Volume { error.mend(COARSER) } else { error };
     Ok(made.map_err(with_mend)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_phantom_can_have_fewer_voxels() {
+        let mut session = Session::default();
+        open(&mut session, "aorta", 0.1).expect("a phantom");
+        assert_eq!(session.study.held.as_ref().map(|held| held.size), Some([51, 51, 26]));
+        assert_eq!(open(&mut session, "aorta", 0.0).expect_err("no scale").kind, "settings");
+    }
+
+    #[test]
+    fn a_name_that_no_phantom_has_is_refused() {
+        assert_eq!(phantom("heart", 1.0).expect_err("no phantom").subject, "name of the phantom");
+    }
 }

@@ -4,7 +4,7 @@ use js_sys::Uint8Array;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::engine::{Answer, Engine, answer, read, told};
-use crate::saved_sessions;
+use lumencut::study::saved_sessions;
 
 #[wasm_bindgen]
 impl Engine {

@@ -8,8 +8,8 @@ use js_sys::{Date, Function};
 use lumencut::progress::Progress;
 use wasm_bindgen::JsValue;
 
-use crate::failure::Result;
-use crate::tracing::Watch;
+use lumencut::study::failure::Result;
+use lumencut::study::tracing::Watch;
 
 /// What the page asked to stop.
 static ASKED: AtomicU8 = AtomicU8::new(0);

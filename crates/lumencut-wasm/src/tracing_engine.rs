@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::engine::{Answer, Engine, answer, read, told};
 use crate::stopping::{LONG, after, heard, watched};
-use crate::view::ViewMessage;
+use lumencut::study::view::ViewMessage;
 
 /// How long a way is looked for while the pointer moves (ms).
 const PATIENCE: f64 = 40.0;

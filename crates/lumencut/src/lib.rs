@@ -23,6 +23,7 @@ pub mod profile_marks;
 pub mod profile_record;
 pub mod profile_table;
 mod samples;
+pub mod study;
 mod text;
 pub mod turn;
 pub mod views;

@@ -1,18 +1,18 @@
 //! What was measured, as the page and its worker tell it each other: the types of `web/src/core/measuring.ts`.
 
+use crate::measure_words::{of_c_arm, of_flags, of_source, of_stenosis};
+use crate::profile_marks::Marked;
+use crate::profile_record::Asked;
 use glam::DVec3;
-use lumencut::measure::groups::Territory;
-use lumencut::measure::profile::Profile;
-use lumencut::measure::stenosis::{Compared, Method, Stenosis};
-use lumencut::measure::stretch::{towards_detector, up_at_detector};
-use lumencut::measure::suggestions::Spot;
-use lumencut::measure_words::{of_c_arm, of_flags, of_source, of_stenosis};
-use lumencut::named::Named;
-use lumencut::profile_marks::Marked;
-use lumencut::profile_record::Asked;
+use lumencut_core::named::Named;
+use lumencut_vessels::measure::groups::Territory;
+use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
+use lumencut_vessels::measure::stretch::{towards_detector, up_at_detector};
+use lumencut_vessels::measure::suggestions::Spot;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::Result;
+use crate::study::failure::Result;
 
 type Vector = [f64; 3];
 

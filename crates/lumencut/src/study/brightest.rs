@@ -1,14 +1,14 @@
 //! The brightest place on the ray of a pixel: what a click into a projection means.
 
+use crate::positions::{pixel_from_world, world_from_pixel};
+use crate::windows;
 use glam::DVec3;
-use lumencut::error::{Error, ErrorKind};
-use lumencut::positions::{pixel_from_world, world_from_pixel};
-use lumencut::volume::Volume;
-use lumencut::windows;
+use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::volume::Volume;
 
-use crate::failure::Result;
-use crate::session::{Pick, Session, no_volume};
-use crate::view::View;
+use crate::study::failure::Result;
+use crate::study::session::{Pick, Session, no_volume};
+use crate::study::view::View;
 
 /// How far apart the places are that are looked at, in the smallest side of a voxel.
 const STEP: f64 = 0.5;

@@ -1,13 +1,11 @@
-//! What is opened and closed: volumes, phantoms and centerlines.
+//! What is opened and closed: volumes and centerlines.
 
-use lumencut_phantom::Phantom;
+use lumencut_core::vessel_tree::VesselTree;
 
-use crate::failure::Result;
-use crate::files::{VolumeHeader, read_centerlines};
-use crate::phantoms::phantom;
-use crate::session::Session;
-use crate::study::Held;
-use crate::voxels::Stored;
+use crate::study::failure::Result;
+use crate::study::files::{VolumeHeader, read_centerlines};
+use crate::study::open::Held;
+use crate::study::session::Session;
 
 impl Session {
     /// Makes room for a volume and puts it in the place of all that is open; its voxels follow as bytes.
@@ -39,17 +37,14 @@ impl Session {
         }
     }
 
-    /// Opens a phantom in the place of all that is open, in `scale` times as many voxels along each axis where it is one that
-    /// has scales.
+    /// Opens a volume and its vessels, with a name for each, in the place of all that is open.
     ///
     /// # Errors
-    /// `settings` for another name, `volume` where there is no memory for it.
-    pub fn open_phantom(&mut self, name: &str, scale: f64) -> Result<()> {
+    /// Those of [`Session::show_tree`].
+    pub fn open(&mut self, held: Held, tree: VesselTree, names: Vec<String>) -> Result<()> {
         self.close();
-        let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name, scale)?;
-        let stored = Stored::I16(voxels);
-        self.study.held = Some(Held { stored, size, world_from_index, key: Default::default() });
-        self.show_tree(tree, vessel_names)
+        self.study.held = Some(held);
+        self.show_tree(tree, names)
     }
 
     /// Opens centerlines beside the volume, in the place of those before, in the space (`lps` or `ras`) that is named; tells what

@@ -1,13 +1,13 @@
 //! The straightened CPR of one vessel, and the way between its pixels and the world.
 
+use crate::feature_aggregation::Feature;
 use glam::{DVec2, DVec3};
-use lumencut::feature_aggregation::Feature;
-use lumencut::math::path::Path;
-use lumencut::reformations::cpr::{Cpr, CprMode, View};
-use lumencut::vessel_tree::Vessel;
+use lumencut_core::math::path::Path;
+use lumencut_core::reformations::cpr::{Cpr, CprMode, View};
+use lumencut_core::vessel_tree::Vessel;
 use serde::Deserialize;
 
-use crate::failure::Result;
+use crate::study::failure::Result;
 
 /// A CPR as the page asks for it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]

@@ -1,18 +1,13 @@
 //! Tracing as the page relies on it, tested on this machine's own target.
 
 use glam::{DAffine3, DMat4, DVec3};
-use lumencut::progress::Progress;
+use lumencut_core::progress::Progress;
 use lumencut_phantom::Phantom;
 use serde_json::{Value as Json, json};
 
-use crate::session::Session;
-use crate::tracing::{PathMessage, TraceMessage, Watch};
-
-fn opened(phantom: &str) -> Session {
-    let mut session = Session::default();
-    session.open_phantom(phantom, 1.0).expect("a phantom");
-    session
-}
+use super::opened;
+use crate::study::session::Session;
+use crate::study::tracing::{PathMessage, TraceMessage, Watch};
 
 /// The header of a grid of 16-bit voxels.
 fn header(size: [usize; 3], world_from_index: DAffine3) -> String {
@@ -30,7 +25,7 @@ fn holding(phantom: Phantom) -> Session {
     session
 }
 
-fn traced(session: &mut Session, message: Json, stop: bool) -> crate::failure::Result<Vec<usize>> {
+fn traced(session: &mut Session, message: Json, stop: bool) -> crate::study::failure::Result<Vec<usize>> {
     let message: TraceMessage = serde_json::from_value(message).expect("a message");
     session.trace(&message, Watch { stop: &|| stop, progress: &Progress::default() })
 }

@@ -2,17 +2,17 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::windows;
 use glam::{DAffine3, DVec3};
-use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
-use lumencut::settings::Window;
-use lumencut::vessel_tree::VesselTree;
-use lumencut::volume::Volume;
-use lumencut::windows;
+use lumencut_core::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
+use lumencut_core::settings::Window;
+use lumencut_core::vessel_tree::VesselTree;
+use lumencut_core::volume::Volume;
 use serde::Serialize;
 use serde_json::json;
 
-use crate::failure::{Failure, Result};
-use crate::voxels::Stored;
+use crate::study::failure::{Failure, Result};
+use crate::study::voxels::Stored;
 
 /// A volume that the page holds.
 #[derive(Debug)]

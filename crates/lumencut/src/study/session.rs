@@ -1,29 +1,29 @@
 //! What the page can ask of the study that is open, but for the turning view itself: all of it on the CPU.
 
+use crate::feature_aggregation::{Feature, feature_aggregation};
+use crate::positions::world_from_pixel;
+use crate::views;
+use crate::windows;
 use glam::{DVec2, DVec3};
-use lumencut::camera::Camera;
-use lumencut::feature_aggregation::{Feature, feature_aggregation};
-use lumencut::frame::Frame;
-use lumencut::geometry::Geometry;
-use lumencut::pipeline::{self, CpuRenderer, Request};
-use lumencut::positions::world_from_pixel;
-use lumencut::settings::{Settings, Window};
-use lumencut::stages::{Image, ImageSet};
-use lumencut::trace::tracer::Tracer;
-use lumencut::vessel_tree::Vessel;
-use lumencut::views;
-use lumencut::windows;
-use lumencut::with_voxels;
+use lumencut_core::camera::Camera;
+use lumencut_core::frame::Frame;
+use lumencut_core::geometry::Geometry;
+use lumencut_core::pipeline::{self, CpuRenderer, Request};
+use lumencut_core::settings::{Settings, Window};
+use lumencut_core::stages::{Image, ImageSet};
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_core::with_voxels;
+use lumencut_vessels::trace::tracer::Tracer;
 use serde::Serialize;
 
-use crate::failure::{Failure, Result};
-use crate::histogram::Histogram;
-use crate::lines::Lines;
-use crate::planes::{Plane, across};
-use crate::profiles::Profiles;
-use crate::sides::{CprMessage, Laid};
-use crate::study::{Held, Study};
-use crate::view::{CameraMessage, View};
+use crate::study::failure::{Failure, Result};
+use crate::study::histogram::Histogram;
+use crate::study::lines::Lines;
+use crate::study::open::{Held, Study};
+use crate::study::planes::{Plane, across};
+use crate::study::profiles::Profiles;
+use crate::study::sides::{CprMessage, Laid};
+use crate::study::view::{CameraMessage, View};
 
 /// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
 const AROUND: usize = 8;

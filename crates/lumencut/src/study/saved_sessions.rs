@@ -1,14 +1,12 @@
 //! Session files: their lines become lines that the page holds, and the other way round.
 
-use lumencut::centerlines;
-use lumencut::centerlines::session_file::{
-    DoubtfulBranch, Session, SessionFile, read_session, write_session,
-};
+use lumencut_io as centerlines;
+use lumencut_io::session_file::{DoubtfulBranch, Session, SessionFile, read_session, write_session};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::failure::{Failure, Result};
-use crate::lines::{Line, Lines, NamedLine};
+use crate::study::failure::{Failure, Result};
+use crate::study::lines::{Line, Lines, NamedLine};
 
 /// The program that writes the files.
 const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));

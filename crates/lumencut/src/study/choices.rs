@@ -1,10 +1,10 @@
 //! Settings by name, as JSON: the same table as everywhere.
 
-use lumencut::named::Named;
-use lumencut::settings::{Choices, Kind, Settings, Slab, SlabMode, Value, Window, table};
+use lumencut_core::named::Named;
+use lumencut_core::settings::{Choices, Kind, Settings, Slab, SlabMode, Value, Window, table};
 use serde_json::{Map, Value as Json, json};
 
-use crate::failure::{Failure, Result};
+use crate::study::failure::{Failure, Result};
 
 /// The table of settings for the page: names, kinds, ranges, units, names of values, defaults and what each does.
 pub fn table_as_json() -> Json {

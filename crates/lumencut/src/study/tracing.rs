@@ -1,23 +1,23 @@
 //! Vessels between clicks and from a seed, in the study that is open, and the lines that are made of them.
 
 use glam::DVec3;
-use lumencut::centerlines::{write_mrk_json, write_vtp};
-use lumencut::error::{Error, ErrorKind};
-use lumencut::progress::Progress;
-use lumencut::stop::Stop;
-use lumencut::trace::preview::Sought;
-use lumencut::trace::region::Stopper;
-use lumencut::trace::seed;
-use lumencut::trace::seed_tree::Doubt;
-use lumencut::trace::tracer::Clicks;
-use lumencut::vessel_tree::VesselTree;
+use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::progress::Progress;
+use lumencut_core::stop::Stop;
+use lumencut_core::vessel_tree::VesselTree;
+use lumencut_io::{write_mrk_json, write_vtp};
+use lumencut_vessels::trace::preview::Sought;
+use lumencut_vessels::trace::region::Stopper;
+use lumencut_vessels::trace::seed;
+use lumencut_vessels::trace::seed_tree::Doubt;
+use lumencut_vessels::trace::tracer::Clicks;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::{Failure, Result};
-use crate::line_edits::{cut, join};
-use crate::lines::{Line, LineContent, NamedLine};
-use crate::session::{Session, no_volume};
-use crate::study::Named;
+use crate::study::failure::{Failure, Result};
+use crate::study::line_edits::{cut, join};
+use crate::study::lines::{Line, LineContent, NamedLine};
+use crate::study::open::Named;
+use crate::study::session::{Session, no_volume};
 
 /// How long work is watched: asked whether to stop, and how far it is.
 #[derive(Clone, Copy)]
@@ -72,7 +72,7 @@ impl Session {
     /// The numbers of the lines of vessels that are clicked, in their order. A line that is what it was keeps its number.
     ///
     /// # Errors
-    /// `tracing` as [`lumencut::trace::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
+    /// `tracing` as [`lumencut_vessels::trace::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
     pub fn trace(&mut self, message: &TraceMessage, watch: Watch) -> Result<Vec<usize>> {
         let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let beside = message.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
@@ -97,7 +97,7 @@ impl Session {
     /// Refuses a place that no vessel can begin at.
     ///
     /// # Errors
-    /// `tracing` as [`lumencut::trace::tracer::Tracer::check_click`], `volume` where none is open.
+    /// `tracing` as [`lumencut_vessels::trace::tracer::Tracer::check_click`], `volume` where none is open.
     pub fn check_click(&self, click: [f64; 3]) -> Result<()> {
         let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
         Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)

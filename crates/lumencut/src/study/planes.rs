@@ -1,12 +1,12 @@
 //! Flat pictures: slices of the patient, and sections across a vessel.
 
 use glam::{DVec3, Vec3};
-use lumencut::geometry::{Curved, Geometry};
-use lumencut::measure::place::Track;
-use lumencut::vessel_tree::Vessel;
+use lumencut_core::geometry::{Curved, Geometry};
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_vessels::measure::place::Track;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::Result;
+use crate::study::failure::Result;
 
 /// A flat picture as the page asks for it: the world point in its middle, unit vectors to the right and downwards (LPS), its
 /// size in pixels and their side (mm).

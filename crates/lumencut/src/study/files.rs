@@ -1,18 +1,18 @@
 //! What files become here: the header of a stream of voxels, and centerlines in world space.
 
+use crate::extent::Extent;
+use crate::lumen_points::{Lines, lumen_count};
+use crate::placement::{Judge, Known, placement};
 use glam::{DAffine3, DMat4, DVec3, DVec4};
-use lumencut::centerlines::{self, Space, Unit, junctions};
-use lumencut::extent::Extent;
-use lumencut::lumen_points::{Lines, lumen_count};
-use lumencut::placement::{Judge, Known, placement};
-use lumencut::scene::VolumeKey;
-use lumencut::vessel_tree::{Vessel, VesselTree};
-use lumencut::volume::Volume;
+use lumencut_core::scene::VolumeKey;
+use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_core::volume::Volume;
+use lumencut_io::{self as centerlines, Space, Unit, junctions};
 use serde::Deserialize;
 
-use crate::failure::{Failure, Result};
-use crate::study::Held;
-use crate::voxels::Stored;
+use crate::study::failure::{Failure, Result};
+use crate::study::open::Held;
+use crate::study::voxels::Stored;
 
 /// What comes before the voxels of a volume.
 #[derive(Clone, Debug, Deserialize)]
@@ -102,7 +102,7 @@ pub fn read_centerlines(
     let vessel = |line: &centerlines::Line| {
         Vessel::new(line.points.iter().map(|p| *p * signs).collect(), line.radius.clone())
     };
-    let vessels = placed.lines.iter().map(vessel).collect::<lumencut::error::Result<Vec<_>>>()?;
+    let vessels = placed.lines.iter().map(vessel).collect::<lumencut_core::error::Result<Vec<_>>>()?;
     let mut notes = placed.notes.clone();
     notes.extend((!found.decision.is_empty()).then_some(found.decision));
     let names = placed.lines.iter().map(|line| line.name.clone().unwrap_or_default()).collect();

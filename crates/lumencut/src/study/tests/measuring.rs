@@ -3,15 +3,16 @@
 use std::f64::consts::{FRAC_PI_6, PI};
 
 use glam::{DMat2, DVec2, DVec3};
-use lumencut::measure::blur::variance_of;
-use lumencut::measure::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut::measure::measuring::{Request, measure};
-use lumencut::vessel_tree::Vessel;
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_vessels::measure::blur::variance_of;
+use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
+use lumencut_vessels::measure::measuring::{Request, measure};
 use serde_json::{Value as Json, json};
 
 use super::*;
-use crate::lines::NamedLine;
-use crate::measured::{MarksMessage, ProfileMessage, SectionMessage, StenosisMessage, StretchMessage};
+use crate::study::lines::NamedLine;
+use crate::study::measured::{MarksMessage, ProfileMessage, SectionMessage, StenosisMessage, StretchMessage};
+use crate::study::tests::opened;
 
 const SIZE: [usize; 3] = [40, 40, 80];
 const SIDE: f64 = 0.5;
@@ -67,12 +68,6 @@ fn tube() -> Session {
 
 fn open_line(session: &mut Session, from: f64, to: f64) {
     session.open_centerlines(line(from, to).as_bytes(), "line.csv", Some("lps")).expect("a line");
-}
-
-fn phantom(name: &str) -> Session {
-    let mut session = Session::default();
-    session.open_phantom(name, 1.0).expect("a phantom");
-    session
 }
 
 /// The number of a vessel's line, as the page knows it.
@@ -197,7 +192,7 @@ fn measured_by_core(session: &Session, tree: &[Vessel]) -> Profile {
 
 #[test]
 fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
-    let mut session = phantom("y_junction");
+    let mut session = opened("y_junction");
     let tree = session.study.tree().expect("a tree").tree().clone();
     let [trunk, branch] = [0, 1].map(|vessel| line_of(&session, vessel));
     let among_all = measured_by_core(&session, tree.vessels());
@@ -277,7 +272,7 @@ fn json_names_what_was_asked_of_one_vessel() {
 
 #[test]
 fn tables_have_a_line_for_each_section_of_each_vessel() {
-    let mut session = phantom("y_junction");
+    let mut session = opened("y_junction");
     let vessels = [0, 2].map(|number| vessel(&session, number, json!({"at": 10.0})));
     let text = session.profiles_csv(&vessels, &go_on).expect("a table");
     let counts = vessels.each_ref().map(|one| session.measured(one.line, &go_on).expect("a profile").len());

@@ -1,14 +1,14 @@
 //! Measuring the lines that are shown, as `lumencut.measure(volume, vessel, 0.5, fwhm, tree=tree)` of Python does.
 
-use lumencut::measure::profile::Profile;
-use lumencut::profile_record::{Asked, Measured, vessels_json};
-use lumencut::profile_table::{Labelled, csv_text};
-use lumencut::stop::Stop;
+use crate::profile_record::{Asked, Measured, vessels_json};
+use crate::profile_table::{Labelled, csv_text};
+use lumencut_core::stop::Stop;
+use lumencut_vessels::measure::profile::Profile;
 
-use crate::failure::Result;
-use crate::measured::{Graded, VesselMessage};
-use crate::profiles::{Asking, Profiles, STEP};
-use crate::session::Session;
+use crate::study::failure::Result;
+use crate::study::measured::{Graded, VesselMessage};
+use crate::study::profiles::{Asking, Profiles, STEP};
+use crate::study::session::Session;
 
 impl Session {
     /// The profile of a line that is shown, under a point spread of this width (mm), or under the one that the tree tells.

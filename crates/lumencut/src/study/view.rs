@@ -1,15 +1,15 @@
 //! What the page asks for in the turning view: a camera, a method and settings.
 
+use crate::method::Method;
 use glam::DVec3;
-use lumencut::camera::Camera;
-use lumencut::method::Method;
-use lumencut::reformations::cr::CrParameters;
-use lumencut::settings::Settings;
+use lumencut_core::camera::Camera;
+use lumencut_core::reformations::cr::CrParameters;
+use lumencut_core::settings::Settings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
-use crate::choices::settings;
-use crate::failure::{Failure, Result};
+use crate::study::choices::settings;
+use crate::study::failure::{Failure, Result};
 
 /// A camera as the page has it; its axes are unit vectors (LPS).
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]

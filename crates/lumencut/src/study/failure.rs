@@ -1,7 +1,7 @@
 //! Errors as the page gets them: the same four texts as everywhere, and the kind.
 
-use lumencut::centerlines;
-use lumencut::error::{Error, ErrorKind};
+use lumencut_core::error::{Error, ErrorKind};
+use lumencut_io as centerlines;
 use serde::Serialize;
 
 /// An error for the page.

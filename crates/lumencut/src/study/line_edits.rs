@@ -1,10 +1,10 @@
 //! Cutting a line in two, and joining two to one.
 
 use glam::DVec3;
-use lumencut::math::arc_length::arc_lengths;
+use lumencut_core::math::arc_length::arc_lengths;
 
-use crate::failure::Result;
-use crate::lines::{Line, wrong};
+use crate::study::failure::Result;
+use crate::study::lines::{Line, wrong};
 
 /// A cut this near to a point of the line is at that point (mm).
 const AT_POINT: f64 = 1e-6;

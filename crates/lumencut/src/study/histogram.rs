@@ -1,6 +1,6 @@
 //! How the values of a volume are distributed, for the strip beside the window.
 
-use lumencut::volume::{Real, Voxel};
+use lumencut_core::volume::{Real, Voxel};
 use serde::Serialize;
 
 /// The most voxels that are looked at.

@@ -4,14 +4,14 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use lumencut::centerlines;
-use lumencut::error::{Error, ErrorKind};
-use lumencut::trace::refine::Centerline;
-use lumencut::trace::traced::Traced;
-use lumencut::vessel_tree::Vessel;
+use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_io as centerlines;
+use lumencut_vessels::trace::refine::Centerline;
+use lumencut_vessels::trace::traced::Traced;
 use serde::{Deserialize, Serialize};
 
-use crate::failure::Result;
+use crate::study::failure::Result;
 
 /// A line, and what is known at each of its points.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,24 +2,24 @@
 
 use std::collections::HashSet;
 
+use crate::mask_notes::{check_same_grid, notes};
 use glam::DVec3;
-use lumencut::error::{Error, ErrorKind};
-use lumencut::mask_notes::{check_same_grid, notes};
-use lumencut::trace::grey_values::GreyValues;
-use lumencut::trace::mask::{Request, TracedMask, trace_mask};
-use lumencut::trace::mask_vessels::MaskVessel;
-use lumencut::trace::refine::Centerline;
-use lumencut::trace::voxels::Voxels;
-use lumencut::volume::Volume;
+use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::volume::Volume;
+use lumencut_vessels::trace::grey_values::GreyValues;
+use lumencut_vessels::trace::mask::{Request, TracedMask, trace_mask};
+use lumencut_vessels::trace::mask_vessels::MaskVessel;
+use lumencut_vessels::trace::refine::Centerline;
+use lumencut_vessels::trace::voxels::Voxels;
 use serde::Serialize;
 
-use crate::failure::{Failure, Result};
-use crate::files::VolumeHeader;
-use crate::lines::{Line, NamedLine};
-use crate::session::{Session, no_volume};
-use crate::study::Held;
-use crate::tracing::Watch;
-use crate::voxels::Stored;
+use crate::study::failure::{Failure, Result};
+use crate::study::files::VolumeHeader;
+use crate::study::lines::{Line, NamedLine};
+use crate::study::open::Held;
+use crate::study::session::{Session, no_volume};
+use crate::study::tracing::Watch;
+use crate::study::voxels::Stored;
 
 /// How long a branch must be to stay (radii of its parent), and how far apart points are (mm).
 const PARENT_RADII: f64 = 2.0;

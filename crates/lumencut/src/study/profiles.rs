@@ -6,13 +6,13 @@
 
 use std::collections::HashMap;
 
-use lumencut::measure::measuring::{Request, measure_under, point_spread_of};
-use lumencut::measure::profile::{Profile, Source};
-use lumencut::stop::Stop;
+use lumencut_core::stop::Stop;
+use lumencut_vessels::measure::measuring::{Request, measure_under, point_spread_of};
+use lumencut_vessels::measure::profile::{Profile, Source};
 
-use crate::failure::{Failure, Result};
-use crate::lines::wrong;
-use crate::study::{Held, Study};
+use crate::study::failure::{Failure, Result};
+use crate::study::lines::wrong;
+use crate::study::open::{Held, Study};
 
 /// The distance of sections (mm), at most.
 pub const STEP: f64 = 0.5;

@@ -1,9 +1,9 @@
 //! The voxels of the one volume that is open, in their own type. The page turns other types into one of these.
 
-use lumencut::error::{Error, ErrorKind};
-use lumencut::volume::Voxels;
+use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::volume::Voxels;
 
-use crate::failure::{Failure, Result};
+use crate::study::failure::{Failure, Result};
 
 /// Voxels of one of the types that a volume can have in a browser.
 #[derive(Debug)]

@@ -1,14 +1,15 @@
 //! Masks beside the volume, and the brightest place on a ray.
 
 use glam::{DAffine3, DMat4, DVec3};
-use lumencut::progress::Progress;
+use lumencut_core::progress::Progress;
 use serde_json::json;
 
-use crate::failure::Failure;
-use crate::masks::MaskLines;
-use crate::session::{Pick, Session};
-use crate::tracing::Watch;
-use crate::view::ViewMessage;
+use super::opened;
+use crate::study::failure::Failure;
+use crate::study::masks::MaskLines;
+use crate::study::session::{Pick, Session};
+use crate::study::tracing::Watch;
+use crate::study::view::ViewMessage;
 
 /// The grid of the volume that is open.
 fn grid(session: &Session) -> ([usize; 3], DAffine3) {
@@ -24,7 +25,7 @@ fn header((size, world_from_index): ([usize; 3], DAffine3), dtype: &str) -> Stri
 /// The voxels of the volume that is open.
 fn values(session: &Session) -> Vec<i16> {
     match &session.study.held.as_ref().expect("a volume").stored {
-        crate::voxels::Stored::I16(values) => values.clone(),
+        crate::study::voxels::Stored::I16(values) => values.clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -35,12 +36,6 @@ fn traced(session: &mut Session, header: &str, bytes: &[u8]) -> Result<MaskLines
     let traced = session.trace_mask(Watch { stop: &|| false, progress: &Progress::default() });
     assert!(session.mask.is_none(), "the mask is forgotten");
     traced
-}
-
-fn opened(phantom: &str) -> Session {
-    let mut session = Session::default();
-    session.open_phantom(phantom, 1.0).expect("a phantom");
-    session
 }
 
 #[test]
@@ -143,7 +138,7 @@ fn a_slab_limits_the_ray_to_itself() {
     let mut session = column(&[(3, 200), (7, 500)]);
     let line = json!({"points": [[0, 2, 3], [4, 2, 3]], "radius": null, "confidence": null, "bridged": null});
     let line = session.add_line(serde_json::from_value(line).expect("a line")).expect("a line");
-    session.show(&[crate::lines::NamedLine { line, name: String::new() }]).expect("a tree");
+    session.show(&[crate::study::lines::NamedLine { line, name: String::new() }]).expect("a tree");
     let slab = json!({"slab": [3.0, "max"]});
     assert_eq!(brightest(&mut session, [2.0, 2.0], &slab).expect("a place").point, [2.0, 2.0, 3.0]);
     assert_eq!(brightest(&mut session, [2.0, 2.0], &json!({})).expect("a place").point, [2.0, 2.0, 7.0]);

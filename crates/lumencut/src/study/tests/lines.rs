@@ -1,12 +1,13 @@
 //! Lines by number: what is made of them, and how they are shown and saved.
 
 use glam::DVec3;
-use lumencut::centerlines;
+use lumencut_io as centerlines;
 use serde_json::json;
 
-use crate::line_edits::{cut, join};
-use crate::lines::{Line, LineContent, NamedLine};
-use crate::session::Session;
+use super::open_phantom;
+use crate::study::line_edits::{cut, join};
+use crate::study::lines::{Line, LineContent, NamedLine};
+use crate::study::session::Session;
 
 /// A line along x in steps of 1 mm from `from`, its radius growing with it.
 fn straight(from: f64, count: usize) -> Line {
@@ -92,7 +93,7 @@ fn named(line: usize, name: &str) -> NamedLine {
 #[test]
 fn lines_are_shown_in_their_order_and_windows_stay() {
     let mut session = Session::default();
-    session.open_phantom("y_junction", 1.0).expect("a phantom");
+    open_phantom(&mut session, "y_junction");
     let before = session.study.report().expect("a report");
     let lines: Vec<u64> =
         before["vessels"].as_array().expect("vessels").iter().filter_map(|v| v["line"].as_u64()).collect();
@@ -115,9 +116,9 @@ fn lines_are_shown_in_their_order_and_windows_stay() {
 #[test]
 fn the_number_of_a_line_never_stands_for_one_of_another_study() {
     let mut session = Session::default();
-    session.open_phantom("y_junction", 1.0).expect("a phantom");
+    open_phantom(&mut session, "y_junction");
     let added = with_line(&mut session, &straight(0.0, 5));
-    session.open_phantom("stenosis", 1.0).expect("a phantom");
+    open_phantom(&mut session, "stenosis");
     assert!((0..=added).all(|line| session.line(line).is_err()));
     let line = session.study.report().expect("a report")["vessels"][0]["line"].as_u64().expect("a number");
     assert_eq!(line as usize, added + 1);
