@@ -63,7 +63,7 @@ pub struct Session {
     /// What was measured.
     pub(crate) profiles: Profiles,
     /// All lines of the study.
-    pub(crate) lines: Lines,
+    pub lines: Lines,
     /// What is known of the volume from one tracing to the next, and the lines that it gave last.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
