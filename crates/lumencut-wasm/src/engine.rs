@@ -13,11 +13,11 @@ use wasm_bindgen_futures::future_to_promise;
 use web_sys::OffscreenCanvas;
 
 use crate::{phantoms, stopping};
-use lumencut::study::choices::table_as_json;
 use lumencut::study::failure::{Failure, Result};
+use lumencut::study::open_study::{Picture, Study};
 use lumencut::study::planes::Plane;
-use lumencut::study::session::{Picture, Session};
-use lumencut::study::sides::CprMessage;
+use lumencut::study::settings::table_as_json;
+use lumencut::study::straightened::CprMessage;
 use lumencut::study::view::{View, ViewMessage};
 
 /// What computes, and the study that is open. All methods throw the JSON of an error.
@@ -25,7 +25,7 @@ use lumencut::study::view::{View, ViewMessage};
 pub struct Engine {
     backend: Backend,
     screen: Option<Screen>,
-    pub(crate) session: Session,
+    pub(crate) study: Study,
 }
 
 /// What the page gets, or catches.
@@ -73,7 +73,7 @@ impl Engine {
     /// # Errors
     /// `device` where a GPU is asked for and none can be used.
     pub async fn open(device: &str) -> Answer<Engine> {
-        Ok(Self { backend: backend(device).await?, screen: None, session: Session::default() })
+        Ok(Self { backend: backend(device).await?, screen: None, study: Study::default() })
     }
 
     /// "cpu", or the name of the GPU.
@@ -126,7 +126,7 @@ impl Engine {
     /// # Errors
     /// `volume` where there is no memory for it.
     pub fn begin_volume(&mut self, header: &str) -> Answer<()> {
-        answer(self.session.begin_volume(header))
+        answer(self.study.begin_volume(header))
     }
 
     /// Takes over bytes of voxels from `offset` on.
@@ -134,14 +134,14 @@ impl Engine {
     /// # Errors
     /// `volume` for more bytes than the header tells of.
     pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Answer<()> {
-        let room = self.session.voxel_bytes(offset as usize, bytes.length() as usize);
+        let room = self.study.voxel_bytes(offset as usize, bytes.length() as usize);
         bytes.copy_to(answer(room)?);
         Ok(())
     }
 
     /// Tells that voxels came since the picture before.
     pub fn voxels_changed(&mut self) {
-        self.session.voxels_changed();
+        self.study.voxels_changed();
     }
 
     /// Opens a phantom by its name, in `scale` times as many voxels along each axis where it has scales.
@@ -149,7 +149,7 @@ impl Engine {
     /// # Errors
     /// `settings` for another name, `volume` where there is no memory for it.
     pub fn open_phantom(&mut self, name: &str, scale: f64) -> Answer<()> {
-        answer(phantoms::open(&mut self.session, name, scale))
+        answer(phantoms::open(&mut self.study, name, scale))
     }
 
     /// Opens centerlines; tells what was odd about them, as a list in JSON.
@@ -158,12 +158,12 @@ impl Engine {
     /// `format` for a file that is damaged or holds none.
     #[allow(clippy::needless_pass_by_value)]
     pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, space: Option<String>) -> Answer<String> {
-        told(self.session.open_centerlines(bytes, name, space.as_deref()))
+        told(self.study.open_centerlines(bytes, name, space.as_deref()))
     }
 
     /// Closes the study.
     pub fn close(&mut self) {
-        self.session.close();
+        self.study.close();
     }
 
     /// What is open, as JSON.
@@ -171,7 +171,7 @@ impl Engine {
     /// # Errors
     /// `volume` for values beyond all windows.
     pub fn report(&self) -> Answer<String> {
-        told(self.session.study.report())
+        told(self.study.content.report())
     }
 
     /// The camera of a named view that shows all of the study, as JSON.
@@ -179,7 +179,7 @@ impl Engine {
     /// # Errors
     /// `camera` where nothing is open.
     pub fn fitted(&self, view: &str, width: usize, height: usize) -> Answer<String> {
-        told(self.session.fitted(view, [width, height]))
+        told(self.study.fitted(view, [width, height]))
     }
 
     /// Renders a view, given as JSON. On the canvas of [`Engine::draw_on`] where the GPU computes, and then it gives nothing;
@@ -194,7 +194,7 @@ impl Engine {
 
     async fn rendered(&mut self, view: &View) -> Result<Option<Uint8ClampedArray>> {
         let View { camera, settings, method } = view;
-        let scene = self.session.study.scene()?;
+        let scene = self.study.content.scene()?;
         let images = ImageSet::of(&[Image::Picture]);
         stopping::heard(stopping::VIEW);
         let stop = || stopping::is_asked(stopping::VIEW);
@@ -211,7 +211,7 @@ impl Engine {
     /// Those of the view.
     pub fn pick(&mut self, view: &str, column: f64, row: f64) -> Answer<String> {
         let view = ViewMessage::read(view).and_then(|message| message.view());
-        told(view.and_then(|view| self.session.pick(&view, [column, row])))
+        told(view.and_then(|view| self.study.pick(&view, [column, row])))
     }
 
     /// What lies at a world point, as JSON.
@@ -219,7 +219,7 @@ impl Engine {
     /// # Errors
     /// `settings` for a text that is no point.
     pub fn at(&self, point: &str) -> Answer<String> {
-        told(read("point", point).map(|point| self.session.at(point)))
+        told(read("point", point).map(|point| self.study.at(point)))
     }
 
     /// How the values of the volume are distributed, as JSON.
@@ -227,7 +227,7 @@ impl Engine {
     /// # Errors
     /// `volume` where none is open.
     pub fn histogram(&self, bins: usize) -> Answer<String> {
-        told(self.session.histogram(bins))
+        told(self.study.histogram(bins))
     }
 
     /// The pixels of a plane, RGBA, in a window of this level and width.
@@ -236,7 +236,7 @@ impl Engine {
     /// `volume` where none is open.
     pub fn slice(&self, plane: &str, level: f64, width: f64) -> Answer<Uint8ClampedArray> {
         let plane = answer(read::<Plane>("plane", plane))?;
-        Ok(clamped(&answer(self.session.slice(&plane, [level, width]))?.bytes))
+        Ok(clamped(&answer(self.study.slice(&plane, [level, width]))?.bytes))
     }
 
     /// The middle and the axes of a section across a vessel, as JSON.
@@ -244,7 +244,7 @@ impl Engine {
     /// # Errors
     /// `vessel tree` for a vessel that there is not.
     pub fn across(&self, vessel: usize, at: f64) -> Answer<String> {
-        told(self.session.across(vessel, at))
+        told(self.study.across(vessel, at))
     }
 
     /// The straightened CPR of a vessel: its size in pixels, and these, RGBA.
@@ -253,7 +253,7 @@ impl Engine {
     /// `vessel tree` for a vessel that there is not.
     pub fn straightened(&mut self, message: &str, level: f64, width: f64) -> Answer<js_sys::Array> {
         let message = answer(read::<CprMessage>("cpr", message))?;
-        let Picture { size, bytes } = answer(self.session.straightened(message, [level, width]))?;
+        let Picture { size, bytes } = answer(self.study.straightened(message, [level, width]))?;
         let size = size.map(|count| JsValue::from_f64(count as f64));
         Ok(js_sys::Array::of(&[size[0].clone(), size[1].clone(), clamped(&bytes).into()]))
     }
@@ -263,10 +263,9 @@ impl Engine {
     /// # Errors
     /// `settings` where none was shown.
     pub fn pick_straightened(&self, column: f64, row: f64) -> Answer<String> {
-        let laid =
-            self.session.laid().ok_or_else(|| Failure::of_message("CPR", &"none", "one that is shown"));
+        let laid = self.study.laid().ok_or_else(|| Failure::of_message("CPR", &"none", "one that is shown"));
         told(laid.map(|laid| {
-            let at = self.session.at(laid.world([column, row]));
+            let at = self.study.at(laid.world([column, row]));
             json!({"point": at.point, "value": at.value, "vessel": laid.vessel(), "arc_length": laid.arc_length(row)})
         }))
     }
@@ -276,7 +275,7 @@ impl Engine {
     /// # Errors
     /// `settings` for a text that is no point.
     pub fn on_straightened(&self, point: &str) -> Answer<String> {
-        told(read("point", point).map(|point| self.session.laid().map(|laid| laid.pixel(point))))
+        told(read("point", point).map(|point| self.study.laid().map(|laid| laid.pixel(point))))
     }
 }
 

@@ -7,7 +7,7 @@ mod engine;
 mod measuring_engine;
 pub mod phantoms;
 #[cfg(target_arch = "wasm32")]
-mod saved_sessions_engine;
+mod session_files_engine;
 #[cfg(target_arch = "wasm32")]
 mod stopping;
 #[cfg(target_arch = "wasm32")]

@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use crate::engine::{Answer, Engine, answer, read, told};
 use crate::stopping::{LONG, is_asked};
 use lumencut::study::failure::Result;
-use lumencut::study::measured::{
+use lumencut::study::measure_messages::{
     DiameterMessage, MarksMessage, ProfileMessage, SectionMessage, SpotMessage, StenosisMessage,
     StretchMessage, VesselMessage,
 };
@@ -19,7 +19,7 @@ fn stop() -> bool {
 
 impl Engine {
     fn measured(&mut self, line: usize) -> Result<&Profile> {
-        self.session.measured(line, &stop)
+        self.study.measured(line, &stop)
     }
 }
 
@@ -31,7 +31,7 @@ impl Engine {
     /// # Errors
     /// See the module.
     pub fn profile(&mut self, line: usize, fwhm: Option<f64>) -> Answer<String> {
-        told(self.session.profile(line, fwhm, &stop).map(ProfileMessage::from))
+        told(self.study.profile(line, fwhm, &stop).map(ProfileMessage::from))
     }
 
     /// The stenosis that was marked on a line, as JSON; null where what it needs is not marked yet.
@@ -95,7 +95,7 @@ impl Engine {
     /// See the module.
     pub fn profiles_csv(&mut self, vessels: &str) -> Answer<String> {
         let vessels = read::<Vec<VesselMessage>>("vessels", vessels);
-        answer(vessels.and_then(|vessels| self.session.profiles_csv(&vessels, &stop)))
+        answer(vessels.and_then(|vessels| self.study.profiles_csv(&vessels, &stop)))
     }
 
     /// Vessels that are given as JSON, with their stenoses, as a file of JSON.
@@ -104,6 +104,6 @@ impl Engine {
     /// See the module.
     pub fn profiles_json(&mut self, vessels: &str) -> Answer<String> {
         let vessels = read::<Vec<VesselMessage>>("vessels", vessels);
-        answer(vessels.and_then(|vessels| self.session.profiles_json(&vessels, &stop)))
+        answer(vessels.and_then(|vessels| self.study.profiles_json(&vessels, &stop)))
     }
 }

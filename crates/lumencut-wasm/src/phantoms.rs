@@ -4,8 +4,8 @@ use lumencut::error::{Error, ErrorKind};
 use lumencut_phantom::Phantom;
 
 use lumencut::study::failure::{Failure, Result};
-use lumencut::study::open::Held;
-use lumencut::study::session::Session;
+use lumencut::study::held_volume::HeldVolume;
+use lumencut::study::open_study::Study;
 use lumencut::study::voxels::{COARSER, Stored};
 
 /// Opens a phantom in the place of all that is open, in `scale` times as many voxels along each axis where it is one that
@@ -13,11 +13,11 @@ use lumencut::study::voxels::{COARSER, Stored};
 ///
 /// # Errors
 /// As [`phantom`].
-pub fn open(session: &mut Session, name: &str, scale: f64) -> Result<()> {
-    session.close();
+pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
+    study.close();
     let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name, scale)?;
-    let held = Held { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
-    session.open(held, tree, vessel_names)
+    let held = HeldVolume { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
+    study.open(held, tree, vessel_names)
 }
 
 /// The phantom of this name, in `scale` times as many voxels along each axis where it is one that has scales.
@@ -46,10 +46,10 @@ mod tests {
 
     #[test]
     fn a_phantom_can_have_fewer_voxels() {
-        let mut session = Session::default();
-        open(&mut session, "aorta", 0.1).expect("a phantom");
-        assert_eq!(session.study.held.as_ref().map(|held| held.size), Some([51, 51, 26]));
-        assert_eq!(open(&mut session, "aorta", 0.0).expect_err("no scale").kind, "settings");
+        let mut study = Study::default();
+        open(&mut study, "aorta", 0.1).expect("a phantom");
+        assert_eq!(study.content.held.as_ref().map(|held| held.size), Some([51, 51, 26]));
+        assert_eq!(open(&mut study, "aorta", 0.0).expect_err("no scale").kind, "settings");
     }
 
     #[test]

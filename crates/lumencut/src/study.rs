@@ -4,22 +4,23 @@
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
 pub mod brightest;
-pub mod choices;
+pub mod centerline_files;
+pub mod content;
 pub mod failure;
-pub mod files;
+pub mod held_volume;
 pub mod histogram;
 pub mod line_edits;
 pub mod lines;
 pub mod masks;
-pub mod measured;
+pub mod measure_messages;
 pub mod measuring;
-pub mod open;
+pub mod open_study;
 mod opening;
 pub mod planes;
 pub mod profiles;
-pub mod saved_sessions;
-pub mod session;
-pub mod sides;
+pub mod session_files;
+pub mod settings;
+pub mod straightened;
 pub mod tracing;
 pub mod view;
 pub mod voxels;

@@ -7,13 +7,13 @@ use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::volume::Volume;
 
 use crate::study::failure::Result;
-use crate::study::session::{Pick, Session, no_volume};
+use crate::study::open_study::{Pick, Study, no_volume};
 use crate::study::view::View;
 
 /// How far apart the places are that are looked at, in the smallest side of a voxel.
 const STEP: f64 = 0.5;
 
-impl Session {
+impl Study {
     /// The brightest place on the ray of the pixel (column, row) of a view, the nearest one of several. A slab around the cut
     /// surface limits the ray to itself.
     ///
@@ -21,7 +21,7 @@ impl Session {
     /// `tracing` for a ray beside the volume, `volume` where none is open, and those of the view.
     pub fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
-        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let from = world_from_pixel(&view.camera, pixel, 0.0);
         let [near, far] = chord(&volume, from, view.camera.direction());
         let (near, far) = (near.max(within[0]), far.min(within[1]));
@@ -46,7 +46,7 @@ impl Session {
 
     /// The depths (mm) of the near and the far side of the slab of a pixel; without a slab all there are.
     fn depths_of_slab(&mut self, view: &View, pixel: [f64; 2]) -> Result<[f64; 2]> {
-        let Some(slab) = view.settings.slab.filter(|_| self.study.tree().is_some()) else {
+        let Some(slab) = view.settings.slab.filter(|_| self.content.tree().is_some()) else {
             return Ok([f64::MIN, f64::MAX]);
         };
         let point = self.pick(view, pixel)?.point;

@@ -14,10 +14,10 @@ use lumencut_vessels::trace::voxels::Voxels;
 use serde::Serialize;
 
 use crate::study::failure::{Failure, Result};
-use crate::study::files::VolumeHeader;
+use crate::study::held_volume::HeldVolume;
+use crate::study::held_volume::VolumeHeader;
 use crate::study::lines::{Line, NamedLine};
-use crate::study::open::Held;
-use crate::study::session::{Session, no_volume};
+use crate::study::open_study::{Study, no_volume};
 use crate::study::tracing::Watch;
 use crate::study::voxels::Stored;
 
@@ -37,14 +37,14 @@ pub struct MaskLines {
     pub notes: Vec<String>,
 }
 
-impl Session {
+impl Study {
     /// Makes room for a mask; its voxels follow as bytes.
     ///
     /// # Errors
     /// `volume` where no scan is open that it could belong to, where there is no memory for it, and for a grid that is none.
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
-        self.study.held.as_ref().ok_or_else(no_volume)?;
+        self.content.held.as_ref().ok_or_else(no_volume)?;
         self.mask = Some(VolumeHeader::read(header)?.held()?);
         Ok(())
     }
@@ -54,7 +54,7 @@ impl Session {
     /// # Errors
     /// `volume` where the mask ends before.
     pub fn mask_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
-        Held::bytes(self.mask.as_mut(), offset, count)
+        HeldVolume::bytes(self.mask.as_mut(), offset, count)
     }
 
     /// Forgets the mask; its memory is free again.
@@ -68,7 +68,7 @@ impl Session {
     /// `volume` for a mask that is none or lies elsewhere than the volume, `interrupted`.
     pub fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
         let mask = self.mask.take().ok_or_else(no_mask)?;
-        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         check_same_grid(&mask.volume()?, &volume)?;
         check_labels(&mask.stored)?;
         let traced = traced(&mask.volume()?, &volume, watch)?;

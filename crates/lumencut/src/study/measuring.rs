@@ -6,17 +6,17 @@ use lumencut_core::stop::Stop;
 use lumencut_vessels::measure::profile::Profile;
 
 use crate::study::failure::Result;
-use crate::study::measured::{Graded, VesselMessage};
+use crate::study::measure_messages::{Graded, VesselMessage};
+use crate::study::open_study::Study;
 use crate::study::profiles::{Asking, Profiles, STEP};
-use crate::study::session::Session;
 
-impl Session {
+impl Study {
     /// The profile of a line that is shown, under a point spread of this width (mm), or under the one that the tree tells.
     ///
     /// # Errors
     /// `vessel tree` for a line that is not shown, `volume` where none is open, and those of measuring.
     pub fn profile(&mut self, line: usize, fwhm: Option<f64>, stop: Stop) -> Result<&Profile> {
-        let found = self.profiles.of(&self.study, line, &Asking { fwhm, stop })?;
+        let found = self.profiles.of(&self.content, line, &Asking { fwhm, stop })?;
         self.profiles.ask_with(line, fwhm);
         Ok(self.profiles.kept(found))
     }
@@ -24,7 +24,7 @@ impl Session {
     /// The profile of a line that is shown, as it was asked for last.
     ///
     /// # Errors
-    /// As [`Session::profile`].
+    /// As [`Study::profile`].
     pub fn measured(&mut self, line: usize, stop: Stop) -> Result<&Profile> {
         self.profile(line, self.profiles.width(line), stop)
     }
@@ -37,7 +37,7 @@ impl Session {
     /// Sections of vessels as `lumencut measure -o x.csv` writes them.
     ///
     /// # Errors
-    /// As [`Session::profile`].
+    /// As [`Study::profile`].
     pub fn profiles_csv(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<String> {
         let found = self.all_of(vessels, stop)?;
         let rows = vessels.iter().zip(found).map(|(vessel, n)| {
@@ -52,7 +52,7 @@ impl Session {
     /// there; each vessel has its stenosis.
     ///
     /// # Errors
-    /// As [`Session::profile`], and those of places that cannot be graded.
+    /// As [`Study::profile`], and those of places that cannot be graded.
     pub fn profiles_json(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<String> {
         let found = self.all_of(vessels, stop)?;
         let profiles: Vec<&Profile> = found.into_iter().map(|n| self.profiles.kept(n)).collect();
@@ -74,9 +74,9 @@ impl Session {
     }
 
     fn all_of(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<usize>> {
-        let (profiles, study) = (&mut self.profiles, &self.study);
+        let (profiles, content) = (&mut self.profiles, &self.content);
         let of = |one: &VesselMessage| {
-            profiles.of(study, one.line, &Asking { fwhm: profiles.width(one.line), stop })
+            profiles.of(content, one.line, &Asking { fwhm: profiles.width(one.line), stop })
         };
         vessels.iter().map(of).collect()
     }

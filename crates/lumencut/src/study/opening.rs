@@ -2,12 +2,12 @@
 
 use lumencut_core::vessel_tree::VesselTree;
 
+use crate::study::centerline_files::read_centerlines;
 use crate::study::failure::Result;
-use crate::study::files::{VolumeHeader, read_centerlines};
-use crate::study::open::Held;
-use crate::study::session::Session;
+use crate::study::held_volume::{HeldVolume, VolumeHeader};
+use crate::study::open_study::Study;
 
-impl Session {
+impl Study {
     /// Makes room for a volume and puts it in the place of all that is open; its voxels follow as bytes.
     ///
     /// # Errors
@@ -15,7 +15,7 @@ impl Session {
     pub fn begin_volume(&mut self, header: &str) -> Result<()> {
         let header = VolumeHeader::read(header)?;
         self.close();
-        self.study.held = Some(header.held()?);
+        self.content.held = Some(header.held()?);
         Ok(())
     }
 
@@ -24,15 +24,15 @@ impl Session {
     /// # Errors
     /// `volume` where the volume ends before.
     pub fn voxel_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
-        Held::bytes(self.study.held.as_mut(), offset, count)
+        HeldVolume::bytes(self.content.held.as_mut(), offset, count)
     }
 
     /// What is known of the voxels no longer counts: some of them are others now.
     pub fn voxels_changed(&mut self) {
         self.tracer = Default::default();
         self.forget_profiles();
-        self.study.forget_windows();
-        if let Some(held) = &mut self.study.held {
+        self.content.forget_windows();
+        if let Some(held) = &mut self.content.held {
             held.key = Default::default();
         }
     }
@@ -40,10 +40,10 @@ impl Session {
     /// Opens a volume and its vessels, with a name for each, in the place of all that is open.
     ///
     /// # Errors
-    /// Those of [`Session::show_tree`].
-    pub fn open(&mut self, held: Held, tree: VesselTree, names: Vec<String>) -> Result<()> {
+    /// Those of [`Study::show_tree`].
+    pub fn open(&mut self, held: HeldVolume, tree: VesselTree, names: Vec<String>) -> Result<()> {
         self.close();
-        self.study.held = Some(held);
+        self.content.held = Some(held);
         self.show_tree(tree, names)
     }
 
@@ -53,9 +53,9 @@ impl Session {
     /// # Errors
     /// `format` for a file that is damaged or holds none; the tree before stays then.
     pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, space: Option<&str>) -> Result<Vec<String>> {
-        let volume = self.study.held.as_ref().map(Held::volume).transpose()?;
+        let volume = self.content.held.as_ref().map(HeldVolume::volume).transpose()?;
         let read = read_centerlines(bytes, name, space, volume.as_ref())?;
-        self.study.forget_windows();
+        self.content.forget_windows();
         self.show_tree(read.tree, read.names)?;
         Ok(read.notes)
     }

@@ -10,9 +10,10 @@ use lumencut_core::stop::Stop;
 use lumencut_vessels::measure::measuring::{Request, measure_under, point_spread_of};
 use lumencut_vessels::measure::profile::{Profile, Source};
 
+use crate::study::content::Content;
 use crate::study::failure::{Failure, Result};
+use crate::study::held_volume::HeldVolume;
 use crate::study::lines::wrong;
-use crate::study::open::{Held, Study};
 
 /// The distance of sections (mm), at most.
 pub const STEP: f64 = 0.5;
@@ -41,8 +42,8 @@ impl Profiles {
     ///
     /// # Errors
     /// `vessel tree` for a line that is not shown, `volume` where none is open, and those of measuring.
-    pub fn of(&mut self, study: &Study, line: usize, asking: &Asking) -> Result<usize> {
-        let shown = study.named.as_ref().map_or(&[][..], |named| &named.lines[..]);
+    pub fn of(&mut self, content: &Content, line: usize, asking: &Asking) -> Result<usize> {
+        let shown = content.named.as_ref().map_or(&[][..], |named| &named.lines[..]);
         if self.shown != shown {
             self.kept.clear();
             self.told = None;
@@ -52,15 +53,20 @@ impl Profiles {
         if let Some(found) = found {
             return Ok(found);
         }
-        let profile = self.measured(study, line, asking)?;
+        let profile = self.measured(content, line, asking)?;
         self.kept.push(Kept { line, fwhm: asking.fwhm, profile });
         Ok(self.kept.len() - 1)
     }
 
     /// The profile of a line among those that are shown.
-    fn measured(&mut self, study: &Study, line: usize, &Asking { fwhm, stop }: &Asking) -> Result<Profile> {
-        let volume = study.held.as_ref().map(Held::volume).transpose()?.ok_or_else(no_volume)?;
-        let named = study.named.as_ref().ok_or_else(|| not_shown(line))?;
+    fn measured(
+        &mut self,
+        content: &Content,
+        line: usize,
+        &Asking { fwhm, stop }: &Asking,
+    ) -> Result<Profile> {
+        let volume = content.held.as_ref().map(HeldVolume::volume).transpose()?.ok_or_else(no_volume)?;
+        let named = content.named.as_ref().ok_or_else(|| not_shown(line))?;
         let tree = named.leveled.tree().vessels();
         let number = named.lines.iter().position(|own| *own == line).ok_or_else(|| not_shown(line))?;
         let request = Request { step: STEP, fwhm, tree, stop };

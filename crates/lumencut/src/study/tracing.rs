@@ -13,11 +13,11 @@ use lumencut_vessels::trace::seed_tree::Doubt;
 use lumencut_vessels::trace::tracer::Clicks;
 use serde::{Deserialize, Serialize};
 
+use crate::study::content::NamedTree;
 use crate::study::failure::{Failure, Result};
 use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, NamedLine};
-use crate::study::open::Named;
-use crate::study::session::{Session, no_volume};
+use crate::study::open_study::{Study, no_volume};
 
 /// How long work is watched: asked whether to stop, and how far it is.
 #[derive(Clone, Copy)]
@@ -68,13 +68,13 @@ impl From<&StopperMessage> for Stopper {
     }
 }
 
-impl Session {
+impl Study {
     /// The numbers of the lines of vessels that are clicked, in their order. A line that is what it was keeps its number.
     ///
     /// # Errors
     /// `tracing` as [`lumencut_vessels::trace::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
     pub fn trace(&mut self, message: &TraceMessage, watch: Watch) -> Result<Vec<usize>> {
-        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let beside = message.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
         let clicks = Clicks {
             vessels: message.vessels.iter().map(|points| places(points)).collect(),
@@ -99,7 +99,7 @@ impl Session {
     /// # Errors
     /// `tracing` as [`lumencut_vessels::trace::tracer::Tracer::check_click`], `volume` where none is open.
     pub fn check_click(&self, click: [f64; 3]) -> Result<()> {
-        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)
     }
 
@@ -108,7 +108,7 @@ impl Session {
     /// # Errors
     /// `volume` where none is open.
     pub fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
-        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let stoppers: Vec<Stopper> = message.stoppers.iter().map(Stopper::from).collect();
         let between = [message.from, message.to].map(DVec3::from_array);
         let sought = Sought { between, stoppers: &stoppers, bridge: message.bridge };
@@ -127,7 +127,7 @@ impl Session {
         smallest_radius: f64,
         watch: Watch,
     ) -> Result<Vec<SeedLine>> {
-        let volume = self.study.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         if !(smallest_radius.is_finite() && smallest_radius >= 0.0) {
             return Err(Failure::of_message("smallest radius", &smallest_radius, "0 or more (mm)"));
         }
@@ -192,10 +192,10 @@ impl Session {
         } else {
             let names = shown.iter().map(|named| named.name.clone()).collect();
             let lines = shown.iter().map(|named| named.line).collect();
-            Some(Named::new(VesselTree::new(vessels)?, names, lines))
+            Some(NamedTree::new(VesselTree::new(vessels)?, names, lines))
         };
         self.laid = None;
-        self.study.named = named;
+        self.content.named = named;
         Ok(())
     }
 
@@ -221,7 +221,7 @@ impl Session {
         let lines = tree.vessels().iter().map(|vessel| self.lines.add(vessel.into()));
         let lines = lines.collect::<Result<_>>()?;
         self.laid = None;
-        self.study.named = Some(Named::new(tree, names, lines));
+        self.content.named = Some(NamedTree::new(tree, names, lines));
         Ok(())
     }
 }

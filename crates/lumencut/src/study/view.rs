@@ -8,8 +8,8 @@ use lumencut_core::settings::Settings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
-use crate::study::choices::settings;
 use crate::study::failure::{Failure, Result};
+use crate::study::settings::settings;
 
 /// A camera as the page has it; its axes are unit vectors (LPS).
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]

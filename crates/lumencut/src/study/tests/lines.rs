@@ -7,7 +7,7 @@ use serde_json::json;
 use super::open_phantom;
 use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, NamedLine};
-use crate::study::session::Session;
+use crate::study::open_study::Study;
 
 /// A line along x in steps of 1 mm from `from`, its radius growing with it.
 fn straight(from: f64, count: usize) -> Line {
@@ -81,9 +81,9 @@ fn a_line_that_knows_more_than_the_other_keeps_it() {
     assert!(content["radius"][9].is_null() && content["radius"][0].as_f64() == Some(1.0));
 }
 
-fn with_line(session: &mut Session, line: &Line) -> usize {
+fn with_line(study: &mut Study, line: &Line) -> usize {
     let content = serde_json::to_value(line.content()).expect("JSON");
-    session.add_line(serde_json::from_value::<LineContent>(content).expect("a line")).expect("a line")
+    study.add_line(serde_json::from_value::<LineContent>(content).expect("a line")).expect("a line")
 }
 
 fn named(line: usize, name: &str) -> NamedLine {
@@ -92,47 +92,47 @@ fn named(line: usize, name: &str) -> NamedLine {
 
 #[test]
 fn lines_are_shown_in_their_order_and_windows_stay() {
-    let mut session = Session::default();
-    open_phantom(&mut session, "y_junction");
-    let before = session.study.report().expect("a report");
+    let mut study = Study::default();
+    open_phantom(&mut study, "y_junction");
+    let before = study.content.report().expect("a report");
     let lines: Vec<u64> =
         before["vessels"].as_array().expect("vessels").iter().filter_map(|v| v["line"].as_u64()).collect();
-    let added = with_line(&mut session, &straight(0.0, 5));
-    session.show(&[named(added, "mine"), named(lines[1] as usize, "other")]).expect("a tree");
-    let report = session.study.report().expect("a report");
+    let added = with_line(&mut study, &straight(0.0, 5));
+    study.show(&[named(added, "mine"), named(lines[1] as usize, "other")]).expect("a tree");
+    let report = study.content.report().expect("a report");
     assert_eq!(
         report["vessels"][0],
         json!({"line": added, "name": "mine", "length": 4.0, "has_radius": true})
     );
     assert_eq!(report["vessels"][1]["length"], before["vessels"][1]["length"]);
     assert_eq!(report["windows"], before["windows"]);
-    assert!(session.show(&[named(9999, "")]).is_err());
-    assert_eq!(session.study.report().expect("a report")["vessels"], report["vessels"]);
-    session.show(&[]).expect("the volume alone");
-    let report = session.study.report().expect("a report");
+    assert!(study.show(&[named(9999, "")]).is_err());
+    assert_eq!(study.content.report().expect("a report")["vessels"], report["vessels"]);
+    study.show(&[]).expect("the volume alone");
+    let report = study.content.report().expect("a report");
     assert_eq!((&report["vessels"], &report["windows"]), (&json!(null), &before["windows"]));
 }
 
 #[test]
 fn the_number_of_a_line_never_stands_for_one_of_another_study() {
-    let mut session = Session::default();
-    open_phantom(&mut session, "y_junction");
-    let added = with_line(&mut session, &straight(0.0, 5));
-    open_phantom(&mut session, "stenosis");
-    assert!((0..=added).all(|line| session.line(line).is_err()));
-    let line = session.study.report().expect("a report")["vessels"][0]["line"].as_u64().expect("a number");
+    let mut study = Study::default();
+    open_phantom(&mut study, "y_junction");
+    let added = with_line(&mut study, &straight(0.0, 5));
+    open_phantom(&mut study, "stenosis");
+    assert!((0..=added).all(|line| study.line(line).is_err()));
+    let line = study.content.report().expect("a report")["vessels"][0]["line"].as_u64().expect("a number");
     assert_eq!(line as usize, added + 1);
 }
 
 #[test]
 fn what_is_no_line_is_refused() {
-    let mut session = Session::default();
-    let add = |session: &mut Session, content: serde_json::Value| {
-        session.add_line(serde_json::from_value(content).expect("a message")).map_err(|failure| failure.kind)
+    let mut study = Study::default();
+    let add = |study: &mut Study, content: serde_json::Value| {
+        study.add_line(serde_json::from_value(content).expect("a message")).map_err(|failure| failure.kind)
     };
     let line = |points: serde_json::Value, radius: serde_json::Value| json!({"points": points, "radius": radius, "confidence": null, "bridged": null});
     let two = json!([[0, 0, 0], [1, 0, 0]]);
-    assert!(add(&mut session, line(two.clone(), json!([1.0, null]))).is_ok());
+    assert!(add(&mut study, line(two.clone(), json!([1.0, null]))).is_ok());
     for odd in [
         line(json!([[0, 0, 0]]), json!(null)),
         line(json!([[0, 0, 0], [1e9, 0, 0]]), json!(null)),
@@ -141,25 +141,25 @@ fn what_is_no_line_is_refused() {
         json!({"points": two, "radius": null, "confidence": [0.5, 1.5], "bridged": null}),
         json!({"points": two, "radius": null, "confidence": null, "bridged": [true]}),
     ] {
-        assert_eq!(add(&mut session, odd), Err("vessel tree"));
+        assert_eq!(add(&mut study, odd), Err("vessel tree"));
     }
 }
 
 #[test]
 fn files_hold_names_radii_and_confidence() {
-    let mut session = Session::default();
-    let first = with_line(&mut session, &straight(0.0, 5));
+    let mut study = Study::default();
+    let first = with_line(&mut study, &straight(0.0, 5));
     let bare = Line { points: straight(6.0, 5).points, ..Line::default() };
-    let second = with_line(&mut session, &bare);
+    let second = with_line(&mut study, &bare);
     let lines = [named(first, "SMA & co"), named(second, "")];
     for kind in ["vtp", "mrk.json"] {
-        let bytes = session.write(&lines, kind).expect("a file");
+        let bytes = study.write(&lines, kind).expect("a file");
         let read = centerlines::read(&bytes, &format!("lines.{kind}")).expect("lines");
         assert_eq!(read.lines[0].points, straight(0.0, 5).points);
         assert_eq!((&read.lines[0].radius, &read.lines[1].radius), (&straight(0.0, 5).radius, &None));
         assert_eq!((read.lines[0].name.as_deref(), &read.lines[1].name), (Some("SMA & co"), &None));
         assert!(read.joined && String::from_utf8_lossy(&bytes).contains("Confidence"));
     }
-    assert_eq!(session.write(&lines, "stl").expect_err("no such format").subject, "format");
-    assert_eq!(session.write(&[], "vtp").expect_err("no lines").kind, "format");
+    assert_eq!(study.write(&lines, "stl").expect_err("no such format").subject, "format");
+    assert_eq!(study.write(&[], "vtp").expect_err("no lines").kind, "format");
 }

@@ -7,13 +7,13 @@ use serde_json::json;
 use super::opened;
 use crate::study::failure::Failure;
 use crate::study::masks::MaskLines;
-use crate::study::session::{Pick, Session};
+use crate::study::open_study::{Pick, Study};
 use crate::study::tracing::Watch;
 use crate::study::view::ViewMessage;
 
 /// The grid of the volume that is open.
-fn grid(session: &Session) -> ([usize; 3], DAffine3) {
-    let held = session.study.held.as_ref().expect("a volume");
+fn grid(study: &Study) -> ([usize; 3], DAffine3) {
+    let held = study.content.held.as_ref().expect("a volume");
     (held.size, held.world_from_index)
 }
 
@@ -23,53 +23,53 @@ fn header((size, world_from_index): ([usize; 3], DAffine3), dtype: &str) -> Stri
 }
 
 /// The voxels of the volume that is open.
-fn values(session: &Session) -> Vec<i16> {
-    match &session.study.held.as_ref().expect("a volume").stored {
+fn values(study: &Study) -> Vec<i16> {
+    match &study.content.held.as_ref().expect("a volume").stored {
         crate::study::voxels::Stored::I16(values) => values.clone(),
         other => panic!("{other:?}"),
     }
 }
 
-fn traced(session: &mut Session, header: &str, bytes: &[u8]) -> Result<MaskLines, Failure> {
-    session.begin_mask(header)?;
-    session.mask_bytes(0, bytes.len())?.copy_from_slice(bytes);
-    let traced = session.trace_mask(Watch { stop: &|| false, progress: &Progress::default() });
-    assert!(session.mask.is_none(), "the mask is forgotten");
+fn traced(study: &mut Study, header: &str, bytes: &[u8]) -> Result<MaskLines, Failure> {
+    study.begin_mask(header)?;
+    study.mask_bytes(0, bytes.len())?.copy_from_slice(bytes);
+    let traced = study.trace_mask(Watch { stop: &|| false, progress: &Progress::default() });
+    assert!(study.mask.is_none(), "the mask is forgotten");
     traced
 }
 
 #[test]
 fn the_lines_of_a_mask_are_those_of_the_vessels() {
-    let mut session = opened("y_junction");
-    let bytes: Vec<u8> = values(&session).iter().map(|value| u8::from(*value > 205)).collect();
-    let header = header(grid(&session), "uint8");
-    let made = traced(&mut session, &header, &bytes).expect("lines");
+    let mut study = opened("y_junction");
+    let bytes: Vec<u8> = values(&study).iter().map(|value| u8::from(*value > 205)).collect();
+    let header = header(grid(&study), "uint8");
+    let made = traced(&mut study, &header, &bytes).expect("lines");
     assert!(made.lines.len() == 3 && made.lines.iter().all(|named| named.name.is_empty()));
     for vessel in 0..3 {
-        let truth = session.lines.get(vessel).expect("a line");
+        let truth = study.lines.get(vessel).expect("a line");
         let middle = truth.points[truth.points.len() / 2];
-        let near = made.lines.iter().map(|named| session.lines.get(named.line).expect("a line"));
+        let near = made.lines.iter().map(|named| study.lines.get(named.line).expect("a line"));
         let away = near.flat_map(|line| line.points.clone()).map(|point| point.distance(middle));
         assert!(away.fold(f64::MAX, f64::min) < 0.6);
     }
     // The grey values of the volume have refined it.
-    let line = session.lines.get(made.lines[0].line).expect("a line");
+    let line = study.lines.get(made.lines[0].line).expect("a line");
     assert!(line.confidence.is_some() && line.bridged.as_ref().is_some_and(|marks| !marks.contains(&true)));
 }
 
 #[test]
 fn labels_name_the_lines_also_where_they_are_floats() {
-    let mut session = opened("stenosis");
-    let (size, affine) = grid(&session);
+    let mut study = opened("stenosis");
+    let (size, affine) = grid(&study);
     let slice = size[0] * size[1];
     let label = |(n, value): (usize, &i16)| match value {
         v if *v < 205 => 0.0,
         _ if n / slice < size[2] / 2 => 4.0f32,
         _ => 9.0,
     };
-    let labels: Vec<f32> = values(&session).iter().enumerate().map(label).collect();
+    let labels: Vec<f32> = values(&study).iter().enumerate().map(label).collect();
     let bytes: Vec<u8> = labels.iter().flat_map(|label| label.to_le_bytes()).collect();
-    let made = traced(&mut session, &header((size, affine), "float32"), &bytes).expect("lines");
+    let made = traced(&mut study, &header((size, affine), "float32"), &bytes).expect("lines");
     let mut names: Vec<&str> = made.lines.iter().map(|named| named.name.as_str()).collect();
     names.sort_unstable();
     assert_eq!(names, ["label 4", "label 9"]);
@@ -77,69 +77,66 @@ fn labels_name_the_lines_also_where_they_are_floats() {
 
 #[test]
 fn masks_that_are_none_are_refused() {
-    let mut session = opened("stenosis");
-    let (size, affine) = grid(&session);
+    let mut study = opened("stenosis");
+    let (size, affine) = grid(&study);
     let count: usize = size.iter().product();
     let own = header((size, affine), "uint8");
     let shifted = DAffine3::from_translation(DVec3::X) * affine;
     let empty = vec![0u8; count];
-    let failure = traced(&mut session, &header((size, shifted), "uint8"), &empty).expect_err("elsewhere");
+    let failure = traced(&mut study, &header((size, shifted), "uint8"), &empty).expect_err("elsewhere");
     assert!(failure.found.contains("corners lie up to 1 mm"), "{}", failure.found);
     let smaller = [size[0] - 1, size[1], size[2]];
-    let failure = traced(&mut session, &header((smaller, affine), "uint8"), &empty[size[1] * size[2]..])
+    let failure = traced(&mut study, &header((smaller, affine), "uint8"), &empty[size[1] * size[2]..])
         .expect_err("fewer");
     assert_eq!(failure.mend, "resample the mask");
-    assert_eq!(traced(&mut session, &own, &empty).expect_err("nothing").kind, "volume");
+    assert_eq!(traced(&mut study, &own, &empty).expect_err("nothing").kind, "volume");
     let many: Vec<u8> = (0..count).flat_map(|n| ((n % 3000) as i16).to_le_bytes()).collect();
-    let failure = traced(&mut session, &header((size, affine), "int16"), &many).expect_err("a scan");
+    let failure = traced(&mut study, &header((size, affine), "int16"), &many).expect_err("a scan");
     assert!(failure.found.contains("more different values, as a scan has"));
     let half: Vec<u8> = (0..count).flat_map(|_| 0.5f32.to_le_bytes()).collect();
-    let failure = traced(&mut session, &header((size, affine), "float32"), &half).expect_err("shares");
+    let failure = traced(&mut study, &header((size, affine), "float32"), &half).expect_err("shares");
     assert_eq!(failure.found, "a voxel of 0.5");
-    assert!(Session::default().begin_mask(&own).is_err());
+    assert!(Study::default().begin_mask(&own).is_err());
 }
 
 /// A volume of 5 mm a side along x and y and 11 along z, 1 mm voxels, 0 but at some voxels of its middle column.
-fn column(bright: &[(usize, i16)]) -> Session {
-    let mut session = Session::default();
-    session.begin_volume(&header(([5, 5, 11], DAffine3::IDENTITY), "int16")).expect("room");
+fn column(bright: &[(usize, i16)]) -> Study {
+    let mut study = Study::default();
+    study.begin_volume(&header(([5, 5, 11], DAffine3::IDENTITY), "int16")).expect("room");
     for (k, value) in bright {
         let at = 2 * (k * 25 + 12);
-        session.voxel_bytes(at, 2).expect("a voxel").copy_from_slice(&value.to_le_bytes());
+        study.voxel_bytes(at, 2).expect("a voxel").copy_from_slice(&value.to_le_bytes());
     }
-    session
+    study
 }
 
 /// The brightest place seen from above at a place of a picture of 5 × 5 mm, with these settings.
-fn brightest(session: &mut Session, pixel: [f64; 2], settings: &serde_json::Value) -> Result<Pick, Failure> {
+fn brightest(study: &mut Study, pixel: [f64; 2], settings: &serde_json::Value) -> Result<Pick, Failure> {
     let camera = json!({"center": [2, 2, 0], "direction": [0, 0, 1], "up": [0, 1, 0], "size": [5, 5], "pixel_spacing": 1});
     let text = json!({"camera": camera, "method": "csr", "settings": settings}).to_string();
-    session.brightest(&ViewMessage::read(&text)?.view()?, pixel)
+    study.brightest(&ViewMessage::read(&text)?.view()?, pixel)
 }
 
 #[test]
 fn the_brightest_voxel_of_a_ray_is_found() {
-    let mut session = column(&[(3, 200), (7, 500), (9, 499)]);
-    let pick = brightest(&mut session, [2.0, 2.0], &json!({})).expect("a place");
+    let mut study = column(&[(3, 200), (7, 500), (9, 499)]);
+    let pick = brightest(&mut study, [2.0, 2.0], &json!({})).expect("a place");
     assert_eq!((pick.point, pick.value), ([2.0, 2.0, 7.0], Some(500.0)));
     // Of two that are alike the one that is nearer to the viewer.
     let mut alike = column(&[(3, 500), (7, 500)]);
     assert_eq!(brightest(&mut alike, [2.0, 2.0], &json!({})).expect("a place").point, [2.0, 2.0, 3.0]);
-    let failure = brightest(&mut session, [9.0, 2.0], &json!({})).expect_err("beside");
+    let failure = brightest(&mut study, [9.0, 2.0], &json!({})).expect_err("beside");
     assert_eq!((failure.kind, failure.found.as_str()), ("tracing", "a ray that meets no voxel"));
-    assert_eq!(
-        brightest(&mut Session::default(), [2.0, 2.0], &json!({})).expect_err("nothing").kind,
-        "volume"
-    );
+    assert_eq!(brightest(&mut Study::default(), [2.0, 2.0], &json!({})).expect_err("nothing").kind, "volume");
 }
 
 #[test]
 fn a_slab_limits_the_ray_to_itself() {
-    let mut session = column(&[(3, 200), (7, 500)]);
+    let mut study = column(&[(3, 200), (7, 500)]);
     let line = json!({"points": [[0, 2, 3], [4, 2, 3]], "radius": null, "confidence": null, "bridged": null});
-    let line = session.add_line(serde_json::from_value(line).expect("a line")).expect("a line");
-    session.show(&[crate::study::lines::NamedLine { line, name: String::new() }]).expect("a tree");
+    let line = study.add_line(serde_json::from_value(line).expect("a line")).expect("a line");
+    study.show(&[crate::study::lines::NamedLine { line, name: String::new() }]).expect("a tree");
     let slab = json!({"slab": [3.0, "max"]});
-    assert_eq!(brightest(&mut session, [2.0, 2.0], &slab).expect("a place").point, [2.0, 2.0, 3.0]);
-    assert_eq!(brightest(&mut session, [2.0, 2.0], &json!({})).expect("a place").point, [2.0, 2.0, 7.0]);
+    assert_eq!(brightest(&mut study, [2.0, 2.0], &slab).expect("a place").point, [2.0, 2.0, 3.0]);
+    assert_eq!(brightest(&mut study, [2.0, 2.0], &json!({})).expect("a place").point, [2.0, 2.0, 7.0]);
 }

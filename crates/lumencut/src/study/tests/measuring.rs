@@ -1,4 +1,4 @@
-//! Measuring through the session: against tubes painted by formulas, and against the core's own measurement.
+//! Measuring through the study: against tubes painted by formulas, and against the core's own measurement.
 
 use std::f64::consts::{FRAC_PI_6, PI};
 
@@ -11,7 +11,9 @@ use serde_json::{Value as Json, json};
 
 use super::*;
 use crate::study::lines::NamedLine;
-use crate::study::measured::{MarksMessage, ProfileMessage, SectionMessage, StenosisMessage, StretchMessage};
+use crate::study::measure_messages::{
+    MarksMessage, ProfileMessage, SectionMessage, StenosisMessage, StretchMessage,
+};
 use crate::study::tests::opened;
 
 const SIZE: [usize; 3] = [40, 40, 80];
@@ -55,24 +57,24 @@ fn line(from: f64, to: f64) -> String {
     format!("x,y,z,radius\n{}", rows.concat())
 }
 
-fn tube() -> Session {
-    let mut session = Session::default();
+fn tube() -> Study {
+    let mut study = Study::default();
     let rows = [[SIDE, 0.0, 0.0, 0.0], [0.0, SIDE, 0.0, 0.0], [0.0, 0.0, SIDE, 0.0], [0.0, 0.0, 0.0, 1.0]];
     let header = json!({"size": SIZE, "dtype": "float32", "world_from_index": rows});
-    session.begin_volume(&header.to_string()).expect("room");
+    study.begin_volume(&header.to_string()).expect("room");
     let bytes = voxels();
-    session.voxel_bytes(0, bytes.len()).expect("room").copy_from_slice(&bytes);
-    open_line(&mut session, 2.0, 37.0);
-    session
+    study.voxel_bytes(0, bytes.len()).expect("room").copy_from_slice(&bytes);
+    open_line(&mut study, 2.0, 37.0);
+    study
 }
 
-fn open_line(session: &mut Session, from: f64, to: f64) {
-    session.open_centerlines(line(from, to).as_bytes(), "line.csv", Some("lps")).expect("a line");
+fn open_line(study: &mut Study, from: f64, to: f64) {
+    study.open_centerlines(line(from, to).as_bytes(), "line.csv", Some("lps")).expect("a line");
 }
 
 /// The number of a vessel's line, as the page knows it.
-fn line_of(session: &Session, vessel: usize) -> usize {
-    let report = session.study.report().expect("a report");
+fn line_of(study: &Study, vessel: usize) -> usize {
+    let report = study.content.report().expect("a report");
     report["vessels"][vessel]["line"].as_u64().expect("a line") as usize
 }
 
@@ -92,9 +94,9 @@ fn as_json(value: impl serde::Serialize) -> Json {
 
 #[test]
 fn a_tube_is_as_wide_as_it_was_painted() {
-    let mut session = tube();
-    let line = line_of(&session, 0);
-    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let mut study = tube();
+    let line = line_of(&study, 0);
+    let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
     let told = as_json(ProfileMessage::from(profile));
     for (n, at) in told["arc_length"].as_array().expect("places").iter().enumerate() {
         let z = 2.0 + at.as_f64().expect("a place");
@@ -111,9 +113,9 @@ fn a_tube_is_as_wide_as_it_was_painted() {
 
 #[test]
 fn a_stenosis_has_the_percentage_that_was_painted() {
-    let mut session = tube();
-    let line = line_of(&session, 0);
-    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let mut study = tube();
+    let line = line_of(&study, 0);
+    let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
     let graded = |text| marks(text).graded(profile).expect("a grade").map(StenosisMessage::from).map(as_json);
     let whole =
         graded(json!({"at": 18.0, "references": [5.0, 31.0], "group": "carotid"})).expect("a stenosis");
@@ -139,9 +141,9 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
 
 #[test]
 fn the_diameters_of_a_section_lie_where_they_were_painted() {
-    let mut session = tube();
-    let line = line_of(&session, 0);
-    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let mut study = tube();
+    let line = line_of(&study, 0);
+    let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
     let section = as_json(SectionMessage::nearest(profile, 3.1));
     assert_eq!(section["number"], json!(6));
     let ends = |name: &str| {
@@ -167,9 +169,9 @@ fn the_diameters_of_a_section_lie_where_they_were_painted() {
 
 #[test]
 fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
-    let mut session = tube();
-    let line = line_of(&session, 0);
-    let profile = session.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let mut study = tube();
+    let line = line_of(&study, 0);
+    let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
     let stretch = as_json(StretchMessage::between(profile, [4.0, 30.0]).expect("a stretch"));
     for (name, expected) in [("length", 26.0), ("straight", 26.0), ("tortuosity", 1.0), ("cranial", 0.0)] {
         assert!((stretch[name].as_f64().expect("a number") - expected).abs() < 1e-3, "{name}");
@@ -184,29 +186,29 @@ fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
     assert!(StretchMessage::between(profile, [4.0, 4.0]).is_err());
 }
 
-/// The first vessel of a tree, measured without the session.
-fn measured_by_core(session: &Session, tree: &[Vessel]) -> Profile {
-    let volume = session.study.held.as_ref().expect("a volume").volume().expect("a volume");
+/// The first vessel of a tree, measured without the study.
+fn measured_by_core(study: &Study, tree: &[Vessel]) -> Profile {
+    let volume = study.content.held.as_ref().expect("a volume").volume().expect("a volume");
     measure(&volume, &tree[0], &Request { step: 0.5, fwhm: None, tree, stop: &go_on }).expect("a profile")
 }
 
 #[test]
 fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
-    let mut session = opened("y_junction");
-    let tree = session.study.tree().expect("a tree").tree().clone();
-    let [trunk, branch] = [0, 1].map(|vessel| line_of(&session, vessel));
-    let among_all = measured_by_core(&session, tree.vessels());
-    let found = session.profile(trunk, None, &go_on).expect("a profile");
+    let mut study = opened("y_junction");
+    let tree = study.content.tree().expect("a tree").tree().clone();
+    let [trunk, branch] = [0, 1].map(|vessel| line_of(&study, vessel));
+    let among_all = measured_by_core(&study, tree.vessels());
+    let found = study.profile(trunk, None, &go_on).expect("a profile");
     assert_eq!(
         (&found.flags, &found.area, &found.fwhm_source),
         (&among_all.flags, &among_all.area, &among_all.fwhm_source)
     );
     // One by itself has no branches, and tells the point spread alone.
     for (line, vessel) in [(trunk, 0), (branch, 1)] {
-        session.show(&[NamedLine { line, name: String::new() }]).expect("one line");
-        let expected = measured_by_core(&session, &tree.vessels()[vessel..=vessel]);
+        study.show(&[NamedLine { line, name: String::new() }]).expect("one line");
+        let expected = measured_by_core(&study, &tree.vessels()[vessel..=vessel]);
         assert_ne!((&expected.flags, expected.fwhm), (&among_all.flags, among_all.fwhm));
-        let found = session.measured(line, &go_on).expect("a profile");
+        let found = study.measured(line, &go_on).expect("a profile");
         assert_eq!((&found.flags, &found.area), (&expected.flags, &expected.area));
         assert_eq!((found.fwhm, &found.fwhm_source), (expected.fwhm, &expected.fwhm_source));
     }
@@ -214,50 +216,50 @@ fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
 
 #[test]
 fn profiles_are_kept_until_other_vessels_are_shown() {
-    let mut session = tube();
-    let line = line_of(&session, 0);
+    let mut study = tube();
+    let line = line_of(&study, 0);
     let never = || true;
-    assert_eq!(session.profile(line, None, &never).expect_err("stopped").kind, "interrupted");
-    let first = session.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
-    session.profile(line, Some(1.0), &go_on).expect("a profile");
+    assert_eq!(study.profile(line, None, &never).expect_err("stopped").kind, "interrupted");
+    let first = study.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
+    study.profile(line, Some(1.0), &go_on).expect("a profile");
     // What is kept is not measured again: nobody is asked whether to stop.
-    assert_eq!(session.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
-    assert_eq!(session.measured(line, &never).expect("kept").area, first.area);
+    assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
+    assert_eq!(study.measured(line, &never).expect("kept").area, first.area);
     // The same line by another name.
-    session.show(&[NamedLine { line, name: "carotid".into() }]).expect("the line");
-    assert_eq!(session.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
-    open_line(&mut session, 3.0, 37.0);
-    let line = line_of(&session, 0);
-    assert_eq!(session.profile(line, Some(FWHM), &never).expect_err("another line").kind, "interrupted");
-    let width = session.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
+    study.show(&[NamedLine { line, name: "carotid".into() }]).expect("the line");
+    assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
+    open_line(&mut study, 3.0, 37.0);
+    let line = line_of(&study, 0);
+    assert_eq!(study.profile(line, Some(FWHM), &never).expect_err("another line").kind, "interrupted");
+    let width = study.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
     assert!((width.length() - 34.0).abs() < 1e-9);
-    session.voxels_changed();
-    assert_eq!(session.profile(line, Some(FWHM), &never).expect_err("other voxels").kind, "interrupted");
+    study.voxels_changed();
+    assert_eq!(study.profile(line, Some(FWHM), &never).expect_err("other voxels").kind, "interrupted");
 }
 
 #[test]
 fn only_lines_that_are_shown_are_measured() {
-    let mut session = tube();
-    let failure = session.profile(usize::MAX, None, &go_on).expect_err("no line");
+    let mut study = tube();
+    let failure = study.profile(usize::MAX, None, &go_on).expect_err("no line");
     assert_eq!((failure.kind, failure.subject.as_str()), ("vessel tree", "number of the line"));
-    assert_eq!(Session::default().profile(0, None, &go_on).expect_err("nothing").kind, "volume");
+    assert_eq!(Study::default().profile(0, None, &go_on).expect_err("nothing").kind, "volume");
 }
 
-fn vessel(session: &Session, number: usize, marked: Json) -> VesselMessage {
+fn vessel(study: &Study, number: usize, marked: Json) -> VesselMessage {
     let (id, name) = (number.to_string(), String::new());
-    VesselMessage { id, name, line: line_of(session, number), marks: marks(marked) }
+    VesselMessage { id, name, line: line_of(study, number), marks: marks(marked) }
 }
 
 #[test]
 fn json_names_what_was_asked_of_one_vessel() {
-    let mut session = tube();
-    let line = line_of(&session, 0);
-    session.profile(line, Some(FWHM), &go_on).expect("a profile");
-    let read = |session: &mut Session, marked: Json| -> Json {
-        let vessels = [vessel(session, 0, marked)];
-        serde_json::from_str(&session.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON")
+    let mut study = tube();
+    let line = line_of(&study, 0);
+    study.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let read = |study: &mut Study, marked: Json| -> Json {
+        let vessels = [vessel(study, 0, marked)];
+        serde_json::from_str(&study.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON")
     };
-    let whole = read(&mut session, json!({"at": 18.0, "references": [31.0], "group": "carotid"}));
+    let whole = read(&mut study, json!({"at": 18.0, "references": [31.0], "group": "carotid"}));
     assert_eq!(
         whole["settings"],
         json!({"step_mm": 0.5, "fwhm_mm": FWHM, "at_mm": 18.0, "reference_mm": [31.0], "method": "nascet",
@@ -265,25 +267,25 @@ fn json_names_what_was_asked_of_one_vessel() {
     );
     assert!(whole["vessels"][0]["name"].is_null());
     assert!((whole["vessels"][0]["stenosis"]["percent"].as_f64().expect("a number") - 60.0).abs() < 0.7);
-    let place = read(&mut session, json!({"at": 18.0, "group": "carotid"}));
+    let place = read(&mut study, json!({"at": 18.0, "group": "carotid"}));
     assert_eq!((&place["settings"]["at_mm"], &place["settings"]["method"]), (&json!(18.0), &Json::Null));
     assert!(place["vessels"][0]["stenosis"].is_null());
 }
 
 #[test]
 fn tables_have_a_line_for_each_section_of_each_vessel() {
-    let mut session = opened("y_junction");
-    let vessels = [0, 2].map(|number| vessel(&session, number, json!({"at": 10.0})));
-    let text = session.profiles_csv(&vessels, &go_on).expect("a table");
-    let counts = vessels.each_ref().map(|one| session.measured(one.line, &go_on).expect("a profile").len());
+    let mut study = opened("y_junction");
+    let vessels = [0, 2].map(|number| vessel(&study, number, json!({"at": 10.0})));
+    let text = study.profiles_csv(&vessels, &go_on).expect("a table");
+    let counts = vessels.each_ref().map(|one| study.measured(one.line, &go_on).expect("a profile").len());
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 1 + counts[0] + counts[1]);
     assert!(lines[0].starts_with("vessel,name,arc_length_mm,"));
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
     // Of several vessels no single place was asked for.
     let all: Json =
-        serde_json::from_str(&session.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON");
+        serde_json::from_str(&study.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON");
     assert!(all["settings"]["at_mm"].is_null());
     assert_eq!(all["vessels"].as_array().map(Vec::len), Some(2));
-    assert_eq!(session.profiles_csv(&[], &go_on).expect("a table"), "");
+    assert_eq!(study.profiles_csv(&[], &go_on).expect("a table"), "");
 }

@@ -11,22 +11,22 @@ use lumencut_core::pipeline::Request;
 use lumencut_phantom::Phantom;
 use serde_json::json;
 
-use crate::study::open::Held;
+use crate::study::held_volume::HeldVolume;
+use crate::study::open_study::Study;
 use crate::study::planes::Plane;
-use crate::study::session::Session;
-use crate::study::sides::{Aggregated, CprMessage};
+use crate::study::straightened::{Aggregated, CprMessage};
 use crate::study::view::ViewMessage;
 use crate::study::voxels::Stored;
 
 /// A study that holds a phantom and its vessels.
-pub fn opened(phantom: &str) -> Session {
-    let mut session = Session::default();
-    open_phantom(&mut session, phantom);
-    session
+pub fn opened(phantom: &str) -> Study {
+    let mut study = Study::default();
+    open_phantom(&mut study, phantom);
+    study
 }
 
 /// Opens a phantom in the place of all that is open.
-pub fn open_phantom(session: &mut Session, name: &str) {
+pub fn open_phantom(study: &mut Study, name: &str) {
     let made = match name {
         "stenosis" => lumencut_phantom::stenosis(50.0),
         "aorta" => lumencut_phantom::aorta(0, 1.0),
@@ -35,34 +35,34 @@ pub fn open_phantom(session: &mut Session, name: &str) {
         _ => lumencut_phantom::y_junction(),
     };
     let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = made.expect("a phantom");
-    let held = Held { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
-    session.open(held, tree, vessel_names).expect("a tree");
+    let held = HeldVolume { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
+    study.open(held, tree, vessel_names).expect("a tree");
 }
 
-fn view(session: &Session, size: [usize; 2]) -> ViewMessage {
-    let camera = serde_json::to_value(session.fitted("anterior", size).expect("a camera")).expect("JSON");
+fn view(study: &Study, size: [usize; 2]) -> ViewMessage {
+    let camera = serde_json::to_value(study.fitted("anterior", size).expect("a camera")).expect("JSON");
     let text = json!({"camera": camera, "method": "csr", "settings": {"window": [300.0, 900.0]}});
     ViewMessage::read(&text.to_string()).expect("a view")
 }
 
 /// The middle of the first vessel, and how far along it is.
-fn on_first_vessel(session: &Session) -> (DVec3, f64) {
-    let vessels = session.study.tree().expect("a tree").tree().vessels();
+fn on_first_vessel(study: &Study) -> (DVec3, f64) {
+    let vessels = study.content.tree().expect("a tree").tree().vessels();
     let middle = vessels[0].points().len() / 2;
     (vessels[0].points()[middle], vessels[0].arc_length()[middle])
 }
 
 #[test]
 fn a_pick_is_the_pixel_of_the_whole_picture() {
-    let mut session = opened("stenosis");
-    let view = view(&session, [96, 80]).view().expect("a view");
-    let scene = session.study.scene().expect("a scene");
+    let mut study = opened("stenosis");
+    let view = view(&study, [96, 80]).view().expect("a view");
+    let scene = study.content.scene().expect("a scene");
     let request = Request::new(&view.camera, &view.settings);
     let (mut backend, _) = pollster::block_on(Backend::new(Wanted::Cpu)).expect("a CPU");
     let (frame, _) = pollster::block_on(backend.render_by(view.method, &scene, &request)).expect("a frame");
     let (depth, vessel) = (frame.depth().to_vec(), frame.vessel.clone());
     for (x, y) in [(48, 40), (10, 12), (90, 70), (50, 8)] {
-        let pick = session.pick(&view, [x as f64, y as f64]).expect("a pick");
+        let pick = study.pick(&view, [x as f64, y as f64]).expect("a pick");
         let point = crate::positions::world_from_pixel(
             &view.camera,
             [x as f64, y as f64],
@@ -76,20 +76,20 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
 
 #[test]
 fn a_place_on_a_vessel_is_told_with_its_arc_length() {
-    let session = opened("y_junction");
-    let (point, along) = on_first_vessel(&session);
-    let at = session.at(point.to_array());
+    let study = opened("y_junction");
+    let (point, along) = on_first_vessel(&study);
+    let at = study.at(point.to_array());
     assert_eq!(at.vessel, Some(0));
     assert!((at.arc_length.expect("a place") - along).abs() < 1e-9);
     assert!(at.value.expect("inside") > 200.0);
-    let outside = session.at([1e4, 0.0, 0.0]);
+    let outside = study.at([1e4, 0.0, 0.0]);
     assert_eq!((outside.vessel, outside.value), (None, None));
 }
 
 #[test]
 fn a_slice_shows_the_voxels_of_its_plane() {
-    let session = opened("y_junction");
-    let (point, _) = on_first_vessel(&session);
+    let study = opened("y_junction");
+    let (point, _) = on_first_vessel(&study);
     let plane = Plane {
         center: point.to_array(),
         right: [1.0, 0.0, 0.0],
@@ -97,91 +97,90 @@ fn a_slice_shows_the_voxels_of_its_plane() {
         size: [3, 3],
         pixel_spacing: 0.2,
     };
-    let value = session.at(point.to_array()).value.expect("inside");
-    let picture = session.slice(&plane, [f64::from(value), 200.0]).expect("a slice");
+    let value = study.at(point.to_array()).value.expect("inside");
+    let picture = study.slice(&plane, [f64::from(value), 200.0]).expect("a slice");
     // The level of a window is its middle grey.
     assert!((i32::from(picture.bytes[4 * 4]) - 128).abs() <= 1);
     assert_eq!(picture.bytes.len(), 3 * 3 * 4);
     let away = Plane { center: [1e4, 0.0, 0.0], ..plane };
-    let nothing = session.slice(&away, [0.0, 1.0]).expect("a slice");
+    let nothing = study.slice(&away, [0.0, 1.0]).expect("a slice");
     assert!(nothing.bytes.chunks_exact(4).all(|pixel| pixel[..3] == [0, 0, 0]));
 }
 
 #[test]
 fn the_straightened_vessel_runs_down_the_middle() {
-    let mut session = opened("stenosis");
+    let mut study = opened("stenosis");
     let message = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None };
-    let picture = session.straightened(message, [300.0, 900.0]).expect("a CPR");
+    let picture = study.straightened(message, [300.0, 900.0]).expect("a CPR");
     let [width, height] = picture.size;
-    let laid = session.laid().expect("the layout");
+    let laid = study.laid().expect("the layout");
     for row in [2, height / 2, height - 3] {
         let middle = laid.world([(width - 1) as f64 / 2.0, row as f64]);
-        let along = session.at(middle).arc_length.expect("in the lumen");
+        let along = study.at(middle).arc_length.expect("in the lumen");
         assert!((along - laid.arc_length(row as f64)).abs() < 0.5);
         let pixel = laid.pixel(middle);
         assert!((pixel[0] - (width - 1) as f64 / 2.0).abs() < 0.1 && (pixel[1] - row as f64).abs() < 0.1);
     }
     let turned = CprMessage { angle: 1.0, ..message };
-    assert_eq!(session.straightened(turned, [300.0, 900.0]).expect("a CPR").size, picture.size);
+    assert_eq!(study.straightened(turned, [300.0, 900.0]).expect("a CPR").size, picture.size);
 }
 
 #[test]
 fn voxels_come_in_parts_and_must_fit() {
-    let mut session = Session::default();
+    let mut study = Study::default();
     let header = json!({"size": [2, 2, 2], "dtype": "int16", "world_from_index":
         [[1.0, 0.0, 0.0, -5.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 3.0, 0.0], [0.0, 0.0, 0.0, 1.0]]});
-    session.begin_volume(&header.to_string()).expect("room");
-    session.voxel_bytes(2, 2).expect("room").copy_from_slice(&700i16.to_le_bytes());
-    assert_eq!(session.at([-4.0, 0.0, 0.0]).value, Some(700.0));
-    assert_eq!(session.voxel_bytes(15, 2).expect_err("beyond").kind, "volume");
+    study.begin_volume(&header.to_string()).expect("room");
+    study.voxel_bytes(2, 2).expect("room").copy_from_slice(&700i16.to_le_bytes());
+    assert_eq!(study.at([-4.0, 0.0, 0.0]).value, Some(700.0));
+    assert_eq!(study.voxel_bytes(15, 2).expect_err("beyond").kind, "volume");
     let odd = header.to_string().replace("int16", "complex64");
-    assert_eq!(session.begin_volume(&odd).expect_err("odd").found, "complex64");
+    assert_eq!(study.begin_volume(&odd).expect_err("odd").found, "complex64");
     let huge = header.to_string().replace("[2,2,2]", "[4000000000,4000000000,4000000000]");
-    assert_eq!(session.begin_volume(&huge).expect_err("too many").kind, "volume");
+    assert_eq!(study.begin_volume(&huge).expect_err("too many").kind, "volume");
 }
 
 #[test]
 fn a_broken_file_of_centerlines_leaves_the_tree() {
-    let mut session = opened("y_junction");
-    let error = session.open_centerlines(b"<VTKFile", "tree.vtp", None).expect_err("broken");
+    let mut study = opened("y_junction");
+    let error = study.open_centerlines(b"<VTKFile", "tree.vtp", None).expect_err("broken");
     assert_eq!(error.kind, "format");
-    assert!(session.study.tree().is_some());
-    let points = session.study.tree().expect("a tree").tree().vessels()[0].points().to_vec();
+    assert!(study.content.tree().is_some());
+    let points = study.content.tree().expect("a tree").tree().vessels()[0].points().to_vec();
     let rows = points.iter().map(|p| format!("{},{},{},1.5\n", p.x, p.y, p.z)).collect::<String>();
     let text = format!("x,y,z,radius\n{rows}");
     // The phantom is as good a place for them mirrored.
-    let mend = session.open_centerlines(text.as_bytes(), "line.csv", None).expect_err("no space").mend;
+    let mend = study.open_centerlines(text.as_bytes(), "line.csv", None).expect_err("no space").mend;
     assert!(mend.contains("coordinates"));
-    session.open_centerlines(text.as_bytes(), "line.csv", Some("lps")).expect("a line");
-    assert_eq!(session.study.tree().map(|tree| tree.tree().vessels().len()), Some(1));
+    study.open_centerlines(text.as_bytes(), "line.csv", Some("lps")).expect("a line");
+    assert_eq!(study.content.tree().map(|tree| tree.tree().vessels().len()), Some(1));
 }
 
 #[test]
 fn the_report_names_vessels_and_windows() {
-    let session = opened("stenosis");
-    let report = session.study.report().expect("a report");
+    let study = opened("stenosis");
+    let report = study.content.report().expect("a report");
     assert_eq!(report["vessels"].as_array().map(Vec::len), Some(1));
     assert!(report["windows"]["main"][1].as_f64().expect("a width") > 0.0);
-    assert!(Session::default().study.report().expect("a report")["volume"].is_null());
+    assert!(Study::default().content.report().expect("a report")["volume"].is_null());
 }
 
 #[test]
 fn messages_that_are_none_are_refused() {
     assert!(ViewMessage::read("{}").is_err());
-    let session = opened("y_junction");
-    let odd = ViewMessage { method: "xyz".into(), ..view(&session, [8, 8]) };
+    let study = opened("y_junction");
+    let odd = ViewMessage { method: "xyz".into(), ..view(&study, [8, 8]) };
     assert_eq!(odd.view().expect_err("no method").subject, "method");
 }
 
 #[test]
 fn a_feature_aggregation_is_as_bright_as_its_circles() {
-    let mut session = opened("stenosis");
+    let mut study = opened("stenosis");
     let plain = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None };
-    let shown =
-        |session: &mut Session, message| session.straightened(message, [300.0, 900.0]).expect("a CPR");
+    let shown = |study: &mut Study, message| study.straightened(message, [300.0, 900.0]).expect("a CPR");
     let (least, most) = (CprMessage { feature: Some(Aggregated::Min), ..plain }, Some(Aggregated::Max));
     let [least, own, most] =
-        [least, plain, CprMessage { feature: most, ..plain }].map(|m| shown(&mut session, m));
+        [least, plain, CprMessage { feature: most, ..plain }].map(|m| shown(&mut study, m));
     assert_eq!((least.size, most.size), (own.size, own.size));
     // A sample of the circle lies beside the pixel itself, by half an angle at most.
     let brighter = |a: &[u8], b: &[u8]| a.iter().zip(b).all(|(a, b)| i32::from(*a) + 2 >= i32::from(*b));
@@ -196,7 +195,7 @@ fn where_memory_is_short_it_is_told_how_much_is_needed() {
     let size = [40_000, 40_000, 4_000_000];
     let header = json!({"size": size, "dtype": "float32", "world_from_index":
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]});
-    let failure = Session::default().begin_volume(&header.to_string()).expect_err("too much");
+    let failure = Study::default().begin_volume(&header.to_string()).expect_err("too much");
     assert_eq!((failure.kind, failure.found.as_str()), ("volume", "25600000000 MB of voxels"));
     assert!(failure.mend.contains("every_second=True"));
 }

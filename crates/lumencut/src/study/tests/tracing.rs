@@ -6,7 +6,7 @@ use lumencut_phantom::Phantom;
 use serde_json::{Value as Json, json};
 
 use super::opened;
-use crate::study::session::Session;
+use crate::study::open_study::Study;
 use crate::study::tracing::{PathMessage, TraceMessage, Watch};
 
 /// The header of a grid of 16-bit voxels.
@@ -16,18 +16,18 @@ fn header(size: [usize; 3], world_from_index: DAffine3) -> String {
 }
 
 /// A phantom that the page does not offer.
-fn holding(phantom: Phantom) -> Session {
-    let mut session = Session::default();
-    session.begin_volume(&header(phantom.size, phantom.world_from_index)).expect("room");
+fn holding(phantom: Phantom) -> Study {
+    let mut study = Study::default();
+    study.begin_volume(&header(phantom.size, phantom.world_from_index)).expect("room");
     let bytes: Vec<u8> = phantom.voxels.iter().flat_map(|voxel| voxel.to_le_bytes()).collect();
-    session.voxel_bytes(0, bytes.len()).expect("room").copy_from_slice(&bytes);
-    session.show_tree(phantom.tree, phantom.vessel_names).expect("a tree");
-    session
+    study.voxel_bytes(0, bytes.len()).expect("room").copy_from_slice(&bytes);
+    study.show_tree(phantom.tree, phantom.vessel_names).expect("a tree");
+    study
 }
 
-fn traced(session: &mut Session, message: Json, stop: bool) -> crate::study::failure::Result<Vec<usize>> {
+fn traced(study: &mut Study, message: Json, stop: bool) -> crate::study::failure::Result<Vec<usize>> {
     let message: TraceMessage = serde_json::from_value(message).expect("a message");
-    session.trace(&message, Watch { stop: &|| stop, progress: &Progress::default() })
+    study.trace(&message, Watch { stop: &|| stop, progress: &Progress::default() })
 }
 
 fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> Json {
@@ -35,74 +35,73 @@ fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> Json {
 }
 
 /// Two clicks on a vessel of the phantom, so many points from its ends.
-fn clicks(session: &Session, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
-    let points = session.study.tree().expect("a tree").tree().vessels()[vessel].points().to_vec();
+fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
+    let points = study.content.tree().expect("a tree").tree().vessels()[vessel].points().to_vec();
     vec![points[from_ends].to_array(), points[points.len() - 1 - from_ends].to_array()]
 }
 
-fn path(session: &mut Session, message: Json, stop: bool) -> Option<Vec<[f64; 3]>> {
+fn path(study: &mut Study, message: Json, stop: bool) -> Option<Vec<[f64; 3]>> {
     let message: PathMessage = serde_json::from_value(message).expect("a message");
-    session.path(&message, &|| stop).expect("an open volume")
+    study.path(&message, &|| stop).expect("an open volume")
 }
 
-fn points(session: &Session, line: usize) -> Vec<DVec3> {
-    session.lines.get(line).expect("a line").points.clone()
+fn points(study: &Study, line: usize) -> Vec<DVec3> {
+    study.lines.get(line).expect("a line").points.clone()
 }
 
 #[test]
 fn a_line_that_is_what_it_was_keeps_its_number() {
-    let mut session = opened("y_junction");
-    let (first, second) = (clicks(&session, 0, 3), clicks(&session, 1, 3));
-    let lines = traced(&mut session, request(&[first.clone(), second.clone()], &[]), false).expect("lines");
-    let again = traced(&mut session, request(&[first.clone(), second], &[]), false).expect("lines");
+    let mut study = opened("y_junction");
+    let (first, second) = (clicks(&study, 0, 3), clicks(&study, 1, 3));
+    let lines = traced(&mut study, request(&[first.clone(), second.clone()], &[]), false).expect("lines");
+    let again = traced(&mut study, request(&[first.clone(), second], &[]), false).expect("lines");
     assert_eq!(lines, again);
-    let alone = traced(&mut session, request(&[first], &[]), false).expect("a line");
+    let alone = traced(&mut study, request(&[first], &[]), false).expect("a line");
     assert_eq!(alone, lines[..1]);
-    assert!(traced(&mut session, request(&[], &[]), false).expect("none").is_empty());
+    assert!(traced(&mut study, request(&[], &[]), false).expect("none").is_empty());
 }
 
 #[test]
 fn a_vessel_ends_at_a_point_of_a_line_beside_it_which_stays() {
-    let mut session = opened("y_junction");
-    let trunk = points(&session, 0);
+    let mut study = opened("y_junction");
+    let trunk = points(&study, 0);
     // From within the trunk into the branch.
-    let branch = points(&session, 1);
+    let branch = points(&study, 1);
     let click = |point: DVec3| (point + DVec3::new(0.2, 0.0, 0.1)).to_array();
     let vessel = vec![click(trunk[trunk.len() - 2]), branch[branch.len() - 4].to_array()];
-    let lines = traced(&mut session, request(std::slice::from_ref(&vessel), &[0]), false).expect("a line");
-    assert!(trunk.contains(&points(&session, lines[0])[0]));
-    assert_eq!(points(&session, 0), trunk);
-    let loose = traced(&mut session, request(&[vessel], &[]), false).expect("a line");
-    assert!(!trunk.contains(&points(&session, loose[0])[0]));
+    let lines = traced(&mut study, request(std::slice::from_ref(&vessel), &[0]), false).expect("a line");
+    assert!(trunk.contains(&points(&study, lines[0])[0]));
+    assert_eq!(points(&study, 0), trunk);
+    let loose = traced(&mut study, request(&[vessel], &[]), false).expect("a line");
+    assert!(!trunk.contains(&points(&study, loose[0])[0]));
 }
 
 #[test]
 fn a_vessel_within_a_line_beside_it_is_refused() {
-    let mut session = opened("stenosis");
-    let vessel = clicks(&session, 0, 6);
-    let failure = traced(&mut session, request(&[vessel], &[0]), false).expect_err("the same vessel");
+    let mut study = opened("stenosis");
+    let vessel = clicks(&study, 0, 6);
+    let failure = traced(&mut study, request(&[vessel], &[0]), false).expect_err("the same vessel");
     assert_eq!(failure.kind, "tracing");
     assert!(failure.found.contains("within earlier ones"));
 }
 
 #[test]
 fn tracing_stops_and_can_begin_again() {
-    let mut session = opened("y_junction");
-    let vessel = clicks(&session, 0, 3);
-    let failure =
-        traced(&mut session, request(std::slice::from_ref(&vessel), &[]), true).expect_err("a stop");
+    let mut study = opened("y_junction");
+    let vessel = clicks(&study, 0, 3);
+    let failure = traced(&mut study, request(std::slice::from_ref(&vessel), &[]), true).expect_err("a stop");
     assert_eq!(failure.kind, "interrupted");
-    assert_eq!(traced(&mut session, request(&[vessel], &[]), false).expect("a line").len(), 1);
+    assert_eq!(traced(&mut study, request(&[vessel], &[]), false).expect("a line").len(), 1);
 }
 
 #[test]
 fn a_click_in_no_lumen_is_refused_with_its_place_and_value() {
-    let mut session = opened("y_junction");
-    let mut vessel = clicks(&session, 0, 3);
-    let corner = session.study.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
+    let mut study = opened("y_junction");
+    let mut vessel = clicks(&study, 0, 3);
+    let corner = study.content.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
     vessel[1] = corner.lerp(DVec3::from_array(vessel[1]), 0.05).to_array();
     let failure =
-        traced(&mut session, request(std::slice::from_ref(&vessel), &[]), false).expect_err("no lumen");
+        traced(&mut study, request(std::slice::from_ref(&vessel), &[]), false).expect_err("no lumen");
     let seen = failure.seen.as_ref().expect("a place");
     assert_eq!(seen.place, vessel[1]);
     assert!(seen.value < 100.0);
@@ -112,24 +111,24 @@ fn a_click_in_no_lumen_is_refused_with_its_place_and_value() {
 
 #[test]
 fn a_click_that_no_vessel_can_begin_at_is_refused_alone() {
-    let session = opened("y_junction");
-    let [lumen, _] = clicks(&session, 0, 3)[..] else { panic!("two clicks") };
-    session.check_click(lumen).expect("lumen");
-    let corner = session.study.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
+    let study = opened("y_junction");
+    let [lumen, _] = clicks(&study, 0, 3)[..] else { panic!("two clicks") };
+    study.check_click(lumen).expect("lumen");
+    let corner = study.content.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
     let fat = corner.lerp(DVec3::from_array(lumen), 0.05);
-    let failure = session.check_click(fat.to_array()).expect_err("no lumen");
+    let failure = study.check_click(fat.to_array()).expect_err("no lumen");
     assert_eq!(failure.seen.map(|seen| seen.place), Some(fat.to_array()));
     let outside = corner + 2.0 * (corner - DVec3::from_array(lumen));
-    let failure = session.check_click(outside.to_array()).expect_err("outside");
+    let failure = study.check_click(outside.to_array()).expect_err("outside");
     assert!(failure.found.contains("outside the volume"), "{failure:?}");
 }
 
 #[test]
 fn two_vessels_that_do_not_meet_are_refused_at_the_weakest_place() {
-    let mut session = holding(lumencut_phantom::crossing().expect("a phantom"));
-    let [first, second] = [0, 1].map(|vessel| points(&session, vessel));
+    let mut study = holding(lumencut_phantom::crossing().expect("a phantom"));
+    let [first, second] = [0, 1].map(|vessel| points(&study, vessel));
     let vessel = vec![first[first.len() / 4].to_array(), second[second.len() / 4].to_array()];
-    let failure = traced(&mut session, request(&[vessel], &[]), false).expect_err("no lumen between");
+    let failure = traced(&mut study, request(&[vessel], &[]), false).expect_err("no lumen between");
     let seen = failure.seen.expect("a place");
     let place = DVec3::from_array(seen.place);
     let away = |line: &[DVec3]| line.iter().map(|point| point.distance(place)).fold(f64::MAX, f64::min);
@@ -138,60 +137,60 @@ fn two_vessels_that_do_not_meet_are_refused_at_the_weakest_place() {
 
 #[test]
 fn the_way_to_the_pointer_goes_on_where_it_was_stopped() {
-    let mut session = opened("stenosis");
-    let [from, to] = clicks(&session, 0, 4)[..] else { panic!("two clicks") };
+    let mut study = opened("stenosis");
+    let [from, to] = clicks(&study, 0, 4)[..] else { panic!("two clicks") };
     let sought = |to: [f64; 3]| json!({"from": from, "to": to, "stoppers": [], "bridge": false});
-    assert_eq!(path(&mut session, sought(to), true), None);
-    let way = path(&mut session, sought(to), false).expect("a way");
+    assert_eq!(path(&mut study, sought(to), true), None);
+    let way = path(&mut study, sought(to), false).expect("a way");
     assert_eq!((way[0], way[way.len() - 1]), (from, to));
-    let line = points(&session, 0);
+    let line = points(&study, 0);
     let away = |point: DVec3| line.iter().map(|own| own.distance(point)).fold(f64::MAX, f64::min);
     assert!(way.iter().all(|point| away(DVec3::from_array(*point)) < 4.0));
     // What the front has come to needs no time.
-    assert_eq!(path(&mut session, sought(to), true), Some(way));
+    assert_eq!(path(&mut study, sought(to), true), Some(way));
     // Beside the vessel, outside of the volume, and from no lumen there is none.
     let beside = [from[0] + 6.0, from[1], from[2]];
-    assert_eq!(path(&mut session, sought(beside), false), None);
-    assert_eq!(path(&mut session, sought([1e4, 0.0, 0.0]), false), None);
+    assert_eq!(path(&mut study, sought(beside), false), None);
+    assert_eq!(path(&mut study, sought([1e4, 0.0, 0.0]), false), None);
     let message = json!({"from": beside, "to": to, "stoppers": [], "bridge": false});
-    assert_eq!(path(&mut session, message, false), None);
+    assert_eq!(path(&mut study, message, false), None);
 }
 
 #[test]
 fn the_ways_from_both_neighbours_of_a_dragged_point_are_kept() {
-    let mut session = opened("stenosis");
-    let [first, last] = clicks(&session, 0, 4)[..] else { panic!("two clicks") };
-    let line = points(&session, 0);
+    let mut study = opened("stenosis");
+    let [first, last] = clicks(&study, 0, 4)[..] else { panic!("two clicks") };
+    let line = points(&study, 0);
     let dragged = line[line.len() / 3].to_array();
     let sought = |from: [f64; 3]| json!({"from": from, "to": dragged, "stoppers": [], "bridge": false});
-    let ways = [first, last].map(|from| path(&mut session, sought(from), false).expect("a way"));
-    assert_eq!([first, last].map(|from| path(&mut session, sought(from), true).expect("a way")), ways);
+    let ways = [first, last].map(|from| path(&mut study, sought(from), false).expect("a way"));
+    assert_eq!([first, last].map(|from| path(&mut study, sought(from), true).expect("a way")), ways);
 }
 
 #[test]
 fn the_way_to_the_pointer_passes_no_stopper() {
-    let mut session = opened("stenosis");
-    let [from, to] = clicks(&session, 0, 4)[..] else { panic!("two clicks") };
+    let mut study = opened("stenosis");
+    let [from, to] = clicks(&study, 0, 4)[..] else { panic!("two clicks") };
     let sought = |radius: f64| json!({"from": from, "to": to, "bridge": false, "stoppers": [{"center": [0.0, 0.0, 0.0], "radius": radius}]});
-    assert_eq!(path(&mut session, sought(8.0), false), None);
-    let around = path(&mut session, sought(0.5), false).expect("a way around");
+    assert_eq!(path(&mut study, sought(8.0), false), None);
+    let around = path(&mut study, sought(0.5), false).expect("a way around");
     assert!(around.iter().all(|point| DVec3::from_array(*point).length() > 0.4));
 }
 
 #[test]
 fn a_seed_finds_all_branches() {
-    let mut session = opened("y_junction");
-    let seed = clicks(&session, 0, 10)[0];
+    let mut study = opened("y_junction");
+    let seed = clicks(&study, 0, 10)[0];
     let watch = Watch { stop: &|| false, progress: &Progress::default() };
-    let branches = session.trace_from(seed, 1.0, watch).expect("branches");
+    let branches = study.trace_from(seed, 1.0, watch).expect("branches");
     assert!(branches.len() >= 2 && branches.iter().all(|branch| branch.doubt.is_none()));
-    let found: Vec<DVec3> = branches.iter().flat_map(|branch| points(&session, branch.line)).collect();
+    let found: Vec<DVec3> = branches.iter().flat_map(|branch| points(&study, branch.line)).collect();
     for vessel in 0..3 {
-        let middle = points(&session, vessel);
+        let middle = points(&study, vessel);
         let middle = middle[middle.len() / 2];
         assert!(found.iter().any(|point| point.distance(middle) < 0.6));
     }
-    assert_eq!(session.trace_from(seed, f64::NAN, watch).expect_err("no radius").kind, "settings");
+    assert_eq!(study.trace_from(seed, f64::NAN, watch).expect_err("no radius").kind, "settings");
     let stopped = Watch { stop: &|| true, ..watch };
-    assert_eq!(session.trace_from(seed, 1.0, stopped).expect_err("a stop").kind, "interrupted");
+    assert_eq!(study.trace_from(seed, 1.0, stopped).expect_err("a stop").kind, "interrupted");
 }

@@ -16,13 +16,14 @@ use lumencut_core::with_voxels;
 use lumencut_vessels::trace::tracer::Tracer;
 use serde::Serialize;
 
+use crate::study::content::Content;
 use crate::study::failure::{Failure, Result};
+use crate::study::held_volume::HeldVolume;
 use crate::study::histogram::Histogram;
 use crate::study::lines::Lines;
-use crate::study::open::{Held, Study};
 use crate::study::planes::{Plane, across};
 use crate::study::profiles::Profiles;
-use crate::study::sides::{CprMessage, Laid};
+use crate::study::straightened::{CprMessage, Laid};
 use crate::study::view::{CameraMessage, View};
 
 /// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
@@ -55,9 +56,9 @@ pub struct Pick {
 
 /// The study, and what its pictures keep from one to the next.
 #[derive(Default)]
-pub struct Session {
+pub struct Study {
     /// What is open.
-    pub study: Study,
+    pub content: Content,
     pub(crate) cpu: CpuRenderer,
     pub(crate) laid: Option<Laid>,
     /// What was measured.
@@ -68,10 +69,10 @@ pub struct Session {
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
     /// A mask that is read to be traced.
-    pub(crate) mask: Option<Held>,
+    pub(crate) mask: Option<HeldVolume>,
 }
 
-impl Session {
+impl Study {
     /// The camera of a named view that shows all of the study in `size` pixels.
     ///
     /// # Errors
@@ -79,7 +80,7 @@ impl Session {
     pub fn fitted(&self, view: &str, size: [usize; 2]) -> Result<CameraMessage> {
         let named = views::named(view)?;
         let camera = Camera::new(DVec3::ZERO, named.direction, named.up, size, 1.0)?;
-        Ok(CameraMessage::from(&views::fitted(&camera, &self.study.outline()?)?))
+        Ok(CameraMessage::from(&views::fitted(&camera, &self.content.outline()?)?))
     }
 
     /// What the pixel (column, row) of a view shows.
@@ -96,7 +97,7 @@ impl Session {
         let settings = Settings { samples: 1, ..view.settings.clone() };
         let images = ImageSet::of(&[Image::Depth, Image::Vessel, Image::Value]);
         let request = Request { images, ..Request::new(&near, &settings) };
-        let scene = self.study.scene()?;
+        let scene = self.content.scene()?;
         let frame = view.method.on_cpu(&mut self.cpu, &scene, &request)?;
         let middle = side * AROUND + AROUND;
         let depth = frame.depth().get(middle).copied().unwrap_or_default();
@@ -115,7 +116,7 @@ impl Session {
     /// What lies at a world point, and the vessel in whose lumen it is.
     pub fn at(&self, point: [f64; 3]) -> Pick {
         let point = DVec3::from_array(point);
-        let vessels = self.study.tree().map_or(&[][..], |tree| tree.tree().vessels());
+        let vessels = self.content.tree().map_or(&[][..], |tree| tree.tree().vessels());
         let inside = vessels.iter().position(|vessel| {
             let near = vessel.points().iter().zip(0..);
             near.into_iter().any(|(p, i): (&DVec3, usize)| p.distance(point) <= vessel.radius_or_zero(i))
@@ -124,7 +125,7 @@ impl Session {
     }
 
     fn value(&self, point: DVec3) -> Option<f32> {
-        let volume = self.study.held.as_ref().and_then(|held| held.volume().ok())?;
+        let volume = self.content.held.as_ref().and_then(|held| held.volume().ok())?;
         windows::sample(&volume, &[point]).first().copied().filter(|value| value.is_finite())
     }
 
@@ -133,7 +134,7 @@ impl Session {
     /// # Errors
     /// `volume` where none is open.
     pub fn histogram(&self, bins: usize) -> Result<Histogram> {
-        let held = self.study.held.as_ref().ok_or_else(no_volume)?;
+        let held = self.content.held.as_ref().ok_or_else(no_volume)?;
         Ok(with_voxels!(held.stored.voxels(), voxels => Histogram::of(voxels, bins)))
     }
 
@@ -173,14 +174,14 @@ impl Session {
     }
 
     fn vessel(&self, number: usize) -> Result<&Vessel> {
-        let vessels = self.study.tree().map_or(&[][..], |tree| tree.tree().vessels());
+        let vessels = self.content.tree().map_or(&[][..], |tree| tree.tree().vessels());
         vessels.get(number).ok_or_else(|| {
             Failure::of_message("number of the vessel", &number, &format!("a number below {}", vessels.len()))
         })
     }
 
     fn aggregated(&self, laid: &Laid, spacing: f64, feature: Feature, window: [f64; 2]) -> Result<Picture> {
-        let volume = self.study.scene()?.volume.ok_or_else(no_volume)?;
+        let volume = self.content.scene()?.volume.ok_or_else(no_volume)?;
         let (camera, settings) = shown_flat(window)?;
         let request = Request::new(&camera, &settings);
         let value = feature_aggregation(&volume, &laid.cpr, spacing, feature, &request)?;
@@ -190,7 +191,7 @@ impl Session {
 
     fn shown(&self, geometry: Geometry, window: [f64; 2]) -> Result<Picture> {
         let size = geometry.size();
-        let volume = self.study.scene()?.volume.ok_or_else(no_volume)?;
+        let volume = self.content.scene()?.volume.ok_or_else(no_volume)?;
         let (camera, settings) = shown_flat(window)?;
         let request = Request { images: ImageSet::of(&[Image::Picture]), ..Request::new(&camera, &settings) };
         let frame = self.cpu.look(&volume, Frame::of(geometry), &request)?;

@@ -3,63 +3,19 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::windows;
-use glam::{DAffine3, DVec3};
-use lumencut_core::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
+use glam::DVec3;
+use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::Window;
 use lumencut_core::vessel_tree::VesselTree;
-use lumencut_core::volume::Volume;
 use serde::Serialize;
 use serde_json::json;
 
 use crate::study::failure::{Failure, Result};
-use crate::study::voxels::Stored;
-
-/// A volume that the page holds.
-#[derive(Debug)]
-pub struct Held {
-    /// Its voxels, i fastest.
-    pub stored: Stored,
-    /// The number of voxels along (i, j, k).
-    pub size: [usize; 3],
-    /// World position of a continuous index.
-    pub world_from_index: DAffine3,
-    /// Stands for the voxels.
-    pub key: VolumeKey,
-}
-
-impl Held {
-    /// The bytes of its voxels from `offset` on, `count` of them, to be written.
-    ///
-    /// # Errors
-    /// `volume` where it ends before, and where there is none.
-    pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
-        let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
-        let expected = format!("no more than the {} that the header tells of", bytes.len());
-        let end = offset.saturating_add(count);
-        bytes.get_mut(offset..end).ok_or_else(|| Failure {
-            kind: "volume",
-            ..Failure::of_message("bytes of the volume", &end, &expected)
-        })
-    }
-
-    /// The volume as the core borrows it.
-    ///
-    /// # Errors
-    /// `volume` for a grid that is none.
-    pub fn volume(&self) -> Result<Volume<'_>> {
-        let [ni, nj, _] = self.size;
-        Ok(Volume::new(self.stored.voxels(), self.size, [1, ni, ni * nj], self.world_from_index)?)
-    }
-
-    /// The same for renderers.
-    fn shared(&self) -> Result<SharedVolume<'_>> {
-        Ok(SharedVolume::new(self.volume()?, self.key.clone()))
-    }
-}
+use crate::study::held_volume::HeldVolume;
 
 /// A tree with the names and the lines of its vessels.
 #[derive(Debug)]
-pub struct Named {
+pub struct NamedTree {
     /// The tree.
     pub leveled: Arc<LeveledTree>,
     /// One name for each vessel; empty where it has none.
@@ -68,7 +24,7 @@ pub struct Named {
     pub lines: Vec<usize>,
 }
 
-impl Named {
+impl NamedTree {
     /// A tree of which nothing is known yet.
     pub fn new(tree: VesselTree, names: Vec<String>, lines: Vec<usize>) -> Self {
         Self { leveled: Arc::new(LeveledTree::new(tree)), names, lines }
@@ -77,11 +33,11 @@ impl Named {
 
 /// What is open.
 #[derive(Debug, Default)]
-pub struct Study {
+pub struct Content {
     /// The volume.
-    pub held: Option<Held>,
+    pub held: Option<HeldVolume>,
     /// The tree.
-    pub named: Option<Named>,
+    pub named: Option<NamedTree>,
     /// The windows of what was opened, once they were asked for.
     windows: OnceLock<Option<Windows>>,
 }
@@ -102,13 +58,13 @@ pub struct Windows {
     full: LevelWidth,
 }
 
-impl Study {
+impl Content {
     /// What the renderers show.
     ///
     /// # Errors
     /// `volume` for a grid that is none.
     pub fn scene(&self) -> Result<Scene<'_>> {
-        let volume = self.held.as_ref().map(Held::shared).transpose()?;
+        let volume = self.held.as_ref().map(HeldVolume::shared).transpose()?;
         Ok(Scene { volume, tree: self.tree().cloned() })
     }
 
@@ -151,7 +107,7 @@ impl Study {
 
     /// What a view of all of it must show: the corners of the volume, or the points of the tree.
     pub fn outline(&self) -> Result<Vec<DVec3>> {
-        let points = |named: &Named| {
+        let points = |named: &NamedTree| {
             named.leveled.tree().vessels().iter().flat_map(|vessel| vessel.points()).copied().collect()
         };
         match (&self.named, &self.held) {
@@ -164,7 +120,7 @@ impl Study {
     /// What the page must know of it: the volume's size, grid and windows, and the vessels with names and lengths.
     ///
     /// # Errors
-    /// As [`Study::windows`].
+    /// As [`Content::windows`].
     pub fn report(&self) -> Result<serde_json::Value> {
         let volume = self.held.as_ref().map(|held| {
             let corners = held.volume().map(|volume| volume.corners().map(|corner| corner.to_array()));

@@ -4,7 +4,7 @@ use js_sys::Uint8Array;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::engine::{Answer, Engine, answer, read, told};
-use lumencut::study::saved_sessions;
+use lumencut::study::session_files;
 
 #[wasm_bindgen]
 impl Engine {
@@ -14,7 +14,7 @@ impl Engine {
     /// `format` for parts that do not go together, `vessel tree` for a line that there is not.
     pub fn write_session(&self, content: &str) -> Answer<Uint8Array> {
         let content = read("session", content);
-        let bytes = content.and_then(|content| saved_sessions::written(content, &self.session.lines));
+        let bytes = content.and_then(|content| session_files::written(content, &self.study.lines));
         Ok(Uint8Array::new_from_slice(&answer(bytes)?))
     }
 
@@ -23,6 +23,6 @@ impl Engine {
     /// # Errors
     /// `format` for a file that is damaged or none.
     pub fn read_session(&mut self, bytes: &[u8], name: &str) -> Answer<String> {
-        told(saved_sessions::read(bytes, name, &mut self.session.lines))
+        told(session_files::read(bytes, name, &mut self.study.lines))
     }
 }

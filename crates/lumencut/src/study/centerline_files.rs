@@ -1,66 +1,18 @@
-//! What files become here: the header of a stream of voxels, and centerlines in world space.
+//! A file of centerlines becomes vessels in world space.
 
 use crate::extent::Extent;
 use crate::lumen_points::{Lines, lumen_count};
 use crate::placement::{Judge, Known, placement};
-use glam::{DAffine3, DMat4, DVec3, DVec4};
-use lumencut_core::scene::VolumeKey;
+use glam::DVec3;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
 use lumencut_io::{self as centerlines, Space, Unit, junctions};
-use serde::Deserialize;
 
-use crate::study::failure::{Failure, Result};
-use crate::study::open::Held;
-use crate::study::voxels::Stored;
-
-/// What comes before the voxels of a volume.
-#[derive(Clone, Debug, Deserialize)]
-pub struct VolumeHeader {
-    /// The number of voxels along (i, j, k); i is stored fastest.
-    pub size: [usize; 3],
-    /// The type of the voxels as NumPy calls it.
-    pub dtype: String,
-    /// World position (LPS, mm) of a continuous index, row by row.
-    pub world_from_index: [[f64; 4]; 4],
-}
-
-impl VolumeHeader {
-    /// The header of a text of JSON.
-    ///
-    /// # Errors
-    /// `settings` for a text that is none.
-    pub fn read(text: &str) -> Result<Self> {
-        let expected = "size, dtype and world_from_index as JSON";
-        serde_json::from_str(text)
-            .map_err(|error| Failure::of_message("header of the volume", &error, expected))
-    }
-
-    /// The volume of this header, its voxels all 0.
-    ///
-    /// # Errors
-    /// `volume` for more voxels than there is memory for, and for a grid that is none.
-    pub fn held(&self) -> Result<Held> {
-        let count = self.size.iter().map(|side| *side as f64).product();
-        let stored = Stored::zeros(&self.dtype, count)?;
-        let (size, world_from_index) = (self.size, self.affine());
-        let held = Held { stored, size, world_from_index, key: VolumeKey::default() };
-        held.volume()?;
-        Ok(held)
-    }
-
-    /// The grid's place.
-    fn affine(&self) -> DAffine3 {
-        DAffine3::from_mat4(
-            DMat4::from_cols_array_2d(&self.world_from_index.map(|row| DVec4::from(row).to_array()))
-                .transpose(),
-        )
-    }
-}
+use crate::study::failure::Result;
 
 /// Vessels, their names, and what was odd about their file.
 #[derive(Clone, Debug)]
-pub struct Read {
+pub struct PlacedVessels {
     /// The vessels in world space.
     pub tree: VesselTree,
     /// The name of each vessel; empty where the file has none.
@@ -79,7 +31,7 @@ pub fn read_centerlines(
     name: &str,
     space: Option<&str>,
     volume: Option<&Volume>,
-) -> Result<Read> {
+) -> Result<PlacedVessels> {
     let lines = centerlines::read(bytes, name)?;
     let known = Known {
         asked_space: Space::ALL.into_iter().find(|known| Some(known.name()) == space),
@@ -106,5 +58,5 @@ pub fn read_centerlines(
     let mut notes = placed.notes.clone();
     notes.extend((!found.decision.is_empty()).then_some(found.decision));
     let names = placed.lines.iter().map(|line| line.name.clone().unwrap_or_default()).collect();
-    Ok(Read { tree: VesselTree::new(vessels)?, names, notes })
+    Ok(PlacedVessels { tree: VesselTree::new(vessels)?, names, notes })
 }

@@ -1,0 +1,99 @@
+//! The volume that a viewer holds: its header comes first, and its voxels follow as bytes.
+
+use glam::{DAffine3, DMat4, DVec4};
+use lumencut_core::scene::{SharedVolume, VolumeKey};
+use lumencut_core::volume::Volume;
+use serde::Deserialize;
+
+use crate::study::failure::{Failure, Result};
+use crate::study::voxels::Stored;
+
+/// What comes before the voxels of a volume.
+#[derive(Clone, Debug, Deserialize)]
+pub struct VolumeHeader {
+    /// The number of voxels along (i, j, k); i is stored fastest.
+    pub size: [usize; 3],
+    /// The type of the voxels as NumPy calls it.
+    pub dtype: String,
+    /// World position (LPS, mm) of a continuous index, row by row.
+    pub world_from_index: [[f64; 4]; 4],
+}
+
+impl VolumeHeader {
+    /// The header of a text of JSON.
+    ///
+    /// # Errors
+    /// `settings` for an invalid text.
+    pub fn read(text: &str) -> Result<Self> {
+        let expected = "size, dtype and world_from_index as JSON";
+        serde_json::from_str(text)
+            .map_err(|error| Failure::of_message("header of the volume", &error, expected))
+    }
+
+    /// The volume of this header, its voxels all 0.
+    ///
+    /// # Errors
+    /// `volume` for more voxels than there is memory for, and for an invalid grid.
+    pub fn held(&self) -> Result<HeldVolume> {
+        let count = self.size.iter().map(|side| *side as f64).product();
+        let stored = Stored::zeros(&self.dtype, count)?;
+        let (size, world_from_index) = (self.size, self.affine());
+        let held = HeldVolume { stored, size, world_from_index, key: VolumeKey::default() };
+        held.volume()?;
+        Ok(held)
+    }
+
+    /// The grid's place.
+    fn affine(&self) -> DAffine3 {
+        DAffine3::from_mat4(
+            DMat4::from_cols_array_2d(&self.world_from_index.map(|row| DVec4::from(row).to_array()))
+                .transpose(),
+        )
+    }
+}
+
+/// A volume that is open.
+#[derive(Debug)]
+pub struct HeldVolume {
+    /// Its voxels, i fastest.
+    pub stored: Stored,
+    /// The number of voxels along (i, j, k).
+    pub size: [usize; 3],
+    /// World position of a continuous index.
+    pub world_from_index: DAffine3,
+    /// Stands for the voxels.
+    pub key: VolumeKey,
+}
+
+impl HeldVolume {
+    /// The bytes of its voxels from `offset` on, `count` of them, to be written.
+    ///
+    /// # Errors
+    /// `volume` where it ends before, and where there is none.
+    pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
+        let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
+        let expected = format!("no more than the {} that the header tells of", bytes.len());
+        let end = offset.saturating_add(count);
+        bytes.get_mut(offset..end).ok_or_else(|| Failure {
+            kind: "volume",
+            ..Failure::of_message("bytes of the volume", &end, &expected)
+        })
+    }
+
+    /// The volume as the core borrows it.
+    ///
+    /// # Errors
+    /// `volume` for an invalid grid.
+    pub fn volume(&self) -> Result<Volume<'_>> {
+        let [ni, nj, _] = self.size;
+        Ok(Volume::new(self.stored.voxels(), self.size, [1, ni, ni * nj], self.world_from_index)?)
+    }
+
+    /// The same for renderers.
+    ///
+    /// # Errors
+    /// As [`HeldVolume::volume`].
+    pub fn shared(&self) -> Result<SharedVolume<'_>> {
+        Ok(SharedVolume::new(self.volume()?, self.key.clone()))
+    }
+}
