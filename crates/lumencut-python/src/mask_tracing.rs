@@ -4,11 +4,11 @@
 use glam::DVec3;
 use lumencut::mask_notes::{check_same_grid, notes};
 use lumencut::progress::Progress;
-use lumencut::trace::correspondence::correspondence as connections;
-use lumencut::trace::grey_values::GreyValues;
+use lumencut::trace::lines::correspondence::correspondence as connections;
+use lumencut::trace::mask::grey_values::GreyValues;
+use lumencut::trace::mask::mask_refinement::Refine;
 use lumencut::trace::mask::{Request, trace_mask as core_trace_mask};
-use lumencut::trace::mask_refinement::Refine;
-use lumencut::trace::voxels::Voxels;
+use lumencut::voxels::Voxels;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use lumencut::progress::Progress;
 use lumencut::trace::seed;
-use lumencut::trace::seed_tree::{Doubt, SeedBranch};
+use lumencut::trace::seed::seed_tree::{Doubt, SeedBranch};
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 

@@ -1,42 +1,12 @@
 //! Centerlines from a volume or a mask, and how alike two centerlines are.
+//!
+//! The rooms, of which each needs only those above it: [`lines`] is arithmetic of points along a line, [`lumen`] says what lumen
+//! looks like across a line, [`ways`] finds ways through voxels of lumen, and [`clicks`], [`mask`] and [`seed`] are what a
+//! caller asks for.
 
-pub mod centering;
-pub mod correspondence;
-pub mod cross_section;
-pub mod distance_transform;
-pub mod flood;
-pub mod foreground;
-pub mod front;
-pub mod gaps;
-pub mod graph;
-pub mod grey_values;
-pub mod junctions;
-pub mod label_value;
-pub mod labels;
+pub mod clicks;
+pub mod lines;
 pub mod lumen;
-pub mod lumen_model;
 pub mod mask;
-pub mod mask_gaps;
-pub mod mask_refinement;
-pub mod mask_vessels;
-mod nearest_background;
-pub mod path;
-pub mod polyline;
-pub mod preview;
-pub mod pruning;
-pub mod refine;
-pub mod region;
-pub mod runs;
 pub mod seed;
-pub mod seed_branches;
-pub mod seed_doubts;
-pub mod seed_tree;
-pub mod seed_ways;
-pub mod simple_point;
-pub mod thinning;
-pub mod through_lines;
-pub mod traced;
-pub mod tracer;
-pub mod tube;
-pub mod voxels;
-pub mod way;
+pub mod ways;

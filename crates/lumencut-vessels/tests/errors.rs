@@ -6,7 +6,7 @@ use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::measuring::{Request, measure};
-use lumencut_vessels::trace::tracer::{Clicks, Tracer};
+use lumencut_vessels::trace::clicks::tracer::{Clicks, Tracer};
 
 /// Clicks into a volume of one value, outside it, and twice at the same place.
 fn tracing_errors() -> Vec<Error> {

@@ -36,4 +36,4 @@ pub use lumencut_core::{
 #[cfg(target_arch = "wasm32")]
 pub use lumencut_gpu::screen;
 pub use lumencut_io as centerlines;
-pub use lumencut_vessels::{measure, trace};
+pub use lumencut_vessels::{measure, trace, voxels};

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::place::{Place, Track};
-use crate::trace::voxels::Voxels;
+use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
 use lumencut_core::vessel_tree::Vessel;

@@ -18,7 +18,7 @@ use super::rough::Rough;
 use super::scale::Scale;
 use super::sections::{Bench, Known, LEAST_CONTRAST, Section, center, noise};
 use super::slab::thickness;
-use crate::trace::voxels::Voxels;
+use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
 use lumencut_core::math::statistics::median;

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::place::Place;
 use super::scale::Scale;
-use crate::trace::voxels::Voxels;
+use crate::voxels::Voxels;
 
 /// The rays of a section, each the point of a contour.
 pub const RAYS: usize = 64;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::place::Place;
-use crate::trace::voxels::Voxels;
+use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 

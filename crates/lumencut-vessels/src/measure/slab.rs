@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::place::Place;
 use super::scale::Scale;
-use crate::trace::voxels::Voxels;
+use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
 /// The most voxels around the wall, and the most elsewhere.

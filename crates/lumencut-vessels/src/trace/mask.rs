@@ -1,23 +1,41 @@
 //! Centerlines of a mask: from its voxels to vessels that meet in common points.
 
+pub mod centering;
+pub mod distance_transform;
+pub mod foreground;
+pub mod graph;
+pub mod grey_values;
+pub mod label_value;
+pub mod labels;
+pub mod mask_gaps;
+pub mod mask_lumen;
+pub mod mask_refinement;
+pub mod mask_vessels;
+mod nearest_background;
+pub mod pruning;
+pub mod runs;
+pub mod simple_point;
+pub mod thinning;
+pub mod through_lines;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::trace::centering::{center, lead_to_cap};
-use crate::trace::distance_transform::squared_distances;
-use crate::trace::foreground::{Foreground, LUMEN};
-use crate::trace::graph::Graph;
-use crate::trace::labels::parted;
-use crate::trace::lumen::Lumen;
-use crate::trace::mask_gaps::{Gap, bridge, gaps};
-use crate::trace::mask_refinement::{Refine, refined};
-use crate::trace::mask_vessels::{MaskVessel, outwards};
-use crate::trace::polyline::{at, directions, resampled};
-use crate::trace::pruning::{merge_junctions, prune, remove_round_pieces};
-use crate::trace::refine::Centerline;
-use crate::trace::runs::{fill_cavities, pieces};
-use crate::trace::thinning::thin;
-use crate::trace::through_lines::{ThroughLine, through_lines};
+use crate::trace::lines::polyline::{at, directions, resampled};
+use crate::trace::lumen::refine::Centerline;
+use crate::trace::mask::centering::{center, lead_to_cap};
+use crate::trace::mask::distance_transform::squared_distances;
+use crate::trace::mask::foreground::{Foreground, LUMEN};
+use crate::trace::mask::graph::Graph;
+use crate::trace::mask::labels::parted;
+use crate::trace::mask::mask_gaps::{Gap, bridge, gaps};
+use crate::trace::mask::mask_lumen::Lumen;
+use crate::trace::mask::mask_refinement::{Refine, refined};
+use crate::trace::mask::mask_vessels::{MaskVessel, outwards};
+use crate::trace::mask::pruning::{merge_junctions, prune, remove_round_pieces};
+use crate::trace::mask::runs::{fill_cavities, pieces};
+use crate::trace::mask::thinning::thin;
+use crate::trace::mask::through_lines::{ThroughLine, through_lines};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::progress::Progress;

@@ -1,20 +1,25 @@
 //! Centerlines of all branches that one seed reaches.
 
+pub mod seed_branches;
+pub mod seed_doubts;
+pub mod seed_tree;
+pub mod seed_ways;
+
 use glam::{DAffine3, DVec3};
 
-use super::cross_section::Probe;
-use super::flood::{Flood, bounds};
-use super::junctions::nearest;
-use super::lumen_model::{LumenModel, Surroundings, at};
-use super::mask::{self, TracedMask};
-use super::mask_vessels::MaskVessel;
-use super::refine::{Centerline, refined};
-use super::region::{Region, Strictness};
-use super::seed_branches::Search;
-use super::seed_tree::{self, SeedBranch, SeenVessel};
-use super::seed_ways::Ways;
-use super::tube::{Sections, Usual};
-use super::voxels::Voxels;
+use crate::trace::clicks::junctions::nearest;
+use crate::trace::lumen::cross_section::Probe;
+use crate::trace::lumen::lumen_model::{LumenModel, Surroundings, at};
+use crate::trace::lumen::refine::{Centerline, refined};
+use crate::trace::lumen::tube::{Sections, Usual};
+use crate::trace::mask::mask_vessels::MaskVessel;
+use crate::trace::mask::{self, TracedMask};
+use crate::trace::seed::seed_branches::Search;
+use crate::trace::seed::seed_tree::{SeedBranch, SeenVessel};
+use crate::trace::seed::seed_ways::Ways;
+use crate::trace::ways::flood::{Flood, bounds};
+use crate::trace::ways::region::{Region, Strictness};
+use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::progress::Progress;

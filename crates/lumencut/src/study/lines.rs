@@ -7,8 +7,8 @@ use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_io as centerlines;
-use lumencut_vessels::trace::refine::Centerline;
-use lumencut_vessels::trace::traced::Traced;
+use lumencut_vessels::trace::clicks::traced::Traced;
+use lumencut_vessels::trace::lumen::refine::Centerline;
 use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;

@@ -6,11 +6,11 @@ use crate::mask_notes::{check_same_grid, notes};
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::volume::Volume;
-use lumencut_vessels::trace::grey_values::GreyValues;
+use lumencut_vessels::trace::lumen::refine::Centerline;
+use lumencut_vessels::trace::mask::grey_values::GreyValues;
+use lumencut_vessels::trace::mask::mask_vessels::MaskVessel;
 use lumencut_vessels::trace::mask::{Request, TracedMask, trace_mask};
-use lumencut_vessels::trace::mask_vessels::MaskVessel;
-use lumencut_vessels::trace::refine::Centerline;
-use lumencut_vessels::trace::voxels::Voxels;
+use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
 use crate::study::failure::{Failure, Result};

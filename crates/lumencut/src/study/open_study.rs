@@ -13,7 +13,7 @@ use lumencut_core::settings::{Settings, Window};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::with_voxels;
-use lumencut_vessels::trace::tracer::Tracer;
+use lumencut_vessels::trace::clicks::tracer::Tracer;
 use serde::Serialize;
 
 use crate::study::content::Content;

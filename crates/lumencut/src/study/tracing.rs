@@ -6,11 +6,11 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_io::{write_mrk_json, write_vtp};
-use lumencut_vessels::trace::preview::Sought;
-use lumencut_vessels::trace::region::Stopper;
+use lumencut_vessels::trace::clicks::preview::Sought;
+use lumencut_vessels::trace::clicks::tracer::Clicks;
 use lumencut_vessels::trace::seed;
-use lumencut_vessels::trace::seed_tree::Doubt;
-use lumencut_vessels::trace::tracer::Clicks;
+use lumencut_vessels::trace::seed::seed_tree::Doubt;
+use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
 use crate::study::content::NamedTree;
@@ -72,7 +72,7 @@ impl Study {
     /// The numbers of the lines of vessels that are clicked, in their order. A line that is what it was keeps its number.
     ///
     /// # Errors
-    /// `tracing` as [`lumencut_vessels::trace::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
+    /// `tracing` as [`lumencut_vessels::trace::clicks::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
     pub fn trace(&mut self, message: &TraceMessage, watch: Watch) -> Result<Vec<usize>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let beside = message.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
@@ -97,7 +97,7 @@ impl Study {
     /// Refuses a place that no vessel can begin at.
     ///
     /// # Errors
-    /// `tracing` as [`lumencut_vessels::trace::tracer::Tracer::check_click`], `volume` where none is open.
+    /// `tracing` as [`lumencut_vessels::trace::clicks::tracer::Tracer::check_click`], `volume` where none is open.
     pub fn check_click(&self, click: [f64; 3]) -> Result<()> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)

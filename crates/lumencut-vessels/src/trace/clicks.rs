@@ -1,0 +1,8 @@
+//! Centerlines between clicks.
+
+pub mod gaps;
+pub mod junctions;
+pub mod preview;
+pub mod traced;
+pub mod tracer;
+pub mod way;

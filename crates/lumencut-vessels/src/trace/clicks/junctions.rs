@@ -1,0 +1,170 @@
+//! Vessels that meet: a later line that runs into an earlier vessel begins or ends at a point of that.
+
+use glam::DVec3;
+
+use crate::trace::clicks::traced::Traced;
+use crate::trace::lumen::refine::{Centerline, STEP};
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::arc_length::arc_lengths;
+
+/// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least so much (mm).
+const END_TO_END: f64 = 0.7;
+const NEAREST_END: f64 = 1.0;
+
+/// How far beyond an end a vessel still holds what is next to it: in radii.
+const ENDS: f64 = 0.3;
+
+/// How much of a line tells in which direction it has left a vessel (mm).
+const LEAVING: f64 = 4.0;
+
+/// A line leaves a vessel at once where it runs less than so many radii within it.
+const AT_ONCE: f64 = 2.5;
+
+/// A junction: the point of an earlier vessel, its radius there, and the first point of the line that is kept.
+struct Junction {
+    place: DVec3,
+    radius: f64,
+    leaves: usize,
+}
+
+/// The vessels, each of them cut where it leaves or enters an earlier one, and joined to a point of it: the shared points
+/// are equal to the bit. Those `beside` them are earlier than all, and stay as they are.
+///
+/// # Errors
+/// [`ErrorKind::Tracing`] for a vessel that runs within an earlier one from end to end.
+pub fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
+    let mut whole: Vec<Traced> = Vec::with_capacity(lines.len());
+    for (n, line) in lines.into_iter().enumerate() {
+        let earlier: Vec<&Centerline> =
+            beside.iter().chain(whole.iter().map(|vessel| &vessel.line)).collect();
+        let line = joined_at_start(&earlier, line, n)?;
+        let line = joined_at_start(&earlier, line.reversed(), n)?.reversed();
+        whole.push(line);
+    }
+    Ok(whole)
+}
+
+fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Traced> {
+    let points = &line.line.points;
+    let inside = points.iter().take_while(|point| earlier.iter().any(|vessel| vessel.holds(**point))).count();
+    if inside + 1 >= points.len() {
+        let found = "clicks whose vessel runs within earlier ones from end to end";
+        let error =
+            Error::new(ErrorKind::Tracing, format!("points of vessel {n}"), found, "a vessel of its own");
+        return Err(error.mend("leave these points out, or click where the vessel is not the other one"));
+    }
+    let junction = if inside > 0 {
+        Some(left(earlier, &line, inside))
+    } else {
+        earlier.iter().find_map(|vessel| vessel.continued_at(points[0]))
+    };
+    Ok(match junction {
+        Some(junction) if inside > 0 => line.leaving(&junction),
+        Some(junction) => line.drawn_to(&junction),
+        None => line,
+    })
+}
+
+/// The junction with a line that has left all earlier vessels at its point `leaves`: one that leaves at once begins where
+/// it was clicked, one that follows a vessel first where it comes nearest to that when followed straight backwards.
+fn left(earlier: &[&Centerline], line: &Traced, leaves: usize) -> Junction {
+    let points = &line.line.points;
+    let (click, from) = (line.ends[0], points[leaves]);
+    let all = || earlier.iter().flat_map(|vessel| (0..vessel.points.len()).map(move |n| (*vessel, n)));
+    let best = |miss: &dyn Fn(DVec3) -> f64| {
+        let (vessel, n) = all().min_by(|a, b| miss(place_of(*a)).total_cmp(&miss(place_of(*b))))?;
+        Some(Junction { place: vessel.points[n], radius: vessel.radius[n], leaves })
+    };
+    let nearest = |place: DVec3| best(&|point| point.distance(place));
+    let radius = nearest(points[leaves - 1]).map_or(0.0, |junction| junction.radius);
+    let ahead = points[leaves..].iter().find(|point| point.distance(from) >= LEAVING);
+    let back = (from - *ahead.unwrap_or(&points[points.len() - 1])).normalize_or_zero();
+    let backwards = |point: DVec3| {
+        let along = (point - from).dot(back).clamp(0.0, 3.0 * radius);
+        (point - from).distance(back * along)
+    };
+    let at_once = arc_lengths(&points[..=leaves])[leaves] < AT_ONCE * radius;
+    let found = if at_once { nearest(click) } else { best(&backwards) };
+    found.unwrap_or(Junction { place: points[0], radius, leaves })
+}
+
+fn place_of((vessel, n): (&Centerline, usize)) -> DVec3 {
+    vessel.points[n]
+}
+
+impl Centerline {
+    /// Whether a place lies within the lumen; beyond the ends there is none.
+    fn holds(&self, place: DVec3) -> bool {
+        let points = &self.points;
+        let near = nearest(points, place);
+        let across = place - points[near];
+        let last = points.len() - 1;
+        let slack = (ENDS * self.radius[near]).max(STEP);
+        let beyond = |end: usize, next: usize| {
+            near == end && across.dot((points[end] - points[next]).normalize_or_zero()) > slack
+        };
+        let is_beyond = beyond(0, 1) || beyond(last, last - 1);
+        across.length() < self.radius[near] && !is_beyond
+    }
+
+    /// The junction with a line that begins near one of the ends.
+    fn continued_at(&self, start: DVec3) -> Option<Junction> {
+        let last = self.points.len() - 1;
+        [0, last].into_iter().find_map(|end| {
+            let (place, radius) = (self.points[end], self.radius[end]);
+            let is_near = place.distance(start) < (END_TO_END * radius).max(NEAREST_END);
+            is_near.then_some(Junction { place, radius, leaves: 0 })
+        })
+    }
+}
+
+impl Traced {
+    fn reversed(mut self) -> Self {
+        self.line.points.reverse();
+        self.line.radius.reverse();
+        self.line.confidence.reverse();
+        self.bridged.reverse();
+        self.ends.reverse();
+        self
+    }
+
+    /// The line from a junction with the side of a vessel on.
+    fn leaving(self, junction: &Junction) -> Self {
+        let from = junction.leaves;
+        let tail = |values: &[f64]| [&values[from..=from], &values[from..]].concat();
+        let line = Centerline {
+            points: [&[junction.place], &self.line.points[from..]].concat(),
+            radius: tail(&self.line.radius),
+            confidence: tail(&self.line.confidence),
+        };
+        let bridged = [&self.bridged[from..=from], &self.bridged[from..]].concat();
+        Self { line, bridged, ..self }.in_even_steps()
+    }
+
+    /// The line drawn to the end of a vessel: its first points move with its end, less and less over one radius.
+    fn drawn_to(mut self, junction: &Junction) -> Self {
+        let points = &mut self.line.points;
+        let lengths = arc_lengths(points);
+        let across = junction.place - points[0];
+        let reach = junction.radius.max(2.0 * across.length()).min(lengths[lengths.len() - 1] / 2.0);
+        for (point, length) in points.iter_mut().zip(&lengths) {
+            *point += across * (1.0 - length / reach).max(0.0);
+        }
+        points[0] = junction.place;
+        self.in_even_steps()
+    }
+
+    /// The same line with even steps, and its ends where they were.
+    fn in_even_steps(self) -> Self {
+        let line = self.line.resampled(STEP);
+        let bridged =
+            line.points.iter().map(|point| self.bridged[nearest(&self.line.points, *point)]).collect();
+        Self { line, bridged, ..self }
+    }
+}
+
+/// The point of a line nearest to a place.
+pub fn nearest(points: &[DVec3], place: DVec3) -> usize {
+    let distance = |i: &usize| points[*i].distance_squared(place);
+    (0..points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+}

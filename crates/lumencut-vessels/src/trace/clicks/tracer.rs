@@ -1,0 +1,323 @@
+//! Centerlines between clicks, with what is kept so that a change re-routes only what lies next to it.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use crate::trace::clicks::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
+use crate::trace::clicks::junctions::{joined, nearest};
+use crate::trace::clicks::preview::{Live, Sought};
+use crate::trace::clicks::traced::Traced;
+use crate::trace::clicks::way::{Way, start};
+use crate::trace::lumen::lumen_model::{LumenModel, Surroundings, at};
+use crate::trace::lumen::refine::{Centerline, refined};
+use crate::trace::ways::front::{Found, Front, Reach};
+use crate::trace::ways::region::{Region, Stopper, Strictness};
+use crate::voxels::Voxels;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::progress::Progress;
+use lumencut_core::stop::Stop;
+use lumencut_core::volume::Volume;
+
+/// How many voxels a front may come to (7 bytes each), and one that looks for what to say of a way that is not there.
+const MOST_VOXELS: usize = 40_000_000;
+const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
+
+/// So many fronts follow the pointer: those of both neighbours of a point that is dragged.
+const MOST_LIVE: usize = 2;
+
+/// What is to be traced.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Clicks {
+    /// For each vessel at least two points in order along it (mm, LPS).
+    pub vessels: Vec<Vec<DVec3>>,
+    /// Places that no vessel may pass.
+    pub stoppers: Vec<Stopper>,
+    /// Whether stretches without lumen are bridged, however long.
+    pub bridge: bool,
+    /// Vessels that are there already and stay as they are: one that meets them ends at a point of them. Their confidence
+    /// does not matter.
+    pub beside: Vec<Centerline>,
+}
+
+/// Two voxels, from the first to the second.
+type Ends = [[i32; 3]; 2];
+
+/// What is kept of one volume between calls: the fronts of clicks, and the ways between them.
+#[derive(Debug, Default)]
+pub struct Tracer {
+    surroundings: Option<Surroundings>,
+    region: Option<Region>,
+    fronts: HashMap<[i32; 3], Front>,
+    ways: HashMap<Ends, Way>,
+    lines: Vec<(Vec<DVec3>, Traced)>,
+    /// What follows the pointer, the last one used first.
+    live: Vec<Live>,
+}
+
+/// Everything that a search reads.
+struct Search<'a, 'v> {
+    voxels: &'a Voxels<'v>,
+    clicks: &'a Clicks,
+    stop: Stop<'a>,
+    progress: Option<&'a Progress>,
+}
+
+impl Tracer {
+    /// The centerlines of all vessels of `clicks`, in their order; a later one that meets an earlier one ends at a point of
+    /// it. Every call must be of the same volume.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Tracing`] for clicks that lie in no lumen, or between which there is none;
+    /// [`ErrorKind::Interrupted`].
+    pub fn trace(
+        &mut self,
+        volume: &Volume,
+        clicks: &Clicks,
+        stop: Stop,
+        progress: Option<&Progress>,
+    ) -> Result<Vec<Traced>> {
+        let voxels = &Voxels::new(volume);
+        check(voxels, clicks)?;
+        self.prepare(voxels, clicks)?;
+        let search = Search { voxels, clicks, stop, progress };
+        if let Some(progress) = progress {
+            progress.expect_views(clicks.vessels.iter().map(|points| points.len() - 1).sum());
+        }
+        let mut lines = Vec::with_capacity(clicks.vessels.len());
+        for points in &clicks.vessels {
+            let line = match self.lines.iter().find(|(known, _)| known == points) {
+                Some((_, line)) => line.clone(),
+                None => self.line(&search, points)?,
+            };
+            lines.push((points.clone(), line));
+        }
+        self.lines = lines;
+        self.tidy(voxels, clicks);
+        joined(&clicks.beside, self.lines.iter().map(|(_, line)| line.clone()).collect())
+    }
+
+    /// The way through the lumen that a vessel would take, quick enough to follow a pointer: none where it is not found before
+    /// `stop` says so, and where [`Tracer::trace`] would refuse it at once. What was learnt is kept for the last
+    /// two clicks, so that the next call from one of them goes on from there. Every call must be of the volume that is traced.
+    pub fn preview(&mut self, volume: &Volume, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
+        let voxels = &Voxels::new(volume);
+        let known = self.live.iter().position(|live| live.is_from(sought));
+        let kept = known.map(|number| self.live.remove(number));
+        let begin = || Live::new(voxels, sought, self.surroundings, self.region.as_ref());
+        let mut live = kept.or_else(begin)?;
+        let way = live.way(voxels, sought, stop);
+        self.live.truncate(MOST_LIVE - 1);
+        self.live.insert(0, live);
+        way
+    }
+
+    /// Refuses a click that no vessel can begin at, before there is a second one: what it refuses, [`Tracer::trace`] refuses
+    /// too. A click that is no lumen only beside others is not refused. Every call must be of the volume that is traced.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Tracing`] for a click outside of the volume, and for one whose value alone shows that it is no lumen.
+    pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
+        let voxels = &Voxels::new(volume);
+        check_place(voxels, click, || format!("point {}", at(click)))?;
+        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &[click]));
+        surroundings.check_alone(voxels, click)
+    }
+
+    /// Makes the model of the lumen fit the clicks; what was kept under another model is forgotten.
+    fn prepare(&mut self, voxels: &Voxels, clicks: &Clicks) -> Result<()> {
+        let all: Vec<DVec3> = clicks.vessels.iter().flatten().copied().collect();
+        let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &all));
+        let model = surroundings.model(voxels, &all)?;
+        // Those of clicks that were refused would mislead the next ones.
+        self.surroundings = Some(surroundings);
+        let fits = |region: &Region| region.model.covers(&model);
+        if !self.region.as_ref().is_some_and(fits) {
+            *self = Self { surroundings: Some(surroundings), ..Self::default() };
+            self.region = Some(Region::new(voxels.size, model, clicks.stoppers.clone(), Strictness::Lumen));
+        }
+        self.heed(voxels, &clicks.stoppers);
+        Ok(())
+    }
+
+    /// Forgets what stoppers that came or went have changed.
+    fn heed(&mut self, voxels: &Voxels, stoppers: &[Stopper]) {
+        let Some(region) = &mut self.region else { return };
+        let before = std::mem::replace(&mut region.stoppers, stoppers.to_vec());
+        let one_sided = |a: &[Stopper], b: &[Stopper]| -> Vec<Stopper> {
+            a.iter().filter(|stopper| !b.contains(stopper)).copied().collect()
+        };
+        let changed = [one_sided(&before, stoppers), one_sided(stoppers, &before)].concat();
+        for stopper in &changed {
+            region.forget(voxels, stopper);
+            self.fronts.retain(|_, front| !front.touches(voxels, stopper.center, stopper.radius));
+        }
+        if !changed.is_empty() {
+            self.ways.clear();
+            self.lines.clear();
+        }
+    }
+
+    /// Forgets what belongs to clicks that are gone.
+    fn tidy(&mut self, voxels: &Voxels, clicks: &Clicks) {
+        let known: Vec<[i32; 3]> =
+            clicks.vessels.iter().flatten().filter_map(|click| voxels.voxel_at(*click)).collect();
+        self.fronts.retain(|source, _| known.contains(source));
+        self.ways.retain(|ends, _| ends.iter().all(|end| known.contains(end)));
+    }
+
+    fn line(&mut self, search: &Search, clicks: &[DVec3]) -> Result<Traced> {
+        let mut points: Vec<DVec3> = Vec::new();
+        let mut open: Vec<bool> = Vec::new();
+        for pair in clicks.windows(2) {
+            let way = self.way(search, [pair[0], pair[1]])?;
+            let mut is_open = vec![false; way.points.len()];
+            for gap in way.gaps.iter().filter(|gap| gap.is_open) {
+                is_open[gap.points.clone()].fill(true);
+            }
+            let skip = usize::from(!points.is_empty());
+            points.extend(&way.straightened()[skip..]);
+            open.extend(&is_open[skip..]);
+        }
+        let Some(region) = &self.region else { return Err(Error::interrupted()) };
+        let mut line = refined(search.voxels, &region.model, &points, search.stop)?;
+        let bridged: Vec<bool> = line.points.iter().map(|point| open[nearest(&points, *point)]).collect();
+        for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
+            if *is_bridged {
+                *confidence = 0.0;
+            }
+        }
+        let ends = [clicks[0], clicks[clicks.len() - 1]];
+        let crossing = Line::new(search.voxels, &region.model, &line.points).crossing();
+        if let Some(crossing) = crossing.filter(|_| !search.clicks.bridge) {
+            return Err(no_lumen(ends, &crossing, &region.model));
+        }
+        Ok(Traced { line, bridged, ends })
+    }
+
+    /// The way between two clicks, as it was or found anew.
+    fn way(&mut self, search: &Search, between: [DVec3; 2]) -> Result<Way> {
+        let Some(region) = &mut self.region else { return Err(Error::interrupted()) };
+        let ends = between.map(|click| start(search.voxels, region, click));
+        if let Some(way) = self.ways.get(&ends) {
+            return Ok(way.clone());
+        }
+        let backwards = !self.fronts.contains_key(&ends[0]) && self.fronts.contains_key(&ends[1]);
+        let [source, target] = if backwards { [ends[1], ends[0]] } else { ends };
+        let reach = Reach { longest_gap: Some(LONGEST_GAP), most_voxels: MOST_VOXELS, pull: 1.0 };
+        let front =
+            self.fronts.entry(source).or_insert_with(|| Front::new(search.voxels, region, source, reach));
+        let found = search.grow(front, region, target)?;
+        let mut way = None;
+        if found == Found::Target {
+            let mut steps = front.way_to(target);
+            if backwards {
+                steps.reverse();
+            }
+            way = Some(Way::of(search.voxels, region, &steps));
+        }
+        let whole = match way {
+            Some(way) if way.gaps.iter().all(|gap| !gap.is_open) => way,
+            Some(way) if search.clicks.bridge => way,
+            Some(way) => return Err(refusal(between, &way, &region.model)),
+            None => search.bridge(region, between, ends)?,
+        };
+        self.ways.insert(ends, whole.clone());
+        Ok(whole)
+    }
+}
+
+impl Search<'_, '_> {
+    /// Grows a front, and tells how far it is.
+    fn grow(&self, front: &mut Front, region: &mut Region, target: [i32; 3]) -> Result<Found> {
+        let whole = self.voxels.center(front.source()).distance(self.voxels.center(target)).max(1.0);
+        if let Some(progress) = self.progress {
+            progress.begin_view(std::iter::once(1), PARTS);
+            progress.begin_stage(1);
+        }
+        let told = std::cell::Cell::new(0);
+        let found = front.grow(self.voxels, region, target, self.stop, &|left| {
+            let parts = ((1.0 - left / whole).clamp(0.0, 1.0) * PARTS as f64) as usize;
+            if let Some(progress) = self.progress {
+                progress.begin_pixels(parts.saturating_sub(told.replace(parts.max(told.get()))));
+            }
+        });
+        if let Some(progress) = self.progress {
+            progress.end_view();
+        }
+        found
+    }
+
+    /// The way through what is no lumen, where a bridge was asked for; else the error that says where there is none.
+    fn bridge(&self, region: &Region, between: [DVec3; 2], ends: Ends) -> Result<Way> {
+        let model = region.model;
+        let stoppers = self.clicks.stoppers.clone();
+        let mut lenient = Region::new(self.voxels.size, model, stoppers, Strictness::Bridge);
+        let most_voxels = if self.clicks.bridge { MOST_VOXELS } else { MOST_VOXELS_OF_DOUBT };
+        let reach = Reach { longest_gap: None, most_voxels, pull: 1.0 };
+        let mut front = Front::new(self.voxels, &mut lenient, ends[0], reach);
+        if front.grow(self.voxels, &mut lenient, ends[1], self.stop, &|_| ())? != Found::Target {
+            return Err(no_way(between, &model));
+        }
+        let way = Way::of(self.voxels, &mut lenient, &front.way_to(ends[1]));
+        if self.clicks.bridge { Ok(way) } else { Err(refusal(between, &way, &model)) }
+    }
+}
+
+/// Into how many parts the progress of a way is divided.
+const PARTS: usize = 1000;
+
+/// The error for a way with its longest gap.
+fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
+    let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
+    longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
+}
+
+/// Refuses clicks that no vessel can run through, whatever the volume holds.
+fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
+    let wrong = |subject: String, found: String, expected: &str| {
+        Err(Error::new(ErrorKind::Tracing, subject, found, expected))
+    };
+    for (n, points) in clicks.vessels.iter().enumerate() {
+        if points.len() < 2 {
+            let found = format!("{} point(s)", points.len());
+            return wrong(format!("points of vessel {n}"), found, "2 or more, in order along the vessel");
+        }
+        for (i, point) in points.iter().enumerate() {
+            check_place(voxels, *point, || format!("point {i} of vessel {n}"))?;
+        }
+        let near = 0.5 * voxels.smallest_side;
+        if let Some(i) = (1..points.len()).find(|i| points[*i].distance(points[i - 1]) < near) {
+            let found = format!("points {} and {i}, both {}", i - 1, at(points[i]));
+            return wrong(
+                format!("points of vessel {n}"),
+                found,
+                "points that differ by more than half a voxel",
+            );
+        }
+    }
+    for stopper in &clicks.stoppers {
+        let is_usable = stopper.center.is_finite() && stopper.radius.is_finite() && stopper.radius > 0.0;
+        if !is_usable {
+            let found = format!("{} with radius {}", stopper.center, stopper.radius);
+            return wrong("stopper".to_owned(), found, "a finite position and a positive radius (mm)");
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a click that is no place in the volume.
+fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> String) -> Result<()> {
+    let wrong =
+        |found: String, expected: String| Err(Error::new(ErrorKind::Tracing, subject(), found, expected));
+    if !point.is_finite() {
+        return wrong(format!("{point}"), "finite coordinates (mm, LPS)".to_owned());
+    }
+    if voxels.voxel_at(point).is_none() {
+        let corner = |c: [f64; 3]| at(voxels.world_from_index.transform_point3(DVec3::from_array(c)));
+        let last = voxels.size.map(|n| n as f64 - 1.0);
+        let expected = format!("a point between its corners {} and {}", corner([0.0; 3]), corner(last));
+        return wrong(format!("{}, outside the volume", at(point)), expected);
+    }
+    Ok(())
+}

@@ -1,0 +1,249 @@
+//! The lumen in a plane across the line: where it ends along rays, and the circle that fits best.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::trace::lumen::lumen_model::LumenModel;
+use crate::voxels::Voxels;
+
+/// How far beyond the wall its outside is looked for (mm).
+const OUTSIDE: f64 = 1.5;
+
+/// The widest lumen (mm from a point within it to the wall).
+pub const WIDEST: f64 = 45.0;
+
+/// The smaller eigenvalue of the directions in which the wall was seen: at most the first where it was seen on two sides
+/// alone, about the second where a quarter is missing.
+const TWO_SIDED: f64 = 0.25;
+const ROUND: f64 = 0.38;
+
+/// At least this share of the rays must meet a wall.
+const LEAST_SEEN: f64 = 0.375;
+
+/// The lumen around a point of the line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrossSection {
+    /// The middle of the lumen (mm, LPS).
+    pub center: DVec3,
+    /// Its radius (mm).
+    pub radius: f64,
+    /// How well it was seen, 0 to 1.
+    pub trust: f64,
+    /// The median of the values in its middle.
+    pub value: f64,
+    /// The share of the walls seen that are brighter than the lumen, as bone and stents are.
+    pub bright: f64,
+}
+
+/// What a cross-section is looked at with.
+pub struct Probe<'a, 'v> {
+    /// The volume.
+    pub voxels: &'a Voxels<'v>,
+    /// What lumen looks like.
+    pub model: &'a LumenModel,
+    /// The number of rays of a cross-section.
+    pub rays: usize,
+}
+
+impl Probe<'_, '_> {
+    /// The lumen around `center` in the plane of two directions; `guess` is about its radius (mm) where that is known.
+    /// None where there is no lumen to be seen.
+    pub fn look(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<CrossSection> {
+        let step = self.step(guess);
+        let lumen = self.local_lumen(center, across, guess)?;
+        let reach = guess.map_or(WIDEST, |radius| (2.5 * radius + 2.0).min(WIDEST));
+        let (mut wall, mut bright) = (Vec::with_capacity(self.rays), 0);
+        for n in 0..self.rays {
+            let (sin, cos) = (TAU * n as f64 / self.rays as f64).sin_cos();
+            let direction = across[0] * cos + across[1] * sin;
+            if let Some((length, is_bright)) = self.wall(center, direction, lumen, step, reach) {
+                wall.push([length * cos, length * sin]);
+                bright += usize::from(is_bright);
+            }
+        }
+        let seen = wall.len() as f64 / self.rays as f64;
+        if seen < LEAST_SEEN {
+            return None;
+        }
+        let circle = Circle::around(&wall);
+        let rough = circle.spread / circle.radius;
+        let trust = seen * (-(rough / 0.25).powi(2)).exp() * circle.roundness(&wall);
+        let [x, y] = circle.center;
+        let is_odd = !(trust > 0.0 && circle.radius > 0.0) || x.hypot(y) > reach;
+        (!is_odd).then(|| CrossSection {
+            center: center + across[0] * x + across[1] * y,
+            radius: circle.radius,
+            trust,
+            value: lumen,
+            bright: bright as f64 / wall.len() as f64,
+        })
+    }
+
+    /// The distance of samples along a ray (mm).
+    fn step(&self, guess: Option<f64>) -> f64 {
+        let fine = 0.3 * self.voxels.smallest_side;
+        guess.map_or(fine.max(0.15), |radius| fine.max(radius / 40.0)).clamp(0.03, 0.5)
+    }
+
+    /// The median of the lumen near a point; none where that is no lumen.
+    fn local_lumen(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<f64> {
+        let near = guess.map_or(0.0, |radius| 0.35 * radius).max(0.35 * self.voxels.smallest_side);
+        let mut values = vec![self.voxels.at(center)];
+        for n in 0..16 {
+            let (sin, cos) = (TAU * f64::from(n) / 8.0).sin_cos();
+            let length = if n < 8 { near } else { 0.5 * near };
+            values.push(self.voxels.at(center + (across[0] * cos + across[1] * sin) * length));
+        }
+        values.sort_unstable_by(f32::total_cmp);
+        let median = values[values.len() / 2];
+        let is_lumen = f64::from(median) > self.model.tissue + 0.35 * self.model.contrast()
+            && self.model.membership(median) > 0.3;
+        is_lumen.then_some(f64::from(median))
+    }
+
+    /// The distance to the wall along a ray, and whether that is brighter than the lumen: where the value is half way
+    /// between the lumen here and what lies outside, be that darker or brighter.
+    fn wall(
+        &self,
+        center: DVec3,
+        direction: DVec3,
+        lumen: f64,
+        step: f64,
+        reach: f64,
+    ) -> Option<(f64, bool)> {
+        let start = self.voxels.index_from_world.transform_point3(center);
+        let stride = self.voxels.index_from_world.transform_vector3(direction) * step;
+        let mut ray = Ray { voxels: self.voxels, start, stride, values: Vec::with_capacity(64) };
+        let contrast = lumen - self.model.tissue;
+        let dark = lumen - 0.5 * contrast;
+        let bright = lumen + (0.5 * contrast).max(4.0 * self.model.noise);
+        // The ray has left the lumen where two samples say so; beyond the volume there is none.
+        let leaves = |v: f64| !(v >= dark && v <= bright);
+        let last = (reach / step) as usize;
+        let out = (1..=last).find(|n| leaves(ray.value(*n)) && leaves(ray.value(n - 1)))? - 1;
+        let edge = ray.value(out);
+        if edge.is_nan() {
+            return None;
+        }
+        let beyond = out + (OUTSIDE / step).ceil() as usize;
+        let is_dark = edge < dark;
+        let outside = ray.extreme(out, beyond, is_dark);
+        let half = f64::midpoint(lumen, outside);
+        let is_out = |v: f64| if is_dark { v < half } else { v > half };
+        // From within the lumen outwards: the last sample inside, and the first one outside.
+        let mut n = (0..=out).rev().find(|n| !is_out(ray.value(*n)))?;
+        while n < beyond && !is_out(ray.value(n + 1)) {
+            n += 1;
+        }
+        let (inside, outside) = (ray.value(n), ray.value(n + 1));
+        let share =
+            if outside == inside { 0.5 } else { ((half - inside) / (outside - inside)).clamp(0.0, 1.0) };
+        share.is_finite().then_some(((n as f64 + share) * step, !is_dark))
+    }
+}
+
+/// How many samples of a ray are taken at a time.
+const SAMPLES: usize = 8;
+
+/// The samples of a ray, taken where they are first needed.
+struct Ray<'a, 'v> {
+    voxels: &'a Voxels<'v>,
+    start: DVec3,
+    stride: DVec3,
+    values: Vec<f32>,
+}
+
+impl Ray<'_, '_> {
+    fn value(&mut self, n: usize) -> f64 {
+        while n >= self.values.len() {
+            self.voxels.along(self.start, self.stride, SAMPLES, &mut self.values);
+        }
+        f64::from(self.values[n])
+    }
+
+    /// The darkest or brightest of some samples, numbers alone.
+    fn extreme(&mut self, first: usize, last: usize, is_dark: bool) -> f64 {
+        self.value(last);
+        let finite = self.values[first..=last].iter().map(|v| f64::from(*v)).filter(|v| v.is_finite());
+        if is_dark { finite.fold(f64::MAX, f64::min) } else { finite.fold(f64::MIN, f64::max) }
+    }
+}
+
+/// A circle among points of a plane.
+struct Circle {
+    center: [f64; 2],
+    radius: f64,
+    /// How far the points lie from it, as a rule.
+    spread: f64,
+}
+
+impl Circle {
+    /// The circle that fits best: points far from it count for little (Tukey's weights), so that a branch or a
+    /// neighbour does not pull at it.
+    fn around(points: &[[f64; 2]]) -> Self {
+        let count = points.len() as f64;
+        let mean = [0, 1].map(|a| points.iter().map(|p| p[a]).sum::<f64>() / count);
+        let mut lengths: Vec<f64> = points.iter().map(|p| (p[0] - mean[0]).hypot(p[1] - mean[1])).collect();
+        lengths.sort_unstable_by(f64::total_cmp);
+        let mut circle = Self { center: mean, radius: lengths[lengths.len() / 2], spread: 0.0 };
+        for _ in 0..8 {
+            circle.spread = circle.spread_of(points);
+            circle.step(points);
+        }
+        circle
+    }
+
+    fn miss(&self, p: [f64; 2]) -> f64 {
+        (p[0] - self.center[0]).hypot(p[1] - self.center[1]) - self.radius
+    }
+
+    fn spread_of(&self, points: &[[f64; 2]]) -> f64 {
+        let mut away: Vec<f64> = points.iter().map(|p| self.miss(*p).abs()).collect();
+        away.sort_unstable_by(f64::total_cmp);
+        1.4826 * away[away.len() / 2]
+    }
+
+    /// Whether the points that count lie on all sides, 0 to 1: those of a vessel cut lengthwise lie on two sides alone and
+    /// say nothing of where along it the middle should be.
+    fn roundness(&self, points: &[[f64; 2]]) -> f64 {
+        let [mut xx, mut xy, mut yy, mut all] = [0.0; 4];
+        for p in points {
+            let weight = self.weight(self.miss(*p));
+            let (x, y) = (p[0] - self.center[0], p[1] - self.center[1]);
+            let share = weight / (x * x + y * y).max(1e-12);
+            xx += share * x * x;
+            xy += share * x * y;
+            yy += share * y * y;
+            all += weight;
+        }
+        let least = 0.5 * (xx + yy - (xx - yy).hypot(2.0 * xy)) / all.max(1e-12);
+        ((least - TWO_SIDED) / (ROUND - TWO_SIDED)).clamp(0.0, 1.0)
+    }
+
+    /// How much a point counts that lies so far from the circle.
+    fn weight(&self, miss: f64) -> f64 {
+        let scale = 4.0 * self.spread.max(0.03 * self.radius).max(1e-6);
+        let share = (miss / scale).abs().min(1.0);
+        (1.0 - share * share).powi(2)
+    }
+
+    /// One step of Gauss and Newton.
+    fn step(&mut self, points: &[[f64; 2]]) {
+        let (mut matrix, mut right) = (glam::DMat3::ZERO, DVec3::ZERO);
+        for p in points {
+            let miss = self.miss(*p);
+            let weight = self.weight(miss);
+            let length = (miss + self.radius).max(1e-9);
+            let slope = DVec3::new((p[0] - self.center[0]) / length, (p[1] - self.center[1]) / length, 1.0);
+            matrix += glam::DMat3::from_cols(slope * slope.x, slope * slope.y, slope * slope.z) * weight;
+            right += slope * (miss * weight);
+        }
+        if matrix.determinant() > 1e-9 {
+            let change = matrix.inverse() * right;
+            self.center[0] += change.x;
+            self.center[1] += change.y;
+            self.radius += change.z;
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Lines of voxels moved into the middle of the lumen, smoothed, and led out to the caps of its ends.
+
+use glam::DVec3;
+
+use crate::trace::lines::polyline::{at, directions, smoothed};
+use crate::trace::mask::mask_lumen::Lumen;
+use crate::trace::mask::through_lines::ThroughLine;
+use lumencut_core::error::Result;
+use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_core::stop::{Stop, go_on};
+
+/// How often the line is moved to the centres of its cross-sections.
+const ROUNDS: usize = 3;
+
+/// The standard deviation of the smoothing, in radii and at least in voxels.
+const SMOOTHING: f64 = 0.5;
+const SMOOTHING_VOXELS: f64 = 1.0;
+
+/// How far on either side the direction of a line is taken from, in radii and at least in voxels.
+const REACH: f64 = 0.75;
+const REACH_VOXELS: f64 = 1.5;
+
+/// Differences (mm, or shares) that rounding can make: they decide nothing.
+const TINY: f64 = 1e-6;
+
+/// A point may move to a place whose distance to the wall is at least this share of its own.
+const LEAST_ROOM: f64 = 0.8;
+
+/// Whether the first and the last point of a line end on another line, within whose lumen the branch has no
+/// cross-sections of its own.
+pub type OnOther = [Option<f64>; 2];
+
+/// Moves a line into the middle of the lumen. `on_other` holds, for each end that lies on another line, the radius
+/// there.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
+pub fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: Stop) -> Result<()> {
+    let closed = line.is_closed;
+    let radii: Vec<f64> =
+        line.points.iter().map(|point| lumen.radius(*point).max(lumen.side() / 2.0)).collect();
+    let scaled = |share: f64, voxels: f64| -> Vec<f64> {
+        radii.iter().map(|radius| (share * radius).max(voxels * lumen.side())).collect()
+    };
+    let sigma = scaled(SMOOTHING, SMOOTHING_VOXELS);
+    let reach = scaled(REACH, REACH_VOXELS);
+    line.points = smoothed(&line.points, &sigma, closed);
+    for _ in 0..ROUNDS {
+        go_on(stop)?;
+        let along = directions(&line.points, &reach, closed);
+        let weights = weights(&line.points, on_other);
+        let mut moved = line.points.clone();
+        for (n, point) in moved.iter_mut().enumerate() {
+            if weights[n] > 0.0 {
+                *point += weights[n] * shift(lumen, *point, along[n]);
+            }
+        }
+        if closed {
+            let last = moved.len() - 1;
+            moved[last] = moved[0];
+        }
+        line.points = smoothed(&moved, &sigma, closed);
+    }
+    Ok(())
+}
+
+/// The way from a point to the centre of its cross-section, as far as there is room.
+fn shift(lumen: &Lumen, point: DVec3, direction: DVec3) -> DVec3 {
+    let Some(section) = lumen.cross_section(point, direction) else { return DVec3::ZERO };
+    let whole = section.center - point;
+    let room = LEAST_ROOM * lumen.radius(point);
+    let shares = [1.0, 0.5, 0.25].into_iter();
+    let fits = shares.map(|share| share * whole).find(|shift| lumen.radius(point + *shift) >= room);
+    fits.unwrap_or(DVec3::ZERO)
+}
+
+/// How much each point is moved: not within the lumen of another line, wholly from one and a half of its radii on.
+fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
+    let ways = arc_lengths(points);
+    let whole = ways[ways.len() - 1];
+    let weight = |way: f64, radius: Option<f64>| {
+        radius.map_or(1.0, |radius| (2.0 * (way / radius.max(1e-9) - 1.0)).clamp(0.0, 1.0))
+    };
+    ways.iter().map(|way| weight(*way, on_other[0]).min(weight(whole - *way, on_other[1]))).collect()
+}
+
+/// How far from an end (mm) the end is no nearer than the wall, at most `limit`; `radius` gives the way to the wall.
+fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
+    let (mut way, mut missing) = (0.0, radius(0.0));
+    while missing > TINY && way < limit {
+        let next = radius(way + step) - (way + step);
+        if next <= 0.0 {
+            way += step * missing / (missing - next);
+            break;
+        }
+        (way, missing) = (way + step, next);
+    }
+    way.min(limit)
+}
+
+/// Leads the first point of a line out to the wall, straight on from one radius before it. `most` is how much of the line
+/// may be given up for that (mm).
+pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
+    let ways = arc_lengths(points);
+    let whole = ways[ways.len() - 1];
+    let inner = |way: f64| lumen.radius(at(points, &ways, way));
+    let cut = way_inwards(inner, lumen.side() / 2.0, most.min(whole / 2.0));
+    let radius = inner(cut).max(lumen.side());
+    let from = at(points, &ways, cut);
+    let behind = at(points, &ways, (cut + 2.0 * radius).min(whole));
+    let direction = (from - behind).normalize_or_zero();
+    let way = lumen.way_to_wall(from, direction, 4.0 * radius + cut);
+    let kept = if way + lumen.side() < cut || direction == DVec3::ZERO { 0.0 } else { cut };
+    let (from, direction, way) = if kept > 0.0 {
+        (from, direction, way)
+    } else {
+        // The end bends: it goes on from where it is.
+        let behind = at(points, &ways, radius.min(whole));
+        let direction = (points[0] - behind).normalize_or_zero();
+        (points[0], direction, lumen.way_to_wall(points[0], direction, 4.0 * radius))
+    };
+    let removed = ways.iter().filter(|known| **known < kept - TINY).count().max(1);
+    let count = (way / lumen.side() - TINY).ceil().max(1.0) as usize;
+    let mut led: Vec<DVec3> =
+        (0..=count).rev().map(|n| from + way * (n as f64 / count as f64) * direction).collect();
+    let tail = points.split_off(removed);
+    // The point itself and one that lies in the same place.
+    let tail: Vec<DVec3> =
+        tail.into_iter().skip_while(|point| point.distance(from) < lumen.side() / 2.0 - TINY).collect();
+    led.extend(tail.iter().copied());
+    *points = led;
+}

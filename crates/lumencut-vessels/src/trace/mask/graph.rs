@@ -1,0 +1,231 @@
+//! The graph of a skeleton: branches of voxels between ends and junctions, with as many cycles as the mask has.
+//!
+//! Voxels that touch are joined by edges. Three that touch each other in pairs bound no hole, so of all edges a
+//! spanning forest stays and, for each cycle that no such triangles fill, one edge more. The cubes of
+//! voxels and the triangles of their edges have the same topology, since cubes that touch in pairs share a point.
+
+use std::collections::HashMap;
+
+use crate::trace::mask::foreground::Foreground;
+
+/// A line of voxels between two nodes, which may be the same one.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// The nodes at its start and its end.
+    pub nodes: [usize; 2],
+    /// The cells from its start to its end, both included; at least two.
+    pub cells: Vec<u32>,
+}
+
+/// Branches and the nodes in which they end.
+pub struct Graph {
+    /// The cell of each node.
+    pub nodes: Vec<u32>,
+    /// The branches; `None` for one that was removed.
+    pub branches: Vec<Option<Branch>>,
+    /// The branches that end in each node, once for each of their ends.
+    pub incident: Vec<Vec<usize>>,
+}
+
+impl Graph {
+    /// The graph of the lines of voxels that [`crate::trace::mask::thinning::thin`] left; `skeleton` lists their cells.
+    pub fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
+        let mut cells = skeleton.to_vec();
+        cells.sort_unstable();
+        let links = links(foreground, &cells);
+        let mut graph = Self { nodes: Vec::new(), branches: Vec::new(), incident: Vec::new() };
+        let mut node_of = HashMap::new();
+        let mut passed = vec![false; cells.len()];
+        for place in 0..cells.len() {
+            if links[place].len() != 2 {
+                graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
+            }
+        }
+        // What is left are rings without a junction.
+        for place in 0..cells.len() {
+            if links[place].len() == 2 && !passed[place] {
+                graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
+            }
+        }
+        graph
+    }
+
+    /// The branches that start at a place and were not walked along yet.
+    fn branches_from(
+        &mut self,
+        start: usize,
+        cells: &[u32],
+        links: &[Vec<usize>],
+        node_of: &mut HashMap<usize, usize>,
+        passed: &mut [bool],
+    ) {
+        let first = self.node(start, cells, node_of);
+        passed[start] = true;
+        for &step in &links[start] {
+            let (mut before, mut place) = (start, step);
+            let mut line = vec![cells[start], cells[place]];
+            while links[place].len() == 2 && place != start && !passed[place] {
+                passed[place] = true;
+                let next = if links[place][0] == before { links[place][1] } else { links[place][0] };
+                (before, place) = (place, next);
+                line.push(cells[place]);
+            }
+            // A line that was walked from its other end stops at once; two nodes side by side are joined once.
+            let walked = links[place].len() == 2 && place != start;
+            if walked || (line.len() == 2 && place < start) {
+                continue;
+            }
+            let last = self.node(place, cells, node_of);
+            self.add(Branch { nodes: [first, last], cells: line });
+        }
+    }
+
+    fn node(&mut self, place: usize, cells: &[u32], node_of: &mut HashMap<usize, usize>) -> usize {
+        *node_of.entry(place).or_insert_with(|| {
+            self.nodes.push(cells[place]);
+            self.incident.push(Vec::new());
+            self.nodes.len() - 1
+        })
+    }
+
+    /// Adds a branch.
+    pub fn add(&mut self, branch: Branch) {
+        for node in branch.nodes {
+            self.incident[node].push(self.branches.len());
+        }
+        self.branches.push(Some(branch));
+    }
+
+    /// Takes a branch out of the graph.
+    pub fn remove(&mut self, number: usize) -> Option<Branch> {
+        let branch = self.branches[number].take()?;
+        for node in branch.nodes {
+            self.incident[node].retain(|&other| other != number);
+        }
+        Some(branch)
+    }
+
+    /// Makes one branch of the two that meet in a node where nothing else ends.
+    pub fn join_at(&mut self, node: usize) {
+        let [a, b] = self.incident[node][..] else { return };
+        if a == b {
+            return;
+        }
+        let (Some(mut a), Some(mut b)) = (self.remove(a), self.remove(b)) else { return };
+        if a.nodes[1] != node {
+            a.reverse();
+        }
+        if b.nodes[0] != node {
+            b.reverse();
+        }
+        a.cells.extend_from_slice(&b.cells[1..]);
+        self.add(Branch { nodes: [a.nodes[0], b.nodes[1]], cells: a.cells });
+    }
+
+    /// The number of independent cycles.
+    pub fn cycles(&self) -> usize {
+        let mut parent: Vec<usize> = (0..self.nodes.len()).collect();
+        let mut cycles = 0;
+        for branch in self.branches.iter().flatten() {
+            let [a, b] = branch.nodes.map(|node| root(&mut parent, node));
+            cycles += usize::from(a == b);
+            parent[a] = b;
+        }
+        cycles
+    }
+}
+
+impl Branch {
+    /// Turns the branch round.
+    pub fn reverse(&mut self) {
+        self.nodes.reverse();
+        self.cells.reverse();
+    }
+}
+
+/// The places that each of `cells`, which rise, is joined to.
+fn links(foreground: &Foreground, cells: &[u32]) -> Vec<Vec<usize>> {
+    let edges = edges(foreground, cells);
+    let mut parent: Vec<usize> = (0..cells.len()).collect();
+    let mut links = vec![Vec::new(); cells.len()];
+    let mut closing = Vec::new();
+    for &[a, b] in &edges {
+        let [from, to] = [root(&mut parent, a), root(&mut parent, b)];
+        if from == to {
+            closing.push([a, b]);
+        } else {
+            parent[from] = to;
+            links[a].push(b);
+            links[b].push(a);
+        }
+    }
+    for [a, b] in around_holes(&edges, &closing, cells.len()) {
+        links[a].push(b);
+        links[b].push(a);
+    }
+    links
+}
+
+/// The pairs of places that touch, the shortest first.
+fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
+    let [_, j, k] = foreground.strides();
+    // The half of the 26 neighbours whose cells come later, with their distances.
+    let sides = foreground.world_from_index.matrix3;
+    let mut edges = Vec::new();
+    for step in 14..27_usize {
+        let [di, dj, dk] = [step % 3, step / 3 % 3, step / 9].map(|n| n as isize - 1);
+        let offset = di + dj * j as isize + dk * k as isize;
+        let length = (sides * glam::DVec3::new(di as f64, dj as f64, dk as f64)).length();
+        for (place, &cell) in cells.iter().enumerate() {
+            if let Ok(other) = cells.binary_search(&((cell as isize + offset) as u32)) {
+                edges.push((length, [place, other]));
+            }
+        }
+    }
+    edges.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    edges.into_iter().map(|(_, edge)| edge).collect()
+}
+
+/// Of the edges that close a cycle of the forest one for each hole: those whose cycle is no sum of triangles.
+fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> Vec<[usize; 2]> {
+    let number_of: HashMap<[usize; 2], usize> =
+        closing.iter().enumerate().map(|(n, &edge)| (edge, n)).collect();
+    let mut touching = vec![Vec::new(); places];
+    for &[a, b] in edges {
+        touching[a].push(b);
+        touching[b].push(a);
+    }
+    // Gaussian elimination over the edges that close cycles, with two as zero.
+    let mut triangles: HashMap<usize, Vec<usize>> = HashMap::new();
+    for &[a, b] in closing {
+        for &c in touching[a].iter().filter(|c| touching[b].contains(c)) {
+            let bounds = [[a, b], [a.min(c), a.max(c)], [b.min(c), b.max(c)]];
+            let mut row: Vec<usize> = bounds.iter().filter_map(|edge| number_of.get(edge).copied()).collect();
+            row.sort_unstable_by(|one, other| other.cmp(one));
+            while let Some(known) = row.first().and_then(|last| triangles.get(last)) {
+                row = difference(&row, known);
+            }
+            if let Some(&last) = row.first() {
+                triangles.insert(last, row);
+            }
+        }
+    }
+    let holes = (0..closing.len()).filter(|number| !triangles.contains_key(number));
+    holes.map(|number| closing[number]).collect()
+}
+
+/// What is in one of two falling lists but not in both.
+fn difference(one: &[usize], other: &[usize]) -> Vec<usize> {
+    let mut all: Vec<usize> = one.iter().filter(|n| !other.contains(n)).copied().collect();
+    all.extend(other.iter().filter(|n| !one.contains(n)));
+    all.sort_unstable_by(|a, b| b.cmp(a));
+    all
+}
+
+fn root(parent: &mut [usize], mut place: usize) -> usize {
+    while parent[place] != place {
+        parent[place] = parent[parent[place]];
+        place = parent[place];
+    }
+    place
+}

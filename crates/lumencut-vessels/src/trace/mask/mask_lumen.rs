@@ -1,0 +1,173 @@
+//! What a mask tells of a place: whether it is lumen, how far the wall is in every direction, and how wide the
+//! cross-section is.
+
+use std::f64::consts::TAU;
+
+use glam::{DAffine3, DVec3};
+
+use crate::trace::mask::foreground::Foreground;
+
+/// How many directions a cross-section is measured in.
+const RAYS: usize = 24;
+
+/// A ray ends at so many times the median of all rays, as where a branch leaves the vessel.
+const LONGEST_RAY: f64 = 1.5;
+
+/// The share of lumen at the wall: a half, but for as little that no place between voxels has it by symmetry, where
+/// rounding would decide on which side of the wall it is.
+const WALL: f64 = 0.499;
+
+/// A mask with its distances to the background.
+pub struct Lumen<'a> {
+    squares: &'a [f32],
+    size: [usize; 3],
+    world_from_index: DAffine3,
+    index_from_world: DAffine3,
+    side: f64,
+    half_diagonal: f64,
+}
+
+/// A cross-section: its centre of gravity, and the radius of the circle with the same area (mm).
+#[derive(Clone, Copy, Debug)]
+pub struct CrossSection {
+    /// The centre of gravity.
+    pub center: DVec3,
+    /// The radius of a circle of the same area.
+    pub radius: f64,
+    /// The shortest ray.
+    pub shortest: f64,
+}
+
+impl<'a> Lumen<'a> {
+    /// The lumen of a grid with its squared distances.
+    pub fn new(foreground: &Foreground, squares: &'a [f32]) -> Self {
+        let world_from_index = foreground.world_from_index;
+        let diagonals = [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, -1.0]]
+            .map(|d| world_from_index.transform_vector3(DVec3::from_array(d)).length());
+        Self {
+            squares,
+            size: foreground.size,
+            world_from_index,
+            index_from_world: world_from_index.inverse(),
+            side: foreground.smallest_side(),
+            half_diagonal: diagonals.into_iter().fold(0.0, f64::max) / 2.0,
+        }
+    }
+
+    /// The smallest side of a voxel (mm).
+    pub fn side(&self) -> f64 {
+        self.side
+    }
+
+    /// The centres of cells (mm, LPS).
+    pub fn positions(&self, cells: &[u32]) -> Vec<DVec3> {
+        let [ni, nj, _] = self.size;
+        let position = |cell: usize| {
+            let index = [cell % ni, cell / ni % nj, cell / (ni * nj)].map(|n| n as f64);
+            self.world_from_index.transform_point3(DVec3::from_array(index))
+        };
+        cells.iter().map(|&cell| position(cell as usize)).collect()
+    }
+
+    /// The distance from the centre of a cell to the wall (mm), which lies half a voxel before the next background.
+    pub fn radius_at_cell(&self, cell: u32) -> f64 {
+        (f64::from(self.squares[cell as usize]).sqrt() - self.side / 2.0).max(0.0)
+    }
+
+    /// The distance from a place to the wall (mm), interpolated between voxels.
+    pub fn radius(&self, place: DVec3) -> f64 {
+        (self.interpolated(place, |square| f64::from(square).sqrt()) - self.side / 2.0).max(0.0)
+    }
+
+    /// The share of lumen among the voxels around a place, 0 to 1; the wall is where it is a half.
+    pub fn share(&self, place: DVec3) -> f64 {
+        self.interpolated(place, |square| f64::from(u8::from(square > 0.0)))
+    }
+
+    /// A value of voxels, trilinear; 0 outside the grid.
+    fn interpolated(&self, place: DVec3, value: impl Fn(f32) -> f64) -> f64 {
+        let index = self.index_from_world.transform_point3(place);
+        let base = index.floor();
+        let t = index - base;
+        if (0..3).any(|a| base[a] < 0.0 || base[a] + 1.0 > self.size[a] as f64 - 1.0) {
+            return 0.0;
+        }
+        let [i, j, k] = base.to_array().map(|n| n as usize);
+        let [ni, nj, _] = self.size;
+        let line = |j: usize, k: usize| {
+            let start = i + ni * (j + nj * k);
+            let [near, far] = [value(self.squares[start]), value(self.squares[start + 1])];
+            near + t.x * (far - near)
+        };
+        let plane = |k: usize| {
+            let [near, far] = [line(j, k), line(j + 1, k)];
+            near + t.y * (far - near)
+        };
+        let [near, far] = [plane(k), plane(k + 1)];
+        near + t.z * (far - near)
+    }
+
+    /// The way from a place along a unit vector to the wall (mm), at most `most`; 0 outside the lumen.
+    pub fn way_to_wall(&self, place: DVec3, direction: DVec3, most: f64) -> f64 {
+        let (mut way, mut before) = (0.0, self.share(place));
+        if before < WALL {
+            return 0.0;
+        }
+        let smallest = self.side / 2.0;
+        while way < most {
+            // Nearer than the nearest background all is lumen; what is interpolated is off by half a diagonal.
+            let free = self.radius(place + way * direction) - 3.0 * self.half_diagonal;
+            let step = free.max(smallest);
+            let share = self.share(place + (way + step) * direction);
+            if share < WALL {
+                return way + step * (before - WALL) / (before - share);
+            }
+            (way, before) = (way + step, share);
+        }
+        most
+    }
+
+    /// The cross-section at a place across a direction; `None` outside the lumen.
+    pub fn cross_section(&self, place: DVec3, direction: DVec3) -> Option<CrossSection> {
+        let [u, v] = across(direction);
+        let most = 4.0 * (self.radius(place) + self.side);
+        let mut ways = [0.0; RAYS];
+        let directions: [DVec3; RAYS] = std::array::from_fn(|n| {
+            let (sine, cosine) = (TAU * n as f64 / RAYS as f64).sin_cos();
+            cosine * u + sine * v
+        });
+        for (way, direction) in ways.iter_mut().zip(directions) {
+            *way = self.way_to_wall(place, direction, most);
+        }
+        let mut sorted = ways;
+        sorted.sort_unstable_by(f64::total_cmp);
+        let longest = LONGEST_RAY * sorted[RAYS / 2];
+        let corners: [DVec3; RAYS] = std::array::from_fn(|n| ways[n].min(longest) * directions[n]);
+        let (mut area, mut moment) = (0.0, DVec3::ZERO);
+        for n in 0..RAYS {
+            let [a, b] = [corners[n], corners[(n + 1) % RAYS]];
+            let triangle = a.length() * b.length() * (TAU / RAYS as f64).sin() / 2.0;
+            area += triangle;
+            moment += triangle * (a + b) / 3.0;
+        }
+        // The corners lie on the wall: a circle is wider than the polygon within it.
+        let circle = area * (TAU / RAYS as f64) / (TAU / RAYS as f64).sin();
+        let radius = (2.0 * circle / TAU).sqrt();
+        (area > 0.0).then(|| CrossSection { center: place + moment / area, radius, shortest: sorted[0] })
+    }
+}
+
+/// Two unit vectors across a direction and across each other.
+fn across(direction: DVec3) -> [DVec3; 2] {
+    // Without the digits that rounding may change: in grids many directions are as near to one axis as to another.
+    let size = (direction.abs() * 1e6).round();
+    let axis = if size.x <= size.y && size.x <= size.z {
+        DVec3::X
+    } else if size.y <= size.z {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    };
+    let u = direction.cross(axis).normalize();
+    [u, direction.cross(u)]
+}

@@ -1,0 +1,169 @@
+//! Pruning: branches that are no vessels but bumps of the wall, or corners of an end, go.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+
+use glam::DVec3;
+
+use crate::trace::mask::graph::{Branch, Graph};
+use crate::trace::mask::mask_lumen::Lumen;
+
+/// A branch stays where it reaches farther beyond the wall of its parent than so many of its own radii, however wide
+/// the parent is.
+const OWN_RADII: f64 = 4.0;
+
+/// Junctions nearer to each other than this share of the radius there, or than two voxels, become one.
+const NEAR: f64 = 0.3;
+
+/// A piece whose line, its ends included, is shorter than so many of its largest diameters has no centerline.
+const ELONGATED: f64 = 1.25;
+
+/// Removes the spurs of a graph. A branch with a free end stays where it is at least `parent_radii` radii of its parent
+/// long, from the parent's centerline to its end, or reaches far beyond the parent's wall for how narrow it is itself.
+/// The least significant spur goes first, and what it leaves is judged anew.
+pub fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
+    let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = BinaryHeap::new();
+    let push = |graph: &Graph, waiting: &mut BinaryHeap<Reverse<(u64, usize)>>, number: usize| {
+        let rank = significance(graph, lumen, number, parent_radii).map(rank);
+        waiting.extend(rank.filter(|rank| *rank < WHOLE).map(|rank| Reverse((rank, number))));
+    };
+    for number in 0..graph.branches.len() {
+        push(graph, &mut waiting, number);
+    }
+    while let Some(Reverse((before, number))) = waiting.pop() {
+        if significance(graph, lumen, number, parent_radii).map(rank) != Some(before) {
+            continue;
+        }
+        let Some(branch) = graph.remove(number) else { continue };
+        for node in branch.nodes {
+            graph.join_at(node);
+            for other in graph.incident[node].clone() {
+                push(graph, &mut waiting, other);
+            }
+        }
+        if let Some(joined) = graph.branches.len().checked_sub(1) {
+            push(graph, &mut waiting, joined);
+        }
+    }
+}
+
+/// The rank of a branch that just stays.
+const WHOLE: u64 = 1 << 20;
+
+/// A significance without the digits that rounding may change.
+fn rank(significance: f64) -> u64 {
+    (significance.max(0.0) * WHOLE as f64).round() as u64
+}
+
+/// How far a branch with one free end is from being a spur, which it is below 1; `None` for other branches.
+fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) -> Option<f64> {
+    let branch = graph.branches[number].as_ref()?;
+    let is_free = branch.nodes.map(|node| graph.incident[node].len() == 1);
+    let (junction, end) = match is_free {
+        [true, false] => (branch.nodes[1], branch.nodes[0]),
+        [false, true] => (branch.nodes[0], branch.nodes[1]),
+        _ => return None,
+    };
+    let mut outwards = lumen.positions(&branch.cells);
+    if branch.nodes[0] == end {
+        outwards.reverse();
+    }
+    let side = lumen.side();
+    let parent = parent_radius(graph, lumen, number, junction);
+    let length = length(&outwards) + lumen.radius_at_cell(graph.nodes[end]);
+    let (mut walked, mut outside) = (0.0, Vec::new());
+    for (n, point) in outwards.iter().enumerate() {
+        walked += if n == 0 { 0.0 } else { point.distance(outwards[n - 1]) };
+        if walked >= parent - 1e-6 {
+            outside.push(lumen.radius(*point));
+        }
+    }
+    outside.sort_unstable_by(f64::total_cmp);
+    let median = outside.get(outside.len() / 2).copied().unwrap_or(0.0);
+    let by_parent = length / (parent_radii * parent + side);
+    let by_itself = (length - parent) / (OWN_RADII * median.max(side));
+    Some(by_parent.max(by_itself))
+}
+
+/// The radius of the vessel that a branch leaves at a junction: that of the widest other branch, one radius away
+/// from the junction, where the junction itself does not widen it.
+fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -> f64 {
+    let at_junction = lumen.radius_at_cell(graph.nodes[junction]);
+    let others = graph.incident[junction].iter().filter(|&&other| other != number);
+    let along = others.filter_map(|&other| graph.branches[other].as_ref()).map(|branch| {
+        let mut points = lumen.positions(&branch.cells);
+        if branch.nodes[0] != junction {
+            points.reverse();
+        }
+        let away = points.iter().find(|point| point.distance(points[0]) >= at_junction - 1e-6);
+        away.map_or(at_junction, |point| lumen.radius(*point))
+    });
+    along.fold(0.0, f64::max).min(at_junction)
+}
+
+/// The length of a line of voxels without its stairs: of the means of five neighbours.
+pub fn length(points: &[DVec3]) -> f64 {
+    let mean = |n: usize| {
+        let reach = n.min(points.len() - 1 - n).min(2);
+        let near = &points[n - reach..=n + reach];
+        near.iter().sum::<DVec3>() / near.len() as f64
+    };
+    (1..points.len()).map(|n| mean(n).distance(mean(n - 1))).sum()
+}
+
+/// Makes one junction of two that lie side by side.
+pub fn merge_junctions(graph: &mut Graph, lumen: &Lumen) {
+    while let Some(number) = (0..graph.branches.len()).find(|&number| is_near(graph, lumen, number)) {
+        let Some(branch) = graph.remove(number) else { return };
+        let widest = (0..2).max_by(|&a, &b| {
+            let [a, b] = [a, b].map(|n| lumen.radius_at_cell(graph.nodes[branch.nodes[n]]));
+            a.total_cmp(&b)
+        });
+        let [kept, gone] = if widest == Some(0) { branch.nodes } else { [branch.nodes[1], branch.nodes[0]] };
+        let way = if branch.nodes[0] == kept { branch } else { turned(branch) };
+        let moved: BTreeSet<usize> = graph.incident[gone].iter().copied().collect();
+        for other in moved {
+            let Some(mut other) = graph.remove(other) else { continue };
+            for _ in 0..2 {
+                if other.nodes[0] == gone {
+                    other.cells.splice(0..0, way.cells[..way.cells.len() - 1].iter().copied());
+                    other.nodes[0] = kept;
+                }
+                other.reverse();
+            }
+            graph.add(other);
+        }
+    }
+}
+
+fn turned(mut branch: Branch) -> Branch {
+    branch.reverse();
+    branch
+}
+
+/// Whether a branch joins two junctions that lie side by side.
+fn is_near(graph: &Graph, lumen: &Lumen, number: usize) -> bool {
+    let Some(branch) = &graph.branches[number] else { return false };
+    let [a, b] = branch.nodes;
+    let inner = a != b && graph.incident[a].len() > 2 && graph.incident[b].len() > 2;
+    let radius =
+        branch.nodes.map(|node| lumen.radius_at_cell(graph.nodes[node])).into_iter().fold(0.0, f64::max);
+    inner && length(&lumen.positions(&branch.cells)) < (NEAR * radius).max(2.0 * lumen.side())
+}
+
+/// Removes pieces of lumen that are as wide as they are long, and whose one branch therefore means nothing.
+pub fn remove_round_pieces(graph: &mut Graph, lumen: &Lumen) {
+    for number in 0..graph.branches.len() {
+        let Some(branch) = &graph.branches[number] else { continue };
+        let [a, b] = branch.nodes;
+        if a == b || graph.incident[a].len() > 1 || graph.incident[b].len() > 1 {
+            continue;
+        }
+        let points = lumen.positions(&branch.cells);
+        let widest = points.iter().map(|point| lumen.radius(*point)).fold(0.0, f64::max);
+        let whole = length(&points) + lumen.radius(points[0]) + lumen.radius(points[points.len() - 1]);
+        if whole < ELONGATED * 2.0 * widest {
+            graph.remove(number);
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Ways through the voxels of a volume: what a step costs, the cheapest ways from a voxel, and the voxels that a flood reaches.
+
+pub mod flood;
+pub mod front;
+pub mod region;

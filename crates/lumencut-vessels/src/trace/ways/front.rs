@@ -1,0 +1,332 @@
+//! A front that grows from one place through the lumen: the cheapest way from there to every voxel it has come to.
+//!
+//! Dijkstra's algorithm with buckets; the straight distance to the target says where it grows first. Neighbours are the
+//! 26 around a voxel, their distances those in the world, so that any affine grid will do.
+
+use glam::DVec3;
+
+use crate::trace::ways::region::{BLOCK, BlockCosts, FORBIDDEN, Region, SIDE, WEAK, costs, voxel_of};
+use crate::voxels::Voxels;
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
+
+/// The parent of the voxel where the front starts, and of one that it has not come to.
+const START: u8 = 26;
+const NONE: u8 = 255;
+
+/// Buckets have this width (mm of the cheapest way); no way is longer than all of them.
+const BUCKET: f32 = 0.25;
+const MOST_BUCKETS: usize = 400_000;
+
+/// How many voxels a front settles before it asks whether to stop.
+const BETWEEN_STOPS: usize = 1 << 10;
+
+/// Where no block is.
+const NO_BLOCK: u32 = u32::MAX;
+
+/// The unit in which a front counts how long a way shows no lumen (mm).
+const RUN: f64 = 0.1;
+
+/// What a front knows of one block: six bytes per voxel beside the costs.
+#[derive(Clone, Debug)]
+struct Block {
+    costs: BlockCosts,
+    corner: [i32; 3],
+    way: Box<[f32; BLOCK]>,
+    /// A bit for each voxel whose ways to its neighbours were offered.
+    offered: Box<[u64; BLOCK / 64]>,
+    parent: Box<[u8; BLOCK]>,
+    run: Box<[u8; BLOCK]>,
+}
+
+impl Block {
+    fn is_offered(&self, voxel: usize) -> bool {
+        self.offered[voxel / 64] >> (voxel % 64) & 1 != 0
+    }
+}
+
+/// A voxel that waits to be settled, and the way to it.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    place: u32,
+    way: f32,
+}
+
+/// How far a front may go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// The longest stretch without lumen (mm), at most 25; none where it may be as long as it likes.
+    pub longest_gap: Option<f64>,
+    /// The largest number of voxels.
+    pub most_voxels: usize,
+    /// How many times the straight distance to the target counts for where the front grows first: with 1 it comes by the
+    /// cheapest way; with more it comes sooner, by a way that may be so many times as dear.
+    pub pull: f32,
+}
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// The front has come to the target by the cheapest way.
+    Target,
+    /// There is no way.
+    NoWay,
+    /// The front has grown as large as it may.
+    TooFar,
+}
+
+/// The front, and all that it has come to.
+#[derive(Clone, Debug)]
+pub struct Front {
+    source: [i32; 3],
+    reach: Reach,
+    blocks: [usize; 3],
+    table: Vec<u32>,
+    known: Vec<Block>,
+    buckets: Vec<Vec<Waiting>>,
+    first: usize,
+    settled: usize,
+    /// The neighbours: steps along (i, j, k), and their lengths in the world (mm).
+    steps: [([i32; 3], f32); 26],
+    costs: [f32; 256],
+    weak: u8,
+}
+
+impl Front {
+    /// A front that starts at a voxel.
+    pub fn new(voxels: &Voxels, region: &mut Region, source: [i32; 3], reach: Reach) -> Self {
+        let blocks = region.blocks();
+        let mut front = Self {
+            source,
+            reach,
+            blocks,
+            table: vec![NO_BLOCK; blocks.iter().product()],
+            known: Vec::new(),
+            buckets: Vec::new(),
+            first: 0,
+            settled: 0,
+            steps: steps(voxels),
+            costs: costs(),
+            weak: region.code_below(WEAK),
+        };
+        let (block, voxel) = front.locate(voxels, region, source);
+        front.known[block].way[voxel] = 0.0;
+        front.known[block].parent[voxel] = START;
+        front.put(0, Waiting { place: place_of(block, voxel), way: 0.0 });
+        front
+    }
+
+    /// Where the front started.
+    pub fn source(&self) -> [i32; 3] {
+        self.source
+    }
+
+    /// Grows until the way to `target` is known: the cheapest one where nothing pulls the front. `told` hears how far from the
+    /// target it still is (mm).
+    pub fn grow(
+        &mut self,
+        voxels: &Voxels,
+        region: &mut Region,
+        target: [i32; 3],
+        stop: Stop,
+        told: &dyn Fn(f64),
+    ) -> Result<Found> {
+        let (block, voxel) = self.locate(voxels, region, target);
+        let goal = voxels.center(target);
+        self.aim(voxels, goal);
+        let mut nearest = f64::MAX;
+        let mut until_stop = 0;
+        loop {
+            while self.buckets.get(self.first).is_some_and(Vec::is_empty) {
+                self.first += 1;
+            }
+            let way = self.known[block].way[voxel];
+            // Everything on a cheaper way, as far as the pull lets it be cheaper, lies in an earlier bucket.
+            if way.is_finite() && bucket_of(way) < self.first {
+                return Ok(Found::Target);
+            }
+            if until_stop == 0 {
+                go_on(stop)?;
+                until_stop = BETWEEN_STOPS;
+                told(nearest);
+            }
+            until_stop -= 1;
+            let Some(waiting) = self.buckets.get_mut(self.first).and_then(Vec::pop) else {
+                return Ok(if way.is_finite() { Found::Target } else { Found::NoWay });
+            };
+            if let Some(distance) = self.settle(voxels, region, waiting, goal) {
+                nearest = nearest.min(distance);
+                if self.settled > self.reach.most_voxels {
+                    return Ok(Found::TooFar);
+                }
+            }
+        }
+    }
+
+    /// Whether the front has come to a voxel, by whatever way.
+    pub fn has_come_to(&self, target: [i32; 3]) -> bool {
+        self.find(target).is_some_and(|(block, voxel)| self.known[block].way[voxel].is_finite())
+    }
+
+    /// The voxels from the source to `target`, which the front has come to.
+    pub fn way_to(&self, target: [i32; 3]) -> Vec<[i32; 3]> {
+        let mut way = vec![target];
+        let mut here = target;
+        while let Some((block, voxel)) = self.find(here) {
+            let parent = self.known[block].parent[voxel];
+            if parent >= START {
+                break;
+            }
+            let step = self.steps[usize::from(parent)].0;
+            here = std::array::from_fn(|a| here[a] - step[a]);
+            way.push(here);
+        }
+        way.reverse();
+        way
+    }
+
+    /// Whether the front has come to any voxel of a ball.
+    pub fn touches(&self, voxels: &Voxels, center: DVec3, radius: f64) -> bool {
+        let (first, count) = voxels.around(center, radius);
+        self.known.iter().any(|block| {
+            (0..3).all(|a| block.corner[a] < first[a] + count[a] && block.corner[a] + SIDE as i32 > first[a])
+        })
+    }
+
+    /// Sorts those that wait by the straight distance to a new goal.
+    fn aim(&mut self, voxels: &Voxels, goal: DVec3) {
+        let waiting: Vec<Waiting> =
+            self.buckets.iter_mut().skip(self.first).flat_map(std::mem::take).collect();
+        self.buckets.clear();
+        self.first = 0;
+        for waiting in waiting {
+            let (block, voxel) = parts_of(waiting.place);
+            if self.known[block].way[voxel] >= waiting.way {
+                let left = voxels.center(voxel_of(self.known[block].corner, voxel)).distance(goal);
+                self.put(bucket_of(waiting.way + self.reach.pull * left as f32), waiting);
+            }
+        }
+    }
+
+    /// Offers the ways over a voxel to its neighbours; its distance to the goal (mm), or nothing where a cheaper way to it
+    /// was found meanwhile.
+    fn settle(&mut self, voxels: &Voxels, region: &mut Region, waiting: Waiting, goal: DVec3) -> Option<f64> {
+        let (block, voxel) = parts_of(waiting.place);
+        if self.known[block].way[voxel] < waiting.way {
+            return None;
+        }
+        self.settled += 1;
+        self.known[block].offered[voxel / 64] |= 1 << (voxel % 64);
+        let here = voxel_of(self.known[block].corner, voxel);
+        let cost = self.costs[usize::from(self.known[block].costs[voxel])];
+        let run = self.known[block].run[voxel];
+        // A cheaper way is found late and often where the front is pulled: too often to offer it again.
+        let is_pulled = self.reach.pull > 1.0;
+        for n in 0..26 {
+            let (step, length) = self.steps[n];
+            let next: [i32; 3] = std::array::from_fn(|a| here[a] + step[a]);
+            let Some((to, at)) = self.neighbour(voxels, region, block, next) else { continue };
+            let code = self.known[to].costs[at];
+            if code == FORBIDDEN {
+                continue;
+            }
+            let way = waiting.way + 0.5 * (cost + self.costs[usize::from(code)]) * length;
+            if way >= self.known[to].way[at] || (is_pulled && self.known[to].is_offered(at)) {
+                continue;
+            }
+            let stretch =
+                if code >= self.weak { run.saturating_add((f64::from(length) / RUN) as u8) } else { 0 };
+            if self.reach.longest_gap.is_some_and(|longest| f64::from(stretch) * RUN > longest) {
+                continue;
+            }
+            let known = &mut self.known[to];
+            (known.way[at], known.parent[at], known.run[at]) = (way, n as u8, stretch);
+            let left = voxels.center(next).distance(goal);
+            let bucket = bucket_of(way + self.reach.pull * left as f32).max(self.first);
+            self.put(bucket, Waiting { place: place_of(to, at), way });
+        }
+        Some(voxels.center(here).distance(goal))
+    }
+
+    fn put(&mut self, bucket: usize, waiting: Waiting) {
+        if bucket >= MOST_BUCKETS {
+            return;
+        }
+        if bucket >= self.buckets.len() {
+            self.buckets.resize_with(bucket + 1, Vec::new);
+        }
+        self.buckets[bucket].push(waiting);
+    }
+
+    /// The block and the place in it of a voxel next to one of block `near`; none outside the volume.
+    fn neighbour(
+        &mut self,
+        voxels: &Voxels,
+        region: &mut Region,
+        near: usize,
+        voxel: [i32; 3],
+    ) -> Option<(usize, usize)> {
+        let corner = self.known[near].corner;
+        let inside: [i32; 3] = std::array::from_fn(|a| voxel[a] - corner[a]);
+        if inside.iter().all(|c| (0..SIDE as i32).contains(c)) {
+            return Some((near, index_in(inside)));
+        }
+        let is_outside = (0..3).any(|a| voxel[a] < 0 || voxel[a] as usize >= voxels.size[a]);
+        (!is_outside).then(|| self.locate(voxels, region, voxel))
+    }
+
+    /// The block and the place in it of a voxel of the volume; the block is made where it is not known yet.
+    fn locate(&mut self, voxels: &Voxels, region: &mut Region, voxel: [i32; 3]) -> (usize, usize) {
+        let at = self.table_of(voxel);
+        if self.table[at] == NO_BLOCK {
+            self.table[at] = self.known.len() as u32;
+            self.known.push(Block {
+                costs: region.costs_of(voxels, at),
+                corner: region.corner(at),
+                way: Box::new([f32::INFINITY; BLOCK]),
+                offered: Box::new([0; BLOCK / 64]),
+                parent: Box::new([NONE; BLOCK]),
+                run: Box::new([0; BLOCK]),
+            });
+        }
+        (self.table[at] as usize, index_in(voxel.map(|c| c % SIDE as i32)))
+    }
+
+    fn find(&self, voxel: [i32; 3]) -> Option<(usize, usize)> {
+        let block = self.table[self.table_of(voxel)];
+        (block != NO_BLOCK).then(|| (block as usize, index_in(voxel.map(|c| c % SIDE as i32))))
+    }
+
+    fn table_of(&self, voxel: [i32; 3]) -> usize {
+        let [i, j, k] = voxel.map(|c| c as usize / SIDE);
+        (k * self.blocks[1] + j) * self.blocks[0] + i
+    }
+}
+
+fn index_in(inside: [i32; 3]) -> usize {
+    let [i, j, k] = inside.map(|c| c as usize);
+    (k * SIDE + j) * SIDE + i
+}
+
+fn place_of(block: usize, voxel: usize) -> u32 {
+    (block * BLOCK + voxel) as u32
+}
+
+fn parts_of(place: u32) -> (usize, usize) {
+    (place as usize / BLOCK, place as usize % BLOCK)
+}
+
+fn bucket_of(way: f32) -> usize {
+    (way / BUCKET) as usize
+}
+
+/// The steps to the 26 neighbours, and their lengths in the world (mm).
+pub fn steps(voxels: &Voxels) -> [([i32; 3], f32); 26] {
+    std::array::from_fn(|n| {
+        // The middle of the 27 is the voxel itself.
+        let n = if n < 13 { n } else { n + 1 };
+        let step = [n % 3, n / 3 % 3, n / 9].map(|c| c as i32 - 1);
+        let across = voxels.world_from_index.transform_vector3(DVec3::from_array(step.map(f64::from)));
+        (step, across.length() as f32)
+    })
+}
