@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import os
 from collections.abc import Iterator
@@ -35,8 +36,6 @@ class FeatureAggregation:
     value : numpy.ndarray, float32, shape (H, W)
         The aggregated values, NaN where the whole half circle lies outside the volume. The middle column is
         the vessel itself.
-    image : numpy.ndarray, uint8, shape (H, W, 4)
-        The RGBA picture.
     arc_length : numpy.ndarray, float64, shape (H,)
         Length of the vessel from its first point to each row (mm).
     radius : numpy.ndarray, float64, shape (W,)
@@ -54,7 +53,12 @@ class FeatureAggregation:
     ) -> None:
         self.value, self.radius, self.angles = value, radius, angles
         self.arc_length = surface.arc_length
-        self.image = _lumencut.picture(value, checked(surface.settings))
+        self._surface = surface
+
+    @functools.cached_property
+    def image(self) -> npt.NDArray[np.uint8]:
+        """RGBA picture, uint8, shape (H, W, 4), made when it is first asked for."""
+        return _lumencut.picture(self.value, checked(self._surface.settings))
 
     def __repr__(self) -> str:
         """Return the size."""

@@ -185,9 +185,10 @@ class Frame(KeepsReadOnly):
         """
         from lumencut import annotation
 
+        image = self.image
         if self._source is None:
             raise VolumeError("source of the frame", "a frame made by hand", "a rendered frame", "use render")
-        return annotation.annotated(self.image, self.camera, self._source, vessel_names=vessel_names)
+        return annotation.annotated(image, self.camera, self._source, vessel_names=vessel_names)
 
     def save(
         self, path: str | os.PathLike[str], *, annotate: bool = False, vessel_names: bool = False

@@ -145,7 +145,7 @@ def cpr_of(
     if normal is not None and mode != "straightened":
         raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
     thick = _thick(settings or Settings(), slab)
-    used = renderer.windowed(replace(thick, context=None, samples=1))
+    given = replace(thick, context=None, samples=1)
     towards = None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,))
     upwards, turned = (
         numbers(CameraError, "up of the CPR", up, (3,)),
@@ -154,7 +154,7 @@ def cpr_of(
     smooth = number(SettingsError, "smoothing of the centerline", smoothing)
     view, pixels = (upwards, turned, towards), (_width(width, volume), spacing)
     core = _lumencut.Cpr(vessel.points, smooth, mode, view, pixels)
-    return Reformation(renderer, core, used, mode, float(angle), spacing)
+    return Reformation(renderer, core, given, mode, float(angle), spacing)
 
 
 def one_angle(angle: float, degrees: float | None) -> float:

@@ -41,7 +41,8 @@ class Reformation:
     pixel_spacing : float
         Side of a pixel (mm).
     settings : Settings
-        The settings, with numbers for the window.
+        The settings, with numbers for the window; one from the data is found when they, or the picture, are
+        first asked for.
     timings : dict of str to float
         Wall time of each stage of what was last made (ms): ``"places"`` found where the pixels look. Empty
         before anything was made.
@@ -51,13 +52,13 @@ class Reformation:
         self,
         renderer: Renderer,
         core: _lumencut.Cpr,
-        settings: Settings,
+        given: Settings,
         mode: str,
         angle: float,
         spacing: float,
     ) -> None:
-        self._renderer, self._core = renderer, core
-        self.settings, self.mode, self.angle, self.pixel_spacing = settings, mode, angle, spacing
+        self._renderer, self._core, self._given = renderer, core, given
+        self.mode, self.angle, self.pixel_spacing = mode, angle, spacing
         self.timings: dict[str, float] = {}
 
     def __repr__(self) -> str:
@@ -81,9 +82,14 @@ class Reformation:
         return self.mode != "projected"
 
     @functools.cached_property
+    def settings(self) -> Settings:
+        """The settings, with numbers for the window."""
+        return self._renderer.windowed(self._given)
+
+    @functools.cached_property
     def image(self) -> npt.NDArray[np.uint8]:
         """RGBA picture, uint8, shape (H, W, 4); what lies outside the volume is transparent."""
-        made = self._look("image", "value")
+        made = self._look(self.settings, "image", "value")
         # One look gives both.
         self.__dict__.setdefault("value", made["value"])
         image: npt.NDArray[np.uint8] = made["image"]
@@ -92,14 +98,12 @@ class Reformation:
     @functools.cached_property
     def value(self) -> npt.NDArray[np.float32]:
         """The volume where the pixels look, float32, shape (H, W), NaN outside the volume."""
-        value: npt.NDArray[np.float32] = self._look("value")["value"]
+        value: npt.NDArray[np.float32] = self._look(self._given, "value")["value"]
         return value
 
-    def _look(self, *images: str) -> dict[str, Any]:
+    def _look(self, settings: Settings, *images: str) -> dict[str, Any]:
         volume = self._renderer.volume
-        made: dict[str, Any] = self._renderer._core.look(
-            volume, self._core, checked(self.settings), list(images)
-        )
+        made: dict[str, Any] = self._renderer._core.look(volume, self._core, checked(settings), list(images))
         self.timings = made.pop("timings")
         return made
 
@@ -194,7 +198,7 @@ class Reformation:
             raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
         turned = self.angle + radians("angle of the rotation", angle, degrees)
         core = self._core.rotated(turned)
-        return Reformation(self._renderer, core, self.settings, self.mode, turned, self.pixel_spacing)
+        return Reformation(self._renderer, core, self._given, self.mode, turned, self.pixel_spacing)
 
     def annotated(self) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.

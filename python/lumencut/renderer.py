@@ -21,6 +21,9 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.window import Window
 
+#: The images that a window makes grey.
+_WINDOWED = frozenset(("image", "context"))
+
 
 class Renderer:
     """Renders views of one volume and one vessel tree, or of a volume alone.
@@ -181,10 +184,9 @@ class Renderer:
             mend = "give the renderer a tree, or the settings a context such as 'mida'"
             raise SettingsError("context", "None without a vessel tree", "something to show", mend)
         asked = None if images is None else _names(images)
-        settings = self.windowed(settings)
+        settings, source = self._with_source(settings, asked)
         names = asked if asked is not None else self._at_once(settings)
         buffers = self._core.render(self._volume, camera, checked(settings), names, progress)
-        source = frame_source(settings, self._volume, self._tree, self._vessel_ends)
         return self._frame(camera, settings, buffers, asked, source)
 
     def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
@@ -217,10 +219,7 @@ class Renderer:
             raise VesselTreeError("tree of the renderer", "None", "a tree to lay the image through")
         camera, settings = self._view(camera, settings)
         asked = None if images is None else _names(images)
-        source = None
-        if self._volume is not None:
-            settings = self.windowed(settings)
-            source = frame_source(settings, self._volume, self._tree, self._vessel_ends, method[0])
+        settings, source = self._with_source(settings, asked, method[0])
         names = [name for name in IMAGES if name != "distance"] if asked is None else asked
         core, used = self._core, checked(settings)
         buffers = core.render(self._volume, camera, used, names, None, method)
@@ -229,6 +228,18 @@ class Renderer:
             arrays["_distance"] = lambda: core.render(None, camera, used, ["distance"])["distance"]
         told = None if asked is None else tuple(asked)
         return Frame(camera, buffers["timings"], **arrays, _asked=told, _source=source)
+
+    def _with_source(
+        self, settings: Settings, asked: list[str] | None, method: str = "csr"
+    ) -> tuple[Settings, FrameSource | None]:
+        """The settings with windows, and what a picture is made from, where what is asked for needs them.
+
+        Depth, vessel, distance and value need no window: none is found for them.
+        """
+        if self._volume is None or (asked is not None and not _WINDOWED.intersection(asked)):
+            return settings, None
+        used = self.windowed(settings)
+        return used, frame_source(used, self._volume, self._tree, self._vessel_ends, method)
 
     def _at_once(self, settings: Settings) -> list[str] | None:
         """The images that are made where none are named; None stands for all."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut._checks import flag
+from lumencut._found_windows import FoundWindows
 from lumencut._values import KeepsReadOnly
 from lumencut.errors import VolumeError
 
@@ -154,6 +156,11 @@ class Volume(KeepsReadOnly):
         from lumencut import _lumencut
 
         return _lumencut.sample(self, _points(points))
+
+    @functools.cached_property
+    def _windows(self) -> FoundWindows:
+        """The windows that were found in the voxels."""
+        return FoundWindows()
 
     @property
     def _voxels(self) -> npt.NDArray[Any]:

@@ -61,12 +61,10 @@ class Window:
             For what is no tree.
         """
         from lumencut.vessel_tree import VesselTree
-        from lumencut.volume_files.memory import as_volume
 
         if not isinstance(tree, (VesselTree, type(None))):
             raise VesselTreeError("tree", type(tree).__name__, "a VesselTree or None")
-        vessels = None if tree is None else tree._arrays()
-        return cls(*_lumencut.window_from_data(as_volume(volume), vessels))
+        return cls._found("auto", volume, tree)
 
     @classmethod
     def for_mip(cls, volume: Any) -> Window:
@@ -86,9 +84,7 @@ class Window:
         VolumeError
             For what is no volume, or values beyond all windows.
         """
-        from lumencut.volume_files.memory import as_volume
-
-        return cls(*_lumencut.mip_window(as_volume(volume)))
+        return cls._found("mip", volume)
 
     @classmethod
     def whole(cls, volume: Any) -> Window:
@@ -107,9 +103,7 @@ class Window:
         VolumeError
             For what is no volume, or values beyond all windows.
         """
-        from lumencut.volume_files.memory import as_volume
-
-        return cls(*_lumencut.whole_window(as_volume(volume)))
+        return cls._found("whole", volume)
 
     @classmethod
     def named(cls, name: str, volume: Any = None, tree: VesselTree | None = None) -> Window:
@@ -144,10 +138,28 @@ class Window:
             return cls(*_FIXED[name])
         if name == "auto":
             return cls.from_data(volume, tree)
+        return cls._found(name, volume)
+
+    @classmethod
+    def _found(cls, name: str, volume: Any, tree: VesselTree | None = None) -> Window:
+        """A window from the data, found once for each volume and the same vessels."""
         from lumencut.volume_files.memory import as_volume
 
-        found = _lumencut.full_window if name == "full" else _lumencut.mra_window
-        return cls(*found(as_volume(volume)))
+        shown = as_volume(volume)
+
+        def find() -> tuple[float, float]:
+            match name:
+                case "auto":
+                    return _lumencut.window_from_data(shown, None if tree is None else tree._arrays())
+                case "mip":
+                    return _lumencut.mip_window(shown)
+                case "whole":
+                    return _lumencut.whole_window(shown)
+                case "full":
+                    return _lumencut.full_window(shown)
+            return _lumencut.mra_window(shown)
+
+        return cls(*shown._windows.window(shown._voxels, name, tree, find))
 
 
 @dataclass(frozen=True)
