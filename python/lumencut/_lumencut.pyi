@@ -126,7 +126,7 @@ VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
 # Of centerlines: millimetres per unit, what brings each space to LPS, which extents (mm) pass for vessels.
 MILLIMETRES: dict[Unit, float]
 SIGNS: dict[Coordinates, tuple[float, float, float]]
-MEASURING_FLAGS: list[tuple[str, int]]
+MEASURING_FLAGS: list[tuple[str, int, str, str, str, str]]
 MEASURING_NOTICE: str
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float

@@ -30,16 +30,7 @@ _SIDES, _BELOW, _ABOVE = (0.075, 0.65), 0.55, 0.55
 _STRIP_HEIGHT, _STRIP_MARGINS = (0.9, 2.6), 0.15
 
 _LINE, _LEFT_OUT, _MARKS = "#1f4e9c", "#9a9a9a", "#c8102e"
-_FLAGS = dict(
-    zip(
-        Flag,
-        (
-            *("#7b5ea7", "#3a7d44", "#b8860b", "#4d4d4d", "#20808d"),
-            *("#8c564b", "#d62728", "#e377c2", "#6b8e23"),
-        ),
-        strict=True,
-    )
-)
+_FLAGS = {Flag(bit): color for _, bit, _, _, color, _ in _lumencut.MEASURING_FLAGS}
 
 
 def check_matplotlib() -> None:

@@ -10,7 +10,7 @@ import math
 import sys
 from typing import Any
 
-from lumencut import Profile, measure, phantom
+from lumencut import Profile, _lumencut, measure, phantom
 from lumencut.measured_vessel import Marked, MeasuredVessel, profiles_of, vessels_json
 from lumencut.profile_files import csv_text
 from lumencut.profile_sections import counts, flag_words, nearest
@@ -35,6 +35,10 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "uncertainty": listed(profile.uncertainty),
         "counts": counts(profile).tolist(),
         "flags": [flag_words(int(flags)) for flags in profile.flags],
+        "flag_table": [
+            {"word": word, "meaning": meaning, "paper": paper, "screen": screen}
+            for _, _, word, meaning, paper, screen in _lumencut.MEASURING_FLAGS
+        ],
         "center": profile.center.tolist(),
         "normal": profile.normal.tolist(),
         "fwhm": profile.fwhm,

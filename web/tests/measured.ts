@@ -18,6 +18,12 @@ export function madeProfile(length = 60): Profile {
     uncertainty: diameter.map((value) => (value === null ? null : 0.1)),
     counts: places.map((at) => at >= 1 && at <= length - 10),
     flags: places.map((at) => (at > length - 10 ? ['branch'] : Math.abs(at - 20) <= 1 ? ['calcium'] : [])),
+    flag_table: ['branch', 'calcium', 'metal', 'irregular'].map((word, n) => ({
+      word,
+      meaning: `what ${word} means`,
+      paper: `#00000${n}`,
+      screen: `#fffff${n}`,
+    })),
     center: places.map((at): Vector => [0, 0, at]),
     normal: places.map((): Vector => [0, 0, 1]),
     fwhm: 1.2,

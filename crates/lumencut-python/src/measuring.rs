@@ -1,8 +1,8 @@
 //! Vessels measured: without the GIL, and stopped by Ctrl-C.
 
 use glam::DVec3;
+use lumencut::flag_table::{FLAGS, FlagLook};
 use lumencut::measure::cross_section::CrossSection;
-use lumencut::measure::flags::FLAGS;
 use lumencut::measure::groups::Territory;
 use lumencut::measure::measuring::{self, Request};
 use lumencut::measure::profile;
@@ -20,9 +20,10 @@ use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 
-/// The flags of sections, for `lumencut.Flag`.
+/// The flags of sections: name, bit, word, meaning, and the colours on paper and on a dark screen of each.
 pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("MEASURING_FLAGS", FLAGS.to_vec())
+    let row = |flag: &FlagLook| (flag.name, flag.bit, flag.word, flag.meaning, flag.paper, flag.screen);
+    module.add("MEASURING_FLAGS", FLAGS.iter().map(row).collect::<Vec<_>>())
 }
 
 /// The lumen of one vessel by arc length.

@@ -9,6 +9,7 @@ mod choice;
 pub mod devices;
 pub mod extent;
 pub mod feature_aggregation;
+pub mod flag_table;
 mod fused;
 pub mod lumen_points;
 pub mod mask_notes;

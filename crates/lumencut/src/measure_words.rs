@@ -1,11 +1,11 @@
 //! What was measured in words, the same in every host.
 
 use lumencut_core::named::Named;
-use lumencut_vessels::measure::flags::names_of;
 use lumencut_vessels::measure::profile::Source;
 use lumencut_vessels::measure::stenosis::{Method, Stenosis};
 use lumencut_vessels::measure::stretch::CArm;
 
+use crate::flag_table::set_in;
 use crate::text::fixed;
 
 /// A stenosis in one line: percent with its method, the diameter with its uncertainty, and what it was compared with.
@@ -52,7 +52,7 @@ pub fn of_source(source: &Source) -> String {
 
 /// The flags that are set, each as words such as `no edge`.
 pub fn of_flags(flags: u32) -> Vec<String> {
-    names_of(flags).into_iter().map(|name| name.to_lowercase().replace('_', " ")).collect()
+    set_in(flags).map(|flag| flag.word.to_owned()).collect()
 }
 
 #[cfg(test)]

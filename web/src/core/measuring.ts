@@ -10,6 +10,15 @@ export interface Spot {
   readonly diameter: number;
 }
 
+/** A flag of sections as readers meet it. */
+export interface FlagLook {
+  readonly word: string;
+  readonly meaning: string;
+  /** Its colour on paper, and on the dark ground of the page. */
+  readonly paper: string;
+  readonly screen: string;
+}
+
 /** The lumen of a vessel by its arc length: one entry for each section, null where nothing was measured. */
 export interface Profile {
   readonly arc_length: readonly number[];
@@ -25,6 +34,8 @@ export interface Profile {
   readonly counts: readonly boolean[];
   /** Words such as `calcium`, `no edge`. */
   readonly flags: readonly (readonly string[])[];
+  /** Every flag that there is, in the order of plots and tables. */
+  readonly flag_table: readonly FlagLook[];
   readonly center: readonly Vector[];
   readonly normal: readonly Vector[];
   /** Full width at half maximum of the point spread (mm), and how it was found: `given`, `estimated on …`, `assumed: …`. */

@@ -47,7 +47,7 @@ function PlaceRow({ place, profile }: { readonly place: Place; readonly profile:
         {placeName(place)}
       </button>
       <span>{`${spread(diameter, uncertainty)} at ${mm(place.at, 1)}`}</span>
-      <small title={meanings(flags)}>
+      <small title={meanings(profile, flags)}>
         {`${shortest?.toFixed(2) ?? NOTHING} to ${mm(longest)}, ${area(size)}${flags.length > 0 ? ` · ${flags.join(', ')}` : ''}`}
       </small>
       {place.isSuggestion ? (

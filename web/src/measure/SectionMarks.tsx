@@ -64,7 +64,9 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         <div style={{ color: AXES.longest }}>{`longest ${mm(numbers.longest)}`}</div>
         <div>{`area ${area(numbers.area)}`}</div>
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
-        {numbers.flags.length > 0 && <div title={meanings(numbers.flags)}>{numbers.flags.join(', ')}</div>}
+        {numbers.flags.length > 0 && (
+          <div title={meanings(profile, numbers.flags)}>{numbers.flags.join(', ')}</div>
+        )}
       </div>
     </>
   );

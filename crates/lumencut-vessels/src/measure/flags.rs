@@ -1,4 +1,4 @@
-//! What there is to know of a section beside its numbers.
+//! What there is to know of a section beside its numbers, as bits. The facade has their words and colours.
 
 /// The diameter is below 1.5 times the full width at half maximum of the point spread.
 pub const AT_LIMIT: u32 = 1;
@@ -19,23 +19,5 @@ pub const RECENTERED: u32 = 1 << 7;
 /// The lumen is far from an ellipse.
 pub const IRREGULAR: u32 = 1 << 8;
 
-/// Every flag with its name.
-pub const FLAGS: [(&str, u32); 9] = [
-    ("AT_LIMIT", AT_LIMIT),
-    ("BRANCH", BRANCH),
-    ("CALCIUM", CALCIUM),
-    ("METAL", METAL),
-    ("NEIGHBOR", NEIGHBOR),
-    ("OUTSIDE", OUTSIDE),
-    ("NO_EDGE", NO_EDGE),
-    ("RECENTERED", RECENTERED),
-    ("IRREGULAR", IRREGULAR),
-];
-
 /// Sections with any of these are left out of what is largest, narrowest or suggested.
 pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE;
-
-/// The names of the flags that are set.
-pub fn names_of(flags: u32) -> Vec<&'static str> {
-    FLAGS.iter().filter(|(_, bit)| flags & bit > 0).map(|(name, _)| *name).collect()
-}

@@ -1,5 +1,6 @@
 //! What was measured, as the page and its worker tell it each other: the types of `web/src/core/measuring.ts`.
 
+use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_c_arm, of_flags, of_source, of_stenosis};
 use crate::profile_marks::Marked;
 use crate::profile_record::Asked;
@@ -40,6 +41,7 @@ pub struct ProfileMessage<'a> {
     uncertainty: &'a [f64],
     counts: Vec<bool>,
     flags: Vec<Vec<String>>,
+    flag_table: &'static [FlagLook],
     center: Vec<Vector>,
     normal: Vec<Vector>,
     fwhm: f64,
@@ -59,6 +61,7 @@ impl<'a> From<&'a Profile> for ProfileMessage<'a> {
             uncertainty: &profile.uncertainty,
             counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
             flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
+            flag_table: &FLAGS,
             center: arrays(&profile.center),
             normal: arrays(&profile.normal),
             fwhm: profile.fwhm,

@@ -1,0 +1,91 @@
+//! The flags of sections as readers meet them: one table of names, words, meanings and colours for every host.
+
+use lumencut_vessels::measure::flags::{
+    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED,
+};
+use serde::Serialize;
+
+/// A flag of a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct FlagLook {
+    /// Its name in code, such as `NO_EDGE`.
+    #[serde(skip)]
+    pub name: &'static str,
+    /// Its bit.
+    #[serde(skip)]
+    pub bit: u32,
+    /// What tables and reports call it, such as `no edge`.
+    pub word: &'static str,
+    /// What it means, as a part of a sentence.
+    pub meaning: &'static str,
+    /// Its colour on paper, `#rrggbb`.
+    pub paper: &'static str,
+    /// Its colour on a dark screen, `#rrggbb`.
+    pub screen: &'static str,
+}
+
+const fn look(
+    (name, bit): (&'static str, u32),
+    [word, meaning]: [&'static str; 2],
+    [paper, screen]: [&'static str; 2],
+) -> FlagLook {
+    FlagLook { name, bit, word, meaning, paper, screen }
+}
+
+/// Every flag, in the order in which plots and tables have them.
+pub const FLAGS: [FlagLook; 9] = [
+    look(
+        ("AT_LIMIT", AT_LIMIT),
+        ["at limit", "the diameter is below 1.5 FWHM: little is left of it in the picture"],
+        ["#7b5ea7", "#b59ae0"],
+    ),
+    look(
+        ("BRANCH", BRANCH),
+        ["branch", "the section lies in a junction, or lumen goes on sideways"],
+        ["#3a7d44", "#63b972"],
+    ),
+    look(
+        ("CALCIUM", CALCIUM),
+        ["calcium", "something in the wall is brighter than lumen; it is not lumen"],
+        ["#b8860b", "#e0ac2b"],
+    ),
+    look(
+        ("METAL", METAL),
+        ["metal", "something brighter goes all around, or is far brighter: a stent"],
+        ["#4d4d4d", "#b4b4b4"],
+    ),
+    look(
+        ("NEIGHBOR", NEIGHBOR),
+        ["neighbor", "another lumen, or bone, is beside the wall"],
+        ["#20808d", "#45b9c8"],
+    ),
+    look(
+        ("OUTSIDE", OUTSIDE),
+        ["outside", "the section reaches beyond the volume"],
+        ["#8c564b", "#c99184"],
+    ),
+    look(
+        ("NO_EDGE", NO_EDGE),
+        ["no edge", "no wall was found, or none that can be believed"],
+        ["#d62728", "#ff6f6f"],
+    ),
+    look(
+        ("RECENTERED", RECENTERED),
+        ["recentered", "the centerline lies outside of the lumen that was measured"],
+        ["#e377c2", "#f09fd6"],
+    ),
+    look(
+        ("IRREGULAR", IRREGULAR),
+        ["irregular", "the wall is far from an ellipse: shortest and longest diameter say little"],
+        ["#6b8e23", "#a4c957"],
+    ),
+];
+
+/// The flags that are set among these bits, in their order.
+pub fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {
+    FLAGS.iter().filter(move |flag| bits & flag.bit > 0)
+}
+
+#[cfg(test)]
+#[path = "tests/flag_table.rs"]
+mod tests;

@@ -1,0 +1,26 @@
+use std::collections::HashSet;
+
+use super::*;
+
+#[test]
+fn words_are_the_names_as_they_are_spoken() {
+    for flag in FLAGS {
+        assert_eq!(flag.word, flag.name.to_lowercase().replace('_', " "));
+    }
+}
+
+#[test]
+fn no_two_flags_share_a_bit_or_a_colour() {
+    let bits: HashSet<u32> = FLAGS.iter().map(|flag| flag.bit).collect();
+    assert_eq!(bits, (0..FLAGS.len()).map(|n| 1 << n).collect());
+    for color in [|flag: &FlagLook| flag.paper, |flag: &FlagLook| flag.screen] {
+        assert_eq!(FLAGS.iter().map(color).collect::<HashSet<_>>().len(), FLAGS.len());
+    }
+}
+
+#[test]
+fn flags_that_are_set_come_in_the_order_of_the_table() {
+    let words: Vec<&str> = set_in(NO_EDGE | BRANCH).map(|flag| flag.word).collect();
+    assert_eq!(words, ["branch", "no edge"]);
+    assert_eq!(set_in(0).count(), 0);
+}
