@@ -1,5 +1,7 @@
 """The lumen measured on vessels of known width, under a known blur and noise."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -222,6 +224,12 @@ def test_sections_within_a_junction_are_left_out():
 def test_flags_are_those_of_the_core():
     table = {name: bit for name, bit, *_ in lumencut._lumencut.MEASURING_FLAGS}
     assert {flag.name: flag.value for flag in Flag} == table
+
+
+def test_the_guide_says_what_flags_mean_in_the_words_of_the_core():
+    guide = (Path(__file__).parent.parent / "docs" / "measuring.md").read_text("utf-8")
+    for _, _, word, meaning, *_ in lumencut._lumencut.MEASURING_FLAGS:
+        assert f"\n| {word} | {meaning} |" in guide
 
 
 def test_measured_radii_of_a_tree():

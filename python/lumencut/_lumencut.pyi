@@ -17,6 +17,7 @@ _BranchArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDAr
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
 __all__ = [
+    "DEFAULTS",
     "DICOM_ATTRIBUTES",
     "LARGEST_EXTENT",
     "MEASURING_FLAGS",
@@ -26,7 +27,10 @@ __all__ = [
     "SETTINGS",
     "SIGNS",
     "SMALLEST_EXTENT",
+    "STENOSIS_METHODS",
+    "STENOSIS_TERRITORIES",
     "VIEWS",
+    "VIEW_METHODS",
     "CenterlineFile",
     "Cpr",
     "Profile",
@@ -65,6 +69,7 @@ __all__ = [
     "mip_window",
     "mra_window",
     "panned",
+    "path",
     "picture",
     "placement",
     "positions",
@@ -128,6 +133,10 @@ MILLIMETRES: dict[Unit, float]
 SIGNS: dict[Coordinates, tuple[float, float, float]]
 MEASURING_FLAGS: list[tuple[str, int, str, str, str, str]]
 MEASURING_NOTICE: str
+STENOSIS_METHODS: list[tuple[str, str]]
+STENOSIS_TERRITORIES: list[str]
+VIEW_METHODS: list[tuple[str, str]]
+DEFAULTS: dict[str, float]
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 
@@ -308,6 +317,7 @@ def profile_marks(
 ) -> list[tuple[str, float, float, bool]]: ...
 def profiles_csv(profiles: list[tuple[list[tuple[str, str]], Profile]]) -> str: ...
 def read_session_file(content: bytes, name: str) -> str: ...
+def path(vessels: list[_Arrays], words: list[str]) -> _Arrays: ...
 def rotated(camera: Any, angle: float, axis: _Axis) -> dict[str, Any]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
 def set_threads(count: int) -> None: ...

@@ -15,8 +15,8 @@ from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume_files.memory import as_volume
 
-#: Points of the result are at most so far apart (mm).
-_STEP = 0.5
+#: The largest distance of neighbouring points of the result (mm).
+_STEP = _lumencut.DEFAULTS["point_distance"]
 
 _LARGEST_LABEL = 2**53
 

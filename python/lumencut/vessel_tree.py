@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import integers, number
-from lumencut._joined import joined
 from lumencut._measured_radii import measured_radii
 from lumencut._values import Value
 from lumencut._wording import counted, listed
@@ -202,7 +201,7 @@ class VesselTree(Value):
                     "path through the tree", f"vessel {wanted[n]!r} twice", "each vessel once"
                 )
         lines = [(vessel.points, vessel.radius) for vessel in vessels]
-        points, radius = joined(lines, [f"vessel {one!r}" for one in wanted])
+        points, radius = _lumencut.path(lines, [f"vessel {one!r}" for one in wanted])
         names = [vessel.name for vessel in vessels if vessel.name is not None]
         return Vessel(points, radius, " + ".join(names) if len(names) == len(vessels) else None)
 

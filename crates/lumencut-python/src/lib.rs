@@ -65,6 +65,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
     module.add_function(wrap_pyfunction!(tree::levels, module)?)?;
     module.add_function(wrap_pyfunction!(tree::smoothed, module)?)?;
+    module.add_function(wrap_pyfunction!(tree::path, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted_turn, module)?)?;
     module.add_function(wrap_pyfunction!(views::frame_angles, module)?)?;

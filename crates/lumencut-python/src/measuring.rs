@@ -11,8 +11,12 @@ use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
 use lumencut::measure_words;
 use lumencut::named::Named;
+use lumencut::study::view;
+use lumencut::trace::lumen::refine;
+use lumencut::trace::{mask, seed};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
 
 use crate::errors::to_python;
 use crate::pool;
@@ -20,10 +24,26 @@ use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 
-/// The flags of sections: name, bit, word, meaning, and the colours on paper and on a dark screen of each.
+/// The flags of sections (name, bit, word, meaning, and the colours on paper and on a dark screen of each), the methods of
+/// stenoses and views with their words, and defaults.
 pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let row = |flag: &FlagLook| (flag.name, flag.bit, flag.word, flag.meaning, flag.paper, flag.screen);
-    module.add("MEASURING_FLAGS", FLAGS.iter().map(row).collect::<Vec<_>>())
+    module.add("MEASURING_FLAGS", FLAGS.iter().map(row).collect::<Vec<_>>())?;
+    let word = |(name, method): &(&'static str, Method)| (*name, measure_words::of_method(*method));
+    module.add("STENOSIS_METHODS", Method::NAMES.iter().map(word).collect::<Vec<_>>())?;
+    module.add("STENOSIS_TERRITORIES", Territory::names())?;
+    module.add("VIEW_METHODS", view::METHODS.map(|[name, word]| (name, word)).to_vec())?;
+    module.add("DEFAULTS", defaults().into_py_dict(module.py())?)
+}
+
+/// What counts where nobody asks for something else, by name: mm, but radii of the parent for the shortest branch.
+fn defaults() -> [(&'static str, f64); 4] {
+    [
+        ("measuring_step", measuring::STEP),
+        ("point_distance", refine::STEP),
+        ("shortest_branch", mask::PARENT_RADII),
+        ("smallest_radius", seed::SMALLEST_RADIUS),
+    ]
 }
 
 /// The lumen of one vessel by arc length.

@@ -4,6 +4,8 @@ use glam::DVec3;
 use lumencut::math::centerline_smoothing::smooth_centerlines;
 use lumencut::settings::Settings;
 use lumencut::stages;
+use lumencut::study::line_edits;
+use lumencut::study::lines::Line;
 use lumencut::vessel_tree::{Vessel, VesselTree};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -77,8 +79,33 @@ pub fn smoothed<'py>(
     smoothed.vessels().iter().map(|v| arrays(py, v).map(|(points, _)| points)).collect()
 }
 
+/// Several vessels that meet as one: its points (n, 3) and radii (n,). `words` is what an error calls each of them.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn path<'py>(
+    py: Python<'py>,
+    vessels: Vec<VesselArrays<'py>>,
+    words: Vec<String>,
+) -> PyResult<NewVesselArrays<'py>> {
+    let line = |(points, radius): &VesselArrays| {
+        let radius = radius.as_ref().map(|r| r.as_array().to_vec());
+        Ok(Line { points: points_of(points)?, radius, ..Line::default() })
+    };
+    let lines = vessels.iter().map(line).collect::<PyResult<Vec<_>>>()?;
+    let joined = line_edits::path(&lines, &words).map_err(to_python)?;
+    flat_arrays(py, &joined.points, joined.radius.as_deref())
+}
+
 fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py>> {
-    let flat: Vec<f64> = vessel.points().iter().flat_map(|p| p.to_array()).collect();
-    let points = PyArray1::from_vec(py, flat).reshape([vessel.points().len(), 3])?;
-    Ok((points, vessel.radius().map(|r| PyArray1::from_slice(py, r))))
+    flat_arrays(py, vessel.points(), vessel.radius())
+}
+
+fn flat_arrays<'py>(
+    py: Python<'py>,
+    points: &[DVec3],
+    radius: Option<&[f64]>,
+) -> PyResult<NewVesselArrays<'py>> {
+    let flat: Vec<f64> = points.iter().flat_map(DVec3::to_array).collect();
+    let rows = PyArray1::from_vec(py, flat).reshape([points.len(), 3])?;
+    Ok((rows, radius.map(|r| PyArray1::from_slice(py, r))))
 }

@@ -56,7 +56,12 @@ impl Engine {
     ///
     /// # Errors
     /// `tracing` for a seed in no vessel, `interrupted` once the page says stop.
-    pub fn trace_from(&mut self, seed: &str, smallest_radius: f64, listener: Function) -> Answer<String> {
+    pub fn trace_from(
+        &mut self,
+        seed: &str,
+        smallest_radius: Option<f64>,
+        listener: Function,
+    ) -> Answer<String> {
         let traced = read("seed", seed)
             .and_then(|seed| watched(listener, |watch| self.study.trace_from(seed, smallest_radius, watch)));
         told(traced)

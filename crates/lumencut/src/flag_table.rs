@@ -59,11 +59,7 @@ pub const FLAGS: [FlagLook; 9] = [
         ["neighbor", "another lumen, or bone, is beside the wall"],
         ["#20808d", "#45b9c8"],
     ),
-    look(
-        ("OUTSIDE", OUTSIDE),
-        ["outside", "the section reaches beyond the volume"],
-        ["#8c564b", "#c99184"],
-    ),
+    look(("OUTSIDE", OUTSIDE), ["outside", "the section reaches beyond the volume"], ["#8c564b", "#c99184"]),
     look(
         ("NO_EDGE", NO_EDGE),
         ["no edge", "no wall was found, or none that can be believed"],

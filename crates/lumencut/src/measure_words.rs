@@ -8,12 +8,18 @@ use lumencut_vessels::measure::stretch::CArm;
 use crate::flag_table::set_in;
 use crate::text::fixed;
 
+/// How readers call a method: `NASCET`, `ECST` or `area`.
+pub fn of_method(method: Method) -> String {
+    match method {
+        Method::Area => method.name().to_owned(),
+        Method::Nascet | Method::Ecst => method.name().to_uppercase(),
+    }
+}
+
 /// A stenosis in one line: percent with its method, the diameter with its uncertainty, and what it was compared with.
 pub fn of_stenosis(graded: &Stenosis) -> String {
-    let (what, method) = match graded.method {
-        Method::Area => ("of the area", "area".to_owned()),
-        method => ("of the diameter", method.name().to_uppercase()),
-    };
+    let what = if graded.method == Method::Area { "of the area" } else { "of the diameter" };
+    let method = of_method(graded.method);
     let (against, places) = match graded.method {
         Method::Ecst => ("assumed original", String::new()),
         _ => ("reference", places(&graded.references)),

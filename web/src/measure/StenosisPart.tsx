@@ -1,5 +1,6 @@
 /** A stenosis that the reader marked: never a percentage without its method, its references and mm. */
 import type { Profile, StenosisMethod, Territory } from '../core/measuring';
+import { STENOSIS_METHODS } from '../core/method-names';
 import type { VesselMarks } from '../edit/document';
 import { attempt } from '../output/attempt';
 import { saveReport } from '../output/report';
@@ -7,9 +8,7 @@ import { answers, comparedPlaces, currentMarks, currentPlaces } from './current'
 import { changeMarks, confirmAll } from './editing';
 import { doubtsOf } from './flags';
 import { missingWords } from './marks';
-import { METHOD_NAMES, stenosisWords, told } from './words';
-
-const METHODS: readonly StenosisMethod[] = ['nascet', 'ecst', 'area'];
+import { stenosisWords, told } from './words';
 
 export function StenosisPart({ profile }: { readonly profile: Profile }) {
   const marks = currentMarks.value;
@@ -33,9 +32,9 @@ export function StenosisPart({ profile }: { readonly profile: Profile }) {
               set('choose the method', { method: event.currentTarget.value as StenosisMethod })
             }
           >
-            {METHODS.map((method) => (
-              <option key={method} value={method}>
-                {METHOD_NAMES[method]}
+            {STENOSIS_METHODS.map(([name, words]) => (
+              <option key={name} value={name}>
+                {words}
               </option>
             ))}
           </select>

@@ -1,16 +1,10 @@
 /** Measured numbers as words. Where the file does not state its spacing, no length has a unit. */
-import type { Stenosis, StenosisMethod } from '../core/measuring';
+import type { Stenosis } from '../core/measuring';
 import { states } from '../state/store';
 import type { Place } from './marks';
 import type { SectionNumbers } from './sections';
 
 export const NOTHING = '–';
-
-export const METHOD_NAMES: Readonly<Record<StenosisMethod, string>> = {
-  nascet: 'NASCET',
-  ecst: 'ECST',
-  area: 'area',
-};
 
 const unit = (name: string): string => (states.value.spacing ? ` ${name}` : '');
 

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { version } from '../../package.json';
 import { Failure } from '../core/failure';
 import type { Profile } from '../core/measuring';
+import { VIEW_METHODS } from '../core/method-names';
 import { document_ } from '../edit/history';
 import { asked } from '../measure/asking';
 import { axisAlong } from '../measure/chart-layout';
@@ -146,7 +147,7 @@ async function plotOf(vessel: number, profile: Profile, places: readonly Place[]
   return plotMarkup({ profile, places, lying, picture: data, pixels, size, hasUnits });
 }
 
-const METHODS = { csr: 'CSR', 'csr-paper': 'CSR (paper)', cr: 'CR', mpcpr: 'mpCPR' } as const;
+const METHODS = Object.fromEntries(VIEW_METHODS);
 
 const viewWords = (): string => `${METHODS[store.method.value]} of the vessels, as it was shown`;
 

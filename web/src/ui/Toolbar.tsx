@@ -1,5 +1,6 @@
 /** The bar at the top: tracing, measuring and saving; method, context, silhouettes, slab, presets, layout. */
 import type { Method } from '../core/messages';
+import { VIEW_METHODS } from '../core/method-names';
 import { engine } from '../core/shared';
 import { isListOpen, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
@@ -13,12 +14,6 @@ import { SaveMenu } from './SaveMenu';
 import { SettingsPanel } from './SettingsPanel';
 import { WindowStrip } from './WindowStrip';
 
-const METHODS: readonly (readonly [Method, string])[] = [
-  ['csr', 'CSR'],
-  ['csr-paper', 'CSR (paper)'],
-  ['cr', 'CR'],
-  ['mpcpr', 'mpCPR'],
-];
 const CONTEXTS: readonly (readonly [string, string])[] = [
   ['mida', 'MIDA'],
   ['dvr', 'DVR'],
@@ -51,7 +46,7 @@ export function Toolbar() {
             store.method.value = event.currentTarget.value as Method;
           }}
         >
-          {METHODS.map(([name, words]) => (
+          {VIEW_METHODS.map(([name, words]) => (
             <option key={name} value={name}>
               {words}
             </option>

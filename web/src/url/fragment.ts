@@ -4,12 +4,13 @@
  */
 import { batch, effect } from '@preact/signals';
 import type { Camera, Method, SettingRow, Settings, Vector } from '../core/messages';
+import { VIEW_METHODS } from '../core/method-names';
 import { dot, length } from '../core/vectors';
 import * as store from '../state/store';
 
 /** How long nothing changes before the address does (ms). */
 const QUIET = 250;
-const METHODS: readonly Method[] = ['csr', 'csr-paper', 'mpcpr', 'cr'];
+const METHODS: readonly Method[] = VIEW_METHODS.map(([name]) => name);
 
 /** What the address says of a view. */
 export interface ViewState {

@@ -26,6 +26,9 @@ use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
+/// The distance of sections unless somebody asks for another one (mm), at most.
+pub const STEP: f64 = 0.5;
+
 const FWHM: Limits = Limits::new(0.0, 20.0, "mm");
 
 /// Without any other knowledge the point spread is so many sides of a voxel wide.

@@ -45,6 +45,9 @@ use lumencut_core::volume::Volume;
 /// The most cells in the box around the lumen: their numbers have 32 bits.
 const MOST_CELLS: usize = u32::MAX as usize;
 
+/// How long a branch must be to stay where nobody asks for another length, in radii of its parent.
+pub const PARENT_RADII: f64 = 2.0;
+
 /// What is traced, and how.
 pub struct Request<'a> {
     /// The values that stand for lumen; without them every value but 0.

@@ -10,7 +10,7 @@ use glam::{DAffine3, DVec3};
 use crate::trace::clicks::junctions::nearest;
 use crate::trace::lumen::cross_section::Probe;
 use crate::trace::lumen::lumen_model::{LumenModel, Surroundings, at};
-use crate::trace::lumen::refine::{Centerline, refined};
+use crate::trace::lumen::refine::{Centerline, STEP, refined};
 use crate::trace::lumen::tube::{Sections, Usual};
 use crate::trace::mask::mask_vessels::MaskVessel;
 use crate::trace::mask::{self, TracedMask};
@@ -46,6 +46,9 @@ const LEAST_VOXELS: usize = 10;
 
 /// How long the steps of the work take for each voxel of the flood in comparison: ways, branches, centerlines.
 const COSTS: [usize; 3] = [1, 12, 3];
+
+/// Where branches end unless somebody asks for another radius (mm).
+pub const SMALLEST_RADIUS: f64 = 1.0;
 
 /// What is traced, and how.
 pub struct Request<'a> {
@@ -187,8 +190,8 @@ fn traced(
         &mask,
         &mask::Request {
             labels: None,
-            parent_radii: 2.0,
-            step: 0.5,
+            parent_radii: mask::PARENT_RADII,
+            step: STEP,
             bridge: 0.0,
             refine: Some(&refine),
             stop: request.stop,

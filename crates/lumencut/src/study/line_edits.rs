@@ -1,21 +1,27 @@
-//! Cutting a line in two, and joining two to one.
+//! Cutting a line in two, joining two to one, and several that meet to a path.
 
 use glam::DVec3;
+use lumencut_core::error::{self, Error, ErrorKind};
 use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_vessels::trace::lumen::refine::STEP;
 
 use crate::study::failure::Result;
 use crate::study::lines::{Line, wrong};
+use crate::text::rounded;
 
 /// A cut this near to a point of the line is at that point (mm).
 const AT_POINT: f64 = 1e-6;
 
-/// How far apart the ends of lines may be that are joined: so much (mm), or so many radii of the wider one. It is as far as
-/// tracing passes over without being asked for a bridge.
+/// Ends no farther apart than this meet, and are one point (mm): what files lose by rounding, and far less than any lumen.
+pub const MEETING: f64 = 0.1;
+
+/// How far apart the ends of lines may be that are joined: this distance (mm), or this number of radii of the wider one. It is
+/// as far as tracing passes over without being asked for a bridge.
 const FARTHEST: f64 = 5.0;
 const FARTHEST_RADII: f64 = 2.0;
 
-/// Points between joined ends are at most so far apart (mm).
-const STEP: f64 = 0.5;
+/// The largest distance of points between joined ends (mm).
+const GAP_STEP: f64 = STEP;
 
 /// All that is known of one point.
 #[derive(Clone, Copy)]
@@ -89,9 +95,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
     if !is_at_end {
         std::mem::swap(&mut one, &mut other);
     }
-    let over = gap(one[one.len() - 1], other[0]);
-    let skip = usize::from(distance <= AT_POINT);
-    let joined = [&one[..], &over, &other[skip..]].concat();
+    let joined = followed(one, &other);
     let has = Line {
         points: Vec::new(),
         radius: first.radius.clone().or_else(|| second.radius.clone()),
@@ -100,14 +104,76 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
             .bridged
             .clone()
             .or_else(|| second.bridged.clone())
-            .or((distance > STEP).then(Vec::new)),
+            .or((distance > GAP_STEP).then(Vec::new)),
     };
     Ok(with_knots(&joined, &has))
 }
 
+/// Several lines that meet as one, in their order: each begins where the one before ends, whatever its own direction. It knows
+/// what all of them know; `words` is what an error calls each of them.
+///
+/// # Errors
+/// `vessel tree` for neighbours whose ends are farther apart than [`MEETING`].
+pub fn path(lines: &[Line], words: &[String]) -> error::Result<Line> {
+    let mut joined = first_of(lines);
+    for (n, line) in lines.iter().enumerate().skip(1) {
+        let end = joined[joined.len() - 1].point;
+        let other = nearest_first(knots(line), |knot| knot.point.distance(end));
+        let apart = other[0].point.distance(end);
+        if apart > MEETING {
+            let apart = rounded(apart, 4);
+            let found = format!("a gap of {apart} mm between {} and {}", words[n - 1], words[n]);
+            let expected =
+                format!("vessels in their order along the path, with ends at most {MEETING} mm apart");
+            return Err(Error::new(ErrorKind::VesselTree, "path through the tree", found, expected));
+        }
+        joined = followed(joined, &other);
+    }
+    let known = |is_known: fn(&Line) -> bool| lines.iter().all(is_known);
+    let like = Line {
+        points: Vec::new(),
+        radius: known(|line| line.radius.is_some()).then(Vec::new),
+        confidence: known(|line| line.confidence.is_some()).then(Vec::new),
+        bridged: known(|line| line.bridged.is_some()).then(Vec::new),
+    };
+    Ok(with_knots(&joined, &like))
+}
+
+/// The points of the first line, towards the second one.
+fn first_of(lines: &[Line]) -> Vec<Knot> {
+    let Some(first) = lines.first() else { return Vec::new() };
+    let Some(second) = lines.get(1) else { return knots(first) };
+    let ends = [second.points[0], second.points[second.points.len() - 1]];
+    let apart = |knot: Knot| ends.map(|end| knot.point.distance(end)).into_iter().fold(f64::MAX, f64::min);
+    let mut knots = knots(first);
+    if apart(knots[0]) < apart(knots[knots.len() - 1]) {
+        knots.reverse();
+    }
+    knots
+}
+
+/// The points in the direction in which the first one is nearer; as they are where both ends are equally near.
+fn nearest_first(mut knots: Vec<Knot>, apart: impl Fn(Knot) -> f64) -> Vec<Knot> {
+    if apart(knots[knots.len() - 1]) < apart(knots[0]) {
+        knots.reverse();
+    }
+    knots
+}
+
+/// Points that other ones follow: a point that both share is taken once, from the former; a gap gets points.
+fn followed(mut one: Vec<Knot>, other: &[Knot]) -> Vec<Knot> {
+    let end = one[one.len() - 1];
+    let is_shared = end.point.distance(other[0].point) <= MEETING;
+    if !is_shared {
+        one.extend(gap(end, other[0]));
+    }
+    one.extend_from_slice(&other[usize::from(is_shared)..]);
+    one
+}
+
 /// The points between two ends, nothing of which was seen.
 fn gap(from: Knot, to: Knot) -> Vec<Knot> {
-    let parts = (from.point.distance(to.point) / STEP).ceil() as usize;
+    let parts = (from.point.distance(to.point) / GAP_STEP).ceil() as usize;
     let unseen =
         |n: usize| Knot { confidence: 0.0, is_bridged: true, ..from.between(to, n as f64 / parts as f64) };
     (1..parts).map(unseen).collect()

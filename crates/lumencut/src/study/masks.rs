@@ -6,10 +6,10 @@ use crate::mask_notes::{check_same_grid, notes};
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::volume::Volume;
-use lumencut_vessels::trace::lumen::refine::Centerline;
+use lumencut_vessels::trace::lumen::refine::{Centerline, STEP};
 use lumencut_vessels::trace::mask::grey_values::GreyValues;
 use lumencut_vessels::trace::mask::mask_vessels::MaskVessel;
-use lumencut_vessels::trace::mask::{Request, TracedMask, trace_mask};
+use lumencut_vessels::trace::mask::{PARENT_RADII, Request, TracedMask, trace_mask};
 use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
@@ -20,10 +20,6 @@ use crate::study::lines::{Line, NamedLine};
 use crate::study::open_study::{Study, no_volume};
 use crate::study::tracing::Watch;
 use crate::study::voxels::Stored;
-
-/// How long a branch must be to stay (radii of its parent), and how far apart points are (mm).
-const PARENT_RADII: f64 = 2.0;
-const STEP: f64 = 0.5;
 
 /// A volume with more values is a scan and no mask.
 const MOST_LABELS: usize = 1000;

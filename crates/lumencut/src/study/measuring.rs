@@ -3,12 +3,13 @@
 use crate::profile_record::{Asked, Measured, vessels_json};
 use crate::profile_table::{Labelled, csv_text};
 use lumencut_core::stop::Stop;
+use lumencut_vessels::measure::measuring::STEP;
 use lumencut_vessels::measure::profile::Profile;
 
 use crate::study::failure::Result;
 use crate::study::measure_messages::{Graded, VesselMessage};
 use crate::study::open_study::Study;
-use crate::study::profiles::{Asking, Profiles, STEP};
+use crate::study::profiles::{Asking, Profiles};
 
 impl Study {
     /// The profile of a line that is shown, under a point spread of this width (mm), or under the one that the tree tells.

@@ -7,16 +7,13 @@
 use std::collections::HashMap;
 
 use lumencut_core::stop::Stop;
-use lumencut_vessels::measure::measuring::{Request, measure_under, point_spread_of};
+use lumencut_vessels::measure::measuring::{Request, STEP, measure_under, point_spread_of};
 use lumencut_vessels::measure::profile::{Profile, Source};
 
 use crate::study::content::Content;
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::HeldVolume;
 use crate::study::lines::wrong;
-
-/// The distance of sections (mm), at most.
-pub const STEP: f64 = 0.5;
 
 /// The profiles that are kept.
 #[derive(Default)]

@@ -124,10 +124,11 @@ impl Study {
     pub fn trace_from(
         &mut self,
         seed: [f64; 3],
-        smallest_radius: f64,
+        smallest_radius: Option<f64>,
         watch: Watch,
     ) -> Result<Vec<SeedLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let smallest_radius = smallest_radius.unwrap_or(seed::SMALLEST_RADIUS);
         if !(smallest_radius.is_finite() && smallest_radius >= 0.0) {
             return Err(Failure::of_message("smallest radius", &smallest_radius, "0 or more (mm)"));
         }

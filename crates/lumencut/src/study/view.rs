@@ -44,12 +44,16 @@ impl From<&Camera> for CameraMessage {
     }
 }
 
+/// The methods of a view by the names that are saved, and how readers call them, in the order to show them.
+pub const METHODS: [[&str; 2]; 4] =
+    [["csr", "CSR"], ["csr-paper", "CSR (paper)"], ["cr", "CR"], ["mpcpr", "mpCPR"]];
+
 /// A view as the page asks for it.
 #[derive(Clone, Debug, Deserialize)]
 pub struct ViewMessage {
     /// From where.
     pub camera: CameraMessage,
-    /// `csr`, `csr-paper`, `mpcpr` or `cr`.
+    /// One of the names of [`METHODS`].
     pub method: String,
     /// Settings by name.
     pub settings: Map<String, Json>,

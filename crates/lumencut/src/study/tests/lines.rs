@@ -5,7 +5,7 @@ use lumencut_io as centerlines;
 use serde_json::json;
 
 use super::open_phantom;
-use crate::study::line_edits::{cut, join};
+use crate::study::line_edits::{MEETING, cut, join, path};
 use crate::study::lines::{Line, LineContent, NamedLine};
 use crate::study::open_study::Study;
 
@@ -69,6 +69,31 @@ fn ends_that_are_apart_are_joined_by_a_stretch_that_is_marked() {
     let failure = join(&first, &straight(12.0, 5)).expect_err("far apart");
     assert!(failure.found.contains("8.0 mm") && failure.expected.contains("5.0 mm"));
     assert!(failure.mend.contains("trace the stretch"));
+}
+
+#[test]
+fn a_path_runs_from_its_first_line_to_its_last_whatever_their_directions() {
+    let line = straight(0.0, 11);
+    let [first, rest] = cut(&line, 3.0).expect("two parts");
+    let [second, third] = cut(&rest, 4.0).expect("two parts");
+    let words = ["a", "b", "c"].map(str::to_owned);
+    let along = [reversed(first.clone()), second.clone(), reversed(third.clone())];
+    assert_eq!(path(&along, &words).expect("a path"), line);
+    let back = path(&[third.clone(), second, first.clone()], &words).expect("a path");
+    assert_eq!(back.points, reversed(line).points);
+    assert_eq!(path(&[first.clone()], &words).expect("a path"), first);
+    let error = path(&[first, third], &words).expect_err("a gap");
+    assert_eq!(error.found, "a gap of 4 mm between a and b");
+}
+
+#[test]
+fn ends_that_meet_are_one_point_of_a_path_and_of_a_joined_line() {
+    for (apart, count) in [(0.9 * MEETING, 9), (1.1 * MEETING, 10)] {
+        let (first, second) = (straight(0.0, 5), straight(4.0 + apart, 5));
+        assert_eq!(join(&first, &second).expect("one line").points.len(), count);
+        let words = ["a", "b"].map(str::to_owned);
+        assert_eq!(path(&[first, second], &words).is_ok(), apart <= MEETING);
+    }
 }
 
 #[test]

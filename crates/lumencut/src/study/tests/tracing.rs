@@ -182,7 +182,7 @@ fn a_seed_finds_all_branches() {
     let mut study = opened("y_junction");
     let seed = clicks(&study, 0, 10)[0];
     let watch = Watch { stop: &|| false, progress: &Progress::default() };
-    let branches = study.trace_from(seed, 1.0, watch).expect("branches");
+    let branches = study.trace_from(seed, None, watch).expect("branches");
     assert!(branches.len() >= 2 && branches.iter().all(|branch| branch.doubt.is_none()));
     let found: Vec<DVec3> = branches.iter().flat_map(|branch| points(&study, branch.line)).collect();
     for vessel in 0..3 {
@@ -190,7 +190,7 @@ fn a_seed_finds_all_branches() {
         let middle = middle[middle.len() / 2];
         assert!(found.iter().any(|point| point.distance(middle) < 0.6));
     }
-    assert_eq!(study.trace_from(seed, f64::NAN, watch).expect_err("no radius").kind, "settings");
+    assert_eq!(study.trace_from(seed, Some(f64::NAN), watch).expect_err("no radius").kind, "settings");
     let stopped = Watch { stop: &|| true, ..watch };
-    assert_eq!(study.trace_from(seed, 1.0, stopped).expect_err("a stop").kind, "interrupted");
+    assert_eq!(study.trace_from(seed, None, stopped).expect_err("a stop").kind, "interrupted");
 }

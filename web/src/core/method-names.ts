@@ -1,0 +1,16 @@
+/** How readers call methods, in the order to show them; a test compares both tables with the engine's. */
+import type { StenosisMethod } from './measuring';
+import type { Method } from './messages';
+
+export const VIEW_METHODS: readonly (readonly [Method, string])[] = [
+  ['csr', 'CSR'],
+  ['csr-paper', 'CSR (paper)'],
+  ['cr', 'CR'],
+  ['mpcpr', 'mpCPR'],
+];
+
+export const STENOSIS_METHODS: readonly (readonly [StenosisMethod, string])[] = [
+  ['nascet', 'NASCET'],
+  ['ecst', 'ECST'],
+  ['area', 'area'],
+];

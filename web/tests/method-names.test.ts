@@ -1,0 +1,18 @@
+/** The words of methods are those of the engine. */
+import { spawnSync } from 'node:child_process';
+import { join } from 'node:path';
+import { expect, test } from 'vitest';
+import { STENOSIS_METHODS, VIEW_METHODS } from '../src/core/method-names';
+
+const TABLES = `
+import json
+from lumencut import _lumencut
+print(json.dumps([_lumencut.VIEW_METHODS, _lumencut.STENOSIS_METHODS]))
+`;
+
+test('methods are called as the engine calls them', () => {
+  const python = join(import.meta.dirname, '../../.venv/bin/python');
+  const { stdout, stderr } = spawnSync(python, ['-c', TABLES], { encoding: 'utf-8' });
+  expect(stderr).toBe('');
+  expect([VIEW_METHODS, STENOSIS_METHODS]).toEqual(JSON.parse(stdout));
+});
