@@ -149,3 +149,16 @@ def narrowed(
     values = blurred(TISSUE + (LUMEN - TISSUE) * share, (step,) * 3, FWHM)
     z = np.linspace(-30, 30, 121)
     return grid.volume(values, int(percent), NOISE), Vessel(np.stack([0 * z, 0 * z, z], axis=1))
+
+
+def bent(radius: float = 3.0, bend: float = 12.0) -> tuple[Volume, Vessel]:
+    """A vessel along half of a circle, whose centerline jitters about its axis as traced ones do."""
+    grid = Grid.even((0.5, 0.5, 0.5), (2 * bend + 14, 2 * radius + 6, 2 * bend + 14))
+    x, y, z = grid.points(PARTS)
+    share = np.clip(0.5 - (np.hypot(np.hypot(x, z) - bend, y) - radius) * PARTS / 0.5, 0, 1)
+    values = blurred(TISSUE + (LUMEN - TISSUE) * share, (0.5 / PARTS,) * 3, FWHM)
+    t = np.linspace(0, np.pi, 41)
+    jitter = np.random.default_rng(5).normal(0, 0.15, (len(t), 2))
+    away = bend + jitter[:, 0]
+    points = np.stack([away * np.cos(t), jitter[:, 1], away * np.sin(t)], axis=1)
+    return grid.volume(values, 1, NOISE), Vessel(points)

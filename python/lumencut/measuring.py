@@ -97,7 +97,7 @@ class CrossSection:
     normal : numpy.ndarray, shape (3,)
         The unit vector along the vessel.
     arc_length : float
-        The place on the vessel (mm).
+        The place on the vessel (mm); with a profile that of the measured section.
     pixel_spacing : float
         The side of a pixel (mm).
     """
@@ -120,9 +120,19 @@ class CrossSection:
 
 
 def cross_section(
-    volume: Volume | Any, vessel: Vessel, at: float, size: float = 30.0, pixel_spacing: float | None = None
+    volume: Volume | Any,
+    vessel: Vessel,
+    at: float,
+    size: float = 30.0,
+    pixel_spacing: float | None = None,
+    *,
+    profile: Profile | None = None,
 ) -> CrossSection:
     """Return the volume in a plane across a vessel, as a square image with the vessel in its middle.
+
+    With the profile of the vessel it is the plane of the measured section nearest to the place, the first of
+    two, so that contours lie in it. Without one, the plane follows the same rule as those that are measured:
+    directions are smoothed over half of the radius of the vessel.
 
     Planes do not turn about the vessel from one place to the next (rotation-minimising frame, Wang et al.
     2008). At its first point the patient's back is at the bottom, or the feet where it runs to the back or
@@ -134,20 +144,24 @@ def cross_section(
     volume : Volume, or whatever else :func:`lumencut.render` takes as one
         The angiography.
     vessel : Vessel
-        The centerline; its directions are smoothed over 1 mm.
+        The centerline. Its directions are smoothed by a Gaussian whose standard deviation is half of the
+        median radius of its points, at least 1 and at most 8 mm, and 1 mm where they have no radius; with a
+        profile, half of the median radius that was measured.
     at : float
         The place: an arc length on the vessel (mm).
     size : float, default 30
         The side of the image (mm).
     pixel_spacing : float, optional
         The side of a pixel (mm); half of the smallest side of a voxel where not given.
+    profile : Profile, optional
+        What :func:`lumencut.measure` found for this vessel.
 
     Raises
     ------
     MeasuringError
-        For a place beyond the vessel.
+        For a place beyond the vessel, or the profile of another vessel.
     SettingsError
-        For a size or pixels that are none.
+        For an invalid size or pixel spacing.
     VesselTreeError
         For another kind of vessel, or one without length.
     VolumeError
@@ -160,10 +174,16 @@ def cross_section(
         SettingsError, "pixel_spacing", grid.spacing.min() / 2 if pixel_spacing is None else pixel_spacing
     )
     side = number(SettingsError, "size of the cross-section", size)
-    value, position, normal = _lumencut.cross_section(
-        grid, (vessel.points, vessel.radius), place, side, spacing
+    if not isinstance(profile, (Profile, type(None))):
+        raise MeasuringError("profile of the cross-section", type(profile).__name__, "a Profile or None")
+    value, position, normal, arc_length = _lumencut.cross_section(
+        grid,
+        (vessel.points, vessel.radius),
+        place,
+        (side, spacing),
+        None if profile is None else profile._core,
     )
-    return CrossSection(value, position, np.array(normal), place, spacing)
+    return CrossSection(value, position, np.array(normal), arc_length, spacing)
 
 
 def _check_vessel(vessel: Vessel) -> None:

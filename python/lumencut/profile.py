@@ -70,6 +70,7 @@ class Profile(ProfileOutputs):
         self._flags = core.flags
         self._flags.flags.writeable = False
         self._center, self._normal = _locked(core.center), _locked(core.normal)
+        self._axes = _locked(core.axes)
         self._contour, self._levels = _locked(core.contour), _locked(core.levels)
 
     def __len__(self) -> int:
@@ -133,6 +134,14 @@ class Profile(ProfileOutputs):
     def normal(self) -> _Floats:
         """Unit vectors along the vessel, across which the sections lie, shape (n, 3), LPS."""
         return self._normal
+
+    @property
+    def axes(self) -> _Floats:
+        """Unit vectors to the right and downwards in the plane of each section, shape (n, 2, 3), LPS.
+
+        The contour lies in the plane of these through :attr:`center`.
+        """
+        return self._axes
 
     @property
     def contour(self) -> _Floats:

@@ -12,7 +12,6 @@ from lumencut.annotation import bar_length_for
 from lumencut.contact_sheet import Picture, contact_sheet
 from lumencut.lettering import Sheet
 from lumencut.measured_vessel import MeasuredVessel
-from lumencut.measuring import cross_section
 from lumencut.profile import Profile
 from lumencut.profile_sections import counts, flag_words, nearest
 from lumencut.volume import Volume
@@ -59,13 +58,13 @@ class SectionView:
     def picture(
         self, one: MeasuredVessel, number: int, words: str = "", *, has_contour: bool = True
     ) -> Picture:
-        """Return one section (H, W, 4): the volume across the vessel, contour, numbers with units, a scale.
+        """Return one section (H, W, 4): the plane that was measured, contour, numbers with units, a scale.
 
         The contour is cyan where the section counts for what is narrowest or widest, and orange where flags
         leave it out. Without it there are neither words nor numbers. `words` stand above the numbers.
         """
         profile, spacing = one.profile, fitting_size(one.profile) / (self.side - 1)
-        origin, across = profile.center[number], self._axes(one, number)
+        origin, across = profile.center[number], profile.axes[number]
         steps = (np.arange(self.side) - (self.side - 1) / 2) * spacing
         places = origin + steps[:, None, None] * across[1] + steps[None, :, None] * across[0]
         value = self.volume.sample(places.reshape(-1, 3)).reshape(self.side, self.side)
@@ -77,21 +76,6 @@ class SectionView:
             color = _COUNTED if counts(profile)[number] else _LEFT_OUT
             picture = _with_line(picture, contour, color)
         return _labelled(picture, profile, number, words, spacing)
-
-    def _axes(self, one: MeasuredVessel, number: int) -> npt.NDArray[np.float64]:
-        """The unit vectors to the right and downwards in the plane that was measured, shape (2, 3).
-
-        They are turned about the vessel as those of `cross_section`, whose plane is that of the vessel as it
-        is given.
-        """
-        at = float(one.profile.arc_length[number])
-        corners = cross_section(self.volume, one.vessel, at, 4.0, 1.0).position
-        normal = one.profile.normal[number]
-        right, down = (end - corners[0, 0] for end in (corners[0, -1], corners[-1, 0]))
-        right = right - (right @ normal) * normal
-        right /= np.linalg.norm(right)
-        lower = np.cross(normal, right)
-        return np.stack([right, lower if lower @ down > 0 else -lower])
 
 
 def sections_sheet(

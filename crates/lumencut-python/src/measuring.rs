@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use lumencut::flag_table::{FLAGS, FlagLook};
-use lumencut::measure::cross_section::CrossSection;
+use lumencut::measure::cross_section::{CrossSection, section_place};
 use lumencut::measure::groups::Territory;
 use lumencut::measure::measuring::{self, Request};
 use lumencut::measure::profile;
@@ -118,6 +118,13 @@ impl Profile {
     #[getter]
     fn normal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         points(py, &self.0.normal)
+    }
+
+    /// Unit vectors to the right and downwards in the plane of each section, shape (n, 2, 3).
+    #[getter]
+    fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let flat = self.0.axes.iter().flatten().flat_map(DVec3::to_array).collect();
+        PyArray1::from_vec(py, flat).reshape([self.0.axes.len(), 2, 3])
     }
 
     /// The points of the wall (mm, LPS), shape (n, rays, 3); NaN where there is none.
@@ -243,30 +250,32 @@ impl Stenosis {
     }
 }
 
-/// Values (H, W), places (H, W, 3) and the normal of a section.
-type SectionParts<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, [f64; 3]);
+/// Values (H, W), places (H, W, 3), the normal and the arc length (mm) of a section.
+type SectionParts<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, [f64; 3], f64);
 
-/// A section of a vessel, its points (n, 3), at an arc length: values (H, W), places (H, W, 3), and its normal.
+/// A section of a vessel, its points (n, 3) and radii (n,), at an arc length; the nearest one of its profile where that is given.
 #[pyfunction]
+#[pyo3(signature = (volume, measured, at, image, profile=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub fn cross_section<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     measured: VesselArrays<'py>,
     at: f64,
-    size: f64,
-    pixel_spacing: f64,
+    image: [f64; 2],
+    profile: Option<PyRef<'py, Profile>>,
 ) -> PyResult<SectionParts<'py>> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let vessel = vessel_of(&measured)?;
-    let section =
-        py.detach(|| CrossSection::new(&volume, &vessel, at, size, pixel_spacing)).map_err(to_python)?;
+    let place = section_place(&vessel, at, profile.as_ref().map(|profile| &profile.0)).map_err(to_python)?;
+    let [size, pixel_spacing] = image;
+    let section = py.detach(|| CrossSection::new(&volume, place, size, pixel_spacing)).map_err(to_python)?;
     let side = section.pixels;
     let positions: Vec<f64> = section.positions().iter().flat_map(DVec3::to_array).collect();
-    let normal = section.place.normal.to_array();
     let value = PyArray1::from_vec(py, section.value).reshape([side, side])?;
-    Ok((value, PyArray1::from_vec(py, positions).reshape([side, side, 3])?, normal))
+    let positions = PyArray1::from_vec(py, positions).reshape([side, side, 3])?;
+    Ok((value, positions, place.normal.to_array(), place.at))
 }
 
 /// The radius of one vessel, shape (n,), how many points were measured, and how many were not.

@@ -239,7 +239,7 @@ impl Engine {
         Ok(clamped(&answer(self.study.slice(&plane, [level, width]))?.bytes))
     }
 
-    /// The middle and the axes of a section across a vessel, as JSON.
+    /// The middle and the axes of the section across a vessel, the measured one once there is one, as JSON.
     ///
     /// # Errors
     /// `vessel tree` for a vessel that there is not.

@@ -173,11 +173,19 @@ struct Sections {
 impl Sections {
     fn of(profile: &Profile) -> Self {
         Self {
-            numbers: columns(profile),
+            numbers: columns(profile).into_iter().chain(axes(profile)).collect(),
             counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
             flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
         }
     }
+}
+
+/// The planes of the sections: their unit vectors to the right and downwards (LPS).
+fn axes(profile: &Profile) -> impl Iterator<Item = (&'static str, Vec<f64>)> {
+    const NAMES: [[&str; 3]; 2] =
+        [["right_x_lps", "right_y_lps", "right_z_lps"], ["down_x_lps", "down_y_lps", "down_z_lps"]];
+    let along = |which: usize, axis: usize| profile.axes.iter().map(|axes| axes[which][axis]).collect();
+    (0..6).map(move |n| (NAMES[n / 3][n % 3], along(n / 3, n % 3)))
 }
 
 impl Serialize for Sections {

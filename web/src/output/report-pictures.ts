@@ -2,9 +2,8 @@
 import { pixelOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Profile } from '../core/measuring';
-import type { Cpr, LineId, Pair, Picture, Plane, Vector } from '../core/messages';
+import type { Cpr, LineId, Pair, Picture, Plane } from '../core/messages';
 import { engine } from '../core/shared';
-import { cross, dot, scale, subtract, unit } from '../core/vectors';
 import { type Lying, lyingPicture } from '../measure/lying';
 import type { Place } from '../measure/marks';
 import { COLORS } from '../measure/PlaceHandles';
@@ -95,17 +94,13 @@ export async function sectionPair(
   return canvas.toDataURL('image/png');
 }
 
-/** The plane that was measured, turned about the vessel as the section view is. */
+/** The plane that was measured, with the lumen in its middle. */
 async function planeOf(vessel: number, profile: Profile, number: number): Promise<Plane> {
-  const at = profile.arc_length[number] ?? 0;
-  const [middle, right, down] = await engine.across(vessel, at);
-  const normal = profile.normal[number] ?? cross(right, down);
-  const level = unit(subtract(right, scale(normal, dot(right, normal))));
-  const lower: Vector = cross(normal, level);
+  const [middle, right, down] = await engine.across(vessel, profile.arc_length[number] ?? 0);
   return {
     center: profile.center[number] ?? middle,
-    right: level,
-    down: dot(lower, down) > 0 ? lower : scale(lower, -1),
+    right,
+    down,
     size: [SIDE, SIDE],
     pixel_spacing: fittingSide(profile) / (SIDE - 1),
   };

@@ -4,6 +4,7 @@ import type { Pair, Plane, Vector } from '../core/messages';
 import { engine } from '../core/shared';
 import { moveAlong } from '../link/along';
 import { placeCrossHair } from '../link/cross-hair';
+import { currentProfile } from '../measure/current';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { SectionMarks } from '../measure/SectionMarks';
 import { dragWindow, windowBack } from '../state/actions';
@@ -25,6 +26,7 @@ export function SectionView() {
   const vessel = store.pickedVessel.value;
   const at = store.pickedPlace.value;
   const line = pickedLine();
+  const profile = currentProfile.value;
   const window = store.window_.value;
   const [size, setSize] = useState<Pair | null>(null);
   const [side, setSide] = useState(FIRST_SIDE);
@@ -42,7 +44,8 @@ export function SectionView() {
         }
       });
     }
-  }, [vessel, at, line]);
+    // Once the vessel is measured its section is the one that was, so that the contour lies in it.
+  }, [vessel, at, line, profile]);
 
   const plane = frame && size ? { ...frame, size, pixel_spacing: side / Math.min(...size) } : null;
   const ask = useAsked(plane, window);

@@ -198,7 +198,7 @@ export class EngineHost {
     });
   }
 
-  /** The middle of a section across a vessel, to the right and downwards. */
+  /** The section across a vessel, the measured one once there is one: its middle, to the right and downwards. */
   across(vessel: number, at: number): Promise<[Vector, Vector, Vector]> {
     return this.run(() => JSON.parse(this.ready().across(vessel, at)));
   }

@@ -2,20 +2,21 @@
 
 use glam::{DVec2, DVec3};
 
-use super::place::{Place, Track};
+use super::place::{Place, Track, known_radius};
+use super::profile::Profile;
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
+/// Ends of a vessel and of its profile that are no farther apart (mm) are the same.
+const SAME_END: f64 = 1e-6;
+
 const SIDE: Limits = Limits::new(1e-3, 1e3, "mm");
 
 /// The most pixels along a side.
 const MOST_PIXELS: f64 = 4096.0;
-
-/// Directions are smoothed by a Gaussian of this standard deviation (mm) where nothing else is known.
-pub const SMOOTHING: f64 = 1.0;
 
 /// A section as an image of square pixels, its middle on the vessel.
 #[derive(Clone, Debug)]
@@ -31,12 +32,11 @@ pub struct CrossSection {
 }
 
 impl CrossSection {
-    /// The section at an arc length (mm), of a side of `size` mm.
+    /// The section in the plane of a place, of a side of `size` mm.
     ///
     /// # Errors
-    /// [`ErrorKind::Measuring`] for a place beyond the vessel, [`ErrorKind::Settings`] for a size or pixels that are none,
-    /// [`ErrorKind::VesselTree`] for a vessel without length.
-    pub fn new(volume: &Volume, vessel: &Vessel, at: f64, size: f64, pixel_spacing: f64) -> Result<Self> {
+    /// [`ErrorKind::Settings`] for an invalid size or pixel spacing.
+    pub fn new(volume: &Volume, place: Place, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
         let pixels = (size / pixel_spacing).round().max(1.0);
@@ -45,20 +45,8 @@ impl CrossSection {
             let expected = format!("at most {MOST_PIXELS} along a side");
             return Err(Error::new(ErrorKind::Settings, "size of the cross-section", found, expected));
         }
-        let track = Track::new(vessel, SMOOTHING)?;
-        let length = track.length();
-        if !(0.0..=length).contains(&at) {
-            let expected = format!("an arc length from 0 to {length:.3} mm");
-            return Err(Error::new(
-                ErrorKind::Measuring,
-                "place on the vessel",
-                format!("{at} mm"),
-                expected,
-            ));
-        }
         let voxels = Voxels::new(volume);
-        let mut section =
-            Self { place: track.at(at), pixels: pixels as usize, pixel_spacing, value: Vec::new() };
+        let mut section = Self { place, pixels: pixels as usize, pixel_spacing, value: Vec::new() };
         section.value = section.positions().into_iter().map(|point| voxels.at(point)).collect();
         Ok(section)
     }
@@ -69,4 +57,31 @@ impl CrossSection {
         let away = |i: usize| (i as f64 + 0.5 - n as f64 / 2.0) * self.pixel_spacing;
         (0..n * n).map(|pixel| self.place.point(DVec2::new(away(pixel % n), away(pixel / n)))).collect()
     }
+}
+
+/// Where the section of a vessel at an arc length (mm) lies. With the profile of the vessel it is the measured section that is
+/// nearest, in whose plane the contour lies, the first of two; without one it lies across the vessel by the rule of [`Track`],
+/// with the radius that its points have.
+///
+/// # Errors
+/// [`ErrorKind::Measuring`] for a place beyond the vessel, or the profile of another vessel; [`ErrorKind::VesselTree`] for a
+/// vessel without length.
+pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<Place> {
+    let length = vessel.arc_length().last().copied().unwrap_or(0.0);
+    if !(0.0..=length).contains(&at) {
+        let expected = format!("an arc length from 0 to {length:.3} mm");
+        return Err(Error::new(ErrorKind::Measuring, "place on the vessel", format!("{at} mm"), expected));
+    }
+    let Some(profile) = profile else { return Ok(Track::new(vessel, known_radius(vessel))?.at(at)) };
+    let is_end = |[own, measured]: [Option<&DVec3>; 2]| {
+        own.zip(measured).is_some_and(|(own, measured)| own.distance(*measured) <= SAME_END)
+    };
+    let (points, measured) = (vessel.points(), &profile.on_vessel);
+    let has_ends = [[points.first(), measured.first()], [points.last(), measured.last()]].map(is_end);
+    if has_ends == [true; 2] && (profile.length() - length).abs() <= SAME_END {
+        return Ok(profile.place(profile.nearest(at)));
+    }
+    let found = format!("that of another vessel, {:.3} mm long", profile.length());
+    let expected = format!("the profile of this vessel, {length:.3} mm long");
+    Err(Error::new(ErrorKind::Measuring, "profile of the cross-section", found, expected))
 }

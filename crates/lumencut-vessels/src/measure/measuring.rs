@@ -10,7 +10,7 @@ use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
-use super::place::{Place, Track};
+use super::place::{Place, Track, known_radius};
 use super::point_spread::{NARROW, Told, estimated};
 use super::profile::{Profile, Source};
 use super::rays::Rays;
@@ -39,9 +39,6 @@ const SEARCH: f64 = 3.0;
 
 /// The widest lumen (mm from its middle to its wall).
 const WIDEST: f64 = 45.0;
-
-/// Directions of a vessel are smoothed over half of its radius, from so much to so much (mm).
-const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
 /// At most so many vessels of a tree, the widest ones, are asked for the point spread.
 const MOST_ASKED: usize = 8;
@@ -163,7 +160,7 @@ struct Looked {
 
 impl Looked {
     fn new(voxels: &Voxels, vessel: &Vessel, request: &Request) -> Result<Self> {
-        let first = Track::new(vessel, SMOOTHING[0])?.places(request.step)?;
+        let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
         let scale = Scale::of(voxels, &first, known)?;
         let widest = known.map_or(WIDEST, |radius| (3.0 * radius + 5.0).min(WIDEST));
@@ -172,8 +169,7 @@ impl Looked {
         let rough = bench.rough(&first, search, widest, request.stop)?;
         let mut radii: Vec<f64> = rough.iter().flatten().map(|rough| rough.radius).collect();
         let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
-        let smoothing = (0.5 * radius).clamp(SMOOTHING[0], SMOOTHING[1]);
-        let places = Track::new(vessel, smoothing)?.places(request.step)?;
+        let places = Track::new(vessel, Some(radius))?.places(request.step)?;
         Ok(Self { scale, places, rough: tamed(&rough) })
     }
 
@@ -240,12 +236,6 @@ impl Looked {
 fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, fwhm: f64) -> Bench<'a, 'v> {
     let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
     Bench { rays: Rays { voxels, scale }, blur, fwhm }
-}
-
-/// About the radius of a vessel (mm), where its points have any.
-fn known_radius(vessel: &Vessel) -> Option<f64> {
-    let mut radii: Vec<f64> = vessel.radius()?.iter().copied().filter(|radius| *radius > 0.0).collect();
-    median(&mut radii)
 }
 
 /// The point spread where nothing is known of it (FWHM, mm): by the middle one of the three sides of a voxel.

@@ -5,7 +5,11 @@ use glam::{DVec2, DVec3};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::frames::{Frames, MovingFrame};
 use lumencut_core::math::path::Path;
+use lumencut_core::math::statistics::median;
 use lumencut_core::vessel_tree::Vessel;
+
+/// Directions of a vessel are smoothed over half of its radius, from the first to the second of these (mm).
+const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
 /// The most sections of a vessel.
 const MOST_SECTIONS: f64 = 1e5;
@@ -51,12 +55,13 @@ pub struct Track {
 }
 
 impl Track {
-    /// The track of a vessel, its directions smoothed by a Gaussian of these standard deviations (mm), one for each point, or
-    /// the same one for all.
+    /// The track of a vessel of about this radius (mm), whose directions are smoothed by a Gaussian: its standard deviation is
+    /// half of the radius, at least 1 and at most 8 mm, and 1 mm where the radius is not known. All sections follow this rule.
     ///
     /// # Errors
     /// [`ErrorKind::VesselTree`] for a vessel without length.
-    pub fn new(vessel: &Vessel, smoothing: f64) -> Result<Self> {
+    pub fn new(vessel: &Vessel, radius: Option<f64>) -> Result<Self> {
+        let smoothing = (0.5 * radius.unwrap_or(0.0)).clamp(SMOOTHING[0], SMOOTHING[1]);
         let path = Path::new(vessel, 0.0)?;
         let distinct = Vessel::new(path.points().to_vec(), None)?;
         let quiet = Path::new(&distinct, smoothing)?;
@@ -82,7 +87,7 @@ impl Track {
     /// Places from the beginning to the end, at most `step` mm apart.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a step that is none, or that gives more places than can be measured.
+    /// [`ErrorKind::Settings`] for an invalid step, or one that gives more places than can be measured.
     pub fn places(&self, step: f64) -> Result<Vec<Place>> {
         let count = (self.length() / step).ceil();
         if !(step > 0.0 && step.is_finite() && count <= MOST_SECTIONS) {
@@ -102,4 +107,10 @@ impl Track {
         let share = (at - own[i]) / (own[i + 1] - own[i]);
         quiet[i] + share * (quiet[i + 1] - quiet[i])
     }
+}
+
+/// About the radius of a vessel (mm), where its points have any.
+pub fn known_radius(vessel: &Vessel) -> Option<f64> {
+    let mut radii: Vec<f64> = vessel.radius()?.iter().copied().filter(|radius| *radius > 0.0).collect();
+    median(&mut radii)
 }

@@ -45,6 +45,8 @@ pub struct Profile {
     pub center: Vec<DVec3>,
     /// The unit vector along the vessel, across which the section lies.
     pub normal: Vec<DVec3>,
+    /// Two unit vectors in the plane of each section (LPS): to the right and downwards in a picture of it.
+    pub axes: Vec<[DVec3; 2]>,
     /// The points of the wall (mm, LPS), one for each ray.
     pub contour: Vec<Vec<DVec3>>,
     /// From the middle to the ends of the shortest and of the longest diameter (mm, LPS).
@@ -87,6 +89,7 @@ impl Profile {
             uncertainty: number(&|fit| fit.uncertainty),
             flags: sections.iter().map(|section| section.flags).collect(),
             normal: places.iter().map(|place| place.normal).collect(),
+            axes: places.iter().map(|place| place.axes).collect(),
             half_axes: (0..places.len()).map(|n| half_axes(&places[n], sections[n].fit.as_ref())).collect(),
             inscribed_radius: inscribed(&arc_length, &center, &contour),
             levels: sections
@@ -131,6 +134,16 @@ impl Profile {
     pub fn nearest(&self, at: f64) -> usize {
         let away = |n: &usize| (self.arc_length[*n] - at).abs();
         (0..self.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+    }
+
+    /// The plane in which a section was measured.
+    pub fn place(&self, n: usize) -> Place {
+        Place {
+            at: self.arc_length[n],
+            origin: self.on_vessel[n],
+            axes: self.axes[n],
+            normal: self.normal[n],
+        }
     }
 
     /// The length of the vessel (mm).

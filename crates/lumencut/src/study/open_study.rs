@@ -13,6 +13,7 @@ use lumencut_core::settings::{Settings, Window};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::with_voxels;
+use lumencut_vessels::measure::cross_section::section_place;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 use serde::Serialize;
 
@@ -21,16 +22,13 @@ use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::HeldVolume;
 use crate::study::histogram::Histogram;
 use crate::study::lines::Lines;
-use crate::study::planes::{Plane, across};
+use crate::study::planes::Plane;
 use crate::study::profiles::Profiles;
 use crate::study::straightened::{CprMessage, Laid};
 use crate::study::view::{CameraMessage, View};
 
 /// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
 const AROUND: usize = 8;
-
-/// How strongly the directions across a vessel are smoothed (mm).
-const QUIET: f64 = 2.0;
 
 /// A picture: RGBA in rows from the top, and its size.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,12 +144,18 @@ impl Study {
         self.shown(plane.geometry()?, window)
     }
 
-    /// The middle of a section across a vessel, to the right and downwards.
+    /// The section across a vessel at an arc length (mm), or at the nearest end: the point on the vessel, and unit vectors to
+    /// the right and downwards. Once the vessel is measured it is the nearest section that was.
     ///
     /// # Errors
     /// `vessel tree` for a vessel that there is not.
-    pub fn across(&self, vessel: usize, at: f64) -> Result<[[f64; 3]; 3]> {
-        Ok(across(self.vessel(vessel)?, at, QUIET)?.map(|vector| vector.to_array()))
+    pub fn across(&self, number: usize, at: f64) -> Result<[[f64; 3]; 3]> {
+        let vessel = self.vessel(number)?;
+        let length = vessel.arc_length().last().copied().unwrap_or(0.0);
+        let line = self.content.named.as_ref().and_then(|named| named.lines.get(number));
+        let profile = line.and_then(|line| self.profiles.any_of(*line));
+        let place = section_place(vessel, at.clamp(0.0, length), profile)?;
+        Ok([place.origin, place.axes[0], place.axes[1]].map(|vector| vector.to_array()))
     }
 
     /// The straightened CPR of a vessel in a window.

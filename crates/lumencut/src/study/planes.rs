@@ -2,8 +2,6 @@
 
 use glam::{DVec3, Vec3};
 use lumencut_core::geometry::{Curved, Geometry};
-use lumencut_core::vessel_tree::Vessel;
-use lumencut_vessels::measure::place::Track;
 use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
@@ -39,14 +37,4 @@ impl Plane {
         let directions: Vec<Vec3> = vec![across; width * height];
         Ok(Geometry::Curved(Curved::new(self.size, position, directions)?))
     }
-}
-
-/// The middle of a section across a vessel at an arc length (mm), to the right and downwards.
-///
-/// # Errors
-/// `vessel tree` for a vessel without length.
-pub fn across(vessel: &Vessel, at: f64, smoothing: f64) -> Result<[DVec3; 3]> {
-    let track = Track::new(vessel, smoothing)?;
-    let place = track.at(at.clamp(0.0, track.length()));
-    Ok([place.origin, place.axes[0], place.axes[1]])
 }

@@ -82,6 +82,11 @@ impl Profiles {
         &self.kept[number].profile
     }
 
+    /// A profile of a line, if any is kept; its planes do not depend on the point spread.
+    pub fn any_of(&self, line: usize) -> Option<&Profile> {
+        self.kept.iter().find(|kept| kept.line == line).map(|kept| &kept.profile)
+    }
+
     /// From now on a line is asked for with this width of the point spread (mm), or the one that the tree tells.
     pub fn ask_with(&mut self, line: usize, fwhm: Option<f64>) {
         self.widths.insert(line, fwhm);

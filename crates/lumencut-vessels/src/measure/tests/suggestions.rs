@@ -17,6 +17,7 @@ fn profile(sections: &[[f64; 2]]) -> Profile {
         flags: vec![0; count],
         center: vec![DVec3::ZERO; count],
         normal: vec![DVec3::Z; count],
+        axes: vec![[DVec3::X, DVec3::Y]; count],
         contour: vec![Vec::new(); count],
         half_axes: vec![[DVec3::ZERO; 2]; count],
         inscribed_radius: vec![0.0; count],

@@ -2,6 +2,7 @@
 
 mod lines;
 mod masks;
+mod planes;
 mod tracing;
 
 use crate::backend::Backend;
@@ -29,6 +30,7 @@ pub fn opened(phantom: &str) -> Study {
 pub fn open_phantom(study: &mut Study, name: &str) {
     let made = match name {
         "stenosis" => lumencut_phantom::stenosis(50.0),
+        "helix" => lumencut_phantom::helix(),
         "aorta" => lumencut_phantom::aorta(0, 1.0),
         "runoff" => lumencut_phantom::runoff(0, 1.0),
         "cervical" => lumencut_phantom::cervical(0, 1.0),
