@@ -2,12 +2,11 @@
 
 use js_sys::{Promise, Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
-use lumencut::devices::{Choice, Wanted};
+use lumencut::devices::Wanted;
 use lumencut::pipeline::Request;
 use lumencut::screen::Screen;
 use lumencut::stages::{Image, ImageSet};
 use serde::Serialize;
-use serde_json::json;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use wasm_bindgen_futures::future_to_promise;
 use web_sys::OffscreenCanvas;
@@ -56,11 +55,10 @@ pub(crate) fn read<'a, T: serde::Deserialize<'a>>(what: &str, text: &'a str) -> 
 /// What computes on a device of this name.
 async fn backend(device: &str) -> Answer<Backend> {
     let wanted = match device {
-        "cpu" => Wanted::Cpu,
-        "gpu" => Wanted::Gpu(Choice::Any),
-        "any" => Wanted::Auto(Choice::Any),
-        _ => Wanted::Auto(Choice::Hardware),
+        "any" => Wanted::told("auto", Some("any")),
+        name => Wanted::told(name, None),
     };
+    let wanted = answer(wanted.map_err(Failure::from))?;
     let (backend, _) = answer(Backend::new(wanted).await.map_err(Failure::from))?;
     Ok(backend)
 }
@@ -171,7 +169,7 @@ impl Engine {
     /// # Errors
     /// `volume` for values beyond all windows.
     pub fn report(&self) -> Answer<String> {
-        told(self.study.content.report())
+        told(self.study.report())
     }
 
     /// The camera of a named view that shows all of the study, as JSON.
@@ -194,7 +192,7 @@ impl Engine {
 
     async fn rendered(&mut self, view: &View) -> Result<Option<Uint8ClampedArray>> {
         let View { camera, settings, method } = view;
-        let scene = self.study.content.scene()?;
+        let scene = self.study.scene()?;
         let images = ImageSet::of(&[Image::Picture]);
         stopping::heard(stopping::VIEW);
         let stop = || stopping::is_asked(stopping::VIEW);
@@ -263,11 +261,7 @@ impl Engine {
     /// # Errors
     /// `settings` where none was shown.
     pub fn pick_straightened(&self, column: f64, row: f64) -> Answer<String> {
-        let laid = self.study.laid().ok_or_else(|| Failure::of_message("CPR", &"none", "one that is shown"));
-        told(laid.map(|laid| {
-            let at = self.study.at(laid.world([column, row]));
-            json!({"point": at.point, "value": at.value, "vessel": laid.vessel(), "arc_length": laid.arc_length(row)})
-        }))
+        told(self.study.pick_straightened([column, row]))
     }
 
     /// Column and row of a world point in the straightened CPR, as JSON; null where none is shown.
@@ -275,7 +269,7 @@ impl Engine {
     /// # Errors
     /// `settings` for a text that is no point.
     pub fn on_straightened(&self, point: &str) -> Answer<String> {
-        told(read("point", point).map(|point| self.study.laid().map(|laid| laid.pixel(point))))
+        told(read("point", point).map(|point| self.study.on_straightened(point)))
     }
 }
 

@@ -33,8 +33,11 @@ impl Wanted {
         Self::told(name, std::env::var(AUTO).ok().as_deref())
     }
 
-    /// What `name` stands for where `auto` stands for what is told.
-    fn told(name: &str, auto: Option<&str>) -> Result<Self> {
+    /// What `name` stands for where `auto` stands for what is told: `hardware` where nothing is, `any` GPU, or the `cpu`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for another name of either.
+    pub fn told(name: &str, auto: Option<&str>) -> Result<Self> {
         match name {
             "cpu" => Ok(Self::Cpu),
             "gpu" => Ok(Self::Gpu(Choice::Any)),

@@ -11,6 +11,7 @@ pub mod extent;
 pub mod feature_aggregation;
 pub mod flag_table;
 mod fused;
+pub mod kept_profiles;
 pub mod lumen_points;
 pub mod mask_notes;
 pub mod measure_words;

@@ -16,6 +16,7 @@ pub mod measure_messages;
 pub mod measuring;
 pub mod open_study;
 mod opening;
+pub mod picking;
 pub mod planes;
 pub mod profiles;
 pub mod session_files;

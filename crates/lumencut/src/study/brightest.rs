@@ -3,45 +3,61 @@
 use crate::positions::{pixel_from_world, world_from_pixel};
 use crate::windows;
 use glam::DVec3;
-use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::camera::Camera;
+use lumencut_core::error::{self, Error, ErrorKind};
 use lumencut_core::volume::Volume;
 
 use crate::study::failure::Result;
-use crate::study::open_study::{Pick, Study, no_volume};
+use crate::study::open_study::{Study, no_volume};
+use crate::study::picking::Pick;
 use crate::study::view::View;
 
 /// How far apart the places are that are looked at, in the smallest side of a voxel.
 const STEP: f64 = 0.5;
 
+/// The brightest place of a volume on the ray of the pixel (column, row) of a view, the nearest one of several, between two
+/// depths (mm, positive away from the viewer).
+///
+/// # Errors
+/// [`ErrorKind::Tracing`] for a ray beside the volume, or one that has no voxel between the depths.
+pub fn brightest_on_ray(
+    volume: &Volume,
+    camera: &Camera,
+    pixel: [f64; 2],
+    within: [f64; 2],
+) -> error::Result<DVec3> {
+    let from = world_from_pixel(camera, pixel, 0.0);
+    let [near, far] = chord(volume, from, camera.direction());
+    let (near, far) = (near.max(within[0]), far.min(within[1]));
+    let step = STEP * volume.smallest_side();
+    let count = if near <= far { ((far - near) / step) as usize + 1 } else { 0 };
+    let place = |n: usize| from + camera.direction() * (near + n as f64 * step);
+    let places: Vec<DVec3> = (0..count).map(place).collect();
+    let values = windows::sample(volume, &places);
+    let mut best: Option<(DVec3, f32)> = None;
+    for (place, value) in places.into_iter().zip(values).filter(|(_, value)| value.is_finite()) {
+        if best.is_none_or(|(_, most)| value > most) {
+            best = Some((place, value));
+        }
+    }
+    best.map(|(place, _)| place).ok_or_else(|| {
+        let found = "a ray that meets no voxel";
+        let error = Error::new(ErrorKind::Tracing, "place in the projection", found, "one over the scan");
+        error.mend("click where the scan is shown")
+    })
+}
+
 impl Study {
-    /// The brightest place on the ray of the pixel (column, row) of a view, the nearest one of several. A slab around the cut
-    /// surface limits the ray to itself.
+    /// The brightest place on the ray of the pixel (column, row) of a view, as [`brightest_on_ray`] finds it. A slab around the
+    /// cut surface limits the ray to itself.
     ///
     /// # Errors
-    /// `tracing` for a ray beside the volume, `volume` where none is open, and those of the view.
+    /// Those of [`brightest_on_ray`], `volume` where none is open, and those of the view.
     pub fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
-        let from = world_from_pixel(&view.camera, pixel, 0.0);
-        let [near, far] = chord(&volume, from, view.camera.direction());
-        let (near, far) = (near.max(within[0]), far.min(within[1]));
-        let step = STEP * volume.smallest_side();
-        let count = if near <= far { ((far - near) / step) as usize + 1 } else { 0 };
-        let places: Vec<DVec3> =
-            (0..count).map(|n| from + view.camera.direction() * (near + n as f64 * step)).collect();
-        let values = windows::sample(&volume, &places);
-        let mut best: Option<(usize, f32)> = None;
-        for (n, value) in values.into_iter().enumerate().filter(|(_, value)| value.is_finite()) {
-            if best.is_none_or(|(_, most)| value > most) {
-                best = Some((n, value));
-            }
-        }
-        let Some((n, _)) = best else {
-            let found = "a ray that meets no voxel";
-            let error = Error::new(ErrorKind::Tracing, "place in the projection", found, "one over the scan");
-            return Err(error.mend("click where the scan is shown").into());
-        };
-        Ok(self.at(places[n].to_array()))
+        let place = brightest_on_ray(&volume, &view.camera, pixel, within)?;
+        Ok(self.at(place.to_array()))
     }
 
     /// The depths (mm) of the near and the far side of the slab of a pixel; without a slab all there are.

@@ -1,11 +1,10 @@
 //! Cutting a line in two, joining two to one, and several that meet to a path.
 
 use glam::DVec3;
-use lumencut_core::error::{self, Error, ErrorKind};
+use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_vessels::trace::lumen::refine::STEP;
 
-use crate::study::failure::Result;
 use crate::study::lines::{Line, wrong};
 use crate::text::rounded;
 
@@ -53,7 +52,7 @@ pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     let whole = lengths[lengths.len() - 1];
     if !(at > AT_POINT && at < whole - AT_POINT) {
         let expected = format!("a place between its ends, more than 0 and less than {whole:.3} mm along it");
-        return Err(wrong("cut", format!("a cut at {at:.3} mm"), &expected).into());
+        return Err(wrong("cut", format!("a cut at {at:.3} mm"), &expected));
     }
     let knots = knots(line);
     let after = lengths.partition_point(|length| *length < at - AT_POINT);
@@ -85,7 +84,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
         let found = format!("ends that are {distance:.1} mm apart");
         let expected = format!("ends that are at most {farthest:.1} mm apart");
         let error = wrong("join", found, &expected);
-        return Err(error.mend("trace the stretch between them first, and join it to both").into());
+        return Err(error.mend("trace the stretch between them first, and join it to both"));
     }
     // At its end the first one goes on with the other; at its start the other one comes before it.
     let [is_at_end, other_is_at_end] = nearest;
@@ -114,7 +113,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
 ///
 /// # Errors
 /// `vessel tree` for neighbours whose ends are farther apart than [`MEETING`].
-pub fn path(lines: &[Line], words: &[String]) -> error::Result<Line> {
+pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     let mut joined = first_of(lines);
     for (n, line) in lines.iter().enumerate().skip(1) {
         let end = joined[joined.len() - 1].point;

@@ -7,31 +7,24 @@
 use std::collections::HashMap;
 
 use lumencut_core::stop::Stop;
-use lumencut_vessels::measure::measuring::{Request, STEP, measure_under, point_spread_of};
-use lumencut_vessels::measure::profile::{Profile, Source};
+use lumencut_vessels::measure::measuring::STEP;
+use lumencut_vessels::measure::profile::Profile;
 
+use crate::kept_profiles::{self, KeptProfiles, Scan};
 use crate::study::content::Content;
-use crate::study::failure::{Failure, Result};
+use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
 use crate::study::lines::wrong;
+use crate::study::open_study::no_volume;
 
-/// The profiles that are kept.
+/// The profiles that are kept, and how they were asked for.
 #[derive(Default)]
 pub struct Profiles {
     /// The lines that were shown when they were measured.
     shown: Vec<usize>,
-    /// The point spread that these tell, for all of them.
-    told: Option<(f64, Source)>,
-    kept: Vec<Kept>,
+    kept: KeptProfiles<usize>,
     /// The width of the point spread that each line was asked for with last.
     widths: HashMap<usize, Option<f64>>,
-}
-
-/// A profile of a line, and the width of the point spread (mm) that it was asked for with.
-struct Kept {
-    line: usize,
-    fwhm: Option<f64>,
-    profile: Profile,
 }
 
 impl Profiles {
@@ -42,49 +35,26 @@ impl Profiles {
     pub fn of(&mut self, content: &Content, line: usize, asking: &Asking) -> Result<usize> {
         let shown = content.named.as_ref().map_or(&[][..], |named| &named.lines[..]);
         if self.shown != shown {
-            self.kept.clear();
-            self.told = None;
+            self.kept = KeptProfiles::default();
             self.shown = shown.to_vec();
         }
-        let found = self.kept.iter().position(|kept| kept.line == line && kept.fwhm == asking.fwhm);
-        if let Some(found) = found {
-            return Ok(found);
-        }
-        let profile = self.measured(content, line, asking)?;
-        self.kept.push(Kept { line, fwhm: asking.fwhm, profile });
-        Ok(self.kept.len() - 1)
-    }
-
-    /// The profile of a line among those that are shown.
-    fn measured(
-        &mut self,
-        content: &Content,
-        line: usize,
-        &Asking { fwhm, stop }: &Asking,
-    ) -> Result<Profile> {
-        let volume = content.held.as_ref().map(HeldVolume::volume).transpose()?.ok_or_else(no_volume)?;
-        let named = content.named.as_ref().ok_or_else(|| not_shown(line))?;
-        let tree = named.leveled.tree().vessels();
-        let number = named.lines.iter().position(|own| *own == line).ok_or_else(|| not_shown(line))?;
-        let request = Request { step: STEP, fwhm, tree, stop };
-        let spread = match (fwhm, &self.told) {
-            (None, Some(told)) => told.clone(),
-            _ => point_spread_of(&volume, &request)?,
-        };
-        if fwhm.is_none() {
-            self.told = Some(spread.clone());
-        }
-        Ok(measure_under(spread, &volume, &tree[number], &request)?)
+        let volume = &content.held.as_ref().map(HeldVolume::volume).transpose()?.ok_or_else(no_volume)?;
+        let number = shown.iter().position(|own| *own == line);
+        let not_shown = || wrong("number", line.to_string(), "one of the lines that are shown");
+        let (tree, number) = content.tree().zip(number).ok_or_else(not_shown)?;
+        let tree = tree.tree().vessels();
+        let asking = kept_profiles::Asking { step: STEP, fwhm: asking.fwhm, stop: asking.stop };
+        Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &asking)?)
     }
 
     /// The profile of a number that [`Profiles::of`] gave last.
     pub fn kept(&self, number: usize) -> &Profile {
-        &self.kept[number].profile
+        self.kept.kept(number)
     }
 
     /// A profile of a line, if any is kept; its planes do not depend on the point spread.
     pub fn any_of(&self, line: usize) -> Option<&Profile> {
-        self.kept.iter().find(|kept| kept.line == line).map(|kept| &kept.profile)
+        self.kept.any_of(&line)
     }
 
     /// From now on a line is asked for with this width of the point spread (mm), or the one that the tree tells.
@@ -104,12 +74,4 @@ pub struct Asking<'a> {
     pub fwhm: Option<f64>,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
-}
-
-fn no_volume() -> Failure {
-    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
-}
-
-fn not_shown(line: usize) -> Failure {
-    wrong("number", line.to_string(), "one of the lines that are shown").into()
 }

@@ -1,6 +1,7 @@
 //! Lines by number: what is made of them, and how they are shown and saved.
 
 use glam::DVec3;
+use lumencut_core::error::ErrorKind;
 use lumencut_io as centerlines;
 use serde_json::json;
 
@@ -38,7 +39,7 @@ fn both_parts_of_a_cut_have_its_point() {
     let [first, second] = cut(&line, 4.0 + 1e-9).expect("two parts");
     assert_eq!((&first.points[..], &second.points[..]), (&line.points[..5], &line.points[4..]));
     for at in [0.0, -1.0, 10.0, 99.0, f64::NAN] {
-        assert_eq!(cut(&line, at).expect_err("no place within").kind, "vessel tree");
+        assert_eq!(cut(&line, at).expect_err("no place within").kind, ErrorKind::VesselTree);
     }
 }
 

@@ -7,7 +7,8 @@ use serde_json::json;
 use super::opened;
 use crate::study::failure::Failure;
 use crate::study::masks::MaskLines;
-use crate::study::open_study::{Pick, Study};
+use crate::study::open_study::Study;
+use crate::study::picking::Pick;
 use crate::study::tracing::Watch;
 use crate::study::view::ViewMessage;
 

@@ -58,7 +58,7 @@ fn on_first_vessel(study: &Study) -> (DVec3, f64) {
 fn a_pick_is_the_pixel_of_the_whole_picture() {
     let mut study = opened("stenosis");
     let view = view(&study, [96, 80]).view().expect("a view");
-    let scene = study.content.scene().expect("a scene");
+    let scene = study.scene().expect("a scene");
     let request = Request::new(&view.camera, &view.settings);
     let (mut backend, _) = pollster::block_on(Backend::new(Wanted::Cpu)).expect("a CPU");
     let (frame, _) = pollster::block_on(backend.render_by(view.method, &scene, &request)).expect("a frame");
@@ -112,16 +112,18 @@ fn a_slice_shows_the_voxels_of_its_plane() {
 #[test]
 fn the_straightened_vessel_runs_down_the_middle() {
     let mut study = opened("stenosis");
+    assert_eq!(study.pick_straightened([0.0, 0.0]).expect_err("none is shown").subject, "CPR");
+    assert!(study.on_straightened([0.0; 3]).is_none());
     let message = CprMessage { vessel: 0, angle: 0.0, width: 20.0, pixel_spacing: 0.5, feature: None };
     let picture = study.straightened(message, [300.0, 900.0]).expect("a CPR");
     let [width, height] = picture.size;
-    let laid = study.laid().expect("the layout");
     for row in [2, height / 2, height - 3] {
-        let middle = laid.world([(width - 1) as f64 / 2.0, row as f64]);
-        let along = study.at(middle).arc_length.expect("in the lumen");
-        assert!((along - laid.arc_length(row as f64)).abs() < 0.5);
-        let pixel = laid.pixel(middle);
-        assert!((pixel[0] - (width - 1) as f64 / 2.0).abs() < 0.1 && (pixel[1] - row as f64).abs() < 0.1);
+        let place = [(width - 1) as f64 / 2.0, row as f64];
+        let middle = study.pick_straightened(place).expect("a pick");
+        let along = study.at(middle.point).arc_length.expect("in the lumen");
+        assert!((along - middle.arc_length).abs() < 0.5 && middle.vessel == 0 && middle.value.is_some());
+        let pixel = study.on_straightened(middle.point).expect("a pixel");
+        assert!((pixel[0] - place[0]).abs() < 0.1 && (pixel[1] - place[1]).abs() < 0.1);
     }
     let turned = CprMessage { angle: 1.0, ..message };
     assert_eq!(study.straightened(turned, [300.0, 900.0]).expect("a CPR").size, picture.size);
@@ -161,10 +163,10 @@ fn a_broken_file_of_centerlines_leaves_the_tree() {
 #[test]
 fn the_report_names_vessels_and_windows() {
     let study = opened("stenosis");
-    let report = study.content.report().expect("a report");
+    let report = study.report().expect("a report");
     assert_eq!(report["vessels"].as_array().map(Vec::len), Some(1));
     assert!(report["windows"]["main"][1].as_f64().expect("a width") > 0.0);
-    assert!(Study::default().content.report().expect("a report")["volume"].is_null());
+    assert!(Study::default().report().expect("a report")["volume"].is_null());
 }
 
 #[test]

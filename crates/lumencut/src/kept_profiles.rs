@@ -1,0 +1,97 @@
+//! Profiles of vessels of one scan: each is measured when it is first asked for and kept, all under one point spread.
+
+use std::sync::Arc;
+
+use lumencut_core::error::Result;
+use lumencut_core::stop::Stop;
+use lumencut_core::vessel_tree::Vessel;
+use lumencut_core::volume::Volume;
+use lumencut_vessels::measure::measuring::{Request, measure_under, point_spread_of};
+use lumencut_vessels::measure::profile::{Profile, Source};
+
+/// A volume and the tree in it. Both decide what is measured: profiles that were kept are those of other ones no longer.
+#[derive(Clone, Copy)]
+pub struct Scan<'a> {
+    /// The angiography.
+    pub volume: &'a Volume<'a>,
+    /// The vessels that tell the point spread and where branches are.
+    pub tree: &'a [Vessel],
+}
+
+/// How a vessel is asked for.
+#[derive(Clone, Copy)]
+pub struct Asking<'a> {
+    /// The distance of sections (mm), at most.
+    pub step: f64,
+    /// The width of the point spread (mm), where it is given; without it the tree tells it.
+    pub fwhm: Option<f64>,
+    /// Asked whether to stop.
+    pub stop: Stop<'a>,
+}
+
+/// The profiles that are kept, by what their host calls a vessel.
+pub struct KeptProfiles<K> {
+    /// The point spread that the tree tells, for all of its vessels.
+    told: Option<(f64, Source)>,
+    kept: Vec<Kept<K>>,
+}
+
+/// The profile of a vessel, and how it was asked for (mm).
+struct Kept<K> {
+    of: K,
+    step: f64,
+    fwhm: Option<f64>,
+    profile: Arc<Profile>,
+}
+
+impl<K> Default for KeptProfiles<K> {
+    fn default() -> Self {
+        Self { told: None, kept: Vec::new() }
+    }
+}
+
+impl<K: PartialEq> KeptProfiles<K> {
+    /// The number among those kept of a vessel's profile, which is measured where it was not asked for like this before.
+    ///
+    /// # Errors
+    /// Those of [`lumencut_vessels::measure::measuring::measure`].
+    pub fn of(&mut self, key: K, vessel: &Vessel, scan: Scan, asking: &Asking) -> Result<usize> {
+        let Asking { step, fwhm, stop } = *asking;
+        let is_asked = |kept: &Kept<K>| kept.of == key && kept.step == step && kept.fwhm == fwhm;
+        if let Some(found) = self.kept.iter().position(is_asked) {
+            return Ok(found);
+        }
+        let request = Request { step, fwhm, tree: scan.tree, stop };
+        let spread = self.spread(scan.volume, &request)?;
+        let profile = Arc::new(measure_under(spread, scan.volume, vessel, &request)?);
+        self.kept.push(Kept { of: key, step, fwhm, profile });
+        Ok(self.kept.len() - 1)
+    }
+
+    /// The profile of a number that [`KeptProfiles::of`] gave.
+    pub fn kept(&self, number: usize) -> &Arc<Profile> {
+        &self.kept[number].profile
+    }
+
+    /// A profile of a vessel, however it was asked for; none where it was not measured.
+    pub fn any_of(&self, key: &K) -> Option<&Profile> {
+        self.kept.iter().find(|kept| kept.of == *key).map(|kept| &*kept.profile)
+    }
+
+    /// The point spread as it is given, or as the tree tells it, which is found once.
+    fn spread(&mut self, volume: &Volume, request: &Request) -> Result<(f64, Source)> {
+        if request.fwhm.is_some() {
+            return point_spread_of(volume, request);
+        }
+        if let Some(told) = &self.told {
+            return Ok(told.clone());
+        }
+        let told = point_spread_of(volume, request)?;
+        self.told = Some(told.clone());
+        Ok(told)
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/kept_profiles.rs"]
+mod tests;

@@ -1,0 +1,95 @@
+//! What a pixel of a view shows, and what lies at a world point.
+
+use crate::positions::world_from_pixel;
+use crate::windows;
+use glam::{DVec2, DVec3};
+use lumencut_core::camera::Camera;
+use lumencut_core::pipeline::Request;
+use lumencut_core::settings::Settings;
+use lumencut_core::stages::{Image, ImageSet};
+use lumencut_core::vessel_tree::Vessel;
+use serde::Serialize;
+
+use crate::study::failure::Result;
+use crate::study::open_study::Study;
+use crate::study::view::View;
+
+/// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
+const AROUND: usize = 8;
+
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Pick {
+    /// The world point.
+    pub point: [f64; 3],
+    /// The volume there; none outside.
+    pub value: Option<f32>,
+    /// The vessel whose zone it is in.
+    pub vessel: Option<usize>,
+    /// The place on the vessel that is nearest (mm).
+    pub arc_length: Option<f64>,
+}
+
+impl Study {
+    /// What the pixel (column, row) of a view shows.
+    ///
+    /// # Errors
+    /// Those of the view, and `volume` where nothing is open.
+    pub fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
+        let [x, y] = pixel.map(|place| place.round());
+        let point = world_from_pixel(&view.camera, [x, y], 0.0);
+        let side = 2 * AROUND + 1;
+        let camera = view.camera;
+        let spacing = camera.pixel_spacing();
+        let near = Camera::new(point, camera.direction(), camera.up(), [side, side], spacing)?;
+        let settings = Settings { samples: 1, ..view.settings.clone() };
+        let images = ImageSet::of(&[Image::Depth, Image::Vessel, Image::Value]);
+        let request = Request { images, ..Request::new(&near, &settings) };
+        let scene = self.content.scene()?;
+        let frame = view.method.on_cpu(&mut self.cpu, &scene, &request)?;
+        let middle = side * AROUND + AROUND;
+        let depth = frame.depth().get(middle).copied().unwrap_or_default();
+        let point = point + camera.direction() * f64::from(depth);
+        let vessel = frame.vessel.get(middle).and_then(|vessel| usize::try_from(*vessel).ok());
+        Ok(self.told(point, vessel))
+    }
+
+    /// What lies at a world point; the vessel where one is given.
+    fn told(&self, point: DVec3, vessel: Option<usize>) -> Pick {
+        let arc_length = vessel
+            .and_then(|vessel| self.vessel(vessel).ok())
+            .map(|vessel| nearest_arc_length(vessel, point));
+        Pick { point: point.to_array(), value: self.value(point), vessel, arc_length }
+    }
+
+    /// What lies at a world point, and the vessel in whose lumen it is.
+    pub fn at(&self, point: [f64; 3]) -> Pick {
+        let point = DVec3::from_array(point);
+        let vessels = self.content.tree().map_or(&[][..], |tree| tree.tree().vessels());
+        let inside = vessels.iter().position(|vessel| {
+            let near = vessel.points().iter().zip(0..);
+            near.into_iter().any(|(p, i): (&DVec3, usize)| p.distance(point) <= vessel.radius_or_zero(i))
+        });
+        self.told(point, inside)
+    }
+
+    fn value(&self, point: DVec3) -> Option<f32> {
+        let volume = self.content.held.as_ref().and_then(|held| held.volume().ok())?;
+        windows::sample(&volume, &[point]).first().copied().filter(|value| value.is_finite())
+    }
+}
+
+/// The arc length (mm) on a vessel that is nearest to a point.
+fn nearest_arc_length(vessel: &Vessel, point: DVec3) -> f64 {
+    let (points, along) = (vessel.points(), vessel.arc_length());
+    let mut best = DVec2::new(f64::MAX, 0.0);
+    for (i, ends) in points.windows(2).enumerate() {
+        let way = ends[1] - ends[0];
+        let t = ((point - ends[0]).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let distance = point.distance(ends[0] + way * t);
+        if distance < best.x {
+            best = DVec2::new(distance, along[i] + t * (along[i + 1] - along[i]));
+        }
+    }
+    best.y
+}
