@@ -13,7 +13,7 @@ use lumencut::measure_words;
 use lumencut::named::Named;
 use lumencut::study::view;
 use lumencut::trace::lumen::refine;
-use lumencut::trace::{mask, seed};
+use lumencut::trace::{seed, skeleton};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
@@ -41,7 +41,7 @@ fn defaults() -> [(&'static str, f64); 4] {
     [
         ("measuring_step", measuring::STEP),
         ("point_distance", refine::STEP),
-        ("shortest_branch", mask::PARENT_RADII),
+        ("shortest_branch", skeleton::PARENT_RADII),
         ("smallest_radius", seed::SMALLEST_RADIUS),
     ]
 }

@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::{Volume, Voxels};
-use lumencut_vessels::trace::lumen::refine::Centerline;
-use lumencut_vessels::trace::mask::distance_transform::squared_distances;
-use lumencut_vessels::trace::mask::foreground::{Foreground, LUMEN};
+use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::trace::mask::{Request, trace_mask};
+use lumencut_vessels::trace::skeleton::distance_transform::squared_distances;
+use lumencut_vessels::trace::skeleton::foreground::{Foreground, LUMEN};
 
 const SIZE: [usize; 3] = [14, 11, 9];
 

@@ -1,4 +1,4 @@
-//! Arc length: how far along a line of points each of them lies.
+//! Arc length: how far along a line of points each of them lies, and what lies at an arc length.
 
 use glam::DVec3;
 
@@ -9,4 +9,63 @@ pub fn arc_lengths(points: &[DVec3]) -> Vec<f64> {
         lengths[i] = lengths[i - 1] + points[i].distance(points[i - 1]);
     }
     lengths
+}
+
+/// A place on a line of points: on the segment from point `segment` to the next one, after this `share` of it (0 to 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinePlace {
+    /// The number of the point before the place.
+    pub segment: usize,
+    /// How much of the segment lies before the place.
+    pub share: f64,
+}
+
+impl LinePlace {
+    /// The place at arc length `at` of a line whose points have the rising arc lengths `lengths`, of which there is one at
+    /// least: beyond the ends of the line its nearer end. At a point of the line it is the start of the segment after it.
+    pub fn at(lengths: &[f64], at: f64) -> Self {
+        let last = lengths.len() - 1;
+        let segment = lengths.partition_point(|length| *length <= at).clamp(1, last.max(1)) - 1;
+        let step = lengths[(segment + 1).min(last)] - lengths[segment];
+        let share = if step > 0.0 { ((at - lengths[segment]) / step).clamp(0.0, 1.0) } else { 0.0 };
+        Self { segment, share }
+    }
+
+    /// The point there.
+    pub fn point(self, points: &[DVec3]) -> DVec3 {
+        let before = points[self.segment];
+        points.get(self.segment + 1).map_or(before, |after| before.lerp(*after, self.share))
+    }
+
+    /// What lies between the values of both points there.
+    pub fn value(self, values: &[f64]) -> f64 {
+        let before = values[self.segment];
+        values.get(self.segment + 1).map_or(before, |after| before + (after - before) * self.share)
+    }
+}
+
+/// The point of a line at an arc length, with the arc lengths of its points: beyond the ends of the line its nearer end.
+pub fn point_at(points: &[DVec3], lengths: &[f64], at: f64) -> DVec3 {
+    LinePlace::at(lengths, at).point(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_lie_on_their_segments_and_beyond_the_ends_at_the_ends() {
+        let points = [DVec3::ZERO, DVec3::X * 2.0, DVec3::X * 2.0, DVec3::new(2.0, 4.0, 0.0)];
+        let lengths = arc_lengths(&points);
+        assert_eq!(lengths, [0.0, 2.0, 2.0, 6.0]);
+        for (at, point) in [(-1.0, points[0]), (0.0, points[0]), (0.5, DVec3::X * 0.5), (2.0, points[1])] {
+            assert_eq!(point_at(&points, &lengths, at), point);
+        }
+        for (at, point) in [(3.0, DVec3::new(2.0, 1.0, 0.0)), (6.0, points[3]), (7.0, points[3])] {
+            assert_eq!(point_at(&points, &lengths, at), point);
+        }
+        assert_eq!(LinePlace::at(&lengths, 2.0), LinePlace { segment: 2, share: 0.0 });
+        assert_eq!(LinePlace::at(&lengths, 5.0).value(&[0.0, 1.0, 5.0, 9.0]), 8.0);
+        assert_eq!(point_at(&[DVec3::Y], &[0.0], 3.0), DVec3::Y);
+    }
 }

@@ -1,5 +1,9 @@
-//! Points along a line: arc length, directions, frames, smoothing, and which points of two lines belong together.
+//! Points along a line: steps, directions, frames, smoothing, and which points of two lines belong together.
 
+pub mod centerline;
 pub mod correspondence;
-pub mod path;
-pub mod polyline;
+pub mod directions;
+pub mod even_steps;
+pub mod frames;
+pub mod nearest_point;
+pub mod smoothing;

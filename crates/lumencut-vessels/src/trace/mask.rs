@@ -1,52 +1,19 @@
 //! Centerlines of a mask: from its voxels to vessels that meet in common points.
 
-pub mod centering;
-pub mod distance_transform;
-pub mod foreground;
-pub mod graph;
 pub mod grey_values;
-pub mod label_value;
 pub mod labels;
 pub mod mask_gaps;
-pub mod mask_lumen;
-pub mod mask_refinement;
-pub mod mask_vessels;
-mod nearest_background;
-pub mod pruning;
-pub mod runs;
-pub mod simple_point;
-pub mod thinning;
-pub mod through_lines;
 
-use glam::DVec3;
-use rayon::prelude::*;
-
-use crate::trace::lines::polyline::{at, directions, resampled};
-use crate::trace::lumen::refine::Centerline;
-use crate::trace::mask::centering::{center, lead_to_cap};
-use crate::trace::mask::distance_transform::squared_distances;
-use crate::trace::mask::foreground::{Foreground, LUMEN};
-use crate::trace::mask::graph::Graph;
 use crate::trace::mask::labels::parted;
 use crate::trace::mask::mask_gaps::{Gap, bridge, gaps};
-use crate::trace::mask::mask_lumen::Lumen;
-use crate::trace::mask::mask_refinement::{Refine, refined};
-use crate::trace::mask::mask_vessels::{MaskVessel, outwards};
-use crate::trace::mask::pruning::{merge_junctions, prune, remove_round_pieces};
-use crate::trace::mask::runs::{fill_cavities, pieces};
-use crate::trace::mask::thinning::thin;
-use crate::trace::mask::through_lines::{ThroughLine, through_lines};
+use crate::trace::skeleton::foreground::Foreground;
+use crate::trace::skeleton::mask_refinement::Refine;
+use crate::trace::skeleton::mask_vessels::MaskVessel;
+use crate::trace::skeleton::{COSTS, Skeleton, Skeletonization, skeleton};
 use lumencut_core::error::{Error, ErrorKind, Result};
-use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::progress::Progress;
-use lumencut_core::stop::{Stop, go_on};
+use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
-
-/// The most cells in the box around the lumen: their numbers have 32 bits.
-const MOST_CELLS: usize = u32::MAX as usize;
-
-/// How long a branch must be to stay where nobody asks for another length, in radii of its parent.
-pub const PARENT_RADII: f64 = 2.0;
 
 /// What is traced, and how.
 pub struct Request<'a> {
@@ -78,19 +45,12 @@ pub struct TracedMask {
     pub pieces: usize,
 }
 
-/// Where an end is moved to another line, so many radii of the line move with it.
-const JOINED: f64 = 1.5;
-
-/// The steps of the work, and how long each takes for each voxel of lumen in comparison.
-const COSTS: [usize; 4] = [2, 3, 6, 4];
-
 /// The centerlines of the lumen of a mask.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for a mask without lumen or background, of floats, of one slice, or whose lumen has no
 /// part that is longer than wide; [`ErrorKind::Interrupted`] where the caller asks to stop.
 pub fn trace_mask(mask: &Volume, request: &Request) -> Result<TracedMask> {
-    let stop = request.stop;
     let begin = |step: usize| {
         if let Some(progress) = request.progress {
             progress.begin_stage(COSTS[step]);
@@ -101,164 +61,20 @@ pub fn trace_mask(mask: &Volume, request: &Request) -> Result<TracedMask> {
         progress.begin_view(COSTS.into_iter(), 1);
     }
     begin(0);
-    let mut foreground = Foreground::new(mask, request.labels, stop)?;
-    if foreground.cells.len() > MOST_CELLS {
-        let found = format!("{:?} voxels in the box around the lumen", foreground.size);
-        return Err(Error::new(ErrorKind::Volume, "mask", found, format!("at most {MOST_CELLS} in all")));
-    }
-    let filled = fill_cavities(&mut foreground, stop)?;
-    let pieces = pieces(&foreground, stop)?;
-    begin(1);
-    let lumen_cells: Vec<u32> =
-        (0..foreground.cells.len() as u32).filter(|&cell| foreground.cells[cell as usize] == LUMEN).collect();
-    let squares = squared_distances(&foreground, &lumen_cells, stop)?;
-    begin(2);
-    let skeleton = thin(&mut foreground, &lumen_cells, &squares, stop)?;
-    begin(3);
-    let lumen = Lumen::new(&foreground, &squares);
-    let mut graph = Graph::new(&foreground, &skeleton);
-    prune(&mut graph, &lumen, request.parent_radii);
-    remove_round_pieces(&mut graph, &lumen);
-    merge_junctions(&mut graph, &lumen);
-    let vessels = outwards(vessels(&graph, &lumen, request)?);
+    let foreground = Foreground::new(mask, request.labels, request.stop)?;
+    let Request { parent_radii, step, refine, stop, .. } = *request;
+    let how = Skeletonization { parent_radii, step, refine, stop, begin: &begin };
+    let Skeleton { vessels, filled, pieces, voxels } = skeleton(foreground, &how)?;
     let mut vessels: Vec<MaskVessel> =
         vessels.iter().flat_map(|vessel| parted(vessel, mask, request.labels)).collect();
     let mut gaps = gaps(&vessels, stop)?;
-    bridge(&mut vessels, &mut gaps, request.bridge, request.step);
+    bridge(&mut vessels, &mut gaps, request.bridge, step);
     if let Some(progress) = request.progress {
         progress.end_view();
     }
     if vessels.is_empty() {
-        let found = format!("lumen of {} voxels that is nowhere longer than wide", lumen_cells.len());
+        let found = format!("lumen of {voxels} voxels that is nowhere longer than wide");
         return Err(Error::new(ErrorKind::Volume, "mask", found, "a vessel"));
     }
     Ok(TracedMask { vessels, gaps, filled, pieces })
-}
-
-/// The branches of a graph as vessels.
-fn vessels(graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<MaskVessel>> {
-    let mut lines = through_lines(graph, lumen);
-    let passes = |line: &ThroughLine, n: usize| line.is_closed || (n > 0 && n + 1 < line.knots.len());
-    let mut is_passed = vec![false; graph.nodes.len()];
-    for line in &lines {
-        for (n, knot) in line.knots.iter().enumerate() {
-            is_passed[knot.node] |= passes(line, n);
-        }
-    }
-    let on_other = |line: &ThroughLine| {
-        [line.knots.first(), line.knots.last()].map(|knot| {
-            let knot = knot.filter(|knot| !line.is_closed && is_passed[knot.node])?;
-            Some(lumen.radius_at_cell(graph.nodes[knot.node]))
-        })
-    };
-    lines.par_iter_mut().try_for_each(|line| center(line, lumen, on_other(line), request.stop))?;
-    let mut node_place: Vec<Option<DVec3>> = vec![None; graph.nodes.len()];
-    for line in &lines {
-        for (_, knot) in line.knots.iter().enumerate().filter(|(n, _)| passes(line, *n)) {
-            node_place[knot.node].get_or_insert(line.points[knot.point]);
-        }
-    }
-    let made: Vec<Vec<MaskVessel>> = lines
-        .par_iter_mut()
-        .map(|line| {
-            go_on(request.stop)?;
-            attach(line, &node_place, on_other(line));
-            split(line, graph, lumen, request)
-        })
-        .collect::<Result<_>>()?;
-    Ok(made.into_iter().flatten().collect())
-}
-
-/// Brings the ends of a line that lie on other lines to where those pass, and all that is near them part of the way.
-fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Option<f64>; 2]) {
-    let ways = arc_lengths(&line.points);
-    let whole = ways[ways.len() - 1];
-    let last = line.points.len() - 1;
-    for (end, radius) in on_other.into_iter().enumerate() {
-        let knot = line.knots[if end == 0 { 0 } else { line.knots.len() - 1 }];
-        let (Some(radius), Some(place)) = (radius, node_place[knot.node]) else { continue };
-        let point = if end == 0 { 0 } else { last };
-        let delta = place - line.points[point];
-        bring_back(&mut line.points, &ways, end, delta, (JOINED * radius).min(whole / 2.0));
-        line.points[point] = place;
-        let next = line.knots[if end == 0 { 1 } else { line.knots.len() - 2 }].point;
-        lead_in(&mut line.points, end, place, radius, next);
-    }
-    for knot in &line.knots {
-        if let Some(place) = node_place[knot.node] {
-            line.points[knot.point] = place;
-        }
-    }
-}
-
-/// Leads a line from where it leaves the lumen of another one, `radius` (mm) from `place`, straight on and in one bend to
-/// that place, which is its end. Before point `next` it stays as it is.
-fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: usize) {
-    let last = points.len() - 1;
-    let from_end = |n: usize| if end == 0 { n } else { last - n };
-    let most = if end == 0 { next } else { last - next };
-    let Some(exit) = (1..most).find(|&n| points[from_end(n)].distance(place) >= radius) else { return };
-    let outside = points[from_end((exit + 3).min(most))] - points[from_end(exit)];
-    let direction = outside.normalize_or_zero();
-    let from = points[from_end(exit)];
-    // A parabola whose direction at the exit is that of the line.
-    let control = from - direction * (from.distance(place) / 2.0);
-    for n in 1..exit {
-        let t = n as f64 / exit as f64;
-        points[from_end(n)] = place.lerp(control, t).lerp(control.lerp(from, t), t);
-    }
-}
-
-/// The vessels of a line: its parts between nodes.
-fn split(line: &ThroughLine, graph: &Graph, lumen: &Lumen, request: &Request) -> Result<Vec<MaskVessel>> {
-    let mut made = Vec::new();
-    for pair in line.knots.windows(2) {
-        let mut points = line.points[pair[0].point..=pair[1].point].to_vec();
-        let is_free = [pair[0], pair[1]].map(|knot| graph.incident[knot.node].len() == 1);
-        let whole = arc_lengths(&points)[points.len() - 1];
-        for end in 0..2 {
-            if is_free[end] {
-                lead_to_cap(&mut points, lumen, whole / 2.0);
-            }
-            points.reverse();
-        }
-        let points = resampled(&points, request.step);
-        let radius = radii(&points, is_free, lumen);
-        let mut line = Centerline { points, radius, confidence: Vec::new() };
-        if let Some(refine) = request.refine {
-            line = refined(line, is_free, lumen, refine, request.step)?;
-        }
-        let Centerline { points, radius, confidence } = line;
-        let nodes = [pair[0].node, pair[1].node];
-        made.push(MaskVessel { points, radius, confidence, nodes, is_free, label: 0, is_bridge: false });
-    }
-    Ok(made)
-}
-
-/// Moves an end of a line, and what is within `length` (mm) of it part of the way.
-fn bring_back(points: &mut [DVec3], ways: &[f64], end: usize, delta: DVec3, length: f64) {
-    let whole = ways[ways.len() - 1];
-    for (point, way) in points.iter_mut().zip(ways) {
-        let way = if end == 0 { *way } else { whole - way };
-        let share = (1.0 - way / length.max(1e-9)).max(0.0);
-        *point += share * share * (3.0 - 2.0 * share) * delta;
-    }
-}
-
-/// The radius of the lumen at each point: that of a circle with the area of the cross-section, but no more than half a
-/// voxel beyond the nearest wall. Within a voxel of an end of the lumen, whose cross-section is lost there, it is that
-/// of one voxel before.
-fn radii(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Vec<f64> {
-    let side = lumen.side();
-    let reach = vec![2.0 * side; points.len()];
-    let along = directions(points, &reach, false);
-    let ways = arc_lengths(points);
-    let whole = ways[ways.len() - 1];
-    let measured = |way: f64| {
-        let n = ways.partition_point(|known| *known < way - 1e-6).min(points.len() - 1);
-        let section = lumen.cross_section(at(points, &ways, way), along[n]);
-        section.map_or(0.0, |section| section.radius.min(section.shortest + side / 2.0))
-    };
-    let [first, last] = is_free.map(|is_free| if is_free { side.min(whole / 2.0) } else { 0.0 });
-    ways.iter().map(|way| measured(way.clamp(first, whole - last))).collect()
 }

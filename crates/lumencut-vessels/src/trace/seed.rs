@@ -7,16 +7,18 @@ pub mod seed_ways;
 
 use glam::{DAffine3, DVec3};
 
-use crate::trace::clicks::junctions::nearest;
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::cross_section::Probe;
 use crate::trace::lumen::lumen_model::{LumenModel, Surroundings, at};
-use crate::trace::lumen::refine::{Centerline, STEP, refined};
+use crate::trace::lumen::refine::{STEP, refined};
 use crate::trace::lumen::tube::{Sections, Usual};
-use crate::trace::mask::mask_vessels::MaskVessel;
-use crate::trace::mask::{self, TracedMask};
 use crate::trace::seed::seed_branches::Search;
 use crate::trace::seed::seed_tree::{SeedBranch, SeenVessel};
 use crate::trace::seed::seed_ways::Ways;
+use crate::trace::skeleton::foreground::Foreground;
+use crate::trace::skeleton::mask_vessels::MaskVessel;
+use crate::trace::skeleton::{PARENT_RADII, Skeletonization, skeleton};
 use crate::trace::ways::flood::{Flood, bounds};
 use crate::trace::ways::region::{Region, Strictness};
 use crate::voxels::Voxels;
@@ -109,7 +111,7 @@ pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>>
         let vessel = MaskVessel { points: line.points, radius: line.radius, ..vessel };
         SeenVessel { vessel, confidence }
     };
-    let vessels = seed_tree::wide_enough(traced.vessels, smallest_radius);
+    let vessels = seed_tree::wide_enough(traced, smallest_radius);
     if vessels.is_empty() {
         return Err(no_tube(request, &model, flood.count()));
     }
@@ -158,7 +160,7 @@ fn traced(
     flood: &Flood,
     kept: &[u32],
     request: &Request,
-) -> Result<TracedMask> {
+) -> Result<Vec<MaskVessel>> {
     let (mut low, mut high) = ([i32::MAX; 3], [0; 3]);
     for &number in kept {
         let voxel = flood.voxel(number);
@@ -181,23 +183,19 @@ fn traced(
         let line = refined(voxels, model, points, request.stop)?;
         let strays = line.points.iter().zip(&line.radius).any(|(point, radius)| {
             let far = STRAYED.max(STRAYED_RADII * radius);
-            point.distance(points[nearest(points, *point)]) > far
+            point.distance(points[nearest_point(points, *point)]) > far
         });
         let is_faithful = !strays && length(&line.points) <= ASTRAY * length(points) + STRAYED;
         Ok(is_faithful.then_some(line))
     };
-    mask::trace_mask(
-        &mask,
-        &mask::Request {
-            labels: None,
-            parent_radii: mask::PARENT_RADII,
-            step: STEP,
-            bridge: 0.0,
-            refine: Some(&refine),
-            stop: request.stop,
-            progress: None,
-        },
-    )
+    let how = Skeletonization {
+        parent_radii: PARENT_RADII,
+        step: STEP,
+        refine: Some(&refine),
+        stop: request.stop,
+        begin: &|_| (),
+    };
+    Ok(skeleton(Foreground::new(&mask, None, request.stop)?, &how)?.vessels)
 }
 
 fn length(points: &[DVec3]) -> f64 {

@@ -8,7 +8,7 @@ use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_io as centerlines;
 use lumencut_vessels::trace::clicks::traced::Traced;
-use lumencut_vessels::trace::lumen::refine::Centerline;
+use lumencut_vessels::trace::lines::centerline::Centerline;
 use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;

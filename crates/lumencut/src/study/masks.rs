@@ -6,10 +6,12 @@ use crate::mask_notes::{check_same_grid, notes};
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::volume::Volume;
-use lumencut_vessels::trace::lumen::refine::{Centerline, STEP};
+use lumencut_vessels::trace::lines::centerline::Centerline;
+use lumencut_vessels::trace::lumen::refine::STEP;
 use lumencut_vessels::trace::mask::grey_values::GreyValues;
-use lumencut_vessels::trace::mask::mask_vessels::MaskVessel;
-use lumencut_vessels::trace::mask::{PARENT_RADII, Request, TracedMask, trace_mask};
+use lumencut_vessels::trace::mask::{Request, TracedMask, trace_mask};
+use lumencut_vessels::trace::skeleton::PARENT_RADII;
+use lumencut_vessels::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 

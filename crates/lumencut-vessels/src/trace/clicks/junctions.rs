@@ -3,7 +3,9 @@
 use glam::DVec3;
 
 use crate::trace::clicks::traced::Traced;
-use crate::trace::lumen::refine::{Centerline, STEP};
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lumen::refine::STEP;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
@@ -96,7 +98,7 @@ impl Centerline {
     /// Whether a place lies within the lumen; beyond the ends there is none.
     fn holds(&self, place: DVec3) -> bool {
         let points = &self.points;
-        let near = nearest(points, place);
+        let near = nearest_point(points, place);
         let across = place - points[near];
         let last = points.len() - 1;
         let slack = (ENDS * self.radius[near]).max(STEP);
@@ -120,9 +122,7 @@ impl Centerline {
 
 impl Traced {
     fn reversed(mut self) -> Self {
-        self.line.points.reverse();
-        self.line.radius.reverse();
-        self.line.confidence.reverse();
+        self.line = self.line.reversed();
         self.bridged.reverse();
         self.ends.reverse();
         self
@@ -158,13 +158,7 @@ impl Traced {
     fn in_even_steps(self) -> Self {
         let line = self.line.resampled(STEP);
         let bridged =
-            line.points.iter().map(|point| self.bridged[nearest(&self.line.points, *point)]).collect();
+            line.points.iter().map(|point| self.bridged[nearest_point(&self.line.points, *point)]).collect();
         Self { line, bridged, ..self }
     }
-}
-
-/// The point of a line nearest to a place.
-pub fn nearest(points: &[DVec3], place: DVec3) -> usize {
-    let distance = |i: &usize| points[*i].distance_squared(place);
-    (0..points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::trace::lumen::refine::Centerline;
+use crate::trace::lines::centerline::Centerline;
 
 /// A centerline between clicks.
 #[derive(Clone, Debug, PartialEq)]

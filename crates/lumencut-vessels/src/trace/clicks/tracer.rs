@@ -5,12 +5,14 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use crate::trace::clicks::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
-use crate::trace::clicks::junctions::{joined, nearest};
+use crate::trace::clicks::junctions::joined;
 use crate::trace::clicks::preview::{Live, Sought};
 use crate::trace::clicks::traced::Traced;
 use crate::trace::clicks::way::{Way, start};
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::lumen_model::{LumenModel, Surroundings, at};
-use crate::trace::lumen::refine::{Centerline, refined};
+use crate::trace::lumen::refine::refined;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Stopper, Strictness};
 use crate::voxels::Voxels;
@@ -181,7 +183,8 @@ impl Tracer {
         }
         let Some(region) = &self.region else { return Err(Error::interrupted()) };
         let mut line = refined(search.voxels, &region.model, &points, search.stop)?;
-        let bridged: Vec<bool> = line.points.iter().map(|point| open[nearest(&points, *point)]).collect();
+        let bridged: Vec<bool> =
+            line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
         for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
             if *is_bridged {
                 *confidence = 0.0;

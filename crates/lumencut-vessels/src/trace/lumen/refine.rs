@@ -2,7 +2,11 @@
 
 use glam::DVec3;
 
-use crate::trace::lines::path::{directions, frames, resampled, resampled_values, smoothed};
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::directions::point_directions;
+use crate::trace::lines::even_steps::in_even_steps;
+use crate::trace::lines::frames::frames;
+use crate::trace::lines::smoothing::smoothed_by_parabolas;
 use crate::trace::lumen::cross_section::{CrossSection, Probe};
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::voxels::Voxels;
@@ -32,37 +36,12 @@ const STRETCH: f64 = 2.0;
 /// How much a point counts at which no lumen was seen.
 const UNSEEN: f64 = 0.1;
 
-/// A centerline, and what is known at each of its points.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Centerline {
-    /// The points (mm, LPS).
-    pub points: Vec<DVec3>,
-    /// The radius of the lumen (mm).
-    pub radius: Vec<f64>,
-    /// How sure the point is, 0 to 1.
-    pub confidence: Vec<f64>,
-}
-
-impl Centerline {
-    /// The same line in even steps of at most `step` (mm); its ends stay to the bit.
-    pub fn resampled(&self, step: f64) -> Self {
-        let mut points = resampled(&self.points, step);
-        let last = points.len() - 1;
-        (points[0], points[last]) = (self.points[0], self.points[self.points.len() - 1]);
-        Self {
-            points,
-            radius: resampled_values(&self.points, &self.radius, step),
-            confidence: resampled_values(&self.points, &self.confidence, step),
-        }
-    }
-}
-
 /// The line in the middle of the lumen that a way runs through.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -> Result<Centerline> {
-    let points = resampled(way, 2.0 * STEP);
+    let points = in_even_steps(way, 2.0 * STEP);
     let mut line =
         Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
     for (round, (step, rays)) in ROUNDS.into_iter().enumerate() {
@@ -77,7 +56,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let points = &line.points;
     let lengths = arc_lengths(points);
     let reach = if round == 0 { 3.0 } else { 1.5 };
-    let across = frames(points, &directions(points, reach));
+    let across = frames(points, &point_directions(points, reach));
     let sections: Vec<Option<CrossSection>> = (0..points.len())
         .into_par_iter()
         .map(|i| {
@@ -100,7 +79,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let wide = if round == 0 { 0.5 } else { 0.15 };
     // Where nothing was seen the line holds on to where it is, so that no end of what was seen swings out.
     let weights: Vec<f64> = trust.iter().map(|trust| trust.max(UNSEEN)).collect();
-    let smooth = smoothed(&lengths, &values, &weights, |i| SMOOTHING.max(wide * values[i][3]));
+    let smooth = smoothed_by_parabolas(&lengths, &values, &weights, |i| SMOOTHING.max(wide * values[i][3]));
     let moved: Vec<DVec3> = smooth.iter().map(|v| DVec3::new(v[0], v[1], v[2])).collect();
     let radius: Vec<f64> = smooth.iter().map(|v| v[3].max(0.0)).collect();
     Centerline { points: moved, radius, confidence: trust }

@@ -1,9 +1,10 @@
 //! Whether a line is that of a tube, and how far.
 
-use crate::trace::lines::path::{directions, frames};
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::directions::point_directions;
+use crate::trace::lines::frames::frames;
 use crate::trace::lumen::cross_section::{CrossSection, Probe};
 use crate::trace::lumen::lumen_model::LumenModel;
-use crate::trace::lumen::refine::Centerline;
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// From this confidence on a point lies in a tube.
@@ -51,7 +52,7 @@ pub struct Sections {
 impl Sections {
     /// The cross-sections at the points of a line.
     pub fn along(probe: &Probe, line: &Centerline) -> Self {
-        let across = frames(&line.points, &directions(&line.points, 1.5));
+        let across = frames(&line.points, &point_directions(&line.points, 1.5));
         let look = |n: usize| {
             let guess = Some(line.radius[n]).filter(|radius| *radius > 0.0);
             probe.look(line.points[n], across[n], guess)

@@ -4,9 +4,11 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::trace::lines::path::{directions, frames};
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::directions::point_directions;
+use crate::trace::lines::frames::frames;
 use crate::trace::lumen::lumen_model::{LumenModel, quantile, tissue_level};
-use crate::trace::lumen::refine::{Centerline, refined};
+use crate::trace::lumen::refine::refined;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::arc_lengths;
@@ -89,7 +91,7 @@ impl GreyValues<'_, '_> {
 
     /// Values of what lies around the vessel, numbers alone.
     fn tissue(&self, points: &[DVec3], radius: &[f64]) -> Vec<f32> {
-        let across = frames(points, &directions(points, 1.5));
+        let across = frames(points, &point_directions(points, 1.5));
         let [near, far] = TISSUE.map(|distance| distance.max(distance * self.voxels.smallest_side));
         let mut values = Vec::new();
         for ((point, radius), [u, v]) in points.iter().zip(radius).zip(across) {

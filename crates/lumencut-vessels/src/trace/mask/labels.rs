@@ -1,7 +1,7 @@
 //! The labels of a label map along a vessel, which part it where one label ends and another begins.
 
-use crate::trace::mask::label_value::label_at;
-use crate::trace::mask::mask_vessels::MaskVessel;
+use crate::trace::skeleton::label_value::label_at;
+use crate::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::volume::Volume;
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::trace::mask::mask_vessels::MaskVessel;
+use crate::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::{Stop, go_on};

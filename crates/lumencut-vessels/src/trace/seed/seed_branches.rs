@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use crate::trace::clicks::junctions::nearest;
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::cross_section::Probe;
 use crate::trace::lumen::lumen_model::LumenModel;
-use crate::trace::lumen::refine::{Centerline, refined};
+use crate::trace::lumen::refine::refined;
 use crate::trace::lumen::tube::{Sections, Usual, median};
 use crate::trace::seed::seed_ways::{NONE, Ways};
 use crate::trace::ways::flood::Flood;
@@ -163,7 +164,7 @@ impl Search<'_, '_> {
         let probe = Probe { voxels: self.voxels, model: self.model, rays: RAYS };
         let usual = Usual::of(self.model);
         let is_faithful = |end: usize| {
-            let way = length(&points[..=nearest(&points[..count], line.points[end])]);
+            let way = length(&points[..=nearest_point(&points[..count], line.points[end])]);
             let new = line.points[from..=end].iter().filter(|point| !is_inside(**point)).count();
             let is_new = new as f64 >= NEW * (end + 1 - from) as f64;
             is_new && length(&line.points[from..=end]) <= ASTRAY * way + ASTRAY_LENGTH
@@ -172,7 +173,7 @@ impl Search<'_, '_> {
         let Some(end) = sections.sound(from, self.smallest_radius, &usual, &is_faithful) else {
             return Ok(false);
         };
-        let last = nearest(&points[..count], line.points[end]);
+        let last = nearest_point(&points[..count], line.points[end]);
         self.keep(state, &line, end);
         // The way itself joins what the balls leave open, back to the branch that it leaves.
         let mut here = Some(way[last]);

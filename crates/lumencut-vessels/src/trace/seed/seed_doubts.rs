@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 
 use glam::DVec3;
 
-use crate::trace::lumen::refine::Centerline;
+use crate::trace::lines::centerline::Centerline;
 
 /// A doubtful vessel that runs less far outside the lumens of sure ones is a bump of a wall, or a way between the struts of a
 /// stent (mm).

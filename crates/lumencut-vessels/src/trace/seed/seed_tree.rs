@@ -4,10 +4,10 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 
 use glam::DVec3;
 
-use crate::trace::lumen::refine::Centerline;
+use crate::trace::lines::centerline::Centerline;
 use crate::trace::lumen::tube::median;
-use crate::trace::mask::mask_vessels::MaskVessel;
 use crate::trace::seed::seed_doubts::{Doubtful, worth_a_look};
+use crate::trace::skeleton::mask_vessels::MaskVessel;
 
 /// A vessel whose mean confidence is below this is doubtful.
 const DOUBTFUL: f64 = 0.3;
@@ -242,20 +242,13 @@ fn joined(lines: Vec<([usize; 2], Centerline)>) -> Vec<Centerline> {
 fn chained(line: Centerline, end: usize, other: Centerline, other_end: usize) -> Centerline {
     let [first, second] = match (end, other_end) {
         (1, 0) => [line, other],
-        (1, _) => [line, reversed(other)],
+        (1, _) => [line, other.reversed()],
         (_, 1) => [other, line],
-        _ => [reversed(other), line],
+        _ => [other.reversed(), line],
     };
     Centerline {
         points: [&first.points[..], &second.points[1..]].concat(),
         radius: [&first.radius[..], &second.radius[1..]].concat(),
         confidence: [&first.confidence[..], &second.confidence[1..]].concat(),
     }
-}
-
-fn reversed(mut line: Centerline) -> Centerline {
-    line.points.reverse();
-    line.radius.reverse();
-    line.confidence.reverse();
-    line
 }

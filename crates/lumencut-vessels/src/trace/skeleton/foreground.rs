@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::trace::mask::label_value::LabelValue;
+use crate::trace::skeleton::label_value::LabelValue;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Volume, Voxels};

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::trace::lumen::refine::Centerline;
-use crate::trace::mask::mask_lumen::Lumen;
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::error::Result;
-use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_core::math::arc_length::{LinePlace, arc_lengths};
 
 /// Makes of the points of a centerline (mm, LPS) and their radii (mm) better ones, or none where it knows no better.
 pub type Refine<'a> = &'a (dyn Fn(&[DVec3], &[f64]) -> Result<Option<Centerline>> + Sync);
@@ -74,32 +74,15 @@ fn blended(old: &Centerline, mut better: Centerline, reaches: [f64; 2]) -> Cente
             let share = (1.0 - way / reach).max(0.0);
             let share = share * share * (3.0 - 2.0 * share);
             if share > 0.0 {
-                let there = old.at(&before, if end == 0 { way } else { old_length - way });
-                better.points[n] = better.points[n].lerp(there.0, share);
-                better.radius[n] += share * (there.1 - better.radius[n]);
+                let there = LinePlace::at(&before, if end == 0 { way } else { old_length - way });
+                better.points[n] = better.points[n].lerp(there.point(&old.points), share);
+                better.radius[n] += share * (there.value(&old.radius) - better.radius[n]);
             }
         }
         let [from, to] = if end == 0 { [0, 0] } else { [old.points.len() - 1, last] };
         better.points[to] = old.points[from];
     }
     better
-}
-
-impl Centerline {
-    fn append(&mut self, mut other: Self) {
-        self.points.append(&mut other.points);
-        self.radius.append(&mut other.radius);
-        self.confidence.append(&mut other.confidence);
-    }
-
-    /// Point and radius at a length along the line.
-    fn at(&self, lengths: &[f64], way: f64) -> (DVec3, f64) {
-        let after = lengths.partition_point(|known| *known <= way).clamp(1, lengths.len() - 1);
-        let [from, to] = [lengths[after - 1], lengths[after]];
-        let share = if to > from { ((way - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-        let radius = self.radius[after - 1] + share * (self.radius[after] - self.radius[after - 1]);
-        (self.points[after - 1].lerp(self.points[after], share), radius)
-    }
 }
 
 /// The points of a line between those within the vessels that it meets.

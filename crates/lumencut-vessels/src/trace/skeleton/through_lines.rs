@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::trace::mask::graph::Graph;
-use crate::trace::mask::mask_lumen::Lumen;
+use crate::trace::skeleton::graph::Graph;
+use crate::trace::skeleton::mask_lumen::Lumen;
 
 /// Branches one after the other, each the right way round.
 pub struct ThroughLine {

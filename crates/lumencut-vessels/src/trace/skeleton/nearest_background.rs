@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::trace::mask::foreground::{BACKGROUND, Foreground};
+use crate::trace::skeleton::foreground::{BACKGROUND, Foreground};
 
 /// So many points are looked at one by one.
 const LEAF: usize = 8;

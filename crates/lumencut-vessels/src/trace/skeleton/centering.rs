@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
-use crate::trace::lines::polyline::{at, directions, smoothed};
-use crate::trace::mask::mask_lumen::Lumen;
-use crate::trace::mask::through_lines::ThroughLine;
+use crate::trace::lines::directions::chord_directions;
+use crate::trace::lines::smoothing::smoothed_by_gaussian;
+use crate::trace::skeleton::mask_lumen::Lumen;
+use crate::trace::skeleton::through_lines::ThroughLine;
 use lumencut_core::error::Result;
-use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use lumencut_core::stop::{Stop, go_on};
 
 /// How often the line is moved to the centres of its cross-sections.
@@ -44,10 +45,10 @@ pub fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: St
     };
     let sigma = scaled(SMOOTHING, SMOOTHING_VOXELS);
     let reach = scaled(REACH, REACH_VOXELS);
-    line.points = smoothed(&line.points, &sigma, closed);
+    line.points = smoothed_by_gaussian(&line.points, &sigma, closed);
     for _ in 0..ROUNDS {
         go_on(stop)?;
-        let along = directions(&line.points, &reach, closed);
+        let along = chord_directions(&line.points, &reach, closed);
         let weights = weights(&line.points, on_other);
         let mut moved = line.points.clone();
         for (n, point) in moved.iter_mut().enumerate() {
@@ -59,7 +60,7 @@ pub fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: St
             let last = moved.len() - 1;
             moved[last] = moved[0];
         }
-        line.points = smoothed(&moved, &sigma, closed);
+        line.points = smoothed_by_gaussian(&moved, &sigma, closed);
     }
     Ok(())
 }
@@ -103,11 +104,11 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
 pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
-    let inner = |way: f64| lumen.radius(at(points, &ways, way));
+    let inner = |way: f64| lumen.radius(point_at(points, &ways, way));
     let cut = way_inwards(inner, lumen.side() / 2.0, most.min(whole / 2.0));
     let radius = inner(cut).max(lumen.side());
-    let from = at(points, &ways, cut);
-    let behind = at(points, &ways, (cut + 2.0 * radius).min(whole));
+    let from = point_at(points, &ways, cut);
+    let behind = point_at(points, &ways, (cut + 2.0 * radius).min(whole));
     let direction = (from - behind).normalize_or_zero();
     let way = lumen.way_to_wall(from, direction, 4.0 * radius + cut);
     let kept = if way + lumen.side() < cut || direction == DVec3::ZERO { 0.0 } else { cut };
@@ -115,7 +116,7 @@ pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
         (from, direction, way)
     } else {
         // The end bends: it goes on from where it is.
-        let behind = at(points, &ways, radius.min(whole));
+        let behind = point_at(points, &ways, radius.min(whole));
         let direction = (points[0] - behind).normalize_or_zero();
         (points[0], direction, lumen.way_to_wall(points[0], direction, 4.0 * radius))
     };

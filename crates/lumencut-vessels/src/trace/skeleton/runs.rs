@@ -1,6 +1,6 @@
 //! Connected parts of a mask, found through runs of equal cells along its rows: cavities and pieces.
 
-use crate::trace::mask::foreground::{BACKGROUND, Foreground, LUMEN};
+use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 

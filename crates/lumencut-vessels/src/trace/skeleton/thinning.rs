@@ -5,8 +5,8 @@
 //! once, so that a vessel two voxels wide is thinned across its width before it is shortened. A voxel with a single
 //! neighbour is the end of a line and stays.
 
-use crate::trace::mask::foreground::{BACKGROUND, Foreground, LUMEN};
-use crate::trace::mask::simple_point::Neighbourhood;
+use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
+use crate::trace::skeleton::simple_point::Neighbourhood;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
 
-use crate::trace::mask::foreground::Foreground;
+use crate::trace::skeleton::foreground::Foreground;
 
 /// How many directions a cross-section is measured in.
 const RAYS: usize = 24;

@@ -5,8 +5,8 @@
 //! of background only the parabolas of the lumen between them and the two at its ends can be lowest, so each run of
 //! lumen is a problem of its own, and background is never looked at.
 
-use crate::trace::mask::foreground::{Foreground, LUMEN};
-use crate::trace::mask::nearest_background::NearestBackground;
+use crate::trace::skeleton::foreground::{Foreground, LUMEN};
+use crate::trace::skeleton::nearest_background::NearestBackground;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 

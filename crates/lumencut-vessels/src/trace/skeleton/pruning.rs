@@ -5,8 +5,8 @@ use std::collections::{BTreeSet, BinaryHeap};
 
 use glam::DVec3;
 
-use crate::trace::mask::graph::{Branch, Graph};
-use crate::trace::mask::mask_lumen::Lumen;
+use crate::trace::skeleton::graph::{Branch, Graph};
+use crate::trace::skeleton::mask_lumen::Lumen;
 
 /// A branch stays where it reaches farther beyond the wall of its parent than so many of its own radii, however wide
 /// the parent is.

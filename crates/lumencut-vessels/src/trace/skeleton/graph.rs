@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use crate::trace::mask::foreground::Foreground;
+use crate::trace::skeleton::foreground::Foreground;
 
 /// A line of voxels between two nodes, which may be the same one.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The graph of the lines of voxels that [`crate::trace::mask::thinning::thin`] left; `skeleton` lists their cells.
+    /// The graph of the lines of voxels that [`crate::trace::skeleton::thinning::thin`] left; `skeleton` lists their cells.
     pub fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
         let mut cells = skeleton.to_vec();
         cells.sort_unstable();

@@ -1,0 +1,36 @@
+//! The directions of a line at its points.
+
+use glam::DVec3;
+
+use lumencut_core::math::arc_length::{arc_lengths, point_at};
+
+/// The direction of the line at each point: that from the first to the last of its points up to `reach` (mm) before and after.
+pub fn point_directions(points: &[DVec3], reach: f64) -> Vec<DVec3> {
+    let lengths = arc_lengths(points);
+    let last = points.len() - 1;
+    let mut found = Vec::with_capacity(points.len());
+    for (i, length) in lengths.iter().enumerate() {
+        let before = lengths.partition_point(|l| *l < length - reach).min(i.saturating_sub(1));
+        let after = (lengths.partition_point(|l| *l <= length + reach) - 1).max((i + 1).min(last));
+        let across = points[after] - points[before];
+        let fallback = found.last().copied().unwrap_or(DVec3::Z);
+        found.push(across.try_normalize().unwrap_or(fallback));
+    }
+    found
+}
+
+/// The direction of the line at each point: that of the chord from `reach` (mm) before it to as much after it, between the
+/// points of the line. A closed line, whose last point is its first one, goes on beyond both.
+pub fn chord_directions(points: &[DVec3], reach: &[f64], is_closed: bool) -> Vec<DVec3> {
+    let ways = arc_lengths(points);
+    let whole = ways[ways.len() - 1];
+    (0..points.len())
+        .map(|n| {
+            let at = |way: f64| point_at(points, &ways, if is_closed { way.rem_euclid(whole) } else { way });
+            let chord = at(ways[n] + reach[n]) - at(ways[n] - reach[n]);
+            let next = (n + 1).min(points.len() - 1);
+            let step = points[next] - points[next - 1];
+            chord.try_normalize().or_else(|| step.try_normalize()).unwrap_or(DVec3::Z)
+        })
+        .collect()
+}

@@ -1,0 +1,52 @@
+"""The rooms of tracing and measuring, and which of them may need which."""
+
+from pathlib import Path
+
+from rust_graph import rust_graph
+
+ROOT = Path(__file__).resolve().parents[1]
+
+#: The rooms, and which others each of them may need.
+ROOMS: dict[str, tuple[str, ...]] = {
+    "voxels": (),
+    "trace::lines": (),
+    "trace::lumen": ("voxels", "trace::lines"),
+    "trace::ways": ("voxels", "trace::lines", "trace::lumen"),
+    "trace::skeleton": ("trace::lines",),
+    "trace::clicks": ("voxels", "trace::lines", "trace::lumen", "trace::ways"),
+    "trace::mask": ("voxels", "trace::lines", "trace::lumen", "trace::skeleton"),
+    "trace::seed": ("voxels", "trace::lines", "trace::lumen", "trace::ways", "trace::skeleton"),
+    "measure": ("voxels", "trace::lines"),
+}
+
+
+def stray_arrows(graph, order):
+    """Which modules need one of a room that `order` does not list for theirs."""
+
+    def room(module):
+        return next((name for name in order if (module + "::").startswith(name + "::")), None)
+
+    return [
+        (module, other)
+        for module, others in sorted(graph.items())
+        for other in sorted(others)
+        if room(module) and room(other) and room(other) not in {room(module), *order[room(module)]}
+    ]
+
+
+def test_rooms_of_vessels_need_only_those_below_them():
+    source = ROOT / "crates/lumencut-vessels/src"
+    graph = rust_graph(source)
+    folders = {f"trace::{path.name}" for path in (source / "trace").iterdir() if path.is_dir()}
+    assert folders == {name for name in ROOMS if name.startswith("trace::")}
+    assert any(graph["trace::seed"])
+    assert stray_arrows(graph, ROOMS) == []
+
+
+def test_an_arrow_upwards_is_found(tmp_path):
+    (tmp_path / "low").mkdir()
+    (tmp_path / "low/first.rs").write_text("use crate::high::Roof;")
+    (tmp_path / "high.rs").write_text("use crate::low::first::Floor;")
+    graph = rust_graph(tmp_path)
+    assert stray_arrows(graph, {"low": (), "high": ("low",)}) == [("low::first", "high")]
+    assert stray_arrows(graph, {"low": ("high",), "high": ("low",)}) == []
