@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import json
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,6 +26,7 @@ from lumencut import (
     Window,
     phantom,
 )
+from lumencut.orientation import edges
 
 #: Each side of the patient and the way to it (LPS).
 WAYS = {
@@ -264,3 +267,15 @@ def test_names_go_to_the_free_end():
     camera = Camera((0, 0, 0), *VIEWS["anterior"], size=(10, 10))
     shown = Renderer(Volume(np.zeros((4, 4, 40), np.int16)), tree).render(camera)
     assert shown._source.vessel_ends == (("trunk", (10, 0, 0)), ("branch", (20, 0, 0)), ("other", (30, 0, 0)))
+
+
+def test_pictures_have_the_labels_that_the_page_is_tested_to_show(frame):
+    """The page's own test, `native.spec.ts`, reads the same file."""
+    file = Path(__file__).parents[1] / "web" / "e2e" / "expected" / "labels.json"
+    expected = json.loads(file.read_text("utf-8"))
+    for view in expected["views"]:
+        camera = Camera(size=tuple(expected["size"]), **view["camera"])
+        assert edges(camera) == view["letters"]
+        pixels, millimetres = bar_of(resized(frame, camera.size, camera.pixel_spacing).annotated())
+        assert pixels == round(view["pixels"])
+        assert f"{millimetres:.10g} mm" == view["words"]

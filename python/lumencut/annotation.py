@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -52,8 +51,7 @@ def with_labels(
     _write_sides(sheet, letters)
     _write_lines(sheet, words)
     if spacing is not None:
-        length = bar_length_for(sheet.size[0] * spacing)
-        sheet.bar(round(length / spacing), sheet.size[1] - sheet.margin, f"{length:.10g} mm")
+        sheet.scale_bar(spacing)
     return sheet.pixels()
 
 
@@ -88,28 +86,13 @@ def _write_lines(sheet: Sheet, lines: Iterable[str]) -> None:
 
 def _write_scale(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
     """Draw a bar with its length into the lower left corner."""
-    bottom: float = sheet.size[1] - sheet.margin
-    if not source.states_spacing:
-        for line in reversed(sheet.wrapped("spacing not stated")):
-            sheet.write(line, (sheet.margin, bottom), "ld")
-            bottom -= sheet.line_height
+    if source.states_spacing:
+        sheet.scale_bar(camera.pixel_spacing)
         return
-    length = bar_length(camera)
-    sheet.bar(round(length / camera.pixel_spacing), bottom, f"{length:.10g} mm")
-
-
-def bar_length(camera: Camera) -> float:
-    """Return the longest of 1, 2 and 5 times a power of ten (mm) within a quarter of the picture's width."""
-    return bar_length_for(camera.size[0] * camera.pixel_spacing)
-
-
-def bar_length_for(width: float) -> float:
-    """Return the length of the bar (mm) for a picture of this width (mm)."""
-    room = width / 4
-    exponent = math.floor(math.log10(room))
-    # Read as decimals: 2 times 0.1 to the third is not 0.002.
-    lengths = [float(f"{digit}e{exponent + more}") for more in (-1, 0, 1) for digit in (1, 2, 5)]
-    return max(length for length in lengths if length <= room)
+    bottom: float = sheet.size[1] - sheet.margin
+    for line in reversed(sheet.wrapped("spacing not stated")):
+        sheet.write(line, (sheet.margin, bottom), "ld")
+        bottom -= sheet.line_height
 
 
 def window_words(window: Window) -> str:

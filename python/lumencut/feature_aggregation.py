@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import math
 import os
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Literal
 
@@ -131,33 +130,9 @@ def cfa(
         smoothing=smoothing,
         settings=settings,
     )
+    value, angles = renderer._core.aggregate(
+        renderer.volume, surface._core, checked(surface._given), feature, surface.pixel_spacing
+    )
     columns = surface.size[0]
     beside = np.arange(-(columns // 2), columns // 2 + 1, dtype=np.float64) * surface.pixel_spacing
-    angles = max(1, math.ceil(math.pi * beside[-1] / surface.pixel_spacing))
-    value = _aggregated(feature, _turned(surface, angles))
     return FeatureAggregation(surface, value, beside, angles)
-
-
-def _turned(surface: Reformation, angles: int) -> Iterator[npt.NDArray[np.float32]]:
-    """The values of the vessel at angles evenly over a half turn, to each side of the viewer's."""
-    for n in range(angles):
-        yield surface.rotated(((n + 0.5) / angles - 0.5) * math.pi).value
-
-
-def _aggregated(feature: str, values: Iterator[npt.NDArray[np.float32]]) -> npt.NDArray[np.float32]:
-    """What is kept of values at each pixel; NaN only where all of them are."""
-    if feature != "mean":
-        keep = np.fmax if feature == "max" else np.fmin
-        kept = next(values)
-        for value in values:
-            keep(kept, value, out=kept)
-        return kept
-    first = next(values)
-    total = np.nan_to_num(first.astype(np.float64), nan=0.0)
-    count = (~np.isnan(first)).astype(np.int64)
-    for value in values:
-        there = ~np.isnan(value)
-        total[there] += value[there]
-        count += there
-    with np.errstate(invalid="ignore"):
-        return (total / count).astype(np.float32)

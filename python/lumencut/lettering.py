@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.errors import MissingPackageError
 
 if TYPE_CHECKING:
@@ -86,7 +87,14 @@ class Sheet:
                 pieces.append(word)
         return pieces
 
-    def bar(self, length: int, bottom: float, words: str) -> None:
+    def scale_bar(self, spacing: float) -> None:
+        """Draw the scale bar of a picture with pixels of this side (mm) into the lower left corner."""
+        found = _lumencut.scale_bar(self.size[0], spacing)
+        if found is not None:
+            _, words, pixels = found
+            self._bar(round(pixels), self.size[1] - self.margin, words)
+
+    def _bar(self, length: int, bottom: float, words: str) -> None:
         """Draw a bar of this length (pixels) at the left above `bottom`, with ticks, words above it."""
         outline, thick = self._outline, max(2, self._outline)
         left, base = self.margin + outline, round(bottom) - outline

@@ -8,14 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
+
 if TYPE_CHECKING:
     from lumencut.camera import Camera
-
-#: The sides of the patient at the low and the high end of each axis (LPS).
-_SIDES = (("R", "L"), ("A", "P"), ("I", "S"))
-
-#: A side is named where the vector lies at least this far towards it: the sine of 11.5 degrees.
-LEAST_PART = 0.2
 
 #: Angles (degrees) closer than this are the same in the name of a view.
 _SAME_ANGLE = 0.5
@@ -27,16 +23,12 @@ def sides(vector: npt.NDArray[np.float64]) -> str:
     R and L are right and left, A and P anterior and posterior, S and I superior and inferior. Parts of the
     unit vector below 0.2 are not named.
     """
-    parts: list[float] = (vector / np.linalg.norm(vector)).tolist()
-    # The order of the axes decides between equal parts; rounding must not.
-    order = sorted(range(3), key=lambda axis: (-round(abs(parts[axis]), 6), axis))
-    return "".join(_SIDES[axis][int(parts[axis] > 0)] for axis in order if abs(parts[axis]) >= LEAST_PART)
+    return _lumencut.sides(np.asarray(vector, dtype=np.float64))
 
 
 def edges(camera: Camera) -> dict[str, str]:
     """Return the sides of the patient that lie at the left, right, top and bottom edge of a view."""
-    right, up = camera.right_axis, camera.up
-    return {"left": sides(-right), "right": sides(right), "top": sides(up), "bottom": sides(-up)}
+    return dict(_lumencut.edge_letters(camera.right_axis, -camera.up))
 
 
 def view_name(camera: Camera) -> str:

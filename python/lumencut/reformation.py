@@ -217,15 +217,13 @@ class Reformation:
 
     def _edges(self) -> dict[str, str]:
         """The sides of the patient that edges look to, as far as they do so in all rows."""
-        from lumencut.orientation import sides
-
         if self.mode == "straightened":
             return {}
         # Above the image it goes on straight, and no two points of the vessel share a row.
         origin, *ends = self.world_from_pixel([[0, -2], [1, -2], [0, -1]])
         right, down = np.array(ends) - origin
-        letters = {"left": sides(-right), "right": sides(right)}
-        return letters | ({"top": sides(-down), "bottom": sides(down)} if self.mode == "projected" else {})
+        named = ("left", "right", "top", "bottom") if self.mode == "projected" else ("left", "right")
+        return {edge: letters for edge, letters in _lumencut.edge_letters(right, down) if edge in named}
 
     def save(self, path: str | os.PathLike[str], *, annotate: bool = False) -> None:
         """Write the picture, or with the ending ``.npz`` all arrays; a file appears only once it is whole.

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.annotation import bar_length_for
 from lumencut.contact_sheet import Picture, contact_sheet
 from lumencut.lettering import Sheet
 from lumencut.measured_vessel import MeasuredVessel
@@ -150,8 +149,7 @@ def _labelled(picture: Picture, profile: Profile, number: int, words: str, spaci
 
 
 def _with_scale(sheet: Sheet, spacing: float) -> Picture:
-    length = bar_length_for(sheet.size[0] * spacing)
-    sheet.bar(round(length / spacing), sheet.size[1] - sheet.margin, f"{length:.10g} mm")
+    sheet.scale_bar(spacing)
     return sheet.pixels()
 
 

@@ -72,3 +72,31 @@ async function decoded(viewer: Viewer, name: string): Promise<Pixels> {
   }, address);
   return { width: WIDTH, height: HEIGHT, bytes: Uint8Array.from(bytes) };
 }
+
+interface Labelled {
+  readonly camera: { readonly pixel_spacing: number };
+  readonly letters: Readonly<Record<string, string>>;
+  readonly words: string;
+  readonly pixels: number;
+}
+
+test('letters and scale bar are those of the Python package', async ({ browser }) => {
+  const { size, views } = JSON.parse(readFileSync(file('labels.json'), 'utf-8')) as {
+    size: readonly [number, number];
+    views: readonly Labelled[];
+  };
+  for (const { camera, letters, words, pixels } of views) {
+    const state = { camera: { ...camera, height: Math.min(...size) }, layout: 'one' };
+    const viewer = await Viewer.open(browser, `?phantom=y_junction&device=cpu${viewFragment(state)}`);
+    await viewer.pin(size);
+    await viewer.rest();
+    for (const [edge, word] of Object.entries(letters)) {
+      await expect(viewer.pane().locator(`.edge.${edge}`)).toHaveText(word);
+    }
+    const bar = viewer.pane().getByRole('img', { name: `scale bar of ${words}`, exact: true });
+    await expect(bar).toHaveText(words);
+    expect(Number(await bar.getAttribute('width')) - 2).toBeCloseTo(pixels, 6);
+    viewer.expectNoFault();
+    await viewer.close();
+  }
+});

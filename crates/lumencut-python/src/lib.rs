@@ -8,6 +8,7 @@ mod cpr;
 mod device;
 mod dicom;
 mod errors;
+mod labels;
 mod mask_tracing;
 mod measuring;
 mod phantom;
@@ -48,6 +49,9 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dicom::describe_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::judge_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
+    module.add_function(wrap_pyfunction!(labels::edge_letters, module)?)?;
+    module.add_function(wrap_pyfunction!(labels::scale_bar, module)?)?;
+    module.add_function(wrap_pyfunction!(labels::sides, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::cross_section, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measure, module)?)?;
     module.add_function(wrap_pyfunction!(measuring::measured_radii, module)?)?;

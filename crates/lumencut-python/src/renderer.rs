@@ -9,6 +9,7 @@ use lumencut::backend::Backend;
 use lumencut::camera::Camera;
 use lumencut::devices::Wanted;
 use lumencut::error::Error;
+use lumencut::feature_aggregation::{Feature, angle_count, feature_aggregation};
 use lumencut::frame::{Frame, Timing};
 use lumencut::geometry::Geometry;
 use lumencut::math::lanes::FAR;
@@ -194,6 +195,44 @@ impl Renderer {
         })?;
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, py.detach(|| frame.transparent_outside()))
+    }
+
+    /// The values of a CFA of a straightened CPR, shape (H, W), and how many directions a half circle has; the side of a pixel is
+    /// in mm.
+    #[allow(clippy::needless_pass_by_value)]
+    fn aggregate<'py>(
+        &self,
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+        cpr: &Bound<'py, Cpr>,
+        settings: &Bound<'py, Checked>,
+        feature: &str,
+        pixel_spacing: f64,
+    ) -> PyResult<(Bound<'py, PyArray2<f32>>, usize)> {
+        let feature = Feature::named(feature).map_err(to_python)?;
+        let (Cpr(cpr), Checked(settings)) = (cpr.get(), settings.get());
+        let borrowed = volume.borrow()?;
+        let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());
+        // What is shown does not ask for a camera.
+        let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0).map_err(to_python)?;
+        let (value, given_up) = interruptible(py, None, |stop| {
+            let images = ImageSet::of(&[Image::Value]);
+            let request = Request { images, stop, ..Request::new(&camera, settings) };
+            let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
+            let backend = &mut *locked;
+            let mut given_up = None;
+            let look = |turned: &_| {
+                let (frame, error) = pollster::block_on(backend.look(&volume, || places(turned), &request))?;
+                given_up = given_up.take().or(error);
+                Ok(frame.value)
+            };
+            let value = pool::install(|| feature_aggregation(cpr, pixel_spacing, feature, look))?;
+            Ok((value.map_err(to_python)?, given_up))
+        })?;
+        say_that_the_cpu_goes_on(py, given_up)?;
+        let [width, height] = cpr.size();
+        let value = PyArray1::from_vec(py, value).reshape([height, width])?;
+        Ok((value, angle_count(cpr, pixel_spacing)))
     }
 }
 

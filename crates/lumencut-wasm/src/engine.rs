@@ -13,6 +13,7 @@ use web_sys::OffscreenCanvas;
 
 use crate::{phantoms, stopping};
 use lumencut::study::failure::{Failure, Result};
+use lumencut::study::labels::{LaidPicture, PictureLabels};
 use lumencut::study::open_study::{Picture, Study};
 use lumencut::study::planes::Plane;
 use lumencut::study::settings::table_as_json;
@@ -117,6 +118,15 @@ impl Engine {
     /// The table of settings as JSON.
     pub fn settings_table() -> String {
         table_as_json().to_string()
+    }
+
+    /// The letters at the edges of a picture and its scale bar, as JSON. It asks nothing of the study, so that it need not wait for a
+    /// view that is drawn.
+    ///
+    /// # Errors
+    /// `settings` for a text that does not say how the picture lies.
+    pub fn picture_labels(picture: &str) -> Answer<String> {
+        told(read::<LaidPicture>("picture", picture).map(PictureLabels::from))
     }
 
     /// Makes room for a volume; `header` is the JSON before its voxels.

@@ -5,12 +5,7 @@
 use std::f64::consts::PI;
 
 use lumencut_core::error::{Error, ErrorKind, Result};
-use lumencut_core::frame::Frame;
-use lumencut_core::geometry::Geometry;
-use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::reformations::cpr::Cpr;
-use lumencut_core::scene::SharedVolume;
-use lumencut_core::stages::{Image, ImageSet};
 
 /// Which value of a half circle is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,31 +52,32 @@ impl Feature {
     }
 }
 
-/// The values of a CFA in the layout of `cpr`, a straightened vessel, row by row; NaN where the whole half circle lies
-/// outside the volume. Of the request settings and the way to stop count. Samples on a half circle are no farther apart than
-/// a pixel, `pixel_spacing` (mm).
+/// How many directions a half circle has in the layout of a straightened vessel: samples on the largest one are no farther apart
+/// than a pixel, `pixel_spacing` (mm).
+pub fn angle_count(cpr: &Cpr, pixel_spacing: f64) -> usize {
+    let largest = (cpr.size()[0] / 2) as f64 * pixel_spacing;
+    ((PI * largest / pixel_spacing).ceil() as usize).max(1)
+}
+
+/// The values of a CFA in the layout of `cpr`, a straightened vessel, row by row; NaN where the whole half circle lies outside the
+/// volume. `look` gives the values of the vessel turned about itself, from whatever computes them.
 ///
 /// # Errors
-/// [`ErrorKind::Interrupted`] once the request says stop, and those of the layout.
+/// Those of the layout and of `look`.
 pub fn feature_aggregation(
-    volume: &SharedVolume,
     cpr: &Cpr,
     pixel_spacing: f64,
     feature: Feature,
-    request: &Request,
+    mut look: impl FnMut(&Cpr) -> Result<Vec<f32>>,
 ) -> Result<Vec<f32>> {
     let [width, height] = cpr.size();
-    let largest = (width / 2) as f64 * pixel_spacing;
-    let angles = ((PI * largest / pixel_spacing).ceil() as usize).max(1);
-    let request = Request { images: ImageSet::of(&[Image::Value]), ..*request };
-    let cpu = CpuRenderer::default();
+    let angles = angle_count(cpr, pixel_spacing);
     let mut gathered = vec![(feature.first(), 0u32); width * height];
     for n in 0..angles {
-        let turned = cpr.rotated(((n as f64 + 0.5) / angles as f64 - 0.5) * PI)?;
-        let frame = cpu.look(volume, Frame::of(Geometry::Curved(turned.curved()?)), &request)?;
-        for (kept, value) in gathered.iter_mut().zip(&frame.value) {
+        let values = look(&cpr.rotated(((n as f64 + 0.5) / angles as f64 - 0.5) * PI)?)?;
+        for (kept, value) in gathered.iter_mut().zip(values) {
             if !value.is_nan() {
-                *kept = (feature.gathered(kept.0, f64::from(*value)), kept.1 + 1);
+                *kept = (feature.gathered(kept.0, f64::from(value)), kept.1 + 1);
             }
         }
     }

@@ -9,6 +9,7 @@ pub mod content;
 pub mod failure;
 pub mod held_volume;
 pub mod histogram;
+pub mod labels;
 pub mod line_edits;
 pub mod lines;
 pub mod masks;

@@ -2,7 +2,7 @@
 
 Run it from anywhere in an environment that holds the package. It writes two pictures for each view beside
 itself: with one sample for each pixel, and with two along each side. `measuring.json` and `measuring.csv`
-hold what is measured of the phantom `stenosis`.
+hold what is measured of the phantom `stenosis`; `labels.json` the letters and scale bars of some views.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from typing import Any
 from PIL import Image
 
 import lumencut
-from lumencut import Camera, Settings, Window, phantom
+from lumencut import Camera, Settings, Window, _lumencut, phantom
+from lumencut.orientation import edges
 from lumencut.profile_files import csv_text
 
 HERE = Path(__file__).parent
@@ -68,9 +69,28 @@ def measured() -> None:
     (HERE / "measuring.csv").write_text(table, "utf-8")
 
 
+#: Oblique views, one of them along the body, in pixels of different sides (mm).
+LAID = [
+    {"center": [2, -1, 3], "direction": [0.48, 0.8, 0.36], "up": [-0.6, 0, 0.8], "pixel_spacing": 0.45},
+    {"center": [0, 0, 0], "direction": [0, 0, -1], "up": [0, -1, 0], "pixel_spacing": 0.07},
+    {"center": [0, 0, 0], "direction": [0.6, 0.64, 0.48], "up": [-0.8, 0.48, 0.36], "pixel_spacing": 1.3},
+]
+
+
+def labels(size: tuple[int, int] = (400, 300)) -> dict[str, Any]:
+    """The letters at the edges of views and their scale bars."""
+    found = []
+    for view in LAID:
+        camera = Camera(size=size, **view)
+        _, words, pixels = _lumencut.scale_bar(size[0], camera.pixel_spacing)
+        found.append({"camera": view, "letters": edges(camera), "words": words, "pixels": pixels})
+    return {"size": size, "views": found}
+
+
 def main() -> None:
-    """Write the pictures and the numbers."""
+    """Write the pictures, the numbers and the labels."""
     measured()
+    (HERE / "labels.json").write_text(json.dumps(labels(), indent=2) + "\n", "utf-8")
     table = json.loads((HERE / "views.json").read_text("utf-8"))
     for view in table["views"]:
         for samples in (1, 2):

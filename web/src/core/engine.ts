@@ -10,9 +10,11 @@ import type {
   Drawn,
   GivenFile,
   Histogram,
+  LaidPicture,
   Pair,
   Pick,
   Picture,
+  PictureLabels,
   Plane,
   Progress,
   Report,
@@ -153,6 +155,11 @@ export class EngineClient {
 
   across(vessel: number, at: number): Promise<[Vector, Vector, Vector]> {
     return this.first(this.host.across(vessel, at));
+  }
+
+  /** The letters and the scale bar of a picture; no view gives way to them. */
+  labels(picture: LaidPicture): Promise<PictureLabels> {
+    return heard(this.host.labels(picture));
   }
 
   straightened(cpr: Cpr, window: Window): Promise<Picture> {

@@ -58,6 +58,21 @@ export interface Plane {
   readonly pixel_spacing: number;
 }
 
+/** How a picture lies: unit vectors to the right and downwards, its width in pixels and their side (mm). */
+export interface LaidPicture {
+  readonly right: Vector;
+  readonly down: Vector;
+  readonly width: number;
+  readonly pixel_spacing: number;
+}
+
+/** What stands around a picture: the letters of the patient's sides, and the scale bar. */
+export interface PictureLabels {
+  readonly letters: Readonly<Record<'left' | 'right' | 'top' | 'bottom', string>>;
+  /** Its length (mm) in words, and in pixels; none for a picture without a width. */
+  readonly bar: { readonly length: number; readonly words: string; readonly pixels: number } | null;
+}
+
 /** The straightened CPR of a vessel. */
 export interface Cpr {
   readonly vessel: number;

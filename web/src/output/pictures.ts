@@ -1,14 +1,14 @@
 /** Pictures of the turning view as files: with or without labels. */
 import { rightOf } from '../core/camera';
 import { Failure } from '../core/failure';
-import type { Camera } from '../core/messages';
+import type { Camera, PictureLabels } from '../core/messages';
+import { engine } from '../core/shared';
 import { negate } from '../core/vectors';
 import * as store from '../state/store';
 import { tell } from '../state/telling';
-import { barLength, lettersOf } from '../views/letters';
 
 /** The canvas of the turning view as it is shown, with its labels where they are wanted. */
-export function composed(labels: 'labels' | 'plain'): HTMLCanvasElement {
+export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasElement> {
   const shown = document.querySelector<HTMLCanvasElement>('[data-testid=turning] canvas.picture');
   const camera = store.camera.value;
   if (!shown || !camera || shown.width === 0) {
@@ -24,43 +24,47 @@ export function composed(labels: 'labels' | 'plain'): HTMLCanvasElement {
   context.drawImage(shown, 0, 0);
   context.filter = 'none';
   if (labels === 'labels') {
-    drawLabels(context, camera, canvas.height / camera.size[1]);
+    // In pixels of the picture, which are finer than those of the page on dense screens.
+    const density = canvas.height / camera.size[1];
+    drawLabels(context, await labelsOf(camera, density), density);
   }
   return canvas;
 }
 
-/** Letters, scale bar and the words that it is no medical device's picture. */
-function drawLabels(context: CanvasRenderingContext2D, camera: Camera, density: number): void {
+const labelsOf = (camera: Camera, density: number): Promise<PictureLabels> =>
+  engine.labels({
+    right: rightOf(camera),
+    down: negate(camera.up),
+    width: camera.size[0] * density,
+    pixel_spacing: camera.pixel_spacing / density,
+  });
+
+/** Letters and scale bar, where the scan states its orientation and its spacing. */
+function drawLabels(
+  context: CanvasRenderingContext2D,
+  { letters, bar }: PictureLabels,
+  density: number,
+): void {
   const [width, height] = [context.canvas.width, context.canvas.height];
-  const right = rightOf(camera);
   context.font = `600 ${14 * density}px system-ui, sans-serif`;
   context.textBaseline = 'middle';
   context.lineJoin = 'round';
   const edge = 14 * density;
   const places: readonly (readonly [string, number, number])[] = [
-    [lettersOf(camera.up), width / 2, edge],
-    [lettersOf(negate(camera.up)), width / 2, height - edge],
-    [lettersOf(negate(right)), edge, height / 2],
-    [lettersOf(right), width - edge, height / 2],
+    [letters.top, width / 2, edge],
+    [letters.bottom, width / 2, height - edge],
+    [letters.left, edge, height / 2],
+    [letters.right, width - edge, height / 2],
   ];
   const { spacing, orientation } = store.states.value;
-  for (const [letters, x, y] of orientation ? places : []) {
-    outlined(context, letters, x, y, 'center');
+  for (const [word, x, y] of orientation ? places : []) {
+    outlined(context, word, x, y, 'center');
   }
-  if (!spacing) {
-    return;
+  if (spacing && bar) {
+    context.fillStyle = '#fff';
+    context.fillRect(edge, height - edge, bar.pixels, 2 * density);
+    outlined(context, bar.words, edge + bar.pixels / 2, height - 2 * edge, 'center');
   }
-  const bar = barLength(camera.size[0] * 0.3 * camera.pixel_spacing);
-  const length = (bar / camera.pixel_spacing) * density;
-  context.fillStyle = '#fff';
-  context.fillRect(edge, height - edge, length, 2 * density);
-  outlined(
-    context,
-    bar < 10 ? `${bar} mm` : `${bar / 10} cm`,
-    edge + length / 2,
-    height - 2 * edge,
-    'center',
-  );
 }
 
 function outlined(
@@ -80,7 +84,7 @@ function outlined(
 
 /** Saves a picture as a PNG. */
 export async function savePng(labels: 'labels' | 'plain'): Promise<void> {
-  const canvas = composed(labels);
+  const canvas = await composed(labels);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
   if (blob) {
     saveAs(blob, 'lumencut.png');

@@ -2,7 +2,7 @@
 import { pixelOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Profile } from '../core/measuring';
-import type { Cpr, LineId, Pair, Picture, Plane } from '../core/messages';
+import type { Cpr, LineId, Pair, Picture, PictureLabels, Plane } from '../core/messages';
 import { engine } from '../core/shared';
 import { type Lying, lyingPicture } from '../measure/lying';
 import type { Place } from '../measure/marks';
@@ -29,9 +29,9 @@ function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRend
 const pixelsOf = ({ size, bytes }: Picture): ImageData => new ImageData(bytes, size[0], size[1]);
 
 /** The turning view as it is shown, with its labels and with the marked places. */
-export function viewPicture(profile: Profile, places: readonly Place[]): string {
-  const canvas = composed('labels');
+export async function viewPicture(profile: Profile, places: readonly Place[]): Promise<string> {
   const camera = store.camera.value;
+  const canvas = await composed('labels');
   const context = canvas.getContext('2d');
   if (camera && context) {
     const density = canvas.height / camera.size[1];
@@ -89,7 +89,8 @@ export async function sectionPair(
   context.strokeStyle = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
   context.stroke();
   if (store.states.value.spacing) {
-    drawBar(context, plane.pixel_spacing);
+    const { bar } = await engine.labels({ ...plane, width: SIDE });
+    drawBar(context, bar);
   }
   return canvas.toDataURL('image/png');
 }
@@ -106,13 +107,15 @@ async function planeOf(vessel: number, profile: Profile, number: number): Promis
   };
 }
 
-/** A bar of 1, 2 or 5 mm, or ten times as much, in both pictures. */
-function drawBar(context: CanvasRenderingContext2D, spacing: number): void {
-  const length = [50, 20, 10, 5, 2].find((most) => most / spacing <= 0.3 * SIDE) ?? 1;
+/** The scale bar in both pictures. */
+function drawBar(context: CanvasRenderingContext2D, bar: PictureLabels['bar']): void {
+  if (!bar) {
+    return;
+  }
   context.fillStyle = '#ffffff';
   context.font = '600 13px system-ui, sans-serif';
   for (const left of [8, SIDE + 8]) {
-    context.fillRect(left, SIDE - 10, length / spacing, 2);
-    context.fillText(`${length} mm`, left, SIDE - 15);
+    context.fillRect(left, SIDE - 10, bar.pixels, 2);
+    context.fillText(bar.words, left, SIDE - 15);
   }
 }

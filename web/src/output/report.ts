@@ -76,7 +76,7 @@ async function reportContent(): Promise<ReportContent> {
     scan: isNamed ? store.studyName.value : null,
     ungraded: isUngraded ? `No percentage: a place is marked and not graded. ${missingWords(marks)}` : null,
     ...findingsOf(answers, profile),
-    view: { data: viewPicture(profile, places), words: viewWords() },
+    view: { data: await viewPicture(profile, places), words: viewWords() },
     plot: await plotOf(number, profile, places),
     rows: marked.map((place) => rowOf(profile, place)),
     sections: await sectionsAt(marked),

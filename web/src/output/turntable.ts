@@ -36,7 +36,7 @@ async function saveTurn(album: Album, name: string): Promise<void> {
       const turned = turnedAbout(camera, camera.center, [0, 0, 1], (2 * Math.PI * n) / FRAMES);
       store.camera.value = turned;
       await settled(turned);
-      await album.add(composed('labels'));
+      await album.add(await composed('labels'));
       if (store.progress.value === null) {
         return;
       }

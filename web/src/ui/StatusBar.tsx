@@ -2,7 +2,7 @@
 import { nameOf } from '../edit/changes';
 import { tree } from '../edit/shown';
 import * as store from '../state/store';
-import { positionText } from '../views/letters';
+import { positionText } from '../views/position';
 
 export function StatusBar() {
   return (

@@ -1,8 +1,7 @@
 /** Letters at the edges of a view, and its scale bar. */
-import type { Pair, Vector } from '../core/messages';
-import { negate } from '../core/vectors';
+import type { Pair, PictureLabels, Vector } from '../core/messages';
 import { states } from '../state/store';
-import { barLength, lettersOf } from './letters';
+import { useLabels } from './labels';
 
 interface EdgeLabelsProps {
   readonly right: Vector;
@@ -13,40 +12,35 @@ interface EdgeLabelsProps {
   readonly spacing: number;
 }
 
-/** A bar takes at most this part of the width. */
-const BAR_PART = 0.3;
-
 export function EdgeLabels({ right, down, size, spacing }: EdgeLabelsProps) {
-  const bar = barLength(size[0] * BAR_PART * spacing);
+  const labels = useLabels({ right, down, width: size[0], pixel_spacing: spacing });
   const { spacing: hasLengths, orientation: hasSides } = states.value;
   return (
     <>
-      {hasSides && <Sides right={right} down={down} />}
-      {hasLengths && (
-        <svg
-          class="bar"
-          width={bar / spacing + 2}
-          height="22"
-          role="img"
-          aria-label={`scale bar of ${bar} mm`}
-        >
-          <path d={`M1 14v6h${bar / spacing}v-6`} />
-          <text x={bar / spacing / 2 + 1} y="12" text-anchor="middle">
-            {bar < 10 ? `${bar} mm` : `${bar / 10} cm`}
-          </text>
-        </svg>
-      )}
+      {labels && hasSides && <Sides letters={labels.letters} />}
+      {labels?.bar && hasLengths && <Bar bar={labels.bar} />}
     </>
   );
 }
 
-function Sides({ right, down }: { readonly right: Vector; readonly down: Vector }) {
+function Sides({ letters }: Pick<PictureLabels, 'letters'>) {
   return (
     <>
-      <span class="edge top">{lettersOf(negate(down))}</span>
-      <span class="edge bottom">{lettersOf(down)}</span>
-      <span class="edge left">{lettersOf(negate(right))}</span>
-      <span class="edge right">{lettersOf(right)}</span>
+      <span class="edge top">{letters.top}</span>
+      <span class="edge bottom">{letters.bottom}</span>
+      <span class="edge left">{letters.left}</span>
+      <span class="edge right">{letters.right}</span>
     </>
+  );
+}
+
+function Bar({ bar: { words, pixels } }: { readonly bar: NonNullable<PictureLabels['bar']> }) {
+  return (
+    <svg class="bar" width={pixels + 2} height="22" role="img" aria-label={`scale bar of ${words}`}>
+      <path d={`M1 14v6h${pixels}v-6`} />
+      <text x={pixels / 2 + 1} y="12" text-anchor="middle">
+        {words}
+      </text>
+    </svg>
   );
 }

@@ -6,8 +6,10 @@ import type {
   Drawn,
   GivenFile,
   Histogram,
+  LaidPicture,
   Pick,
   Picture,
+  PictureLabels,
   Plane,
   Progress,
   Report,
@@ -201,6 +203,12 @@ export class EngineHost {
   /** The section across a vessel, the measured one once there is one: its middle, to the right and downwards. */
   across(vessel: number, at: number): Promise<[Vector, Vector, Vector]> {
     return this.run(() => JSON.parse(this.ready().across(vessel, at)));
+  }
+
+  /** The letters and the scale bar of a picture, at once: they do not wait for the work that is queued. */
+  labels(picture: LaidPicture): PictureLabels {
+    this.ready();
+    return JSON.parse(Engine.picture_labels(JSON.stringify(picture)));
   }
 
   straightened(cpr: Cpr, window: Window): Promise<Picture> {

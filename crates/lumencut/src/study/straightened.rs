@@ -2,10 +2,12 @@
 
 use crate::feature_aggregation::{Feature, feature_aggregation};
 use glam::{DVec2, DVec3};
+use lumencut_core::frame::Frame;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::math::path::Path;
 use lumencut_core::pipeline::{self, Request};
 use lumencut_core::reformations::cpr::{Cpr, CprMode, View};
+use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::Vessel;
 use serde::{Deserialize, Serialize};
 
@@ -140,8 +142,12 @@ impl Study {
     fn aggregated(&self, laid: &Laid, spacing: f64, feature: Feature, window: [f64; 2]) -> Result<Picture> {
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
         let (camera, settings) = shown_flat(window)?;
-        let request = Request::new(&camera, &settings);
-        let value = feature_aggregation(&volume, &laid.cpr, spacing, feature, &request)?;
+        let request = Request { images: ImageSet::of(&[Image::Value]), ..Request::new(&camera, &settings) };
+        let look = |turned: &Cpr| {
+            let frame = self.cpu.look(&volume, Frame::of(Geometry::Curved(turned.curved()?)), &request)?;
+            Ok(frame.value)
+        };
+        let value = feature_aggregation(&laid.cpr, spacing, feature, look)?;
         let size = laid.cpr.size();
         Ok(Picture { size, bytes: pipeline::picture(&value, size, &settings)?.into_flattened() })
     }

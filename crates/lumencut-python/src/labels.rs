@@ -1,0 +1,25 @@
+//! What stands around a picture: the letters of the patient's sides, and the scale bar.
+
+use glam::DVec3;
+use lumencut::letters::{self, EdgeLetters};
+use lumencut::scale_bar::ScaleBar;
+use pyo3::prelude::*;
+
+/// The letters of the sides of the patient that a direction (LPS) points to, the main one first.
+#[pyfunction]
+pub fn sides(direction: [f64; 3]) -> String {
+    letters::sides(DVec3::from_array(direction))
+}
+
+/// The letters at the edges of a picture by their names; its columns rise along `right`, its rows along `down` (LPS).
+#[pyfunction]
+pub fn edge_letters(right: [f64; 3], down: [f64; 3]) -> Vec<(&'static str, String)> {
+    let found = EdgeLetters::new(DVec3::from_array(right), DVec3::from_array(down));
+    vec![("left", found.left), ("right", found.right), ("top", found.top), ("bottom", found.bottom)]
+}
+
+/// Length (mm), words and pixels of the scale bar of a picture of this width (pixels) and side of a pixel (mm).
+#[pyfunction]
+pub fn scale_bar(width: f64, pixel_spacing: f64) -> Option<(f64, String, f64)> {
+    ScaleBar::new(width, pixel_spacing).map(|bar| (bar.length, bar.words, bar.pixels))
+}
