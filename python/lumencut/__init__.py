@@ -41,7 +41,9 @@ if TYPE_CHECKING:
     from lumencut.flags import Flag
     from lumencut.frame import Frame
     from lumencut.mask_tracing import trace_mask
+    from lumencut.measurements import Measurements
     from lumencut.measuring import CrossSection, cross_section, measure
+    from lumencut.picking import brightest
     from lumencut.planar_reformation import cpr
     from lumencut.profile import Profile
     from lumencut.reformation import Reformation
@@ -92,7 +94,9 @@ _HOME = {
     "flags": ("Flag",),
     "frame": ("Frame",),
     "mask_tracing": ("trace_mask",),
+    "measurements": ("Measurements",),
     "measuring": ("CrossSection", "cross_section", "measure"),
+    "picking": ("brightest",),
     "planar_reformation": ("cpr",),
     "profile": ("Profile",),
     "reformation": ("Reformation",),
@@ -133,6 +137,7 @@ __all__ = [
     "Frame",
     "Gap",
     "LumencutError",
+    "Measurements",
     "MeasuringError",
     "MissingPackageError",
     "Opacity",
@@ -157,6 +162,7 @@ __all__ = [
     "VolumeError",
     "Window",
     "__version__",
+    "brightest",
     "cfa",
     "compare_centerlines",
     "cpr",

@@ -33,6 +33,7 @@ __all__ = [
     "VIEW_METHODS",
     "CenterlineFile",
     "Cpr",
+    "KeptProfiles",
     "Profile",
     "Renderer",
     "Setting",
@@ -41,6 +42,7 @@ __all__ = [
     "Tracer",
     "__version__",
     "better_place",
+    "brightest",
     "c_arm_words",
     "check_camera",
     "check_cr",
@@ -52,6 +54,7 @@ __all__ = [
     "contains",
     "correspondence",
     "cross_section",
+    "cut",
     "describe_dicom",
     "devices",
     "edge_letters",
@@ -62,6 +65,7 @@ __all__ = [
     "frame_angles",
     "full_window",
     "is_session_file",
+    "join",
     "judge_dicom",
     "levels",
     "make_phantom",
@@ -70,6 +74,7 @@ __all__ = [
     "mip_window",
     "mra_window",
     "panned",
+    "part_name",
     "path",
     "picture",
     "placement",
@@ -198,6 +203,13 @@ class Tracer:
     ]: ...
 
 @final
+class KeptProfiles:
+    def __new__(cls) -> KeptProfiles: ...
+    def profile(
+        self, volume: Any, tree: list[_Arrays], measured: _Arrays, step: float, fwhm: float | None = None
+    ) -> Profile: ...
+
+@final
 class Profile:
     def numbers(self) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
     @property
@@ -273,6 +285,9 @@ class Renderer:
 def better_place(
     points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64], volume: Any
 ) -> str | None: ...
+def brightest(
+    volume: Any, camera: Any, pixel: tuple[float, ...], depths: tuple[float, ...]
+) -> list[float]: ...
 def c_arm_words(lao: float, cranial: float) -> str: ...
 def check_camera(camera: Any) -> list[list[float]]: ...
 def check_cr(radius_offset: float, arc_threshold: float) -> None: ...
@@ -292,6 +307,8 @@ def cross_section(
     image: tuple[float, float],
     profile: Profile | None = None,
 ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float64], list[float], float]: ...
+def cut(vessel: tuple[Any, ...], at: float) -> list[tuple[Any, ...]]: ...
+def join(first: tuple[Any, ...], second: tuple[Any, ...]) -> tuple[Any, ...]: ...
 def judge_dicom(headers: bytes, wanted: bytes, /) -> str: ...
 def describe_dicom(headers: bytes, /) -> str: ...
 def devices() -> list[dict[str, Any]]: ...
@@ -332,6 +349,7 @@ def profile_marks(
 ) -> list[tuple[str, float, float, bool]]: ...
 def profiles_csv(profiles: list[tuple[list[tuple[str, str]], Profile]]) -> str: ...
 def read_session_file(content: bytes, name: str) -> str: ...
+def part_name(taken: list[str], whole: str) -> str: ...
 def path(vessels: list[_Arrays], words: list[str]) -> _Arrays: ...
 def rotated(camera: Any, angle: float, axis: _Axis) -> dict[str, Any]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...

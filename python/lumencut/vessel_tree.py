@@ -13,6 +13,7 @@ from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut._measured_radii import measured_radii
 from lumencut._values import Value
+from lumencut._vessel_edits import joined, parts_of
 from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel import Vessel
@@ -194,7 +195,7 @@ class VesselTree(Value):
         wanted = list(ids)
         if not wanted:
             raise VesselTreeError("path through the tree", "no vessels", "at least one id or name")
-        vessels = [self[one] if isinstance(one, str) else self._vessels[self.ids(one)[0]] for one in wanted]
+        vessels = [self._vessels[self._id(one)] for one in wanted]
         for n, vessel in enumerate(vessels):
             if any(vessel is other for other in vessels[:n]):
                 raise VesselTreeError(
@@ -205,10 +206,73 @@ class VesselTree(Value):
         names = [vessel.name for vessel in vessels if vessel.name is not None]
         return Vessel(points, radius, " + ".join(names) if len(names) == len(vessels) else None)
 
+    def cut(self, vessel: SupportsIndex | str, at: float) -> VesselTree:
+        """Return the tree with a vessel cut in two; both parts have the point where it was cut.
+
+        The parts stand in the place of the vessel, so that the ids of those after it are higher by 1. The
+        first part keeps the name; where there is one, the second is called ``"<name> part 1"``, with the
+        first number that is free.
+
+        Parameters
+        ----------
+        vessel : int or str
+            Its id or name.
+        at : float
+            The arc length where it is cut (mm), more than 0 and less than its length.
+
+        Raises
+        ------
+        VesselTreeError
+            For an id or a name that not exactly one vessel has, or a place that is not between its ends.
+        """
+        id_ = self._id(vessel)
+        place = number(VesselTreeError, "place of the cut", at)
+        taken = [one.name for one in self._vessels if one.name is not None]
+        parts = parts_of(self._vessels[id_], place, taken)
+        return self._with([*self._vessels[:id_], *parts, *self._vessels[id_ + 1 :]])
+
+    def joined(self, first: SupportsIndex | str, second: SupportsIndex | str) -> VesselTree:
+        """Return the tree with two vessels joined to one, at the ends that are nearest to each other.
+
+        The new vessel has the place, the name and the direction of the first one, and the second one is no
+        longer there. Where the ends are apart it goes straight on, and the points between count as bridged.
+
+        Parameters
+        ----------
+        first, second : int or str
+            Their ids or names.
+
+        Raises
+        ------
+        VesselTreeError
+            For an id or a name that not exactly one vessel has, one vessel twice, or ends that are farther
+            apart than 5 mm and than twice the larger radius there.
+        """
+        kept, gone = self._id(first), self._id(second)
+        if kept == gone:
+            raise VesselTreeError("vessels to join", f"{first!r} and {second!r}, the same one", "two vessels")
+        vessels = list(self._vessels)
+        vessels[kept] = joined(vessels[kept], vessels[gone])
+        return self._with(vessels[:gone] + vessels[gone + 1 :])
+
+    def _with(self, vessels: Iterable[Vessel]) -> VesselTree:
+        """A tree of other vessels in the same space."""
+        tree = VesselTree(vessels)
+        tree._space_settled = self._space_settled
+        return tree
+
+    def _id(self, vessel: SupportsIndex | str) -> int:
+        """The id of the one vessel that is meant."""
+        if not isinstance(vessel, str):
+            return self.ids(vessel)[0]
+        meant = self._named(vessel)
+        if len(meant) == 1:
+            return meant[0]
+        found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
+        raise _VesselNameError(f"vessel {vessel!r}", found, "one vessel", "take it by its id")
+
     def _part(self, ids: Iterable[int]) -> VesselTree:
-        part = VesselTree(self._vessels[index] for index in ids)
-        part._space_settled = self._space_settled
-        return part
+        return self._with(self._vessels[index] for index in ids)
 
     def _ids(self, vessels: Iterable[SupportsIndex | str]) -> set[int]:
         """The ids of vessels by their ids and names."""
@@ -295,13 +359,7 @@ class VesselTree(Value):
     @overload
     def __getitem__(self, vessel_id: slice) -> tuple[Vessel, ...]: ...
     def __getitem__(self, vessel_id: SupportsIndex | str | slice) -> Vessel | tuple[Vessel, ...]:
-        if not isinstance(vessel_id, str):
-            return self._vessels[vessel_id]
-        meant = self._named(vessel_id)
-        if len(meant) == 1:
-            return self._vessels[meant[0]]
-        found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
-        raise _VesselNameError(f"vessel {vessel_id!r}", found, "one vessel", "take it by its id")
+        return self._vessels[self._id(vessel_id) if isinstance(vessel_id, str) else vessel_id]
 
     def __contains__(self, vessel: object) -> bool:
         if isinstance(vessel, str):

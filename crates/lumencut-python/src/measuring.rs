@@ -1,5 +1,7 @@
 //! Vessels measured: without the GIL, and stopped by Ctrl-C.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use lumencut::flag_table::{FLAGS, FlagLook};
 use lumencut::measure::cross_section::{CrossSection, section_place};
@@ -48,7 +50,7 @@ fn defaults() -> [(&'static str, f64); 4] {
 
 /// The lumen of one vessel by arc length.
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct Profile(pub profile::Profile);
+pub struct Profile(pub Arc<profile::Profile>);
 
 /// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree.
 #[pyfunction]
@@ -70,7 +72,7 @@ pub fn measure<'py>(
         let request = Request { step, fwhm, tree: &others, stop };
         pool::install(|| measuring::measure(&volume, &vessel, &request))?.map_err(to_python)
     })
-    .map(Profile)
+    .map(|profile| Profile(Arc::new(profile)))
 }
 
 #[pymethods]
@@ -268,7 +270,7 @@ pub fn cross_section<'py>(
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let vessel = vessel_of(&measured)?;
-    let place = section_place(&vessel, at, profile.as_ref().map(|profile| &profile.0)).map_err(to_python)?;
+    let place = section_place(&vessel, at, profile.as_ref().map(|profile| &*profile.0)).map_err(to_python)?;
     let [size, pixel_spacing] = image;
     let section = py.detach(|| CrossSection::new(&volume, place, size, pixel_spacing)).map_err(to_python)?;
     let side = section.pixels;

@@ -17,7 +17,7 @@ use crate::pool;
 pub type VesselArrays<'py> = (PyReadonlyArray2<'py, f64>, Option<PyReadonlyArray1<'py, f64>>);
 
 /// Points (n, 3) and radii (n,) of one vessel, made by this module.
-type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
+pub type NewVesselArrays<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>);
 
 /// The rows of points (n, 3).
 pub fn points_of(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<DVec3>> {
@@ -100,7 +100,8 @@ fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py
     flat_arrays(py, vessel.points(), vessel.radius())
 }
 
-fn flat_arrays<'py>(
+/// Points (n, 3) and radii (n,) as arrays.
+pub fn flat_arrays<'py>(
     py: Python<'py>,
     points: &[DVec3],
     radius: Option<&[f64]>,

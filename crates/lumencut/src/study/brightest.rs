@@ -8,7 +8,8 @@ use lumencut_core::error::{self, Error, ErrorKind};
 use lumencut_core::volume::Volume;
 
 use crate::study::failure::Result;
-use crate::study::open_study::{Study, no_volume};
+use crate::study::held_volume::no_volume;
+use crate::study::open_study::Study;
 use crate::study::picking::Pick;
 use crate::study::view::View;
 

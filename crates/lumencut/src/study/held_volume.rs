@@ -97,3 +97,8 @@ impl HeldVolume {
         Ok(SharedVolume::new(self.volume()?, self.key.clone()))
     }
 }
+
+/// The error for a question that only a volume answers.
+pub fn no_volume() -> Failure {
+    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
+}

@@ -70,7 +70,8 @@ impl Line {
         Centerline { points: self.points.clone(), radius, confidence: Vec::new() }
     }
 
-    fn known_radius(&self) -> Option<Vec<f64>> {
+    /// The radius at each point (mm), 0 where it is not known beside others; none where it is known nowhere.
+    pub fn known_radius(&self) -> Option<Vec<f64>> {
         let radius = self.radius.as_ref().filter(|radius| radius.iter().any(|r| !r.is_nan()))?;
         Some(radius.iter().map(|r| if r.is_nan() { 0.0 } else { *r }).collect())
     }

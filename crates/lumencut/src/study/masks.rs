@@ -16,10 +16,10 @@ use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
 use crate::study::failure::{Failure, Result};
-use crate::study::held_volume::HeldVolume;
 use crate::study::held_volume::VolumeHeader;
+use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::lines::{Line, NamedLine};
-use crate::study::open_study::{Study, no_volume};
+use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 use crate::study::voxels::Stored;
 

@@ -16,7 +16,7 @@ use lumencut_vessels::trace::clicks::tracer::Tracer;
 
 use crate::study::content::Content;
 use crate::study::failure::{Failure, Result};
-use crate::study::held_volume::HeldVolume;
+use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::histogram::Histogram;
 use crate::study::lines::Lines;
 use crate::study::planes::Plane;
@@ -130,9 +130,4 @@ impl Study {
 pub(crate) fn shown_flat([level, width]: [f64; 2]) -> Result<(Camera, Settings)> {
     let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0)?;
     Ok((camera, Settings { window: Window { level, width }, context: None, ..Settings::default() }))
-}
-
-/// The error for a question that only a volume answers.
-pub(crate) fn no_volume() -> Failure {
-    Failure { kind: "volume", ..Failure::of_message("volume", &"none", "one that is open") }
 }

@@ -13,9 +13,8 @@ use lumencut_vessels::measure::profile::Profile;
 use crate::kept_profiles::{self, KeptProfiles, Scan};
 use crate::study::content::Content;
 use crate::study::failure::Result;
-use crate::study::held_volume::HeldVolume;
+use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::lines::wrong;
-use crate::study::open_study::no_volume;
 
 /// The profiles that are kept, and how they were asked for.
 #[derive(Default)]

@@ -15,9 +15,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::content::NamedTree;
 use crate::study::failure::{Failure, Result};
+use crate::study::held_volume::no_volume;
 use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, NamedLine};
-use crate::study::open_study::{Study, no_volume};
+use crate::study::open_study::Study;
 
 /// How long work is watched: asked whether to stop, and how far it is.
 #[derive(Clone, Copy)]

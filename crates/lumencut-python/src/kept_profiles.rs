@@ -1,0 +1,51 @@
+//! Profiles of the vessels of one scan, each measured once.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use lumencut::kept_profiles::{Asking, KeptProfiles as Core, Scan};
+use lumencut::vessel_tree::Vessel;
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+use crate::measuring::Profile;
+use crate::pool;
+use crate::renderer::interruptible;
+use crate::tree::{VesselArrays, vessel as vessel_of};
+use crate::volume::VolumeArgument;
+
+/// The profiles of one volume and tree.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct KeptProfiles(Mutex<Core<Vessel>>);
+
+#[pymethods]
+impl KeptProfiles {
+    #[new]
+    fn new() -> Self {
+        Self(Mutex::new(Core::default()))
+    }
+
+    /// The profile of a vessel, its points (n, 3) and radii (n,), measured where it was not asked for like this before.
+    #[pyo3(signature = (volume, tree, measured, step, fwhm=None))]
+    #[allow(clippy::needless_pass_by_value)]
+    fn profile<'py>(
+        &self,
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+        tree: Vec<VesselArrays<'py>>,
+        measured: VesselArrays<'py>,
+        step: f64,
+        fwhm: Option<f64>,
+    ) -> PyResult<Profile> {
+        let borrowed = volume.borrow()?;
+        let volume = &volume.volume(&borrowed)?;
+        let tree = &tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
+        let vessel = &vessel_of(&measured)?;
+        interruptible(py, None, |stop| {
+            let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let kept = &mut *kept;
+            let asking = Asking { step, fwhm, stop };
+            let found = pool::install(|| kept.of(vessel.clone(), vessel, Scan { volume, tree }, &asking))?;
+            found.map(|number| Profile(Arc::clone(kept.kept(number)))).map_err(to_python)
+        })
+    }
+}

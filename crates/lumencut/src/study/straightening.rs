@@ -1,0 +1,73 @@
+//! The straightened CPR of a vessel of the study, and what its pixels show.
+
+use crate::feature_aggregation::{Feature, feature_aggregation};
+use lumencut_core::frame::Frame;
+use lumencut_core::geometry::Geometry;
+use lumencut_core::pipeline::{self, Request};
+use lumencut_core::reformations::cpr::Cpr;
+use lumencut_core::stages::{Image, ImageSet};
+use serde::Serialize;
+
+use crate::study::failure::{Failure, Result};
+use crate::study::held_volume::no_volume;
+use crate::study::open_study::{Picture, Study, shown_flat};
+use crate::study::straightened::{CprMessage, Laid};
+
+/// What a place in the straightened CPR shows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StraightenedPick {
+    /// The world point.
+    pub point: [f64; 3],
+    /// The volume there; none outside.
+    pub value: Option<f32>,
+    /// The vessel that is straightened.
+    pub vessel: usize,
+    /// The place along it (mm).
+    pub arc_length: f64,
+}
+
+impl Study {
+    /// The straightened CPR of a vessel in a window.
+    ///
+    /// # Errors
+    /// `vessel tree` for a vessel that there is not, and those of the layout.
+    pub fn straightened(&mut self, message: CprMessage, window: [f64; 2]) -> Result<Picture> {
+        let laid = Laid::new(message, self.vessel(message.vessel)?, self.laid.as_ref())?;
+        let picture = match message.feature {
+            Some(feature) => self.aggregated(&laid, message.pixel_spacing, feature.into(), window)?,
+            None => self.shown(Geometry::Curved(laid.cpr.curved()?), window)?,
+        };
+        self.laid = Some(laid);
+        Ok(picture)
+    }
+
+    /// What a place in the straightened CPR that was shown last shows.
+    ///
+    /// # Errors
+    /// `settings` where none was shown.
+    pub fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
+        let none = || Failure::of_message("CPR", &"none", "one that is shown");
+        let laid = self.laid.as_ref().ok_or_else(none)?;
+        let at = self.at(laid.world([column, row]));
+        let (vessel, arc_length) = (laid.message.vessel, laid.arc_length(row));
+        Ok(StraightenedPick { point: at.point, value: at.value, vessel, arc_length })
+    }
+
+    /// Column and row of a world point in the straightened CPR that was shown last; none where none was.
+    pub fn on_straightened(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+        self.laid.as_ref().map(|laid| laid.pixel(point))
+    }
+
+    fn aggregated(&self, laid: &Laid, spacing: f64, feature: Feature, window: [f64; 2]) -> Result<Picture> {
+        let volume = self.scene()?.volume.ok_or_else(no_volume)?;
+        let (camera, settings) = shown_flat(window)?;
+        let request = Request { images: ImageSet::of(&[Image::Value]), ..Request::new(&camera, &settings) };
+        let look = |turned: &Cpr| {
+            let frame = self.cpu.look(&volume, Frame::of(Geometry::Curved(turned.curved()?)), &request)?;
+            Ok(frame.value)
+        };
+        let value = feature_aggregation(&laid.cpr, spacing, feature, look)?;
+        let size = laid.cpr.size();
+        Ok(Picture { size, bytes: pipeline::picture(&value, size, &settings)?.into_flattened() })
+    }
+}

@@ -1,0 +1,30 @@
+"""Vessels cut in two, and two vessels joined to one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lumencut import _lumencut
+from lumencut.vessel import Vessel
+
+
+def parts_of(vessel: Vessel, at: float, taken: list[str]) -> list[Vessel]:
+    """Return both parts of a vessel that is cut at an arc length (mm), beside names that are taken."""
+    name = vessel.name
+    names = [name, None if name is None else _lumencut.part_name(taken, name)]
+    parts = _lumencut.cut(_arrays(vessel), at)
+    return [_vessel(part, name) for part, name in zip(parts, names, strict=True)]
+
+
+def joined(first: Vessel, second: Vessel) -> Vessel:
+    """Return two vessels as one, under the name of the first one."""
+    return _vessel(_lumencut.join(_arrays(first), _arrays(second)), first.name)
+
+
+def _arrays(vessel: Vessel) -> tuple[Any, ...]:
+    return vessel.points, vessel.radius, vessel.confidence, vessel.bridged
+
+
+def _vessel(arrays: tuple[Any, ...], name: str | None) -> Vessel:
+    points, radius, confidence, bridged = arrays
+    return Vessel(points, radius, name, confidence=confidence, bridged=bridged)

@@ -1,0 +1,100 @@
+"""The profiles of the vessels of one scan, each measured once."""
+
+from __future__ import annotations
+
+from typing import Any, SupportsIndex
+
+from lumencut import _lumencut
+from lumencut._checks import number
+from lumencut.errors import SettingsError, VesselTreeError
+from lumencut.profile import Profile
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
+from lumencut.volume import Volume
+from lumencut.volume_files.memory import as_volume
+
+
+class Measurements:
+    """The measured vessels of one volume and tree: each is measured when it is first asked for, and kept.
+
+    The point spread is estimated once, from the vessels of the tree, and is the same for all of them, as in
+    the viewer. What was measured holds for this volume, tree, step and width of the point spread; for others
+    make another object.
+
+    >>> measurements = lumencut.Measurements(volume, tree)
+    >>> measurements.profile("LAD").narrowest()
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography.
+    tree : VesselTree
+        The vessels; sections within the lumen of another one get :attr:`Flag.BRANCH`.
+    step : float, default 0.5
+        The distance of sections (mm), at most.
+    fwhm : float, optional
+        The full width at half maximum of the scanner's point spread (mm), as for :func:`lumencut.measure`.
+
+    Raises
+    ------
+    SettingsError
+        For a step or a width that is not a number; values out of range are refused by :meth:`profile`.
+    VesselTreeError
+        For another kind of tree.
+    VolumeError
+        For what is no volume.
+    """
+
+    def __init__(
+        self, volume: Volume | Any, tree: VesselTree, step: float = 0.5, fwhm: float | None = None
+    ) -> None:
+        if not isinstance(tree, VesselTree):
+            raise VesselTreeError("tree of the measurements", type(tree).__name__, "a VesselTree")
+        self._volume = as_volume(volume)
+        self._tree = tree
+        self._step = number(SettingsError, "step", step)
+        self._fwhm = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
+        self._kept = _lumencut.KeptProfiles()
+
+    @property
+    def volume(self) -> Volume:
+        """The angiography."""
+        return self._volume
+
+    @property
+    def tree(self) -> VesselTree:
+        """The vessels."""
+        return self._tree
+
+    def profile(self, vessel: SupportsIndex | str | Vessel) -> Profile:
+        """Return the profile of a vessel, measured where it was not asked for before.
+
+        Parameters
+        ----------
+        vessel : int, str or Vessel
+            The id or the name of a vessel of the tree, or another vessel, such as one that
+            :meth:`VesselTree.path` made of several.
+
+        Returns
+        -------
+        Profile
+            Diameters, area, uncertainty, flags and contours by arc length.
+
+        Raises
+        ------
+        MeasuringError
+            For a vessel outside the volume, or without a lumen around it.
+        SettingsError
+            For a step or a width of the point spread that is out of range.
+        VesselTreeError
+            For an id or a name that not exactly one vessel of the tree has, or a vessel without length.
+        KeyboardInterrupt
+            After Ctrl-C.
+        """
+        asked = vessel if isinstance(vessel, Vessel) else self._tree.path([vessel])
+        arrays = [(one.points, one.radius) for one in self._tree]
+        core = self._kept.profile(self._volume, arrays, (asked.points, asked.radius), self._step, self._fwhm)
+        return Profile(core)
+
+    def __repr__(self) -> str:
+        return f"Measurements({self._volume!r}, {self._tree!r})"

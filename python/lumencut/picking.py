@@ -1,0 +1,63 @@
+"""What a pixel of a picture means in the volume."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._checks import numbers
+from lumencut.camera import Camera
+from lumencut.errors import CameraError
+from lumencut.volume import Volume
+from lumencut.volume_files.memory import as_volume
+
+
+def brightest(
+    volume: Volume | Any,
+    camera: Camera,
+    pixel: npt.ArrayLike,
+    depths: npt.ArrayLike = (-np.inf, np.inf),
+) -> npt.NDArray[np.float64]:
+    """Return the brightest place on the ray of a pixel: what a click into a MIP means, as in the viewer.
+
+    The ray is looked at in steps of half the smallest side of a voxel, from the first voxel to the last. Of
+    several places that are equally bright the nearest one to the viewer is taken.
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography.
+    camera : Camera
+        The view.
+    pixel : array_like, shape (2,)
+        Column and row, from (0, 0) in the middle of the pixel at the top left; parts of pixels are allowed.
+    depths : array_like, shape (2,), default from minus to plus infinity
+        Only places between these depths count (mm, from the plane of ``camera.center``, positive away from
+        the viewer), as within a slab.
+
+    Returns
+    -------
+    numpy.ndarray, shape (3,)
+        The place (mm, LPS), such as a point for :func:`lumencut.trace`.
+
+    Raises
+    ------
+    TracingError
+        For a ray that meets no voxel between the depths.
+    CameraError
+        For another kind of camera, pixel or depths.
+    VolumeError
+        For what is no volume.
+    """
+    if not isinstance(camera, Camera):
+        raise CameraError("camera", type(camera).__name__, "a Camera")
+    place = _lumencut.brightest(
+        as_volume(volume),
+        camera,
+        tuple(numbers(CameraError, "pixel", pixel, (2,)).tolist()),
+        tuple(numbers(CameraError, "depths", depths, (2,)).tolist()),
+    )
+    return np.array(place)
