@@ -7,7 +7,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch, larger};
 use lumencut_core::math::ray::WHOLE;
-use lumencut_core::math::sampling::{Grid, Path, Places};
+use lumencut_core::math::sampling::{Grid, Places, SampledRun};
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::{Scene, SharedVolume, VolumeKey};
 use lumencut_core::settings::{Context, ContextMode, Preset, Settings};
@@ -32,7 +32,7 @@ struct Line {
     from: usize,
 }
 
-impl Path for Line {
+impl SampledRun for Line {
     #[inline(always)]
     fn places(&self, n: usize) -> Places {
         let mut places = [[0.0; FAN]; 3];

@@ -111,7 +111,7 @@ impl Curve {
     }
 
     /// Arc length of the sample nearest to `point` (mm).
-    pub(crate) fn nearest(&self, point: DVec3) -> f64 {
+    pub(crate) fn nearest_arc_length(&self, point: DVec3) -> f64 {
         let far = |i: &usize| self.points[*i].distance_squared(point);
         let nearest = (0..self.points.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
         nearest.map_or(0.0, |i| self.arc[i])
@@ -141,7 +141,7 @@ mod tests {
         let curve = Curve::through(&WAY);
         for w in WAY {
             let point = DVec3::new(w[0], w[1], w[2]);
-            let (nearest, radius) = curve.at(curve.nearest(point));
+            let (nearest, radius) = curve.at(curve.nearest_arc_length(point));
             assert_eq!(nearest, point);
             assert!((radius - w[3]).abs() < 1e-12);
         }
@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(bent.at(0.0), curve.at(0.0));
         assert_eq!(bent.at(bent.length()), curve.at(curve.length()));
         let middle = curve.at(curve.length() / 2.0).0;
-        assert!(bent.at(bent.nearest(middle)).0.distance(middle) > 0.01);
+        assert!(bent.at(bent.nearest_arc_length(middle)).0.distance(middle) > 0.01);
     }
 
     #[test]

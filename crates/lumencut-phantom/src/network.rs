@@ -104,7 +104,7 @@ impl Network {
     /// Moves `way` onto `parent` and remembers the junction.
     fn attach(&mut self, parent: TrunkId, way: &mut WayPoint) {
         let parent = &mut self.trunks[parent.0];
-        let s = parent.curve.nearest(DVec3::new(way[0], way[1], way[2]));
+        let s = parent.curve.nearest_arc_length(DVec3::new(way[0], way[1], way[2]));
         let place = parent.curve.at(s).0;
         way[..3].copy_from_slice(&place.to_array());
         if s > 0.0 && s < parent.curve.length() {

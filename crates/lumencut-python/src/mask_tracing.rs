@@ -6,7 +6,7 @@ use lumencut::mask_notes::{check_same_grid, notes};
 use lumencut::progress::Progress;
 use lumencut::trace::lines::correspondence::correspondence as connections;
 use lumencut::trace::mask::grey_values::GreyValues;
-use lumencut::trace::mask::{Request, trace_mask as core_trace_mask};
+use lumencut::trace::mask::{MaskRequest, trace_mask as core_trace_mask};
 use lumencut::trace::skeleton::mask_refinement::Refine;
 use lumencut::voxels::Voxels;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2, ndarray::Array2};
@@ -76,7 +76,7 @@ pub fn trace_mask<'py>(
             .as_ref()
             .map(|values| |points: &[DVec3], radius: &[f64]| values.refined(points, radius));
         let refine = by_values.as_ref().map(|refine| -> Refine { refine });
-        let request = Request { labels, parent_radii, step, bridge, refine, stop, progress };
+        let request = MaskRequest { labels, parent_radii, step, bridge, refine, stop, progress };
         pool::install(|| core_trace_mask(&mask, &request))?.map_err(to_python)
     })?;
     if let Some(watched) = watched {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use lumencut::flag_table::{FLAGS, FlagLook};
 use lumencut::measure::cross_section::{CrossSection, section_place};
 use lumencut::measure::groups::Territory;
-use lumencut::measure::measuring::{self, Request};
+use lumencut::measure::measuring::{self, MeasureRequest};
 use lumencut::measure::profile;
 use lumencut::measure::radii;
 use lumencut::measure::stenosis::{self, Compared, Method};
@@ -69,7 +69,7 @@ pub fn measure<'py>(
     let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let vessel = vessel_of(&measured)?;
     interruptible(py, None, |stop| {
-        let request = Request { step, fwhm, tree: &others, stop };
+        let request = MeasureRequest { step, fwhm, tree: &others, stop };
         pool::install(|| measuring::measure(&volume, &vessel, &request))?.map_err(to_python)
     })
     .map(|profile| Profile(Arc::new(profile)))
@@ -107,7 +107,7 @@ impl Profile {
 
     /// The number of the section that is nearest to an arc length (mm), the first of two.
     fn nearest(&self, at: f64) -> usize {
-        self.0.nearest(at)
+        self.0.nearest_section(at)
     }
 
     /// The middle of the lumen (mm, LPS), shape (n, 3).

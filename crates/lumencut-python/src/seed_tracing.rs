@@ -33,7 +33,7 @@ pub fn trace_from<'py>(
     let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
     let traced = interruptible(py, watched.as_ref(), |stop| {
         let seed = DVec3::from_array(seed);
-        let request = seed::Request { seed, smallest_radius, stop, progress: Some(&progress) };
+        let request = seed::SeedRequest { seed, smallest_radius, stop, progress: Some(&progress) };
         pool::install(|| seed::trace_from(&volume, &request))?.map_err(to_python)
     })?;
     if let Some(watched) = watched {

@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
+use lumencut_core::math::sampling::Grid;
 use lumencut_core::volume::{Real, Volume, Voxel};
 use lumencut_core::with_voxels;
 
@@ -32,8 +33,7 @@ impl<'a> Voxels<'a> {
     /// The voxels of `volume`.
     pub fn new(volume: &Volume<'a>) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
-        let source: Box<dyn VoxelSource + 'a> =
-            with_voxels!(volume.voxels(), voxels => Box::new(Typed { voxels, size, strides }));
+        let source: Box<dyn VoxelSource + 'a> = with_voxels!(volume.voxels(), voxels => Box::new(Typed { voxels, grid: Grid::new(volume), size, strides }));
         Self {
             source,
             size,
@@ -110,6 +110,7 @@ impl<'a> Voxels<'a> {
 /// Voxels of one type.
 struct Typed<'a, T> {
     voxels: &'a [T],
+    grid: Grid,
     size: [usize; 3],
     strides: [usize; 3],
 }
@@ -140,25 +141,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
 
     #[inline]
     fn at(&self, index: DVec3) -> f32 {
-        let mut offset = 0;
-        let mut step = [0; 3];
-        let mut weight = [0.0; 3];
-        for a in 0..3 {
-            let last = self.size[a] as f64 - 1.0;
-            // A place that is no number is inside nothing.
-            if !(index[a] >= -0.5 && index[a] <= last + 0.5) {
-                return f32::NAN;
-            }
-            let place = index[a].clamp(0.0, last);
-            let floor = (place as usize).min(self.size[a].saturating_sub(2));
-            weight[a] = (place - floor as f64) as f32;
-            offset += floor * self.strides[a];
-            step[a] = if self.size[a] > 1 { self.strides[a] } else { 0 };
-        }
-        let value = |n: usize| self.voxels[n].real().to_f32();
-        let line = |n: usize| value(n) + (value(n + step[0]) - value(n)) * weight[0];
-        let plane = |n: usize| line(n) + (line(n + step[1]) - line(n)) * weight[1];
-        plane(offset) + (plane(offset + step[2]) - plane(offset)) * weight[2]
+        self.grid.trilinear(self.voxels, index)
     }
 
     fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {

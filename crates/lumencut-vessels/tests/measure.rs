@@ -8,7 +8,7 @@ use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut_vessels::measure::measuring::{Request, measure};
+use lumencut_vessels::measure::measuring::{MeasureRequest, measure};
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::stenosis::{Compared, Method};
 
@@ -34,7 +34,7 @@ fn measured(ellipse: &Ellipse, fwhm: Option<f64>, stop: Stop) -> Result<Profile>
     let affine = DAffine3::from_scale(DVec3::splat(SIDE));
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine)?;
     let points = [2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec();
-    let request = Request { step: 0.5, fwhm, tree: &[], stop };
+    let request = MeasureRequest { step: 0.5, fwhm, tree: &[], stop };
     measure(&volume, &Vessel::new(points, None)?, &request)
 }
 

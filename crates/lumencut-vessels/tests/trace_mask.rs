@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::trace::lines::centerline::Centerline;
-use lumencut_vessels::trace::mask::{Request, trace_mask};
+use lumencut_vessels::trace::mask::{MaskRequest, trace_mask};
 use lumencut_vessels::trace::skeleton::distance_transform::squared_distances;
 use lumencut_vessels::trace::skeleton::foreground::{Foreground, LUMEN};
 
@@ -76,9 +76,9 @@ fn bar(voxels: &mut Vec<u8>) -> Volume<'_> {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn request<'a>(stop: &'a (dyn Fn() -> bool + Sync)) -> Request<'a> {
+fn request<'a>(stop: &'a (dyn Fn() -> bool + Sync)) -> MaskRequest<'a> {
     let (labels, refine, progress) = (None, None, None);
-    Request { labels, parent_radii: 2.0, step: 0.5, bridge: 0.0, refine, stop, progress }
+    MaskRequest { labels, parent_radii: 2.0, step: 0.5, bridge: 0.0, refine, stop, progress }
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn a_refinement_moves_the_lines_and_measures_radii() {
         Ok(Some(Centerline { points: moved, radius, confidence }))
     };
     let plain = trace_mask(&volume, &request(&|| false)).unwrap_or_else(|error| panic!("{error}"));
-    let refined = Request { refine: Some(&shifted), ..request(&|| false) };
+    let refined = MaskRequest { refine: Some(&shifted), ..request(&|| false) };
     let refined = trace_mask(&volume, &refined).unwrap_or_else(|error| panic!("{error}"));
     let pairs = plain.vessels[0].points.iter().zip(&refined.vessels[0].points);
     assert!(pairs.into_iter().all(|(before, after)| (after.y - before.y - 0.3).abs() < 1e-9));

@@ -3,7 +3,7 @@
 
 use super::cubic::{Corners, Cubic, Weights};
 use super::lanes::{FAN, Kernel, larger, smaller};
-use super::ray::Stretch;
+use super::ray::RaySpan;
 use super::sampling::{Grid, Offset};
 use crate::volume::{Real, Voxel};
 
@@ -106,7 +106,7 @@ pub struct CellWalk<'a, T, F> {
     /// A voxel before all cells.
     pub base: [i32; 3],
     /// Where the rays go, counted from there.
-    pub stretch: &'a Stretch,
+    pub stretch: &'a RaySpan,
     /// −1 turns the smallest into the largest.
     pub sign: f32,
     /// What becomes of the cubics.
@@ -135,7 +135,7 @@ struct Walkers {
 
 impl Walkers {
     #[inline(always)]
-    fn new(stretch: &Stretch) -> Self {
+    fn new(stretch: &RaySpan) -> Self {
         let mut walkers = Self {
             cell: [[0; FAN]; 3],
             plane: [[0.0; FAN]; 3],
@@ -159,7 +159,7 @@ impl Walkers {
 
     /// What share of the stretch each ray has gone where it meets its next plane along an axis.
     #[inline(always)]
-    fn meeting(&self, stretch: &Stretch, a: usize) -> [f32; FAN] {
+    fn meeting(&self, stretch: &RaySpan, a: usize) -> [f32; FAN] {
         let mut meeting = [NO_MEETING; FAN];
         for l in 0..FAN {
             let share = (self.plane[a][l] - stretch.start[a][l]) * self.per_voxel[a][l];

@@ -4,15 +4,12 @@
 //! stretch the curve goes on by point reflection, p(−s) = 2·p(0) − p(s): its ends stay where they are, and straight
 //! stretches stay straight.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::math::place_map::PlaceMap;
+use crate::math::same_place::VESSEL_END;
 use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
-
-/// A point nearer than this (mm) to an end of a vessel is that end. A σ below it moves nothing.
-const SAME_PLACE: f64 = 1e-3;
 
 /// How many layers one Gaussian is cut into.
 const LAYERS: usize = 16;
@@ -28,22 +25,23 @@ pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
     if radii <= 0.0 {
         return tree.clone();
     }
-    let (ends, layers) = (Ends::of(tree), gaussian());
+    let (ends, layers) = (ends_of(tree), gaussian());
     let smoothed = tree.vessels().par_iter().map(|vessel| smooth(vessel, radii, &ends, &layers));
     VesselTree::from_checked(smoothed.collect())
 }
 
 /// One vessel, each stretch between two points that stay by itself.
-fn smooth(vessel: &Vessel, radii: f64, ends: &Ends, layers: &[Layer]) -> Vessel {
+fn smooth(vessel: &Vessel, radii: f64, ends: &PlaceMap<()>, layers: &[Layer]) -> Vessel {
     let Some(radius) = vessel.radius() else { return vessel.clone() };
     let (points, last) = (vessel.points(), vessel.points().len() - 1);
     let mut smoothed = points.to_vec();
     let mut start = 0;
-    for end in (1..=last).filter(|&i| i == last || ends.hold(points[i])) {
-        let stretch = Stretch::new(&points[start..=end]);
+    for end in (1..=last).filter(|&i| i == last || ends.at(points[i]).is_some()) {
+        let stretch = FixedRun::new(&points[start..=end]);
         for i in start + 1..end {
             let sigma = radii * radius[i];
-            if sigma >= SAME_PLACE {
+            // A smaller σ moves nothing.
+            if sigma >= VESSEL_END {
                 smoothed[i] = stretch.mean(i - start, sigma, layers);
             }
         }
@@ -73,7 +71,7 @@ fn gaussian() -> [Layer; LAYERS] {
 }
 
 /// A polyline between two points that stay, as its chord and what it is off the chord.
-struct Stretch<'a> {
+struct FixedRun<'a> {
     points: &'a [DVec3],
     /// Arc length from the start to each point (mm).
     arc: Vec<f64>,
@@ -85,7 +83,7 @@ struct Stretch<'a> {
     integral: Vec<DVec3>,
 }
 
-impl<'a> Stretch<'a> {
+impl<'a> FixedRun<'a> {
     fn new(points: &'a [DVec3]) -> Self {
         let count = points.len();
         let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
@@ -163,35 +161,13 @@ fn folded(s: f64, length: f64) -> f64 {
     s.min(turn - s)
 }
 
-/// The ends of all vessels, found by their place.
-struct Ends {
-    cells: HashMap<[i64; 3], Vec<DVec3>>,
-}
-
-impl Ends {
-    /// Cells of ten times [`SAME_PLACE`]: most ends need one of them.
-    fn cell(point: DVec3) -> [i64; 3] {
-        (point / (10.0 * SAME_PLACE)).floor().as_i64vec3().to_array()
-    }
-
-    fn of(tree: &VesselTree) -> Self {
-        let mut cells: HashMap<_, Vec<DVec3>> = HashMap::new();
-        for points in tree.vessels().iter().map(Vessel::points) {
-            for end in [points[0], points[points.len() - 1]] {
-                let (low, high) = (Self::cell(end - SAME_PLACE), Self::cell(end + SAME_PLACE));
-                for (x, y) in (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y))) {
-                    for z in low[2]..=high[2] {
-                        cells.entry([x, y, z]).or_default().push(end);
-                    }
-                }
-            }
+/// The ends of all vessels.
+fn ends_of(tree: &VesselTree) -> PlaceMap<()> {
+    let mut ends = PlaceMap::new(VESSEL_END);
+    for points in tree.vessels().iter().map(Vessel::points) {
+        for end in [points[0], points[points.len() - 1]] {
+            ends.add(end, &());
         }
-        Self { cells }
     }
-
-    /// Whether a vessel ends at `point`.
-    fn hold(&self, point: DVec3) -> bool {
-        let near = self.cells.get(&Self::cell(point));
-        near.is_some_and(|ends| ends.iter().any(|end| end.distance(point) <= SAME_PLACE))
-    }
+    ends
 }

@@ -6,10 +6,8 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::limits::Limits;
 use crate::math::arc_length::arc_lengths;
 use crate::math::centerline_smoothing::smooth_centerlines;
+use crate::math::same_place::REPEATED_POINT;
 use crate::vessel_tree::{Vessel, VesselTree};
-
-/// A point no farther from the one before it (mm) is the same point.
-const SAME_PLACE: f64 = 1e-9;
 
 /// How strongly a path can be smoothed.
 const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
@@ -33,7 +31,7 @@ impl Path {
         let smoothed = if smoothing > 0.0 { smoothed(vessel, smoothing)? } else { vessel.clone() };
         let mut points: Vec<DVec3> = Vec::with_capacity(smoothed.points().len());
         for point in smoothed.points() {
-            if points.last().is_none_or(|last| last.distance(*point) > SAME_PLACE) {
+            if points.last().is_none_or(|last| last.distance(*point) > REPEATED_POINT) {
                 points.push(*point);
             }
         }

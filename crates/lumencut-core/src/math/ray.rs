@@ -4,7 +4,7 @@ use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
 use super::ray_lines::{IndexFromView, Lines};
 pub use super::ray_lines::{NEVER, NONE, WHOLE};
-use super::sampling::{Grid, PLACE_ROUNDING, Path, Places};
+use super::sampling::{Grid, PLACE_ROUNDING, Places, SampledRun};
 use crate::camera::Camera;
 use crate::volume::Volume;
 
@@ -170,9 +170,9 @@ impl Packet {
 
     /// All that lies in `count` parts from the beginning of a segment on.
     #[inline(always)]
-    pub fn stretch(&self, segment: &Segment, count: i32) -> Stretch {
+    pub fn stretch(&self, segment: &Segment, count: i32) -> RaySpan {
         let count = count as f32;
-        let mut stretch = Stretch {
+        let mut stretch = RaySpan {
             start: self.places(segment, 0.0),
             way: self.way(f64::from(count)),
             end: [0.0; FAN],
@@ -215,7 +215,7 @@ impl Packet {
 
 /// Sixteen rays from the beginning of a segment on, counted from its base.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch {
+pub struct RaySpan {
     /// Where they begin (voxels).
     pub start: Places,
     /// How far they go in the whole segment (voxels).
@@ -255,7 +255,7 @@ pub struct Line {
     part: Places,
 }
 
-impl Path for Line {
+impl SampledRun for Line {
     #[inline(always)]
     fn places(&self, n: usize) -> Places {
         let mut places = self.start;

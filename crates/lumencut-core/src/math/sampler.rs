@@ -2,8 +2,8 @@
 
 use super::cell_walk::{CellWalk, Largest, Sums};
 use super::lanes::{FAN, Isa, Kernel, dispatch};
-use super::ray::{Line, STEPS, Stretch};
-use super::sampling::{Around, Grid, Path};
+use super::ray::{Line, RaySpan, STEPS};
+use super::sampling::{Around, Grid, SampledRun};
 use crate::volume::Voxel;
 
 /// A volume whose voxels may be of any type, on the instruction set that was chosen for it: so that the rays need not
@@ -14,9 +14,9 @@ pub trait Sampler: Sync {
     /// The volume at the neighbours of sixteen places.
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
     /// Widens the largest values times the sign by those along a stretch of rays; those above the limit count as the limit.
-    fn widen(&self, base: [i32; 3], stretch: &Stretch, sign_and_limit: [f32; 2], best: &mut [f32; FAN]);
+    fn widen(&self, base: [i32; 3], stretch: &RaySpan, sign_and_limit: [f32; 2], best: &mut [f32; FAN]);
     /// Adds the integrals of the volume along a stretch of rays, and their lengths (mm).
-    fn sum_up(&self, base: [i32; 3], stretch: &Stretch, sums: &mut [[f64; FAN]; 2]);
+    fn sum_up(&self, base: [i32; 3], stretch: &RaySpan, sums: &mut [[f64; FAN]; 2]);
 }
 
 /// Voxels of one type.
@@ -32,36 +32,36 @@ pub struct TypedSampler<'a, T> {
 
 impl<T: Voxel> Sampler for TypedSampler<'_, T> {
     fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS] {
-        dispatch(self.isa, SamplePath { sampler: self, base, path: line })
+        dispatch(self.isa, SampleRun { sampler: self, base, run: line })
     }
 
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6] {
-        dispatch(self.isa, SamplePath { sampler: self, base, path: neighbours })
+        dispatch(self.isa, SampleRun { sampler: self, base, run: neighbours })
     }
 
-    fn widen(&self, base: [i32; 3], stretch: &Stretch, [sign, limit]: [f32; 2], best: &mut [f32; FAN]) {
+    fn widen(&self, base: [i32; 3], stretch: &RaySpan, [sign, limit]: [f32; 2], best: &mut [f32; FAN]) {
         let Self { grid, voxels, isa } = self;
         dispatch(*isa, CellWalk { grid, voxels, base, stretch, sign, fold: Largest { best, limit } });
     }
 
-    fn sum_up(&self, base: [i32; 3], stretch: &Stretch, sums: &mut [[f64; FAN]; 2]) {
+    fn sum_up(&self, base: [i32; 3], stretch: &RaySpan, sums: &mut [[f64; FAN]; 2]) {
         let Self { grid, voxels, isa } = self;
         dispatch(*isa, CellWalk { grid, voxels, base, stretch, sign: 1.0, fold: Sums(sums) });
     }
 }
 
 /// [`Grid::sample`] as a kernel.
-struct SamplePath<'a, T, P, const N: usize> {
+struct SampleRun<'a, T, P, const N: usize> {
     sampler: &'a TypedSampler<'a, T>,
     base: [i32; 3],
-    path: &'a P,
+    run: &'a P,
 }
 
-impl<T: Voxel, P: Path, const N: usize> Kernel for SamplePath<'_, T, P, N> {
+impl<T: Voxel, P: SampledRun, const N: usize> Kernel for SampleRun<'_, T, P, N> {
     type Output = [[f32; FAN]; N];
 
     #[inline(always)]
     fn run(self) -> [[f32; FAN]; N] {
-        self.sampler.grid.sample(self.sampler.voxels, self.base, self.path)
+        self.sampler.grid.sample(self.sampler.voxels, self.base, self.run)
     }
 }

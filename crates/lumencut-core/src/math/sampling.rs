@@ -26,8 +26,8 @@ pub struct Grid {
 /// millionth of a voxel.
 pub type Places = [[f32; FAN]; 3];
 
-/// Where to sample: sixteen places at each of some steps.
-pub trait Path {
+/// A run of places to sample: sixteen at each of some steps.
+pub trait SampledRun {
     /// The places of step `n`, counted from a voxel before all of them.
     fn places(&self, n: usize) -> Places;
 }
@@ -46,7 +46,7 @@ impl Around {
     }
 }
 
-impl Path for Around {
+impl SampledRun for Around {
     #[inline(always)]
     fn places(&self, n: usize) -> Places {
         let mut places = self.places;
@@ -87,7 +87,21 @@ impl Grid {
     /// The voxels' value at continuous index `p`: NaN more than half a voxel beyond the outermost centres,
     /// the outermost voxels' within that half voxel.
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
-        self.trilinear_lanes(voxels, &[p.to_array().map(|c| [c; FAN])])[0][0]
+        let (mut offset, mut weights) = (0, [0.0; 3]);
+        for a in 0..3 {
+            // What is no number lies nowhere.
+            if !(p[a] >= -0.5 && p[a] <= self.last[a] + 0.5) {
+                return f32::NAN;
+            }
+            let c = p[a].clamp(0.0, self.last[a]);
+            let floor = (c as usize).min(self.low[a]);
+            weights[a] = c - floor as f64;
+            offset += floor * self.strides[a];
+        }
+        let [si, sj, sk] = self.step;
+        let steps = [0, sj, sk, sj + sk];
+        let ends = |r: usize| [0, si].map(|step| voxels[offset + steps[r] + step].real());
+        interpolate(ends, weights.map(T::Real::from_weight)).to_f32()
     }
 
     /// [`Grid::trilinear`] at N times sixteen indices, given axis by axis.
@@ -119,7 +133,7 @@ impl Grid {
         for n in 0..N {
             for l in 0..FAN {
                 let weights = [0, 1, 2].map(|a| T::Real::from_weight(weight[n][a][l]));
-                let inside = interpolate::<T>([0, 1, 2, 3].map(|r| rows[r][n][l]), weights).to_f32();
+                let inside = interpolate(|r| T::ends(rows[r][n][l]).into(), weights).to_f32();
                 value[n][l] = if outside[n][l] { f32::NAN } else { inside };
             }
         }
@@ -134,19 +148,19 @@ impl Grid {
         &self,
         voxels: &[T],
         base: [i32; 3],
-        path: &impl Path,
+        run: &impl SampledRun,
     ) -> [[f32; FAN]; N] {
         let mut value = [[0.0; FAN]; N];
         if self.wide {
             for n in 0..N {
-                [value[n]] = self.trilinear_lanes(voxels, &[self.indices(base, &path.places(n))]);
+                [value[n]] = self.trilinear_lanes(voxels, &[self.indices(base, &run.places(n))]);
             }
             return value;
         }
         let mut offset = [[0u32; FAN]; N];
         let mut weight = [[[0.0; FAN]; 3]; N];
         for n in 0..N {
-            let places = path.places(n);
+            let places = run.places(n);
             for a in 0..3 {
                 let farthest = (self.last[a] - f64::from(base[a])) as f32;
                 let low = (self.low[a] as i32 - base[a]) as u32;
@@ -163,7 +177,7 @@ impl Grid {
         for n in 0..N {
             for l in 0..FAN {
                 let weights = [0, 1, 2].map(|a| T::Real::from_f32(weight[n][a][l]));
-                value[n][l] = interpolate::<T>([0, 1, 2, 3].map(|r| rows[r][n][l]), weights).to_f32();
+                value[n][l] = interpolate(|r| T::ends(rows[r][n][l]).into(), weights).to_f32();
             }
         }
         value
@@ -272,11 +286,11 @@ fn whole(c: f32) -> u32 {
     (nearest.to_bits() & 0x7F_FFFF) - u32::from(nearest - ONES > c)
 }
 
-/// The value between four rows of two voxels, by the weights of the farther ones along (i, j, k).
+/// The value between four rows of two voxels, j fastest, by the weights of the farther ones along (i, j, k).
 #[inline(always)]
-fn interpolate<T: Voxel>(rows: [T::Pair; 4], [wi, wj, wk]: [T::Real; 3]) -> T::Real {
+pub fn interpolate<R: Real>(ends: impl Fn(usize) -> [R; 2], [wi, wj, wk]: [R; 3]) -> R {
     let line = |r: usize| {
-        let (near, far) = T::ends(rows[r]);
+        let [near, far] = ends(r);
         near + (far - near) * wi
     };
     let plane = |r: usize| line(r) + (line(r + 1) - line(r)) * wj;

@@ -6,7 +6,7 @@ use super::lanes::FAN;
 use super::light::{Headlight, Shading};
 use super::ray::{Packet, Rays, STEPS, Segment};
 use super::sampler::Sampler;
-use super::sampling::Path;
+use super::sampling::SampledRun;
 
 /// What rays run through.
 #[derive(Clone, Copy)]

@@ -7,10 +7,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 
+use crate::math::place_map::PlaceMap;
 use crate::math::projection::Level;
-
-/// A point nearer than this to an end of a vessel is that end (mm).
-const SAME_PLACE: f64 = 1e-3;
+use crate::math::same_place::VESSEL_END;
 
 /// A place where a vessel meets others.
 #[derive(Clone, Copy, Debug)]
@@ -159,13 +158,13 @@ impl Connections {
 
 /// The ends of all vessels; those in the same place are one junction.
 struct Ends {
-    cells: HashMap<[i64; 3], Vec<(DVec3, u32)>>,
+    places: PlaceMap<u32>,
     count: u32,
 }
 
 impl Ends {
     fn of(level: &Level) -> Self {
-        let mut ends = Self { cells: HashMap::new(), count: 0 };
+        let mut ends = Self { places: PlaceMap::new(VESSEL_END), count: 0 };
         for slots in level.first_slot.windows(2) {
             for slot in [slots[0], slots[1] - 1] {
                 ends.add(level.points[slot as usize]);
@@ -174,28 +173,16 @@ impl Ends {
         ends
     }
 
-    /// Cells of ten times [`SAME_PLACE`]: most points need one of them.
-    fn cell(point: DVec3) -> [i64; 3] {
-        (point / (10.0 * SAME_PLACE)).floor().as_i64vec3().to_array()
-    }
-
-    /// Writes an end into every cell that holds points near it, as a junction of its own unless there is one.
+    /// Adds an end as a junction of its own, unless there is one.
     fn add(&mut self, end: DVec3) {
-        if self.at(end).is_some() {
-            return;
+        if self.at(end).is_none() {
+            self.places.add(end, &self.count);
+            self.count += 1;
         }
-        let (low, high) = (Self::cell(end - SAME_PLACE), Self::cell(end + SAME_PLACE));
-        for (x, y) in (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y))) {
-            for z in low[2]..=high[2] {
-                self.cells.entry([x, y, z]).or_default().push((end, self.count));
-            }
-        }
-        self.count += 1;
     }
 
     /// The junction at `point`.
     fn at(&self, point: DVec3) -> Option<u32> {
-        let near = self.cells.get(&Self::cell(point))?;
-        near.iter().find(|(end, _)| end.distance(point) <= SAME_PLACE).map(|(_, junction)| *junction)
+        self.places.at(point).copied()
     }
 }

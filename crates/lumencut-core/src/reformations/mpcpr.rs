@@ -46,7 +46,7 @@ pub fn mpcpr(tree: &LeveledTree, request: &Request) -> Result<Frame> {
         work.begin(width)?;
         let mut row = lines.row(camera.view_y(j));
         for i in 0..width {
-            let Some(place) = row.nearest(camera.view_x(i)) else { break };
+            let Some(place) = row.nearest_place(camera.view_x(i)) else { break };
             (depth[i], vessel[i], sheet[i], folded[i]) =
                 (place.depth, place.vessel, place.sheet, place.is_folded);
         }
@@ -184,7 +184,7 @@ struct Run {
 
 impl Run {
     /// Its point nearest to view `x`.
-    fn nearest(&self, x: f64) -> Crossing {
+    fn nearest_crossing(&self, x: f64) -> Crossing {
         let dx = self.b.x - self.a.x;
         let t = if dx == 0.0 {
             // Along the view all of it stands at one place of the row.
@@ -231,13 +231,13 @@ impl Row {
     }
 
     /// What the pixel at view `x` shows; pixels come from left to right. Nothing where no vessel is in the row.
-    fn nearest(&mut self, x: f64) -> Option<Place> {
+    fn nearest_place(&mut self, x: f64) -> Option<Place> {
         while self.crossings.get(self.next).is_some_and(|crossing| crossing.x < x) {
             self.next += 1;
         }
         let left = self.next.checked_sub(1).map(|n| self.crossings[n]);
         let right = self.crossings.get(self.next).copied();
-        let in_runs = self.runs.iter().map(|run| run.nearest(x));
+        let in_runs = self.runs.iter().map(|run| run.nearest_crossing(x));
         let nearest = left.into_iter().chain(right).chain(in_runs).reduce(|best, other| {
             let [far, near] = [&best, &other].map(|crossing| (x - crossing.x).abs());
             if near < far || (near == far && other.comes_before(&best)) { other } else { best }

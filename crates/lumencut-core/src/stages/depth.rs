@@ -226,7 +226,7 @@ impl DepthRow<'_> {
                 LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search),
                 LevelChoice::Nearest => {
                     let distance = gather(self.distance, width, column);
-                    surface.nearest::<LUMEN_FIRST>(&tile, &distance, with_sheet, search)
+                    surface.nearest_surface::<LUMEN_FIRST>(&tile, &distance, with_sheet, search)
                 }
             };
             scatter(&over.depth, self.depth, width, column);

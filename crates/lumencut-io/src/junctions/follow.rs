@@ -152,7 +152,8 @@ impl Walk<'_> {
         for (i, node) in self.path.nodes.iter().enumerate().skip(1) {
             let point = self.points[*node as usize];
             let step = point.distance(before);
-            let (segment, distance) = self.nearest(at, point, 2.0 * step + self.tolerance(at, in_group));
+            let (segment, distance) =
+                self.nearest_segment(at, point, 2.0 * step + self.tolerance(at, in_group));
             if self.left.get() == 0 {
                 return None;
             }
@@ -174,7 +175,7 @@ impl Walk<'_> {
 
     /// The segment nearest to `point` and its distance, at most `reach` (mm) further along than segment
     /// `from`.
-    fn nearest(&self, from: usize, point: DVec3, reach: f64) -> (usize, f64) {
+    fn nearest_segment(&self, from: usize, point: DVec3, reach: f64) -> (usize, f64) {
         let mut best = (from, f64::INFINITY);
         let mut travelled = 0.0;
         for segment in from..self.other.nodes.len() - 1 {

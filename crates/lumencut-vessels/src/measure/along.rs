@@ -5,6 +5,7 @@
 //! that is some percent.
 
 use super::sections::Section;
+use lumencut_core::math::same_place::REPEATED_POINT;
 
 /// The second derivative is that of the parabola that fits the areas so far around (mm), of at least so many sections.
 const AROUND: (f64, usize) = (2.0, 5);
@@ -26,8 +27,8 @@ pub fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
 /// The second derivative of the areas at a section; None where too few around it are known, or only on one side.
 fn second_derivative(at: &[f64], areas: &[f64], n: usize) -> Option<f64> {
     let (reach, least) = AROUND;
-    let first = at.partition_point(|there| *there < at[n] - reach - 1e-9);
-    let last = at.partition_point(|there| *there <= at[n] + reach + 1e-9);
+    let first = at.partition_point(|there| *there < at[n] - reach - REPEATED_POINT);
+    let last = at.partition_point(|there| *there <= at[n] + reach + REPEATED_POINT);
     // As far to one side as to the other.
     let side = (n - first).min(last - 1 - n);
     let around = n - side..=n + side;

@@ -7,11 +7,9 @@ use super::profile::Profile;
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
+use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
-
-/// Ends of a vessel and of its profile that are no farther apart (mm) are the same.
-const SAME_END: f64 = 1e-6;
 
 const SIDE: Limits = Limits::new(1e-3, 1e3, "mm");
 
@@ -74,12 +72,12 @@ pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Res
     }
     let Some(profile) = profile else { return Ok(Track::new(vessel, known_radius(vessel))?.at(at)) };
     let is_end = |[own, measured]: [Option<&DVec3>; 2]| {
-        own.zip(measured).is_some_and(|(own, measured)| own.distance(*measured) <= SAME_END)
+        own.zip(measured).is_some_and(|(own, measured)| own.distance(*measured) <= ALONG_LINE)
     };
     let (points, measured) = (vessel.points(), &profile.on_vessel);
     let has_ends = [[points.first(), measured.first()], [points.last(), measured.last()]].map(is_end);
-    if has_ends == [true; 2] && (profile.length() - length).abs() <= SAME_END {
-        return Ok(profile.place(profile.nearest(at)));
+    if has_ends == [true; 2] && (profile.length() - length).abs() <= ALONG_LINE {
+        return Ok(profile.place(profile.nearest_section(at)));
     }
     let found = format!("that of another vessel, {:.3} mm long", profile.length());
     let expected = format!("the profile of this vessel, {length:.3} mm long");

@@ -44,7 +44,7 @@ const WIDEST: f64 = 45.0;
 const MOST_ASKED: usize = 8;
 
 /// How a vessel is measured.
-pub struct Request<'a> {
+pub struct MeasureRequest<'a> {
     /// The distance of sections (mm), at most.
     pub step: f64,
     /// The full width at half maximum of the scanner's point spread (mm), where known.
@@ -60,7 +60,7 @@ pub struct Request<'a> {
 /// # Errors
 /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for a step or a width of
 /// the point spread that is none, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
-pub fn measure(volume: &Volume, vessel: &Vessel, request: &Request) -> Result<Profile> {
+pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Result<Profile> {
     check(request.fwhm)?;
     let voxels = Voxels::new(volume);
     let looked = Looked::new(&voxels, vessel, request)?;
@@ -77,7 +77,7 @@ pub fn measure_under(
     (fwhm, source): (f64, Source),
     volume: &Volume,
     vessel: &Vessel,
-    request: &Request,
+    request: &MeasureRequest,
 ) -> Result<Profile> {
     let voxels = Voxels::new(volume);
     Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, (fwhm, source))
@@ -97,7 +97,7 @@ fn point_spread(
     voxels: &Voxels,
     looked: &Looked,
     vessel: &Vessel,
-    request: &Request,
+    request: &MeasureRequest,
 ) -> Result<(f64, Source)> {
     if let Some(fwhm) = request.fwhm {
         return Ok((fwhm, Source::Given));
@@ -117,7 +117,7 @@ fn point_spread(
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a width that is none, [`ErrorKind::Interrupted`].
-pub fn point_spread_of(volume: &Volume, request: &Request) -> Result<(f64, Source)> {
+pub fn point_spread_of(volume: &Volume, request: &MeasureRequest) -> Result<(f64, Source)> {
     check(request.fwhm)?;
     match request.fwhm {
         Some(fwhm) => Ok((fwhm, Source::Given)),
@@ -125,7 +125,7 @@ pub fn point_spread_of(volume: &Volume, request: &Request) -> Result<(f64, Sourc
     }
 }
 
-fn of_tree(voxels: &Voxels, request: &Request) -> Result<(f64, Source)> {
+fn of_tree(voxels: &Voxels, request: &MeasureRequest) -> Result<(f64, Source)> {
     let radius = |n: &usize| known_radius(&request.tree[*n]).unwrap_or(0.0);
     let mut order: Vec<usize> = (0..request.tree.len()).collect();
     order.sort_by(|a, b| radius(b).total_cmp(&radius(a)).then(a.cmp(b)));
@@ -159,7 +159,7 @@ struct Looked {
 }
 
 impl Looked {
-    fn new(voxels: &Voxels, vessel: &Vessel, request: &Request) -> Result<Self> {
+    fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
         let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
         let scale = Scale::of(voxels, &first, known)?;
@@ -183,7 +183,7 @@ impl Looked {
         &self,
         voxels: &Voxels,
         vessel: &Vessel,
-        request: &Request,
+        request: &MeasureRequest,
         fwhm: (f64, Source),
     ) -> Result<Profile> {
         let stop = request.stop;

@@ -131,7 +131,7 @@ impl Profile {
     }
 
     /// The number of the section that is nearest to an arc length (mm), the first of two.
-    pub fn nearest(&self, at: f64) -> usize {
+    pub fn nearest_section(&self, at: f64) -> usize {
         let away = |n: &usize| (self.arc_length[*n] - at).abs();
         (0..self.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
     }

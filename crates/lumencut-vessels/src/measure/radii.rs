@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use super::flags::{LEFT_OUT, RECENTERED};
-use super::measuring::{Request, measure_under, point_spread_of};
+use super::measuring::{MeasureRequest, measure_under, point_spread_of};
 use super::profile::Profile;
 use lumencut_core::error::{ErrorKind, Result};
+use lumencut_core::math::same_place::REPEATED_POINT;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
@@ -39,7 +40,7 @@ pub fn measured_radii(
     fwhm: Option<f64>,
     stop: Stop,
 ) -> Result<Vec<Radii>> {
-    let request = Request { step, fwhm, tree, stop };
+    let request = MeasureRequest { step, fwhm, tree, stop };
     let fwhm = point_spread_of(volume, &request)?;
     let radii = |vessel: &Vessel| match measure_under(fwhm.clone(), volume, vessel, &request) {
         Ok(profile) => Ok(of_profile(vessel, &profile)),
@@ -70,7 +71,9 @@ fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
         let here = between(&told, *at);
         measured += usize::from(here.is_some());
         kept += usize::from(here.is_none());
-        radius.push(here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest(&told, *at)));
+        radius.push(
+            here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest_radius(&told, *at)),
+        );
     }
     Radii { radius: radius.into_iter().collect(), measured, kept }
 }
@@ -80,7 +83,7 @@ fn between(told: &[(f64, f64)], at: f64) -> Option<f64> {
     let after = told.partition_point(|(there, _)| *there < at);
     let next = told.get(after);
     if let Some((there, radius)) = next
-        && *there - at <= 1e-9
+        && *there - at <= REPEATED_POINT
     {
         return Some(*radius);
     }
@@ -89,7 +92,7 @@ fn between(told: &[(f64, f64)], at: f64) -> Option<f64> {
     (apart <= GAP).then(|| before.1 + (next.1 - before.1) * (at - before.0) / apart)
 }
 
-fn nearest(told: &[(f64, f64)], at: f64) -> Option<f64> {
+fn nearest_radius(told: &[(f64, f64)], at: f64) -> Option<f64> {
     let away = |one: &&(f64, f64)| (one.0 - at).abs();
     told.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(_, radius)| *radius)
 }

@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 
 use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
 
@@ -27,9 +28,6 @@ pub const NARROWED_BESIDE: f64 = 0.87;
 
 /// The other side of a stenosis: from so far on to so far away from it (mm).
 const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
-
-/// An arc length so far beyond an end is that end (mm).
-const ROUNDING: f64 = 1e-6;
 
 /// How a stenosis is graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,7 +162,7 @@ impl Profile {
     pub fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
         // Lengths of the same line differ by rounding.
-        if at >= -ROUNDING && at <= length + ROUNDING {
+        if at >= -ALONG_LINE && at <= length + ALONG_LINE {
             return Ok(());
         }
         Err(measuring(subject, format!("{at} mm"), &format!("an arc length from 0 to {length:.3} mm")))

@@ -1,5 +1,6 @@
 //! Centerlines between clicks.
 
+pub mod checks;
 pub mod gaps;
 pub mod junctions;
 pub mod preview;

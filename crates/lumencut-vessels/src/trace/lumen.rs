@@ -3,4 +3,5 @@
 pub mod cross_section;
 pub mod lumen_model;
 pub mod refine;
+pub mod surroundings;
 pub mod tube;

@@ -16,7 +16,7 @@ use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
 /// What is traced, and how.
-pub struct Request<'a> {
+pub struct MaskRequest<'a> {
     /// The values that stand for lumen; without them every value but 0.
     pub labels: Option<&'a [i64]>,
     /// How long a branch must be to stay, in radii of its parent.
@@ -50,7 +50,7 @@ pub struct TracedMask {
 /// # Errors
 /// [`ErrorKind::Volume`] for a mask without lumen or background, of floats, of one slice, or whose lumen has no
 /// part that is longer than wide; [`ErrorKind::Interrupted`] where the caller asks to stop.
-pub fn trace_mask(mask: &Volume, request: &Request) -> Result<TracedMask> {
+pub fn trace_mask(mask: &Volume, request: &MaskRequest) -> Result<TracedMask> {
     let begin = |step: usize| {
         if let Some(progress) = request.progress {
             progress.begin_stage(COSTS[step]);
@@ -62,7 +62,7 @@ pub fn trace_mask(mask: &Volume, request: &Request) -> Result<TracedMask> {
     }
     begin(0);
     let foreground = Foreground::new(mask, request.labels, request.stop)?;
-    let Request { parent_radii, step, refine, stop, .. } = *request;
+    let MaskRequest { parent_radii, step, refine, stop, .. } = *request;
     let how = Skeletonization { parent_radii, step, refine, stop, begin: &begin };
     let Skeleton { vessels, filled, pieces, voxels } = skeleton(foreground, &how)?;
     let mut vessels: Vec<MaskVessel> =

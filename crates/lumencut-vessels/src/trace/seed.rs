@@ -10,8 +10,9 @@ use glam::{DAffine3, DVec3};
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::cross_section::Probe;
-use crate::trace::lumen::lumen_model::{LumenModel, Surroundings, at};
+use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::lumen::refine::{STEP, refined};
+use crate::trace::lumen::surroundings::Surroundings;
 use crate::trace::lumen::tube::{Sections, Usual};
 use crate::trace::seed::seed_branches::Search;
 use crate::trace::seed::seed_tree::{SeedBranch, SeenVessel};
@@ -35,7 +36,8 @@ const MOST_VOXELS: usize = 30_000_000;
 /// With how many rays a cross-section is looked at.
 const RAYS: usize = 24;
 
-/// A line may move by so much from the middle of the flood (mm), or by so many radii, and be so many times as long.
+/// How far a line may move from the middle of the flood (mm, or in radii where that is more), and how many times as long it may
+/// become.
 const STRAYED: f64 = 1.5;
 const STRAYED_RADII: f64 = 0.5;
 const ASTRAY: f64 = 1.25;
@@ -53,7 +55,7 @@ const COSTS: [usize; 3] = [1, 12, 3];
 pub const SMALLEST_RADIUS: f64 = 1.0;
 
 /// What is traced, and how.
-pub struct Request<'a> {
+pub struct SeedRequest<'a> {
     /// A point in the lumen (mm, LPS).
     pub seed: DVec3,
     /// Branches end where they are narrower from there on (mm).
@@ -69,7 +71,7 @@ pub struct Request<'a> {
 /// # Errors
 /// [`ErrorKind::Tracing`] for a seed outside the volume or in no lumen, where its lumen fills too much of the volume, and
 /// where no tube is to be seen around it; [`ErrorKind::Interrupted`].
-pub fn trace_from(volume: &Volume, request: &Request) -> Result<Vec<SeedBranch>> {
+pub fn trace_from(volume: &Volume, request: &SeedRequest) -> Result<Vec<SeedBranch>> {
     let voxels = &Voxels::new(volume);
     let (model, start) = lumen_at(voxels, request.seed)?;
     let Some(flood) = Flood::from(voxels, &model, start, MOST_VOXELS, request.stop)? else {
@@ -129,16 +131,16 @@ fn floods(seed: DVec3, model: &LumenModel) -> Error {
         format!("more than {MOST_VOXELS} voxels from {least:.0} to {most:.0} that are joined with it");
     let expected =
         format!("vessels, brighter than the tissue around them, which has up to {:.0}", model.tissue);
-    let error = Error::new(ErrorKind::Tracing, format!("seed {}", at(seed)), found, expected);
+    let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, expected);
     error.mend("put the seed into the middle of a vessel with contrast medium").at(seed, model.low)
 }
 
 /// The error for a seed around which nothing is a vessel.
-fn no_tube(request: &Request, model: &LumenModel, count: usize) -> Error {
+fn no_tube(request: &SeedRequest, model: &LumenModel, count: usize) -> Error {
     let value = model.low;
     let found = format!("{count} voxels like the {value:.0} there, which are nowhere a tube");
     let expected = format!("a vessel with a radius of {} mm or more", request.smallest_radius);
-    let error = Error::new(ErrorKind::Tracing, format!("seed {}", at(request.seed)), found, expected);
+    let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(request.seed)), found, expected);
     let error = error.mend("put the seed into the middle of a vessel, or trace between two points along it");
     error.at(request.seed, value)
 }
@@ -146,7 +148,7 @@ fn no_tube(request: &Request, model: &LumenModel, count: usize) -> Error {
 /// The model of the lumen around the seed, and the voxel of the seed.
 fn lumen_at(voxels: &Voxels, seed: DVec3) -> Result<(LumenModel, [i32; 3])> {
     let Some(start) = voxels.voxel_at(seed).filter(|_| seed.is_finite()) else {
-        let found = format!("{}, outside the volume", at(seed));
+        let found = format!("{}, outside the volume", in_words(seed));
         return Err(Error::new(ErrorKind::Tracing, "seed", found, "a point within the volume"));
     };
     let model = Surroundings::within(voxels, &[seed], SURROUNDINGS).model(voxels, &[seed])?;
@@ -159,7 +161,7 @@ fn traced(
     model: &LumenModel,
     flood: &Flood,
     kept: &[u32],
-    request: &Request,
+    request: &SeedRequest,
 ) -> Result<Vec<MaskVessel>> {
     let (mut low, mut high) = ([i32::MAX; 3], [0; 3]);
     for &number in kept {

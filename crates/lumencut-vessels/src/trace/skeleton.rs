@@ -34,6 +34,7 @@ use crate::trace::skeleton::thinning::thin;
 use crate::trace::skeleton::through_lines::{ThroughLine, through_lines};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::{arc_lengths, point_at};
+use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
 /// The most cells in the box around the lumen: their numbers have 32 bits.
@@ -228,7 +229,7 @@ fn radii(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Vec<f64> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     let measured = |way: f64| {
-        let n = ways.partition_point(|known| *known < way - 1e-6).min(points.len() - 1);
+        let n = ways.partition_point(|known| *known < way - ALONG_LINE).min(points.len() - 1);
         let section = lumen.cross_section(point_at(points, &ways, way), along[n]);
         section.map_or(0.0, |section| section.radius.min(section.shortest + side / 2.0))
     };

@@ -1,5 +1,8 @@
 //! Ways through the voxels of a volume: what a step costs, the cheapest ways from a voxel, and the voxels that a flood reaches.
 
+pub mod blocks;
+pub mod buckets;
 pub mod flood;
 pub mod front;
 pub mod region;
+pub mod shape;

@@ -3,13 +3,11 @@
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_vessels::trace::lumen::refine::STEP;
 
 use crate::study::lines::{Line, wrong};
 use crate::text::rounded;
-
-/// A cut this near to a point of the line is at that point (mm).
-const AT_POINT: f64 = 1e-6;
 
 /// Ends no farther apart than this meet, and are one point (mm): what files lose by rounding, and far less than any lumen.
 pub const MEETING: f64 = 0.1;
@@ -50,13 +48,13 @@ impl Knot {
 pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     let lengths = arc_lengths(&line.points);
     let whole = lengths[lengths.len() - 1];
-    if !(at > AT_POINT && at < whole - AT_POINT) {
+    if !(at > ALONG_LINE && at < whole - ALONG_LINE) {
         let expected = format!("a place between its ends, more than 0 and less than {whole:.3} mm along it");
         return Err(wrong("cut", format!("a cut at {at:.3} mm"), &expected));
     }
     let knots = knots(line);
-    let after = lengths.partition_point(|length| *length < at - AT_POINT);
-    let (middle, second) = if lengths[after] <= at + AT_POINT {
+    let after = lengths.partition_point(|length| *length < at - ALONG_LINE);
+    let (middle, second) = if lengths[after] <= at + ALONG_LINE {
         (knots[after], after + 1)
     } else {
         let share = (at - lengths[after - 1]) / (lengths[after] - lengths[after - 1]);

@@ -9,7 +9,7 @@ use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::trace::lumen::refine::STEP;
 use lumencut_vessels::trace::mask::grey_values::GreyValues;
-use lumencut_vessels::trace::mask::{Request, TracedMask, trace_mask};
+use lumencut_vessels::trace::mask::{MaskRequest, TracedMask, trace_mask};
 use lumencut_vessels::trace::skeleton::PARENT_RADII;
 use lumencut_vessels::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_vessels::voxels::Voxels;
@@ -85,7 +85,7 @@ fn traced(mask: &Volume, volume: &Volume, Watch { stop, progress }: Watch) -> Re
     let voxels = Voxels::new(volume);
     let values = GreyValues { voxels: &voxels, stop };
     let refine = |points: &[DVec3], radius: &[f64]| values.refined(points, radius);
-    let request = Request {
+    let request = MaskRequest {
         labels: None,
         parent_radii: PARENT_RADII,
         step: STEP,

@@ -184,7 +184,7 @@ pub struct SectionMessage {
 impl SectionMessage {
     /// The section of a profile that is nearest to an arc length (mm).
     pub fn nearest(profile: &Profile, at: f64) -> Self {
-        let number = profile.nearest(at);
+        let number = profile.nearest_section(at);
         let middle = profile.center[number];
         let ends =
             |axis: DVec3| axis.is_finite().then(|| [middle - axis, middle + axis].map(|p| p.to_array()));

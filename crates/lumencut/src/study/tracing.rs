@@ -6,8 +6,8 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_io::{write_mrk_json, write_vtp};
+use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::preview::Sought;
-use lumencut_vessels::trace::clicks::tracer::Clicks;
 use lumencut_vessels::trace::seed;
 use lumencut_vessels::trace::seed::seed_tree::Doubt;
 use lumencut_vessels::trace::ways::region::Stopper;
@@ -135,7 +135,7 @@ impl Study {
         }
         let Watch { stop, progress } = watch;
         let seed = DVec3::from_array(seed);
-        let request = seed::Request { seed, smallest_radius, stop, progress: Some(progress) };
+        let request = seed::SeedRequest { seed, smallest_radius, stop, progress: Some(progress) };
         let branches = seed::trace_from(&volume, &request)?;
         let added = branches.into_iter().map(|branch| {
             let doubt = branch.doubt.map(Doubt::words);

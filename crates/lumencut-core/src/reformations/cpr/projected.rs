@@ -6,10 +6,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::row::{Anchor, Row, Run};
-use super::surface::{SAME_PLACE, Surface, one_row};
+use super::surface::{Surface, one_row};
 use super::view::Axes;
 use crate::error::Result;
 use crate::math::path::Path;
+use crate::math::same_place::ON_PICTURE;
 
 /// The surface of the mode.
 pub(super) struct Projected {
@@ -64,9 +65,9 @@ impl Projected {
             };
             // A row through a point meets both of its segments there.
             let end = runs.last().map_or(f64::NEG_INFINITY, |last| last.to.arc_length);
-            if run.to.arc_length > end + SAME_PLACE {
+            if run.to.arc_length > end + ON_PICTURE {
                 if runs.last().is_some_and(|last| {
-                    last.to.arc_length + SAME_PLACE >= run.from.arc_length && is_point(last)
+                    last.to.arc_length + ON_PICTURE >= run.from.arc_length && is_point(last)
                 }) {
                     runs.pop();
                 }

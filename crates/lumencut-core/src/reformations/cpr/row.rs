@@ -26,7 +26,7 @@ impl Run {
     }
 
     /// The point of the run that lies nearest to `x`.
-    fn nearest(&self, x: f64) -> Anchor {
+    fn nearest_anchor(&self, x: f64) -> Anchor {
         let along = self.to.x - self.from.x;
         let share = if along == 0.0 { 0.0 } else { ((x - self.from.x) / along).clamp(0.0, 1.0) };
         Anchor {
@@ -52,9 +52,9 @@ impl Row {
     /// The world point at `x`: on the line through the vessel's point that is nearest along the row, of several the one
     /// nearest to the viewer.
     pub fn place(&self, x: f64) -> DVec3 {
-        let mut best = self.runs[0].nearest(x);
+        let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {
-            let other = run.nearest(x);
+            let other = run.nearest_anchor(x);
             let [far, best_far] = [&other, &best].map(|anchor| (x - anchor.x).abs());
             let is_before = || (other.point - best.point).dot(self.ahead) < 0.0;
             if far < best_far || (far == best_far && is_before()) {

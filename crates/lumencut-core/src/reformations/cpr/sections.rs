@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::surface::SAME_PLACE;
 use crate::math::frames::{Frames, MovingFrame, Station};
 use crate::math::path::Path;
+use crate::math::same_place::ON_PICTURE;
 
 /// How often an interval is halved at most to find a section: below what a number can tell.
 const HALVINGS: usize = 60;
@@ -131,7 +131,7 @@ impl Sections {
         let length = ends[1].at - ends[0].at;
         let turn = self.frames.station(ends[0].at).turn.length() * length;
         let reach = line.map(|end| end.distance(ends[0].point));
-        let margin = SAME_PLACE + turn * (turn * (reach[0].max(reach[1]) + length) + 2.0 * length) / 8.0;
+        let margin = ON_PICTURE + turn * (turn * (reach[0].max(reach[1]) + length) + 2.0 * length) / 8.0;
         let frames = ends.map(|mark| mark.frame.turned(angle));
         let same = |normals: [DVec3; 2]| {
             let sides = [0, 1].map(|n| ends[n].side(line, normals[n], margin));

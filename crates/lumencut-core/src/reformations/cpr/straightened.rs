@@ -7,11 +7,12 @@ use glam::{DVec2, DVec3};
 
 use super::row::{Anchor, Row, Run};
 use super::sections::{Section, Sections};
-use super::surface::{SAME_PLACE, Surface, comes_first};
+use super::surface::{Surface, comes_first};
 use super::view::{PARALLEL, View, unit};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::frames::{Frames, MovingFrame};
 use crate::math::path::Path;
+use crate::math::same_place::ON_PICTURE;
 
 /// The space around a straightened vessel: x across the picture to the right, y into it, z along the vessel, all in mm.
 /// Before and after the vessel it goes on straight.
@@ -92,9 +93,9 @@ impl Surface for Straightened {
 
     fn image_from_world(&self, point: DVec3) -> DVec2 {
         let places: Vec<_> = self.sections.through(point).iter().map(|section| self.place(section)).collect();
-        let within = -SAME_PLACE..=self.length() + SAME_PLACE;
+        let within = -ON_PICTURE..=self.length() + ON_PICTURE;
         // A point of the picture lies where the picture shows it, however near another part of the vessel is.
-        let shown = places.iter().filter(|place| place.y.abs() <= SAME_PLACE && within.contains(&place.z));
+        let shown = places.iter().filter(|place| place.y.abs() <= ON_PICTURE && within.contains(&place.z));
         let first = shown.reduce(|best, place| {
             let [one, other] = [place, best].map(|place| [place.x.abs(), place.z]);
             if comes_first(one, other) { place } else { best }
@@ -136,7 +137,7 @@ impl Straightened {
                 self.sections.within(n, row.place(*x), &mut found);
                 for place in found.iter().map(|section| self.place(section)) {
                     let belongs_there = comes_first([place.x.abs(), place.z], [x.abs(), y]);
-                    *folded |= place.y.abs() <= SAME_PLACE && belongs_there;
+                    *folded |= place.y.abs() <= ON_PICTURE && belongs_there;
                 }
             }
         }

@@ -7,10 +7,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::row::{Anchor, Row, Run};
-use super::surface::{SAME_PLACE, Surface, comes_first, one_row};
+use super::surface::{Surface, comes_first, one_row};
 use super::view::Axes;
 use crate::error::Result;
 use crate::math::path::Path;
+use crate::math::same_place::ON_PICTURE;
 
 /// A segment that is not parallel to the lines.
 #[derive(Clone, Copy, Debug)]
@@ -73,7 +74,7 @@ impl Stretched {
     }
 
     /// The point of a strip nearest to a point across the lines. The strip may go on beyond its ends.
-    fn nearest(&self, strip: &Strip, point: DVec3, goes_on: bool) -> Candidate {
+    fn nearest_candidate(&self, strip: &Strip, point: DVec3, goes_on: bool) -> Candidate {
         let share = (point - self.path.points()[strip.segment]).dot(strip.down) / strip.height;
         let share = if goes_on { share } else { share.clamp(0.0, 1.0) };
         let anchor = self.anchor(strip, share);
@@ -100,7 +101,7 @@ struct Candidate {
 impl Candidate {
     /// Whether a point belongs here and not there.
     fn is_better(&self, other: &Self) -> bool {
-        if (self.distance - other.distance).abs() > SAME_PLACE {
+        if (self.distance - other.distance).abs() > ON_PICTURE {
             return self.distance < other.distance;
         }
         comes_first([self.aside, self.y], [other.aside, other.y])
@@ -124,9 +125,9 @@ impl Surface for Stretched {
 
     fn image_from_world(&self, point: DVec3) -> DVec2 {
         let x = point.dot(self.across) - self.middle;
-        let within = self.strips.iter().map(|strip| self.nearest(strip, point, false));
-        let ends =
-            [&self.strips[0], &self.strips[self.strips.len() - 1]].map(|end| self.nearest(end, point, true));
+        let within = self.strips.iter().map(|strip| self.nearest_candidate(strip, point, false));
+        let ends = [&self.strips[0], &self.strips[self.strips.len() - 1]]
+            .map(|end| self.nearest_candidate(end, point, true));
         let beyond = ends.into_iter().filter(|end| end.y < 0.0 || end.y > self.height());
         let better = |best: Candidate, other: Candidate| if other.is_better(&best) { other } else { best };
         // Beyond the vessel lies only what is not within it.
@@ -134,7 +135,7 @@ impl Surface for Stretched {
             .reduce(better)
             .into_iter()
             .chain(beyond)
-            .reduce(|best, end| if end.distance + SAME_PLACE < best.distance { end } else { best });
+            .reduce(|best, end| if end.distance + ON_PICTURE < best.distance { end } else { best });
         DVec2::new(x, best.map_or(0.0, |best| best.y))
     }
 
@@ -143,8 +144,8 @@ impl Surface for Stretched {
         let others: Vec<_> = self
             .strips
             .iter()
-            .map(|strip| (self.nearest(strip, own.point, false), strip))
-            .filter(|(other, _)| other.distance <= SAME_PLACE && (other.y - y).abs() > SAME_PLACE)
+            .map(|strip| (self.nearest_candidate(strip, own.point, false), strip))
+            .filter(|(other, _)| other.distance <= ON_PICTURE && (other.y - y).abs() > ON_PICTURE)
             .map(|(other, strip)| [self.anchor(strip, (other.y - strip.y) / strip.height).x, other.y])
             .collect();
         let belongs_there = |x: f64| {

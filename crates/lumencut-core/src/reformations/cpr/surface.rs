@@ -1,12 +1,10 @@
 //! What the modes of CPR share: a surface of lines across the vessel, as an image without pixels.
 
+use crate::math::same_place::ON_PICTURE;
 use glam::{DVec2, DVec3};
 
 use super::row::Row;
 use crate::error::{Error, ErrorKind};
-
-/// Two places nearer than this are one (mm).
-pub(super) const SAME_PLACE: f64 = 1e-6;
 
 /// The surface of a mode, as an image without pixels.
 pub(super) trait Surface: Send + Sync {
@@ -26,7 +24,7 @@ pub(super) trait Surface: Send + Sync {
 /// one nearer to the vessel, and of equally near ones to the upper one.
 pub(super) fn comes_first([aside, y]: [f64; 2], [other_aside, other_y]: [f64; 2]) -> bool {
     let nearer = other_aside - aside;
-    if nearer.abs() > SAME_PLACE { nearer > 0.0 } else { y + SAME_PLACE < other_y }
+    if nearer.abs() > ON_PICTURE { nearer > 0.0 } else { y + ON_PICTURE < other_y }
 }
 
 /// The error for a vessel that is no more than one row high.

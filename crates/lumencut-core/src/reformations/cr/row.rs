@@ -26,7 +26,7 @@ impl Kernel for CrRow<'_> {
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(view.camera, column, self.row * ROWS);
             search.begin_tile();
-            let nearest = view.nearest(&tile, &mut seeds[0]);
+            let nearest = view.nearest_pieces(&tile, &mut seeds[0]);
             let foremost = view.foremost(&tile, &mut seeds[1]);
             let (mut depth, mut vessel, mut sheet) = ([0.0; PIXELS], [0; PIXELS], [[0.0; 4]; PIXELS]);
             for l in 0..PIXELS {
@@ -52,5 +52,5 @@ fn shown(view: &CrView, search: &mut StretchSearch, tile: &Tile, pieces: [u32; 2
     if view.connections.are_near(front.place(), near.place()) {
         return near;
     }
-    search.nearest(tile, front, [x, y])
+    search.nearest_piece(tile, front, [x, y])
 }

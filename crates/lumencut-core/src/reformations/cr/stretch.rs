@@ -34,7 +34,7 @@ impl<'a> StretchSearch<'a> {
     /// The piece nearest to the pixel at (x, y) among those of the stretch around `front`, which is one of them; of those
     /// equally near the first one.
     #[inline(never)]
-    pub fn nearest(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
+    pub fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
         let view = self.view;
         let chain = view.chains.chain_of(view.level, front.vessel, front.piece / 2);
         let known = self.in_tile.iter().position(|(known, _)| *known == chain);

@@ -51,7 +51,7 @@ impl<'a> CrView<'a> {
 
     /// The piece of each pixel that is nearest in the image; of those equally near the first one.
     #[inline(always)]
-    pub fn nearest(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
+    pub fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut nearest = Envelope::new(&[1.0; PIXELS]);
         lowest_keys::<false>(&self.plane, tile, &self.plane_rule, seeds, &mut nearest);
         *seeds = Seeds::collect(&nearest, &self.level.bundle_of_slot);

@@ -10,7 +10,7 @@ use crate::math::tile::Tile;
 impl CutSurface<'_> {
     /// The surface over one tile, given the distances to the nearest vessel.
     #[inline(always)]
-    pub(super) fn nearest<const LUMEN_FIRST: bool>(
+    pub(super) fn nearest_surface<const LUMEN_FIRST: bool>(
         &self,
         tile: &Tile,
         distance: &[f32; PIXELS],

@@ -9,6 +9,6 @@ fn radii_lie_between_sections_that_are_not_far_apart() {
     assert_eq!(between(&told, 30.0), Some(5.0));
     assert_eq!(between(&told, 31.0), None);
     assert_eq!(between(&[], 1.0), None);
-    assert_eq!(nearest(&told, 12.0), Some(3.0));
-    assert_eq!(nearest(&told, 90.0), Some(5.0));
+    assert_eq!(nearest_radius(&told, 12.0), Some(3.0));
+    assert_eq!(nearest_radius(&told, 90.0), Some(5.0));
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::trace::lumen::lumen_model::{LumenModel, at};
+use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::ways::region::{FULL, Stopper, THIN};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind};
@@ -148,7 +148,7 @@ pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
     let found = format!(
         "{:.1} mm between them that do not look like lumen, least at {}, where the volume has {:.0}",
         gap.length,
-        at(gap.place),
+        in_words(gap.place),
         gap.value
     );
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
@@ -164,7 +164,7 @@ pub fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
 }
 
 fn subject([from, to]: [DVec3; 2]) -> String {
-    format!("points {} and {}", at(from), at(to))
+    format!("points {} and {}", in_words(from), in_words(to))
 }
 
 fn expected(model: &LumenModel) -> String {

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use crate::trace::clicks::gaps::LONGEST_GAP;
 use crate::trace::clicks::way::{Way, start};
-use crate::trace::lumen::lumen_model::Surroundings;
+use crate::trace::lumen::surroundings::Surroundings;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{FORBIDDEN, Region, Stopper, Strictness, WEAK};
 use crate::voxels::Voxels;

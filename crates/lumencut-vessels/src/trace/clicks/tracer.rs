@@ -4,19 +4,20 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
+use crate::trace::clicks::checks::{Clicks, check, check_place};
 use crate::trace::clicks::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
 use crate::trace::clicks::junctions::joined;
 use crate::trace::clicks::preview::{Live, Sought};
 use crate::trace::clicks::traced::Traced;
 use crate::trace::clicks::way::{Way, start};
-use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
-use crate::trace::lumen::lumen_model::{LumenModel, Surroundings, at};
+use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::lumen::refine::refined;
+use crate::trace::lumen::surroundings::Surroundings;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Stopper, Strictness};
 use crate::voxels::Voxels;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Error, Result};
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
@@ -25,22 +26,8 @@ use lumencut_core::volume::Volume;
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 
-/// So many fronts follow the pointer: those of both neighbours of a point that is dragged.
+/// How many fronts follow the pointer: those of both neighbours of a point that is dragged.
 const MOST_LIVE: usize = 2;
-
-/// What is to be traced.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Clicks {
-    /// For each vessel at least two points in order along it (mm, LPS).
-    pub vessels: Vec<Vec<DVec3>>,
-    /// Places that no vessel may pass.
-    pub stoppers: Vec<Stopper>,
-    /// Whether stretches without lumen are bridged, however long.
-    pub bridge: bool,
-    /// Vessels that are there already and stay as they are: one that meets them ends at a point of them. Their confidence
-    /// does not matter.
-    pub beside: Vec<Centerline>,
-}
 
 /// Two voxels, from the first to the second.
 type Ends = [[i32; 3]; 2];
@@ -70,8 +57,8 @@ impl Tracer {
     /// it. Every call must be of the same volume.
     ///
     /// # Errors
-    /// [`ErrorKind::Tracing`] for clicks that lie in no lumen, or between which there is none;
-    /// [`ErrorKind::Interrupted`].
+    /// [`lumencut_core::error::ErrorKind::Tracing`] for clicks that lie in no lumen, or between which there is none;
+    /// [`lumencut_core::error::ErrorKind::Interrupted`].
     pub fn trace(
         &mut self,
         volume: &Volume,
@@ -118,10 +105,10 @@ impl Tracer {
     /// too. A click that is no lumen only beside others is not refused. Every call must be of the volume that is traced.
     ///
     /// # Errors
-    /// [`ErrorKind::Tracing`] for a click outside of the volume, and for one whose value alone shows that it is no lumen.
+    /// [`lumencut_core::error::ErrorKind::Tracing`] for a click outside of the volume, and for one whose value alone shows that it is no lumen.
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);
-        check_place(voxels, click, || format!("point {}", at(click)))?;
+        check_place(voxels, click, || format!("point {}", in_words(click)))?;
         let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &[click]));
         surroundings.check_alone(voxels, click)
     }
@@ -274,53 +261,4 @@ const PARTS: usize = 1000;
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
     let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
     longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
-}
-
-/// Refuses clicks that no vessel can run through, whatever the volume holds.
-fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
-    let wrong = |subject: String, found: String, expected: &str| {
-        Err(Error::new(ErrorKind::Tracing, subject, found, expected))
-    };
-    for (n, points) in clicks.vessels.iter().enumerate() {
-        if points.len() < 2 {
-            let found = format!("{} point(s)", points.len());
-            return wrong(format!("points of vessel {n}"), found, "2 or more, in order along the vessel");
-        }
-        for (i, point) in points.iter().enumerate() {
-            check_place(voxels, *point, || format!("point {i} of vessel {n}"))?;
-        }
-        let near = 0.5 * voxels.smallest_side;
-        if let Some(i) = (1..points.len()).find(|i| points[*i].distance(points[i - 1]) < near) {
-            let found = format!("points {} and {i}, both {}", i - 1, at(points[i]));
-            return wrong(
-                format!("points of vessel {n}"),
-                found,
-                "points that differ by more than half a voxel",
-            );
-        }
-    }
-    for stopper in &clicks.stoppers {
-        let is_usable = stopper.center.is_finite() && stopper.radius.is_finite() && stopper.radius > 0.0;
-        if !is_usable {
-            let found = format!("{} with radius {}", stopper.center, stopper.radius);
-            return wrong("stopper".to_owned(), found, "a finite position and a positive radius (mm)");
-        }
-    }
-    Ok(())
-}
-
-/// Refuses a click that is no place in the volume.
-fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> String) -> Result<()> {
-    let wrong =
-        |found: String, expected: String| Err(Error::new(ErrorKind::Tracing, subject(), found, expected));
-    if !point.is_finite() {
-        return wrong(format!("{point}"), "finite coordinates (mm, LPS)".to_owned());
-    }
-    if voxels.voxel_at(point).is_none() {
-        let corner = |c: [f64; 3]| at(voxels.world_from_index.transform_point3(DVec3::from_array(c)));
-        let last = voxels.size.map(|n| n as f64 - 1.0);
-        let expected = format!("a point between its corners {} and {}", corner([0.0; 3]), corner(last));
-        return wrong(format!("{}, outside the volume", at(point)), expected);
-    }
-    Ok(())
 }

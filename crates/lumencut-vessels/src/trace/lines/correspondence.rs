@@ -12,10 +12,10 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::stop::{Stop, go_on};
 
 /// The most pairs of points that are compared; one bit is kept for each, 512 MiB in all.
-/// Machines of 32 bits can count so many.
+/// Machines of 32 bits can count them.
 const MOST_PAIRS: usize = usize::MAX >> (usize::BITS - 32);
 
-/// After so many pairs the caller is asked whether to stop.
+/// After how many pairs the caller is asked whether to stop.
 const PAIRS_BETWEEN_STOPS: usize = 1 << 24;
 
 /// The connections between two lines as indices of their points, from the starts to the ends.

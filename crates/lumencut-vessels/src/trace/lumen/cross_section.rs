@@ -23,7 +23,7 @@ const LEAST_SEEN: f64 = 0.375;
 
 /// The lumen around a point of the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CrossSection {
+pub struct LumenSection {
     /// The middle of the lumen (mm, LPS).
     pub center: DVec3,
     /// Its radius (mm).
@@ -49,7 +49,7 @@ pub struct Probe<'a, 'v> {
 impl Probe<'_, '_> {
     /// The lumen around `center` in the plane of two directions; `guess` is about its radius (mm) where that is known.
     /// None where there is no lumen to be seen.
-    pub fn look(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<CrossSection> {
+    pub fn look(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<LumenSection> {
         let step = self.step(guess);
         let lumen = self.local_lumen(center, across, guess)?;
         let reach = guess.map_or(WIDEST, |radius| (2.5 * radius + 2.0).min(WIDEST));
@@ -71,7 +71,7 @@ impl Probe<'_, '_> {
         let trust = seen * (-(rough / 0.25).powi(2)).exp() * circle.roundness(&wall);
         let [x, y] = circle.center;
         let is_odd = !(trust > 0.0 && circle.radius > 0.0) || x.hypot(y) > reach;
-        (!is_odd).then(|| CrossSection {
+        (!is_odd).then(|| LumenSection {
             center: center + across[0] * x + across[1] * y,
             radius: circle.radius,
             trust,

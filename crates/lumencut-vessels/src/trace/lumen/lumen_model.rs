@@ -1,34 +1,6 @@
-//! What lumen looks like: its values, the tissue below it, and a soft membership with a lower and an upper bound.
+//! What lumen looks like: a soft membership of values with a lower and an upper bound, and the tissue below it.
 
 use glam::DVec3;
-
-use crate::voxels::Voxels;
-use lumencut_core::error::{Error, ErrorKind, Result};
-
-/// A volume with at least this share of voxels below the limit is taken to hold Hounsfield units: fat and air are negative
-/// there, and nothing of a magnetic resonance image is.
-const HOUNSFIELD_SHARE: f64 = 0.01;
-const HOUNSFIELD_LIMIT: f64 = -50.0;
-
-/// Hounsfield units below which there is air, fat, and tissue or blood without contrast medium; above the last one bone,
-/// metal or calcium.
-const AIR: f64 = -400.0;
-const FAT: f64 = -20.0;
-const SOFT_TISSUE: f64 = 100.0;
-const BONE: f64 = 900.0;
-
-/// The contrast of one click may be so many times that of another one as contrast medium fades.
-const MOST_TIMES: f64 = 3.5;
-
-/// The lumen of a model has at least this part of the contrast that the clicks have as a rule.
-const LEAST_PART: f64 = 0.6;
-
-/// What muscle, wall and blood without contrast medium have at least (HU).
-const LEAST_TISSUE: f64 = 50.0;
-
-/// How far around the clicks the tissue is looked at (mm), and how many voxels of it at most.
-const SURROUNDINGS: f64 = 30.0;
-const MOST_SAMPLES: f64 = 200_000.0;
 
 /// The values of lumen and of what surrounds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,221 +67,10 @@ impl LumenModel {
 /// How much membership values far above the lumen lose.
 const ABOVE_IS_NOT: f64 = 0.88;
 
-/// Most of what surrounds lumen is darker: at least this share.
-const DARKER: f64 = 0.75;
-
-/// What a click hit instead of lumen, and what was expected.
-type Mistake = (&'static str, String);
-
-/// What surrounds the lumen, before any click is judged.
-#[derive(Clone, Copy, Debug)]
-pub struct Surroundings {
-    tissue: f64,
-    /// What most of the values around are below, and what nearly all are below.
-    most: f64,
-    bright: f64,
-    is_hounsfield: bool,
-}
-
-/// What there is around a click: the median of its lumen and the spread of that, and the noise.
-#[derive(Clone, Copy, Debug)]
-struct Hit {
-    lumen: f64,
-    spread: f64,
-    noise: f64,
-}
-
-impl Surroundings {
-    /// What surrounds the clicks.
-    pub fn of(voxels: &Voxels, clicks: &[DVec3]) -> Self {
-        Self::within(voxels, clicks, SURROUNDINGS)
-    }
-
-    /// What lies up to `reach` (mm) around the clicks.
-    pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
-        let samples = samples_around(voxels, clicks, reach);
-        let dark = samples.partition_point(|value| f64::from(*value) < HOUNSFIELD_LIMIT);
-        let is_hounsfield = dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64;
-        let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
-        let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
-        let level = tissue_level(&samples[first..], &values);
-        let tissue = if is_hounsfield { level.max(LEAST_TISSUE) } else { level };
-        let [most, bright] = [DARKER, 0.995].map(|share| quantile(&samples[first..], share));
-        Self { tissue, most, bright, is_hounsfield }
-    }
-
-    /// The model of the lumen that the clicks lie in.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Tracing`] for a click that lies in no lumen: of those that are unlike each other the one that looks least
-    /// like lumen, and in doubt the later one.
-    pub fn model(&self, voxels: &Voxels, clicks: &[DVec3]) -> Result<LumenModel> {
-        for click in clicks {
-            self.check_alone(voxels, *click)?;
-        }
-        let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
-        let hits: Vec<Hit> =
-            clicks.iter().zip(&values).map(|(click, value)| self.hit(voxels, *click, *value)).collect();
-        let usual = lower_median(hits.iter().map(|hit| hit.lumen).collect());
-        if hits.iter().any(|hit| self.unlike(hit, usual).is_some()) {
-            // Where the usual one is itself no lumen, it is not what the others are blamed by.
-            for expected in [self.believed(&hits), usual] {
-                for ((click, value), hit) in clicks.iter().zip(&values).zip(&hits) {
-                    self.check(voxels, *click, *value, self.unlike(hit, expected))?;
-                }
-            }
-        }
-        Ok(self.model_of(&hits, usual))
-    }
-
-    /// Refuses a click whose value alone shows that it lies in no lumen, whatever the others hit.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Tracing`] for air, fat, soft tissue and bone in Hounsfield units, and for what is no number.
-    pub fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
-        let value = value_at(voxels, click);
-        self.check(voxels, click, value, self.mistaken(value))
-    }
-
-    fn hit(&self, voxels: &Voxels, click: DVec3, value: f64) -> Hit {
-        let [lumen, spread] = local_lumen(voxels, click, value, self.tissue);
-        Hit { lumen, spread, noise: noise(voxels, click) }
-    }
-
-    /// The lumen to judge clicks by that are unlike each other: of those brighter than most of what is around the one that most
-    /// others are like, and in doubt the earliest, for a user begins in the vessel.
-    fn believed(&self, hits: &[Hit]) -> f64 {
-        let worth = |hit: &Hit| {
-            let alike = hits.iter().filter(|other| self.unlike(other, hit.lumen).is_none()).count();
-            (hit.lumen > self.most && self.unlike(hit, hit.lumen).is_none(), alike)
-        };
-        // Of several with the same worth the last one wins, which is the earliest here.
-        hits.iter().rev().max_by_key(|hit| worth(hit)).map_or(f64::NAN, |hit| hit.lumen)
-    }
-
-    fn model_of(&self, hits: &[Hit], usual: f64) -> LumenModel {
-        let lumens = || hits.iter().map(|hit| hit.lumen);
-        // A click into the throat of a stenosis hits the tissue beside it too.
-        let least = self.tissue + LEAST_PART * (usual - self.tissue);
-        LumenModel {
-            tissue: self.tissue,
-            low: lumens().fold(f64::MAX, f64::min).max(least),
-            high: lumens().fold(f64::MIN, f64::max),
-            noise: hits.iter().map(|hit| hit.spread).fold(0.0, f64::max),
-            is_hounsfield: self.is_hounsfield,
-        }
-    }
-
-    /// Refuses a click that lies in no lumen, and says what it lies in.
-    fn check(&self, voxels: &Voxels, click: DVec3, value: f64, mistake: Option<Mistake>) -> Result<()> {
-        let Some((tissue, expected)) = mistake else { return Ok(()) };
-        let found = format!("{tissue}: the volume has {value:.0} there");
-        let error = Error::new(ErrorKind::Tracing, format!("point {}", at(click)), found, expected);
-        let error = error.at(click, value);
-        Err(match self.nearest_lumen(voxels, click) {
-            Some(place) => {
-                let away = place.distance(click);
-                let nearest = at(place);
-                error.mend(format!("the nearest place that looks like lumen is {nearest}, {away:.1} mm away"))
-            }
-            None => error.mend("no place within 10 mm looks like lumen"),
-        })
-    }
-
-    /// What a click hit whose value alone shows that it is no lumen.
-    fn mistaken(&self, value: f64) -> Option<Mistake> {
-        if !value.is_finite() {
-            return Some(("no number", "a finite value".to_owned()));
-        }
-        let tissue = match value {
-            _ if !self.is_hounsfield => return None,
-            v if v < AIR => "air",
-            v if v < FAT => "fat",
-            v if v < SOFT_TISSUE => "soft tissue, or blood without contrast medium",
-            v if v > BONE => "bone, metal or calcium",
-            _ => return None,
-        };
-        Some((tissue, format!("lumen with contrast medium, from {SOFT_TISSUE:.0} to {BONE:.0} HU")))
-    }
-
-    /// What a click hit that is unlike the lumen that the others hit as a rule, or no brighter than tissue.
-    fn unlike(&self, hit: &Hit, usual: f64) -> Option<Mistake> {
-        let contrast = usual - self.tissue;
-        let least = self.tissue + (0.3 * contrast).max(1.5 * hit.noise);
-        if hit.lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
-            return Some((
-                "bone, metal or calcium",
-                format!("lumen of about {usual:.0}, as at another point"),
-            ));
-        }
-        // What is no number is not brighter either.
-        let is_bright = hit.lumen > least;
-        (!is_bright)
-            .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))
-    }
-
-    /// The nearest place within 10 mm whose surroundings have the values of lumen.
-    fn nearest_lumen(&self, voxels: &Voxels, click: DVec3) -> Option<DVec3> {
-        let (least, most) = if self.is_hounsfield {
-            (SOFT_TISSUE * 1.5, BONE)
-        } else {
-            (self.tissue + 0.4 * (self.bright - self.tissue), f64::MAX)
-        };
-        let is_bright = |value: f32| (least..most).contains(&f64::from(value));
-        let mut near = voxels.ball(click, 10.0);
-        near.retain(|(_, value)| is_bright(*value));
-        near.sort_by(|a, b| a.0.distance_squared(click).total_cmp(&b.0.distance_squared(click)));
-        let is_lumen = |place: DVec3| {
-            voxels.ball(place, 1.75 * voxels.smallest_side).iter().all(|(_, value)| is_bright(*value))
-        };
-        near.iter().map(|(place, _)| *place).find(|place| is_lumen(*place))
-    }
-}
-
-/// Values of voxels within a box around the clicks, rising; it reaches so far (mm).
-fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
-    let (mut first, mut last) = (voxels.size.map(|n| n as i32 - 1), [0; 3]);
-    for click in clicks {
-        let (low, count) = voxels.around(*click, reach);
-        for a in 0..3 {
-            first[a] = first[a].min(low[a]);
-            last[a] = last[a].max(low[a] + count[a] - 1);
-        }
-    }
-    let count: f64 = (0..3).map(|a| f64::from(last[a] - first[a] + 1).max(1.0)).product();
-    let step = (count / MOST_SAMPLES).cbrt().ceil().max(1.0) as usize;
-    let mut values = Vec::new();
-    for k in (first[2]..=last[2]).step_by(step) {
-        for j in (first[1]..=last[1]).step_by(step) {
-            for i in (first[0]..=last[0]).step_by(step) {
-                let value = voxels.at_index(DVec3::new(f64::from(i), f64::from(j), f64::from(k)));
-                if value.is_finite() {
-                    values.push(value);
-                }
-            }
-        }
-    }
-    values.sort_unstable_by(f32::total_cmp);
-    values
-}
-
 /// The value below which a share of some values lies, which are sorted; no number of none.
 pub fn quantile(sorted: &[f32], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1) as f64;
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
-}
-
-/// The median of the voxels next to a place: what a click hits.
-fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
-    let near = voxels.smallest_side * 1.05;
-    let mut values: Vec<f32> =
-        voxels.ball(click, near).into_iter().map(|(_, value)| value).filter(|v| v.is_finite()).collect();
-    if values.is_empty() {
-        return f64::from(voxels.at(click));
-    }
-    values.sort_unstable_by(f32::total_cmp);
-    // A click may lie at the wall: the brighter half of its neighbours is what it means.
-    quantile(&values, 0.6)
 }
 
 /// The tissue around the lumen: bright for what is not lumen. Its values are sorted.
@@ -323,46 +84,12 @@ pub fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
 }
 
 /// The median, of an even number of values the lower one of the middle; not of none.
-fn lower_median(mut values: Vec<f64>) -> f64 {
+pub fn lower_median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values[(values.len() - 1) / 2]
 }
 
-/// The noise around a click, as neighbours differ where they differ little: most are not at the edge of a vessel.
-fn noise(voxels: &Voxels, click: DVec3) -> f64 {
-    let near = voxels.ball(click, (4.0 * voxels.smallest_side).max(3.0));
-    let mut steps: Vec<f32> = near.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect();
-    steps.retain(|step| step.is_finite());
-    steps.sort_unstable_by(f32::total_cmp);
-    // A quarter of the differences of two normal deviates is below this part of the standard deviation of one.
-    if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
-}
-
-/// The median of the lumen around a click, and its spread.
-fn local_lumen(voxels: &Voxels, click: DVec3, value: f64, tissue: f64) -> [f64; 2] {
-    let near = voxels.ball(click, (2.5 * voxels.smallest_side).max(1.5));
-    let mut lumen = value;
-    let mut spread = 0.0;
-    for _ in 0..3 {
-        let contrast = (lumen - tissue).abs().max(1e-9);
-        let mut values: Vec<f32> = near
-            .iter()
-            .map(|(_, value)| *value)
-            .filter(|v| (-0.35 * contrast..0.6 * contrast).contains(&(f64::from(*v) - lumen)))
-            .collect();
-        if values.is_empty() {
-            break;
-        }
-        values.sort_unstable_by(f32::total_cmp);
-        lumen = quantile(&values, 0.5);
-        let mut away: Vec<f32> = values.iter().map(|v| (f64::from(*v) - lumen).abs() as f32).collect();
-        away.sort_unstable_by(f32::total_cmp);
-        spread = 1.4826 * quantile(&away, 0.5);
-    }
-    [lumen, spread]
-}
-
 /// A position in words.
-pub fn at(place: DVec3) -> String {
+pub fn in_words(place: DVec3) -> String {
     format!("({:.1}, {:.1}, {:.1}) mm", place.x, place.y, place.z)
 }

@@ -7,7 +7,7 @@ use crate::trace::lines::directions::point_directions;
 use crate::trace::lines::even_steps::in_even_steps;
 use crate::trace::lines::frames::frames;
 use crate::trace::lines::smoothing::smoothed_by_parabolas;
-use crate::trace::lumen::cross_section::{CrossSection, Probe};
+use crate::trace::lumen::cross_section::{LumenSection, Probe};
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
@@ -57,7 +57,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let lengths = arc_lengths(points);
     let reach = if round == 0 { 3.0 } else { 1.5 };
     let across = frames(points, &point_directions(points, reach));
-    let sections: Vec<Option<CrossSection>> = (0..points.len())
+    let sections: Vec<Option<LumenSection>> = (0..points.len())
         .into_par_iter()
         .map(|i| {
             let guess = line.radius.get(i).copied().filter(|radius| *radius > 0.0);
@@ -87,7 +87,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
 
 /// The trust of the sections, none for those whose middles do not go on along the line: such a line would fold back, as it
 /// does where a branch begins within a wider vessel.
-fn unfolded(points: &[DVec3], sections: &[Option<CrossSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
+fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let mut left = trust.to_vec();
     for i in 0..points.len() {
         let j = lengths.partition_point(|length| *length < lengths[i] + STRETCH).min(points.len() - 1);
@@ -102,14 +102,14 @@ fn unfolded(points: &[DVec3], sections: &[Option<CrossSection>], trust: &[f64], 
 }
 
 /// How much a cross-section counts: little where its radius is far from those around it.
-fn trust_of(section: &Option<CrossSection>, median: Option<f64>) -> f64 {
+fn trust_of(section: &Option<LumenSection>, median: Option<f64>) -> f64 {
     let (Some(section), Some(median)) = (section, median) else { return 0.0 };
     let odd = (section.radius / median).ln() / 0.3;
     section.trust * (-odd * odd).exp()
 }
 
 /// The median radius of the sections around each, where any was seen well.
-fn medians(sections: &[Option<CrossSection>], lengths: &[f64]) -> Vec<Option<f64>> {
+fn medians(sections: &[Option<LumenSection>], lengths: &[f64]) -> Vec<Option<f64>> {
     (0..sections.len())
         .map(|i| {
             let first = lengths.partition_point(|length| *length < lengths[i] - BESIDE);
@@ -124,7 +124,7 @@ fn medians(sections: &[Option<CrossSection>], lengths: &[f64]) -> Vec<Option<f64
 }
 
 /// The radius of each section that was seen well, and between them what lies between their radii.
-fn filled(sections: &[Option<CrossSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
+fn filled(sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let seen: Vec<(f64, f64)> = (0..sections.len())
         .filter(|i| trust[*i] > LEAST_TRUST)
         .filter_map(|i| sections[i].map(|section| (lengths[i], section.radius)))

@@ -3,22 +3,23 @@
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::directions::point_directions;
 use crate::trace::lines::frames::frames;
-use crate::trace::lumen::cross_section::{CrossSection, Probe};
+use crate::trace::lumen::cross_section::{LumenSection, Probe};
 use crate::trace::lumen::lumen_model::LumenModel;
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// From this confidence on a point lies in a tube.
 const SEEN: f64 = 0.35;
 
-/// A tube is seen over at least so much (mm), and so many of its radii, or it is none.
+/// The least length of a tube that is seen (mm, and in its radii): what is shorter is not taken for one.
 const LEAST_LENGTH: f64 = 2.5;
 const LEAST_RADII: f64 = 1.5;
 
-/// A tube may be hidden over so much (mm), or so many of the larger radius beside, as where branches leave or calcium lies.
+/// The longest stretch over which a tube may be hidden (mm, or in the larger radius beside it where that is more), as where
+/// branches leave or calcium lies.
 const HIDDEN: f64 = 3.0;
 const HIDDEN_RADII: f64 = 2.0;
 
-/// A branch is at least so long beyond what it leaves: in mm, and in its own radii.
+/// The least length of a branch beyond what it leaves: in mm, and in its own radii.
 const SHORTEST: f64 = 3.0;
 const SHORTEST_RADII: f64 = 2.0;
 
@@ -26,7 +27,7 @@ const SHORTEST_RADII: f64 = 2.0;
 const LIKE: f64 = 0.25;
 
 /// A stretch whose walls are brighter than the lumen over more than this share, as in bone, goes on from one before it: with
-/// a radius that differs by no more than this factor, and after no more than so much (mm).
+/// a radius that differs by no more than this factor, and after no more than this length (mm).
 const BRIGHT: f64 = 0.5;
 const STEADY: f64 = 1.5;
 const GOES_ON: f64 = 2.0;
@@ -37,7 +38,7 @@ const BRIGHT_TRUST: f64 = 0.3;
 /// A stretch that goes on with about the radius before and a value this near to it (part of the contrast) may be short.
 const SAME: f64 = 0.1;
 
-/// With so many points before it a point is compared.
+/// With how many points before it a point is compared.
 const BEFORE: usize = 8;
 
 /// What is seen along a line.
@@ -57,8 +58,8 @@ impl Sections {
             let guess = Some(line.radius[n]).filter(|radius| *radius > 0.0);
             probe.look(line.points[n], across[n], guess)
         };
-        let sections: Vec<Option<CrossSection>> = (0..line.points.len()).map(look).collect();
-        let of = |value: fn(&CrossSection) -> f64| -> Vec<f64> {
+        let sections: Vec<Option<LumenSection>> = (0..line.points.len()).map(look).collect();
+        let of = |value: fn(&LumenSection) -> f64| -> Vec<f64> {
             sections.iter().map(|section| section.as_ref().map_or(0.0, value)).collect()
         };
         Self {
@@ -121,12 +122,12 @@ impl Sections {
     }
 
     /// The next stretch between two points that is seen.
-    fn stretch(&self, from: usize, to: usize) -> Option<Stretch> {
+    fn stretch(&self, from: usize, to: usize) -> Option<TubePart> {
         let first = (from..=to).find(|n| self.trust[*n] >= SEEN)?;
         let last =
             (first + 1..=to).find(|n| self.trust[*n] < SEEN || self.widens(first, *n)).unwrap_or(to + 1) - 1;
         let part = first..=last;
-        Some(Stretch {
+        Some(TubePart {
             first,
             last,
             radius: median(&self.radius[part.clone()]),
@@ -138,7 +139,7 @@ impl Sections {
 
 /// A stretch of a line along which it is seen to be a tube.
 #[derive(Debug)]
-struct Stretch {
+struct TubePart {
     first: usize,
     last: usize,
     radius: f64,
@@ -146,7 +147,7 @@ struct Stretch {
     bright: f64,
 }
 
-impl Stretch {
+impl TubePart {
     /// Whether this is a tube that goes on from the stretch before, where there is one.
     fn goes_on(&self, before: Option<&Self>, length: f64, hidden: f64, usual: &Usual) -> bool {
         let value = before.map_or(usual.value, |before| before.value);

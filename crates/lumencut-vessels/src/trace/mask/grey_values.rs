@@ -25,7 +25,7 @@ const DISTANCES: usize = 3;
 /// Over how much of the vessel a median of the lumen is taken (mm).
 const STRETCH: f64 = 5.0;
 
-/// Lumen is so many standard deviations of its noise brighter than tissue where it can be seen at all.
+/// Lumen is this many standard deviations of its noise brighter than tissue where it can be seen at all.
 const LEAST_CONTRAST: f64 = 2.0;
 
 /// At least this share of the points must have been seen.

@@ -5,12 +5,12 @@ use crate::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::volume::Volume;
 
-/// A stretch with a label of its own is a vessel of its own where it is at least so many radii long.
+/// A stretch with a label of its own is a vessel of its own where it is at least this many radii long.
 const SHORTEST: f64 = 2.0;
 
 /// Points `from` to `to`, both included, which have one label.
 #[derive(Clone, Copy)]
-struct Stretch {
+struct LabelRun {
     from: usize,
     to: usize,
     label: i64,
@@ -19,22 +19,20 @@ struct Stretch {
 /// A vessel in parts of one label each; parts that follow each other share a point.
 pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
     let ways = arc_lengths(&vessel.points);
-    let mut stretches = stretches(vessel, mask, labels);
+    let mut runs = runs(vessel, mask, labels);
     let shortest = SHORTEST * vessel.mean_radius();
-    let length = |stretch: &Stretch| ways[stretch.to] - ways[stretch.from];
-    while stretches.len() > 1 {
-        let least =
-            (0..stretches.len()).min_by(|&a, &b| length(&stretches[a]).total_cmp(&length(&stretches[b])));
-        let Some(least) = least.filter(|&n| length(&stretches[n]) < shortest) else { break };
-        let next =
-            [least.checked_sub(1), Some(least + 1)].into_iter().flatten().filter(|&n| n < stretches.len());
-        let Some(next) = next.max_by(|&a, &b| length(&stretches[a]).total_cmp(&length(&stretches[b]))) else {
+    let length = |run: &LabelRun| ways[run.to] - ways[run.from];
+    while runs.len() > 1 {
+        let least = (0..runs.len()).min_by(|&a, &b| length(&runs[a]).total_cmp(&length(&runs[b])));
+        let Some(least) = least.filter(|&n| length(&runs[n]) < shortest) else { break };
+        let next = [least.checked_sub(1), Some(least + 1)].into_iter().flatten().filter(|&n| n < runs.len());
+        let Some(next) = next.max_by(|&a, &b| length(&runs[a]).total_cmp(&length(&runs[b]))) else {
             break;
         };
-        stretches[next].from = stretches[next].from.min(stretches[least].from);
-        stretches[next].to = stretches[next].to.max(stretches[least].to);
-        stretches.remove(least);
-        stretches.dedup_by(|after, before| {
+        runs[next].from = runs[next].from.min(runs[least].from);
+        runs[next].to = runs[next].to.max(runs[least].to);
+        runs.remove(least);
+        runs.dedup_by(|after, before| {
             let same = after.label == before.label;
             if same {
                 before.to = after.to;
@@ -42,21 +40,21 @@ pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec
             same
         });
     }
-    let last = stretches.len() - 1;
-    let part = |(n, stretch): (usize, Stretch)| MaskVessel {
-        points: vessel.points[stretch.from..=stretch.to].to_vec(),
-        radius: vessel.radius[stretch.from..=stretch.to].to_vec(),
-        confidence: vessel.confidence.get(stretch.from..=stretch.to).unwrap_or_default().to_vec(),
+    let last = runs.len() - 1;
+    let part = |(n, run): (usize, LabelRun)| MaskVessel {
+        points: vessel.points[run.from..=run.to].to_vec(),
+        radius: vessel.radius[run.from..=run.to].to_vec(),
+        confidence: vessel.confidence.get(run.from..=run.to).unwrap_or_default().to_vec(),
         is_free: [n == 0 && vessel.is_free[0], n == last && vessel.is_free[1]],
-        label: stretch.label,
+        label: run.label,
         ..vessel.clone()
     };
-    stretches.into_iter().enumerate().map(part).collect()
+    runs.into_iter().enumerate().map(part).collect()
 }
 
-/// The stretches of one label along a vessel, at least one, each of which begins with the last point of the one before.
+/// The runs of one label along a vessel, at least one, each of which begins with the last point of the one before.
 /// A point outside the lumen, as in a cavity that was filled, has the label of the point before.
-fn stretches(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<Stretch> {
+fn runs(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<LabelRun> {
     let is_lumen = |label: &i64| *label != 0 && labels.is_none_or(|labels| labels.contains(label));
     let at = |n: usize| {
         let index = mask.index_from_world().transform_point3(vessel.points[n]).round();
@@ -65,19 +63,19 @@ fn stretches(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<
     };
     let known: Vec<Option<i64>> = (0..vessel.points.len()).map(at).collect();
     let mut label = known.iter().flatten().next().copied().unwrap_or(0);
-    let mut stretches = vec![Stretch { from: 0, to: 0, label }];
+    let mut runs = vec![LabelRun { from: 0, to: 0, label }];
     for (n, found) in known.into_iter().enumerate().skip(1) {
         let before = label;
         label = found.unwrap_or(before);
         if label == before || n == vessel.points.len() - 1 {
             label = before;
-            let last = stretches.len() - 1;
-            stretches[last].to = n;
+            let last = runs.len() - 1;
+            runs[last].to = n;
         } else {
-            let last = stretches.len() - 1;
-            stretches[last].to = n;
-            stretches.push(Stretch { from: n, to: n, label });
+            let last = runs.len() - 1;
+            runs[last].to = n;
+            runs.push(LabelRun { from: n, to: n, label });
         }
     }
-    stretches
+    runs
 }

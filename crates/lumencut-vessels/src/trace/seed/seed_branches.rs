@@ -14,17 +14,17 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// What lies within so many radii of a branch, or so many voxels beyond its wall, is no other branch.
+/// What lies within this many radii of the middle of a branch, or this many voxels beyond its wall, belongs to no other branch.
 const NEAR: f64 = 1.25;
 const BESIDE: f64 = 1.0;
 
-/// So far beyond its wall a branch has voxels: its lumen ends between their centres (voxels).
+/// How far beyond its wall a branch has voxels (voxels): its lumen ends between their centres.
 const BEYOND: f64 = 0.5;
 
-/// Of a way so much is looked at in one go (mm).
+/// How much of a way is looked at in one go (mm).
 const STRETCH: f64 = 80.0;
 
-/// A line that is so many times as long as the way that it was made of, and so much longer (mm), has gone astray.
+/// A line has gone astray that is longer than this many times the length of the way that it was made from, plus this length (mm).
 const ASTRAY: f64 = 1.25;
 const ASTRAY_LENGTH: f64 = 3.0;
 
@@ -40,10 +40,10 @@ const ALIKE: f64 = 0.6;
 const FIRST: f64 = 6.0;
 const LIKE: f64 = 0.3;
 
-/// A leak is closed so far around where it begins (voxels).
+/// How far around the place where it begins a leak is closed (voxels).
 const NECK: f64 = 1.1;
 
-/// What lies behind leaks is looked at so many times.
+/// How often what lies behind leaks is looked at.
 const ROUNDS: usize = 3;
 
 /// The number of the seed's voxel.
@@ -53,7 +53,7 @@ const SEED: u32 = 0;
 /// their way ran along.
 const NEW: f64 = 0.7;
 
-/// A branch has voxels up to so many times its median radius along so many points before.
+/// A branch has voxels up to this many times its median radius along this many points before.
 const WIDER: f64 = 1.25;
 const BEFORE: usize = 30;
 

@@ -1,14 +1,12 @@
 //! The cheapest way from a seed to every voxel of a flood, and what lies behind each voxel on these ways.
 
+use crate::trace::ways::buckets::Buckets;
 use crate::trace::ways::flood::Flood;
 use crate::trace::ways::front::steps;
 use crate::trace::ways::region::{FORBIDDEN, Region, costs};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
-
-/// Buckets have this width (mm of the cheapest way).
-const BUCKET: f32 = 0.25;
 
 /// How many voxels are settled before the caller is asked whether to stop.
 const BETWEEN_STOPS: usize = 1 << 14;
@@ -108,14 +106,12 @@ impl Ways {
         for number in from {
             way[*number as usize] = 0.0;
         }
-        let mut buckets: Vec<Vec<(u32, f32)>> = vec![from.iter().map(|number| (*number, 0.0)).collect()];
-        let (mut first, mut count) = (0, 0);
-        while first < buckets.len() {
-            let Some((number, known)) = buckets[first].pop() else {
-                buckets[first] = Vec::new();
-                first += 1;
-                continue;
-            };
+        let mut waiting = Buckets::default();
+        for number in from {
+            waiting.put(0.0, (*number, 0.0));
+        }
+        let mut count = 0;
+        while let Some((number, known)) = waiting.pop() {
             if way[number as usize] < known {
                 continue;
             }
@@ -131,11 +127,7 @@ impl Ways {
                 if longer < way[next as usize] && is_open(next) {
                     way[next as usize] = longer;
                     self.parent[next as usize] = number;
-                    let bucket = (longer / BUCKET) as usize;
-                    if bucket >= buckets.len() {
-                        buckets.resize_with(bucket + 1, Vec::new);
-                    }
-                    buckets[bucket].push((next, longer));
+                    waiting.put(longer, (next, longer));
                 }
             }
         }

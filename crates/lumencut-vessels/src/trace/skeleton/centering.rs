@@ -8,6 +8,7 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use crate::trace::skeleton::through_lines::ThroughLine;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::{arc_lengths, point_at};
+use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
 /// How often the line is moved to the centres of its cross-sections.
@@ -20,9 +21,6 @@ const SMOOTHING_VOXELS: f64 = 1.0;
 /// How far on either side the direction of a line is taken from, in radii and at least in voxels.
 const REACH: f64 = 0.75;
 const REACH_VOXELS: f64 = 1.5;
-
-/// Differences (mm, or shares) that rounding can make: they decide nothing.
-const TINY: f64 = 1e-6;
 
 /// A point may move to a place whose distance to the wall is at least this share of its own.
 const LEAST_ROOM: f64 = 0.8;
@@ -88,7 +86,7 @@ fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
 /// How far from an end (mm) the end is no nearer than the wall, at most `limit`; `radius` gives the way to the wall.
 fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     let (mut way, mut missing) = (0.0, radius(0.0));
-    while missing > TINY && way < limit {
+    while missing > ALONG_LINE && way < limit {
         let next = radius(way + step) - (way + step);
         if next <= 0.0 {
             way += step * missing / (missing - next);
@@ -120,14 +118,14 @@ pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
         let direction = (points[0] - behind).normalize_or_zero();
         (points[0], direction, lumen.way_to_wall(points[0], direction, 4.0 * radius))
     };
-    let removed = ways.iter().filter(|known| **known < kept - TINY).count().max(1);
-    let count = (way / lumen.side() - TINY).ceil().max(1.0) as usize;
+    let removed = ways.iter().filter(|known| **known < kept - ALONG_LINE).count().max(1);
+    let count = (way / lumen.side() - ALONG_LINE).ceil().max(1.0) as usize;
     let mut led: Vec<DVec3> =
         (0..=count).rev().map(|n| from + way * (n as f64 / count as f64) * direction).collect();
     let tail = points.split_off(removed);
     // The point itself and one that lies in the same place.
     let tail: Vec<DVec3> =
-        tail.into_iter().skip_while(|point| point.distance(from) < lumen.side() / 2.0 - TINY).collect();
+        tail.into_iter().skip_while(|point| point.distance(from) < lumen.side() / 2.0 - ALONG_LINE).collect();
     led.extend(tail.iter().copied());
     *points = led;
 }

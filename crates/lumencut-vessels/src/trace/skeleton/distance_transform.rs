@@ -14,7 +14,7 @@ use lumencut_core::stop::{Stop, go_on};
 /// 1000 voxels it shifts the last one by a thousandth of a voxel.
 const RIGHT_ANGLE: f64 = 1e-6;
 
-/// After so many cells the caller is asked whether to stop.
+/// After how many cells the caller is asked whether to stop.
 const CELLS_BETWEEN_STOPS: usize = 1 << 16;
 
 /// The squared distance (mm²) from the centre of each cell of `lumen` to the nearest centre of background, in a

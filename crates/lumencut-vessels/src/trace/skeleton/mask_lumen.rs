@@ -6,11 +6,12 @@ use std::f64::consts::TAU;
 use glam::{DAffine3, DVec3};
 
 use crate::trace::skeleton::foreground::Foreground;
+use lumencut_core::math::sampling::interpolate;
 
 /// How many directions a cross-section is measured in.
 const RAYS: usize = 24;
 
-/// A ray ends at so many times the median of all rays, as where a branch leaves the vessel.
+/// A ray ends at this many times the median of all rays, as where a branch leaves the vessel.
 const LONGEST_RAY: f64 = 1.5;
 
 /// The share of lumen at the wall: a half, but for as little that no place between voxels has it by symmetry, where
@@ -29,7 +30,7 @@ pub struct Lumen<'a> {
 
 /// A cross-section: its centre of gravity, and the radius of the circle with the same area (mm).
 #[derive(Clone, Copy, Debug)]
-pub struct CrossSection {
+pub struct MaskSection {
     /// The centre of gravity.
     pub center: DVec3,
     /// The radius of a circle of the same area.
@@ -94,17 +95,9 @@ impl<'a> Lumen<'a> {
         }
         let [i, j, k] = base.to_array().map(|n| n as usize);
         let [ni, nj, _] = self.size;
-        let line = |j: usize, k: usize| {
-            let start = i + ni * (j + nj * k);
-            let [near, far] = [value(self.squares[start]), value(self.squares[start + 1])];
-            near + t.x * (far - near)
-        };
-        let plane = |k: usize| {
-            let [near, far] = [line(j, k), line(j + 1, k)];
-            near + t.y * (far - near)
-        };
-        let [near, far] = [plane(k), plane(k + 1)];
-        near + t.z * (far - near)
+        let first = i + ni * (j + nj * k);
+        let rows = [0, ni, ni * nj, ni * nj + ni];
+        interpolate(|r| [0, 1].map(|step| value(self.squares[first + rows[r] + step])), t.to_array())
     }
 
     /// The way from a place along a unit vector to the wall (mm), at most `most`; 0 outside the lumen.
@@ -128,7 +121,7 @@ impl<'a> Lumen<'a> {
     }
 
     /// The cross-section at a place across a direction; `None` outside the lumen.
-    pub fn cross_section(&self, place: DVec3, direction: DVec3) -> Option<CrossSection> {
+    pub fn cross_section(&self, place: DVec3, direction: DVec3) -> Option<MaskSection> {
         let [u, v] = across(direction);
         let most = 4.0 * (self.radius(place) + self.side);
         let mut ways = [0.0; RAYS];
@@ -153,7 +146,7 @@ impl<'a> Lumen<'a> {
         // The corners lie on the wall: a circle is wider than the polygon within it.
         let circle = area * (TAU / RAYS as f64) / (TAU / RAYS as f64).sin();
         let radius = (2.0 * circle / TAU).sqrt();
-        (area > 0.0).then(|| CrossSection { center: place + moment / area, radius, shortest: sorted[0] })
+        (area > 0.0).then(|| MaskSection { center: place + moment / area, radius, shortest: sorted[0] })
     }
 }
 

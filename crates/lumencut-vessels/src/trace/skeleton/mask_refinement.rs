@@ -9,7 +9,7 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths};
 
-/// Makes of the points of a centerline (mm, LPS) and their radii (mm) better ones, or none where it knows no better.
+/// Finds a better centerline from the points of one (mm, LPS) and their radii (mm); `None` where it finds none.
 pub type Refine<'a> = &'a (dyn Fn(&[DVec3], &[f64]) -> Result<Option<Centerline>> + Sync);
 
 /// A vessel has left another one where, over a radius, it gets narrower by no more than this part of the radius.
@@ -18,9 +18,9 @@ const NARROWER: f64 = 0.2;
 /// A vessel that has fewer points of its own stays as it is.
 const FEWEST: usize = 5;
 
-/// The vessel as `refine` sees it from where it has left the vessels that it meets at those ends that are not free: cross-sections
-/// show those there. What lies within them stays as it is, and over a radius beyond the line goes over to the better one.
-/// Points of a better line are at most `step` (mm) apart.
+/// The vessel with the better middles and radii of `refine`. Near an end that is not free a vessel lies within another one, and
+/// its cross-sections would show that one: there its line stays as it is. Over one radius from where it has left the other
+/// vessel its line goes over to the better one. The points of a better line are at most `step` (mm) apart.
 ///
 /// # Errors
 /// Those of `refine`.

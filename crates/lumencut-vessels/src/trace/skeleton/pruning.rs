@@ -7,15 +7,16 @@ use glam::DVec3;
 
 use crate::trace::skeleton::graph::{Branch, Graph};
 use crate::trace::skeleton::mask_lumen::Lumen;
+use lumencut_core::math::same_place::ALONG_LINE;
 
-/// A branch stays where it reaches farther beyond the wall of its parent than so many of its own radii, however wide
+/// A branch stays where it reaches farther beyond the wall of its parent than this many of its own radii, however wide
 /// the parent is.
 const OWN_RADII: f64 = 4.0;
 
 /// Junctions nearer to each other than this share of the radius there, or than two voxels, become one.
 const NEAR: f64 = 0.3;
 
-/// A piece whose line, its ends included, is shorter than so many of its largest diameters has no centerline.
+/// A piece whose line, its ends included, is shorter than this many of its largest diameters has no centerline.
 const ELONGATED: f64 = 1.25;
 
 /// Removes the spurs of a graph. A branch with a free end stays where it is at least `parent_radii` radii of its parent
@@ -74,7 +75,7 @@ fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) 
     let (mut walked, mut outside) = (0.0, Vec::new());
     for (n, point) in outwards.iter().enumerate() {
         walked += if n == 0 { 0.0 } else { point.distance(outwards[n - 1]) };
-        if walked >= parent - 1e-6 {
+        if walked >= parent - ALONG_LINE {
             outside.push(lumen.radius(*point));
         }
     }
@@ -95,7 +96,7 @@ fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -
         if branch.nodes[0] != junction {
             points.reverse();
         }
-        let away = points.iter().find(|point| point.distance(points[0]) >= at_junction - 1e-6);
+        let away = points.iter().find(|point| point.distance(points[0]) >= at_junction - ALONG_LINE);
         away.map_or(at_junction, |point| lumen.radius(*point))
     });
     along.fold(0.0, f64::max).min(at_junction)

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::trace::skeleton::graph::Graph;
 use crate::trace::skeleton::mask_lumen::Lumen;
+use lumencut_core::math::same_place::ALONG_LINE;
 
 /// Branches one after the other, each the right way round.
 pub struct ThroughLine {
@@ -117,7 +118,7 @@ fn outward(lumen: &Lumen, cells: &[u32], from_end: bool, node: u32) -> (DVec3, f
     }
     let away = 2.0 * lumen.radius_at_cell(node).max(lumen.side());
     let middle = points.len() / 2;
-    let place = points.iter().position(|point| point.distance(points[0]) >= away - 1e-6);
+    let place = points.iter().position(|point| point.distance(points[0]) >= away - ALONG_LINE);
     let place = place.unwrap_or(middle.max(1));
     ((points[place] - points[0]).normalize_or_zero(), lumen.radius(points[place]))
 }

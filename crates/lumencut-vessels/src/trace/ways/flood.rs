@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::trace::lumen::lumen_model::LumenModel;
-use crate::trace::ways::region::{BLOCK, SIDE, voxel_of};
+use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_of, voxel_of};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
@@ -18,23 +18,13 @@ const BETWEEN_STOPS: usize = 1 << 15;
 const NO_LUMEN: u32 = u32::MAX;
 const DRY: u32 = u32::MAX - 1;
 
-/// Where no block is.
-const NO_BLOCK: u32 = u32::MAX;
-
-/// A block that the flood has come to.
-struct Block {
-    corner: [i32; 3],
-    /// Its place among all blocks of the volume.
-    place: usize,
-    numbers: Box<[u32; BLOCK]>,
-}
+/// The numbers of the voxels of a block.
+type Numbers = Box<[u32; BLOCK]>;
 
 /// All voxels of lumen that are joined with a seed by faces. Each has a number, the seed's is 0.
 pub struct Flood {
     size: [usize; 3],
-    blocks: [usize; 3],
-    table: Vec<u32>,
-    known: Vec<Block>,
+    blocks: Blocks<Numbers>,
     /// The block and the place in it of each voxel.
     places: Vec<u32>,
 }
@@ -51,9 +41,7 @@ impl Flood {
         most: usize,
         stop: Stop,
     ) -> Result<Option<Self>> {
-        let blocks = voxels.size.map(|n| n.div_ceil(SIDE));
-        let table = vec![NO_BLOCK; blocks.iter().product()];
-        let mut flood = Self { size: voxels.size, blocks, table, known: Vec::new(), places: Vec::new() };
+        let mut flood = Self { size: voxels.size, blocks: Blocks::new(voxels.size), places: Vec::new() };
         let bounds = bounds(model).map(|bound| bound as f32);
         flood.reach(voxels, bounds, seed, true);
         let mut next = 0;
@@ -83,23 +71,19 @@ impl Flood {
     /// The index (i, j, k) of a voxel.
     pub fn voxel(&self, number: u32) -> [i32; 3] {
         let place = self.places[number as usize] as usize;
-        voxel_of(self.known[place / BLOCK].corner, place % BLOCK)
+        voxel_of(self.blocks.corner(self.blocks.place(place / BLOCK)), place % BLOCK)
     }
 
     /// The block of the volume that a voxel lies in, and its place there.
     pub fn block_of(&self, number: u32) -> (usize, usize) {
         let place = self.places[number as usize] as usize;
-        (self.known[place / BLOCK].place, place % BLOCK)
+        (self.blocks.place(place / BLOCK), place % BLOCK)
     }
 
     /// The number of the voxel at an index, where it belongs to the flood.
     pub fn number_at(&self, voxel: [i32; 3]) -> Option<u32> {
-        let (block, inside) = self.locate(voxel)?;
-        let known = self.table[block];
-        if known == NO_BLOCK {
-            return None;
-        }
-        let number = self.known[known as usize].numbers[inside];
+        let (place, inside) = self.locate(voxel)?;
+        let number = self.blocks[self.blocks.find(place)?][inside];
         (number < DRY).then_some(number)
     }
 
@@ -122,44 +106,33 @@ impl Flood {
 
     /// Takes a voxel into the flood where it is lumen, or where `always` says so.
     fn reach(&mut self, voxels: &Voxels, bounds: [f32; 2], voxel: [i32; 3], always: bool) {
-        let Some((block, inside)) = self.locate(voxel) else { return };
-        if self.table[block] == NO_BLOCK {
-            self.table[block] = self.known.len() as u32;
-            self.known.push(self.make(voxels, bounds, block));
-        }
-        let known = self.table[block] as usize;
-        let number = &mut self.known[known].numbers[inside];
+        let Some((place, inside)) = self.locate(voxel) else { return };
+        let block = self.blocks.find_or_make(place, |blocks| dry(voxels, bounds, blocks.corner(place)));
+        let number = &mut self.blocks[block][inside];
         if *number == DRY || (always && *number == NO_LUMEN) {
             *number = self.places.len() as u32;
-            self.places.push((known * BLOCK + inside) as u32);
+            self.places.push((block * BLOCK + inside) as u32);
         }
-    }
-
-    fn make(&self, voxels: &Voxels, [least, most]: [f32; 2], place: usize) -> Block {
-        let [ni, nj, _] = self.blocks;
-        let corner = [place % ni, place / ni % nj, place / (ni * nj)].map(|c| (c * SIDE) as i32);
-        let mut values = vec![0.0; BLOCK];
-        voxels.cube(corner, SIDE, &mut values);
-        let mut numbers = Box::new([NO_LUMEN; BLOCK]);
-        for (number, value) in numbers.iter_mut().zip(&values) {
-            if *value >= least && *value <= most {
-                *number = DRY;
-            }
-        }
-        Block { corner, place, numbers }
     }
 
     /// The block of a voxel and its place there; none outside the volume.
-    fn locate(&self, [i, j, k]: [i32; 3]) -> Option<(usize, usize)> {
-        let [ni, nj, nk] = self.size;
-        let [i, j, k] = [i as usize, j as usize, k as usize];
-        // Negative indices are huge without a sign.
-        if i >= ni || j >= nj || k >= nk {
-            return None;
-        }
-        let block = ((k / SIDE) * self.blocks[1] + j / SIDE) * self.blocks[0] + i / SIDE;
-        Some((block, ((k % SIDE) * SIDE + j % SIDE) * SIDE + i % SIDE))
+    fn locate(&self, voxel: [i32; 3]) -> Option<(usize, usize)> {
+        let is_inside = (0..3).all(|a| voxel[a] >= 0 && (voxel[a] as usize) < self.size[a]);
+        is_inside.then(|| (self.blocks.place_of(voxel), index_of(voxel)))
     }
+}
+
+/// The numbers of a block that the flood has not come to.
+fn dry(voxels: &Voxels, [least, most]: [f32; 2], corner: [i32; 3]) -> Numbers {
+    let mut values = vec![0.0; BLOCK];
+    voxels.cube(corner, SIDE, &mut values);
+    let mut numbers = Box::new([NO_LUMEN; BLOCK]);
+    for (number, value) in numbers.iter_mut().zip(&values) {
+        if *value >= least && *value <= most {
+            *number = DRY;
+        }
+    }
+    numbers
 }
 
 /// The smallest and the largest value of lumen.

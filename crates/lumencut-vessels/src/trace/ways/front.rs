@@ -5,7 +5,9 @@
 
 use glam::DVec3;
 
-use crate::trace::ways::region::{BLOCK, BlockCosts, FORBIDDEN, Region, SIDE, WEAK, costs, voxel_of};
+use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_in, index_of, meets, voxel_of};
+use crate::trace::ways::buckets::Buckets;
+use crate::trace::ways::region::{BlockCosts, FORBIDDEN, Region, WEAK, costs};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
@@ -14,15 +16,8 @@ use lumencut_core::stop::{Stop, go_on};
 const START: u8 = 26;
 const NONE: u8 = 255;
 
-/// Buckets have this width (mm of the cheapest way); no way is longer than all of them.
-const BUCKET: f32 = 0.25;
-const MOST_BUCKETS: usize = 400_000;
-
 /// How many voxels a front settles before it asks whether to stop.
 const BETWEEN_STOPS: usize = 1 << 10;
-
-/// Where no block is.
-const NO_BLOCK: u32 = u32::MAX;
 
 /// The unit in which a front counts how long a way shows no lumen (mm).
 const RUN: f64 = 0.1;
@@ -80,11 +75,8 @@ pub enum Found {
 pub struct Front {
     source: [i32; 3],
     reach: Reach,
-    blocks: [usize; 3],
-    table: Vec<u32>,
-    known: Vec<Block>,
-    buckets: Vec<Vec<Waiting>>,
-    first: usize,
+    known: Blocks<Block>,
+    waiting: Buckets<Waiting>,
     settled: usize,
     /// The neighbours: steps along (i, j, k), and their lengths in the world (mm).
     steps: [([i32; 3], f32); 26],
@@ -95,15 +87,11 @@ pub struct Front {
 impl Front {
     /// A front that starts at a voxel.
     pub fn new(voxels: &Voxels, region: &mut Region, source: [i32; 3], reach: Reach) -> Self {
-        let blocks = region.blocks();
         let mut front = Self {
             source,
             reach,
-            blocks,
-            table: vec![NO_BLOCK; blocks.iter().product()],
-            known: Vec::new(),
-            buckets: Vec::new(),
-            first: 0,
+            known: Blocks::new(voxels.size),
+            waiting: Buckets::default(),
             settled: 0,
             steps: steps(voxels),
             costs: costs(),
@@ -112,7 +100,7 @@ impl Front {
         let (block, voxel) = front.locate(voxels, region, source);
         front.known[block].way[voxel] = 0.0;
         front.known[block].parent[voxel] = START;
-        front.put(0, Waiting { place: place_of(block, voxel), way: 0.0 });
+        front.waiting.put(0.0, Waiting { place: place_of(block, voxel), way: 0.0 });
         front
     }
 
@@ -137,12 +125,9 @@ impl Front {
         let mut nearest = f64::MAX;
         let mut until_stop = 0;
         loop {
-            while self.buckets.get(self.first).is_some_and(Vec::is_empty) {
-                self.first += 1;
-            }
             let way = self.known[block].way[voxel];
             // Everything on a cheaper way, as far as the pull lets it be cheaper, lies in an earlier bucket.
-            if way.is_finite() && bucket_of(way) < self.first {
+            if way.is_finite() && self.waiting.have_passed(way) {
                 return Ok(Found::Target);
             }
             if until_stop == 0 {
@@ -151,7 +136,7 @@ impl Front {
                 told(nearest);
             }
             until_stop -= 1;
-            let Some(waiting) = self.buckets.get_mut(self.first).and_then(Vec::pop) else {
+            let Some(waiting) = self.waiting.pop() else {
                 return Ok(if way.is_finite() { Found::Target } else { Found::NoWay });
             };
             if let Some(distance) = self.settle(voxels, region, waiting, goal) {
@@ -187,23 +172,17 @@ impl Front {
 
     /// Whether the front has come to any voxel of a ball.
     pub fn touches(&self, voxels: &Voxels, center: DVec3, radius: f64) -> bool {
-        let (first, count) = voxels.around(center, radius);
-        self.known.iter().any(|block| {
-            (0..3).all(|a| block.corner[a] < first[a] + count[a] && block.corner[a] + SIDE as i32 > first[a])
-        })
+        let ball = voxels.around(center, radius);
+        self.known.places().any(|place| meets(self.known.corner(place), ball))
     }
 
     /// Sorts those that wait by the straight distance to a new goal.
     fn aim(&mut self, voxels: &Voxels, goal: DVec3) {
-        let waiting: Vec<Waiting> =
-            self.buckets.iter_mut().skip(self.first).flat_map(std::mem::take).collect();
-        self.buckets.clear();
-        self.first = 0;
-        for waiting in waiting {
+        for waiting in self.waiting.drain() {
             let (block, voxel) = parts_of(waiting.place);
             if self.known[block].way[voxel] >= waiting.way {
                 let left = voxels.center(voxel_of(self.known[block].corner, voxel)).distance(goal);
-                self.put(bucket_of(waiting.way + self.reach.pull * left as f32), waiting);
+                self.waiting.put(waiting.way + self.reach.pull * left as f32, waiting);
             }
         }
     }
@@ -242,20 +221,9 @@ impl Front {
             let known = &mut self.known[to];
             (known.way[at], known.parent[at], known.run[at]) = (way, n as u8, stretch);
             let left = voxels.center(next).distance(goal);
-            let bucket = bucket_of(way + self.reach.pull * left as f32).max(self.first);
-            self.put(bucket, Waiting { place: place_of(to, at), way });
+            self.waiting.put(way + self.reach.pull * left as f32, Waiting { place: place_of(to, at), way });
         }
         Some(voxels.center(here).distance(goal))
-    }
-
-    fn put(&mut self, bucket: usize, waiting: Waiting) {
-        if bucket >= MOST_BUCKETS {
-            return;
-        }
-        if bucket >= self.buckets.len() {
-            self.buckets.resize_with(bucket + 1, Vec::new);
-        }
-        self.buckets[bucket].push(waiting);
     }
 
     /// The block and the place in it of a voxel next to one of block `near`; none outside the volume.
@@ -277,35 +245,23 @@ impl Front {
 
     /// The block and the place in it of a voxel of the volume; the block is made where it is not known yet.
     fn locate(&mut self, voxels: &Voxels, region: &mut Region, voxel: [i32; 3]) -> (usize, usize) {
-        let at = self.table_of(voxel);
-        if self.table[at] == NO_BLOCK {
-            self.table[at] = self.known.len() as u32;
-            self.known.push(Block {
-                costs: region.costs_of(voxels, at),
-                corner: region.corner(at),
+        let block = self.known.find_or_make(self.known.place_of(voxel), |known| {
+            let place = known.place_of(voxel);
+            Block {
+                costs: region.costs_of(voxels, place),
+                corner: known.corner(place),
                 way: Box::new([f32::INFINITY; BLOCK]),
                 offered: Box::new([0; BLOCK / 64]),
                 parent: Box::new([NONE; BLOCK]),
                 run: Box::new([0; BLOCK]),
-            });
-        }
-        (self.table[at] as usize, index_in(voxel.map(|c| c % SIDE as i32)))
+            }
+        });
+        (block, index_of(voxel))
     }
 
     fn find(&self, voxel: [i32; 3]) -> Option<(usize, usize)> {
-        let block = self.table[self.table_of(voxel)];
-        (block != NO_BLOCK).then(|| (block as usize, index_in(voxel.map(|c| c % SIDE as i32))))
+        Some((self.known.find(self.known.place_of(voxel))?, index_of(voxel)))
     }
-
-    fn table_of(&self, voxel: [i32; 3]) -> usize {
-        let [i, j, k] = voxel.map(|c| c as usize / SIDE);
-        (k * self.blocks[1] + j) * self.blocks[0] + i
-    }
-}
-
-fn index_in(inside: [i32; 3]) -> usize {
-    let [i, j, k] = inside.map(|c| c as usize);
-    (k * SIDE + j) * SIDE + i
 }
 
 fn place_of(block: usize, voxel: usize) -> u32 {
@@ -314,10 +270,6 @@ fn place_of(block: usize, voxel: usize) -> u32 {
 
 fn parts_of(place: u32) -> (usize, usize) {
     (place as usize / BLOCK, place as usize % BLOCK)
-}
-
-fn bucket_of(way: f32) -> usize {
-    (way / BUCKET) as usize
 }
 
 /// The steps to the 26 neighbours, and their lengths in the world (mm).

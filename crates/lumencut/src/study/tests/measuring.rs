@@ -6,7 +6,7 @@ use glam::{DMat2, DVec2, DVec3};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut_vessels::measure::measuring::{Request, measure};
+use lumencut_vessels::measure::measuring::{MeasureRequest, measure};
 use serde_json::{Value as Json, json};
 
 use super::*;
@@ -189,7 +189,8 @@ fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
 /// The first vessel of a tree, measured without the study.
 fn measured_by_core(study: &Study, tree: &[Vessel]) -> Profile {
     let volume = study.content.held.as_ref().expect("a volume").volume().expect("a volume");
-    measure(&volume, &tree[0], &Request { step: 0.5, fwhm: None, tree, stop: &go_on }).expect("a profile")
+    measure(&volume, &tree[0], &MeasureRequest { step: 0.5, fwhm: None, tree, stop: &go_on })
+        .expect("a profile")
 }
 
 #[test]

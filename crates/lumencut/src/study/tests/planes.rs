@@ -27,7 +27,7 @@ fn the_contour_lies_in_the_plane_that_is_looked_at() {
     let mut study = opened("helix");
     let profile = profile_of_helix(&mut study);
     for at in PLACES {
-        let contour = &profile.contour[profile.nearest(at)];
+        let contour = &profile.contour[profile.nearest_section(at)];
         assert!(!contour.is_empty(), "no lumen at {at} mm");
         let away = off_plane(study.across(0, at).expect("a section"), contour);
         assert!(away < 1e-9, "{away} mm at {at} mm");

@@ -1,0 +1,72 @@
+//! What a user asks to be traced by clicks, and what of it is refused whatever the volume holds.
+
+use glam::DVec3;
+
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lumen::lumen_model::in_words;
+use crate::trace::ways::region::Stopper;
+use crate::voxels::Voxels;
+use lumencut_core::error::{Error, ErrorKind, Result};
+
+/// What is to be traced.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Clicks {
+    /// For each vessel at least two points in order along it (mm, LPS).
+    pub vessels: Vec<Vec<DVec3>>,
+    /// Places that no vessel may pass.
+    pub stoppers: Vec<Stopper>,
+    /// Whether stretches without lumen are bridged, however long.
+    pub bridge: bool,
+    /// Vessels that are there already and stay as they are: one that meets them ends at a point of them. Their confidence
+    /// does not matter.
+    pub beside: Vec<Centerline>,
+}
+
+/// Refuses clicks that no vessel can run through, whatever the volume holds.
+pub fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
+    let wrong = |subject: String, found: String, expected: &str| {
+        Err(Error::new(ErrorKind::Tracing, subject, found, expected))
+    };
+    for (n, points) in clicks.vessels.iter().enumerate() {
+        if points.len() < 2 {
+            let found = format!("{} point(s)", points.len());
+            return wrong(format!("points of vessel {n}"), found, "2 or more, in order along the vessel");
+        }
+        for (i, point) in points.iter().enumerate() {
+            check_place(voxels, *point, || format!("point {i} of vessel {n}"))?;
+        }
+        let near = 0.5 * voxels.smallest_side;
+        if let Some(i) = (1..points.len()).find(|i| points[*i].distance(points[i - 1]) < near) {
+            let found = format!("points {} and {i}, both {}", i - 1, in_words(points[i]));
+            return wrong(
+                format!("points of vessel {n}"),
+                found,
+                "points that differ by more than half a voxel",
+            );
+        }
+    }
+    for stopper in &clicks.stoppers {
+        let is_usable = stopper.center.is_finite() && stopper.radius.is_finite() && stopper.radius > 0.0;
+        if !is_usable {
+            let found = format!("{} with radius {}", stopper.center, stopper.radius);
+            return wrong("stopper".to_owned(), found, "a finite position and a positive radius (mm)");
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a click that is no place in the volume.
+pub fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> String) -> Result<()> {
+    let wrong =
+        |found: String, expected: String| Err(Error::new(ErrorKind::Tracing, subject(), found, expected));
+    if !point.is_finite() {
+        return wrong(format!("{point}"), "finite coordinates (mm, LPS)".to_owned());
+    }
+    if voxels.voxel_at(point).is_none() {
+        let corner = |c: [f64; 3]| in_words(voxels.world_from_index.transform_point3(DVec3::from_array(c)));
+        let last = voxels.size.map(|n| n as f64 - 1.0);
+        let expected = format!("a point between its corners {} and {}", corner([0.0; 3]), corner(last));
+        return wrong(format!("{}, outside the volume", in_words(point)), expected);
+    }
+    Ok(())
+}

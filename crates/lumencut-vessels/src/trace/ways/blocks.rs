@@ -1,0 +1,152 @@
+//! A volume in blocks of voxels, of which only those are kept that were come to.
+
+use std::ops::{Index, IndexMut};
+
+/// The side of a block (voxels).
+pub const SIDE: usize = 16;
+/// The number of voxels of a block.
+pub const BLOCK: usize = SIDE * SIDE * SIDE;
+
+/// Where no block is kept.
+const NO_BLOCK: u32 = u32::MAX;
+
+/// What is kept of the blocks of a volume. A block has its place among all of the volume, and a number among those kept.
+#[derive(Clone, Debug)]
+pub struct Blocks<T> {
+    /// The number of blocks along (i, j, k).
+    count: [usize; 3],
+    /// The number of each block of the volume.
+    numbers: Vec<u32>,
+    kept: Vec<Kept<T>>,
+}
+
+/// What is kept of a block.
+#[derive(Clone, Debug)]
+struct Kept<T> {
+    place: usize,
+    block: T,
+}
+
+impl<T> Blocks<T> {
+    /// No block yet of a volume with so many voxels along (i, j, k).
+    pub fn new(size: [usize; 3]) -> Self {
+        let count = size.map(|n| n.div_ceil(SIDE));
+        Self { count, numbers: vec![NO_BLOCK; count.iter().product()], kept: Vec::new() }
+    }
+
+    /// The place of the block that a voxel of the volume lies in.
+    pub fn place_of(&self, voxel: [i32; 3]) -> usize {
+        let [i, j, k] = voxel.map(|c| c as usize / SIDE);
+        (k * self.count[1] + j) * self.count[0] + i
+    }
+
+    /// The first voxel of the block at a place.
+    pub fn corner(&self, place: usize) -> [i32; 3] {
+        let [ni, nj, _] = self.count;
+        [place % ni, place / ni % nj, place / (ni * nj)].map(|c| (c * SIDE) as i32)
+    }
+
+    /// The place of block `number`.
+    pub fn place(&self, number: usize) -> usize {
+        self.kept[number].place
+    }
+
+    /// The number of the block at a place, where it is kept.
+    pub fn find(&self, place: usize) -> Option<usize> {
+        let number = self.numbers[place];
+        (number != NO_BLOCK).then_some(number as usize)
+    }
+
+    /// The number of the block at a place, which is made where it is not kept yet.
+    pub fn find_or_make(&mut self, place: usize, make: impl FnOnce(&Self) -> T) -> usize {
+        self.find(place).unwrap_or_else(|| {
+            let block = make(self);
+            self.numbers[place] = self.kept.len() as u32;
+            self.kept.push(Kept { place, block });
+            self.kept.len() - 1
+        })
+    }
+
+    /// The places of the blocks that are kept, by their numbers.
+    pub fn places(&self) -> impl Iterator<Item = usize> {
+        self.kept.iter().map(|kept| kept.place)
+    }
+
+    /// Forgets the blocks at the places that `is_gone` names; the others get new numbers.
+    pub fn forget(&mut self, is_gone: impl Fn(usize) -> bool) {
+        self.kept.retain(|kept| !is_gone(kept.place));
+        self.numbers.fill(NO_BLOCK);
+        for (number, kept) in self.kept.iter().enumerate() {
+            self.numbers[kept.place] = number as u32;
+        }
+    }
+}
+
+impl<T> Index<usize> for Blocks<T> {
+    type Output = T;
+
+    fn index(&self, number: usize) -> &T {
+        &self.kept[number].block
+    }
+}
+
+impl<T> IndexMut<usize> for Blocks<T> {
+    fn index_mut(&mut self, number: usize) -> &mut T {
+        &mut self.kept[number].block
+    }
+}
+
+/// Voxel `n` of the block whose first voxel is `corner`.
+pub fn voxel_of(corner: [i32; 3], n: usize) -> [i32; 3] {
+    let step = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)];
+    std::array::from_fn(|a| corner[a] + step[a] as i32)
+}
+
+/// The place in its block of a voxel by its steps from the block's first one, i fastest.
+pub fn index_in(inside: [i32; 3]) -> usize {
+    let [i, j, k] = inside.map(|c| c as usize);
+    (k * SIDE + j) * SIDE + i
+}
+
+/// The place of a voxel of the volume in its block.
+pub fn index_of(voxel: [i32; 3]) -> usize {
+    index_in(voxel.map(|c| c % SIDE as i32))
+}
+
+/// Whether the block whose first voxel is `corner` has a voxel in a box: its first voxel, and how many it has along each axis.
+pub fn meets(corner: [i32; 3], (first, count): ([i32; 3], [i32; 3])) -> bool {
+    (0..3).all(|a| corner[a] < first[a] + count[a] && corner[a] + SIDE as i32 > first[a])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_made_once_and_forgotten_by_their_places() {
+        let mut blocks = Blocks::new([40, 17, 16]);
+        let voxels = [[0, 0, 0], [39, 16, 15], [16, 3, 2]];
+        for (number, voxel) in voxels.into_iter().enumerate() {
+            let place = blocks.place_of(voxel);
+            assert_eq!(blocks.find(place), None);
+            assert_eq!(blocks.find_or_make(place, |_| number * 10), number);
+            assert_eq!(blocks.find_or_make(place, |_| 99), number);
+            assert_eq!(voxel_of(blocks.corner(place), index_of(voxel)), voxel);
+        }
+        assert_eq!(blocks.places().collect::<Vec<_>>(), [0, 5, 1]);
+        let gone = blocks.place_of(voxels[0]);
+        blocks.forget(|place| place == gone);
+        assert_eq!(blocks.find(gone), None);
+        let kept = voxels[1..].iter().map(|voxel| blocks.find(blocks.place_of(*voxel)).map(|n| blocks[n]));
+        assert_eq!(kept.collect::<Vec<_>>(), [Some(10), Some(20)]);
+    }
+
+    #[test]
+    fn a_block_meets_a_box_that_shares_a_voxel_with_it() {
+        for (first, is_met) in
+            [([15, 15, 15], true), ([16, 15, 15], false), ([-3, 0, 0], true), ([-4, 0, 0], false)]
+        {
+            assert_eq!(meets([0; 3], (first, [4, 1, 1])), is_met, "{first:?}");
+        }
+    }
+}
