@@ -14,24 +14,17 @@ import lumencut
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, Window, _lumencut
 from window_scenes import angiography
 
-#: The functions that find a window in all of a volume.
-FINDING = ("window_from_data", "mip_window", "whole_window", "full_window", "mra_window")
-
 
 @pytest.fixture
 def found(monkeypatch):
-    """How often each of them was called."""
-    counts = Counter()
+    """How often each window was searched in the data, by its name."""
+    counts, find = Counter(), _lumencut.find_window
 
-    def counted(name, find):
-        def counting(*given):
-            counts[name] += 1
-            return find(*given)
+    def counting(name, *given):
+        counts[name] += 1
+        return find(name, *given)
 
-        return counting
-
-    for name in FINDING:
-        monkeypatch.setattr(_lumencut, name, counted(name, getattr(_lumencut, name)))
+    monkeypatch.setattr(_lumencut, "find_window", counting)
     return counts
 
 
@@ -51,7 +44,7 @@ def test_a_cpr_finds_no_window_until_its_picture_is_asked_for(scene, found):
     assert "Reformation" in repr(made.rotated(degrees=90))
     assert not found
     picture = made.image
-    assert found == {"window_from_data": 1}
+    assert found == {"auto": 1}
     given = Settings(window=made.settings.window)
     np.testing.assert_array_equal(lumencut.cpr(volume, tree[0], settings=given).image, picture)
     np.testing.assert_array_equal(lumencut.cpr(volume, tree[0], settings=given).value, made.value)
@@ -68,10 +61,10 @@ def test_a_volume_and_a_vessel_have_their_window_found_once(scene, found):
     volume, tree = scene
     for _ in range(3):
         assert lumencut.cpr(volume, tree[0]).image.any()
-    assert found == {"window_from_data": 1}
+    assert found == {"auto": 1}
     for _ in range(2):
         assert lumencut.cpr(volume, tree[1]).image.any()
-    assert found == {"window_from_data": 2}
+    assert found == {"auto": 2}
 
 
 def test_views_of_a_volume_and_a_tree_share_a_window(scene, found):
@@ -80,7 +73,7 @@ def test_views_of_a_volume_and_a_tree_share_a_window(scene, found):
     for _ in range(2):
         assert lumencut.render(volume, tree, camera).image.any()
         assert Window.from_data(volume, tree) == Renderer(volume, tree).window
-    assert found == {"window_from_data": 1}
+    assert found == {"auto": 1}
 
 
 @pytest.mark.parametrize("context", ["mip", "mida", "minip"])
@@ -101,14 +94,14 @@ def test_a_frame_without_picture_and_context_needs_no_window(scene, found):
     assert np.isfinite(reformed.value).any()
     assert not found
     np.testing.assert_array_equal(frame.value, Renderer(volume, tree).render(camera).value)
-    assert found == {"window_from_data": 1}
+    assert found == {"auto": 1}
 
 
 def test_named_windows_are_found_once(scene, found):
     volume, _ = scene
     for _ in range(2):
         assert Window.named("full", volume).width > Window.named("mra", volume).width
-    assert found == {"full_window": 1, "mra_window": 1}
+    assert found == {"full": 1, "mra": 1}
 
 
 def test_voxels_that_were_exchanged_have_a_window_of_their_own(scene):
@@ -154,4 +147,4 @@ def test_a_cfa_finds_no_window_until_its_picture_is_asked_for(scene, found):
     assert np.isfinite(made.value).any()
     assert not found
     assert made.image.any()
-    assert found == {"window_from_data": 1}
+    assert found == {"auto": 1}

@@ -69,6 +69,17 @@ def contrast(scene: Angiography, context: ContextName, window: Window | None = N
     return float(np.median(bright[core])), float(np.median(bright[beside]))
 
 
+def background(scene: Angiography, context: ContextName, window: Window | None = None) -> float:
+    """The brightness of what rays show that meet the darkest value alone, 0 to 1: a median of pixels."""
+    camera = Camera.left(scene.volume, PICTURE)
+    frame = Renderer(scene.volume).render(camera, Settings(context=context, context_window=window))
+    bright = frame.image[..., :3] @ np.array(BRIGHTNESS) / 255
+    shown = _grown(_seen(camera, scene.array > np.min(scene.array)), 3)
+    alone = _seen(camera, np.ones(scene.array.shape, bool)) & ~shown
+    assert alone.sum() > 20, scene.name
+    return float(np.median(bright[alone]))
+
+
 def _seen(camera: Camera, mask: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
     """The pixels whose rays pass through some voxels."""
     place = np.rint(camera.project(np.argwhere(mask).astype(np.float64))[:, :2]).astype(int)

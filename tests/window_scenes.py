@@ -123,6 +123,7 @@ KINDS = {
     "CTA, uint8, to 300 HU": Kind(HU, 15.0, finish=_as("uint8", 255 / 500, 102)),
     "CTA, round field": Kind(HU, 15.0, finish=_round_field(-2000.0)),
     "CTA, bone removed": Kind(HU, 15.0, finish=_kept((FAT, SOFT, *VESSELS), -1024.0)),
+    "CTA, body at 0": Kind(HU, 15.0, finish=_kept((SOFT, *VESSELS), 0.0, "uint16")),
     "CTA, vessels at −1024": Kind(HU, 15.0, finish=_kept(VESSELS, -1024.0)),
     "CTA, lumen at 0": Kind(HU, 15.0, finish=_kept((CALCIFIED, LUMEN), 0.0)),
     "CTA, lumen in NaN": Kind(HU, 15.0, finish=_kept(VESSELS, np.nan, "float32")),

@@ -31,6 +31,7 @@ __all__ = [
     "STENOSIS_TERRITORIES",
     "VIEWS",
     "VIEW_METHODS",
+    "WINDOW_PRESETS",
     "CenterlineFile",
     "Cpr",
     "KeptProfiles",
@@ -52,18 +53,19 @@ __all__ = [
     "check_vessel",
     "check_window",
     "contains",
+    "context_window",
     "correspondence",
     "cross_section",
     "cut",
     "describe_dicom",
     "devices",
     "edge_letters",
+    "find_window",
     "fits_nowhere",
     "fitted",
     "fitted_turn",
     "flag_words",
     "frame_angles",
-    "full_window",
     "is_session_file",
     "join",
     "judge_dicom",
@@ -71,8 +73,6 @@ __all__ = [
     "make_phantom",
     "measure",
     "measured_radii",
-    "mip_window",
-    "mra_window",
     "panned",
     "part_name",
     "path",
@@ -93,8 +93,6 @@ __all__ = [
     "trace_from",
     "trace_mask",
     "vessels_json",
-    "whole_window",
-    "window_from_data",
     "write_centerlines",
     "zoomed",
 ]
@@ -104,6 +102,7 @@ __version__: str
 # The table of settings by name, in the order to show them to users.
 SETTINGS: dict[str, Setting]
 PAPER: dict[str, Any]
+WINDOW_PRESETS: list[tuple[str, str, tuple[float, float] | None]]
 
 @final
 class Setting:
@@ -296,6 +295,7 @@ def check_slab(thickness: float, mode: str) -> None: ...
 def check_transfer_function(points: Sequence[tuple[float, tuple[int, int, int], float]]) -> None: ...
 def check_vessel(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64] | None = None) -> None: ...
 def check_window(level: float, width: float) -> None: ...
+def context_window(context: str, has_tree: bool) -> str: ...
 def contains(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]: ...
 def correspondence(
     first: npt.NDArray[np.float64], second: npt.NDArray[np.float64]
@@ -319,10 +319,10 @@ def fitted(camera: Any, points: npt.NDArray[np.float64]) -> dict[str, Any]: ...
 def fitted_turn(
     camera: Any, points: npt.NDArray[np.float64], degrees: float, axis: _Axis
 ) -> dict[str, Any]: ...
+def find_window(name: str, volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
 def fits_nowhere(points: npt.NDArray[np.float64], volume: Any) -> bool: ...
 def flag_words(flags: int) -> list[str]: ...
 def frame_angles(frames: int, degrees: float) -> list[float]: ...
-def full_window(volume: Any) -> tuple[float, float]: ...
 def is_session_file(content: bytes) -> bool: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
 def measure(
@@ -331,8 +331,6 @@ def measure(
 def measured_radii(
     volume: Any, vessels: list[_Arrays], step: float, fwhm: float | None = None
 ) -> list[tuple[npt.NDArray[np.float64] | None, int, int]]: ...
-def mip_window(volume: Any) -> tuple[float, float]: ...
-def mra_window(volume: Any) -> tuple[float, float]: ...
 def panned(camera: Any, right: float, up: float) -> dict[str, Any]: ...
 def picture(value: npt.NDArray[np.float32], settings: Settings) -> npt.NDArray[np.uint8]: ...
 def placement(
@@ -375,8 +373,6 @@ def vessels_json(
     options: Mapping[str, Any],
     measured: list[tuple[str, str | None, Profile, Stenosis | None, str | None]],
 ) -> str: ...
-def whole_window(volume: Any) -> tuple[float, float]: ...
-def window_from_data(volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
 def write_centerlines(vessels: list[_WrittenArrays], kind: str) -> bytes: ...
 def zoomed(camera: Any, factor: float) -> dict[str, Any]: ...
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from dataclasses import replace
 
+from lumencut import _lumencut
 from lumencut.errors import VolumeError
 from lumencut.settings import ContextName, Settings
 from lumencut.vessel_tree import VesselTree
@@ -33,16 +34,6 @@ class SceneWindows:
         """The window of cut surface and context where the settings name none."""
         return Window.from_data(self._shown, self._tree)
 
-    @functools.cached_property
-    def whole(self) -> Window:
-        """The window of contexts of minimum and mean where the settings name none."""
-        return Window.whole(self._shown)
-
-    @functools.cached_property
-    def mip(self) -> Window:
-        """The window of a MIP where the settings name none."""
-        return self.main if self._tree is not None else Window.for_mip(self._shown)
-
     def used(self, settings: Settings, *, has_tree: bool) -> Settings:
         """Return the settings with a window in the place of each that is left to the data or has a name."""
         window, context_window = map(self._known, (settings.window, settings.context_window))
@@ -56,18 +47,17 @@ class SceneWindows:
 
     def _of_context(self, context: ContextName) -> Window:
         """The window of a context that the settings leave to the data."""
-        if context == "mip":
-            return self.mip
-        # The smallest values and the means along rays lie far below those of the vessels.
-        return self.whole if context in ("minip", "average") else self.main
+        name = _lumencut.context_window(context, self._tree is not None)
+        return self.main if name == "auto" else self._kept(name)
 
     def _known(self, window: Window | str | None) -> Window | None:
         """A window that is no name any more; one that a name stands for is taken from all of the volume."""
-        if not isinstance(window, str):
-            return window
-        if window not in self._named:
-            self._named[window] = Window.named(window, self._shown)
-        return self._named[window]
+        return self._kept(window) if isinstance(window, str) else window
+
+    def _kept(self, name: str) -> Window:
+        if name not in self._named:
+            self._named[name] = Window._found(name, self._shown)
+        return self._named[name]
 
     @property
     def _shown(self) -> Volume:

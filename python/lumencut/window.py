@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
 
 #: The windows that have a name, in the order to show them to users.
-WINDOW_NAMES = ("cta", "mra", "bone", "lung", "full", "auto")
+WINDOW_NAMES = tuple(name for name, _, _ in _lumencut.WINDOW_PRESETS)
 
 #: Level and width of those that are the same for every volume (HU).
-_FIXED = {"cta": (300, 900), "bone": (480, 2500), "lung": (-600, 1500)}
+_FIXED = {name: fixed for name, _, fixed in _lumencut.WINDOW_PRESETS if fixed is not None}
 
 
 @dataclass(frozen=True)
@@ -36,15 +36,16 @@ class Window:
         """Return a window that tells lumen from its surroundings; ``"auto"`` by name.
 
         With a tree the median along the centerlines stands for the lumen, the median 10 mm beyond the
-        vessels' walls for the tissue. Black lies 1.5 times their difference below the lumen, but not below
-        what the volume holds; white where the brightest voxels are, as far as the lumen stays at 52 to 65 %
-        of the range. A lumen darker than its tissue has the mirrored window: it lies at 35 to 48 %, and its
-        surroundings are brighter.
+        vessels' walls for the tissue. Black lies 1.5 times their difference below the lumen, up to 2.2 times
+        where fat would be black, but not below what the volume holds; white where the brightest voxels are,
+        as far as the lumen stays at 60 to 72 % of the range. A lumen darker than its tissue has the mirrored
+        window: it lies at 28 to 40 %, or is black where nothing is darker, and its surroundings are brighter.
 
         Without a tree padding and air are left out first. Small cubes are told apart by their largest voxel:
         most are tissue, which becomes dark, and of the brighter ones the darker stand for the lumen, which
-        lies at 67 % of the range. Where little but vessels is left, their edges stand for the tissue. A dark
-        lumen cannot be found without a tree: the bright tissue is shown.
+        lies at 67 % of the range; black is never below the smallest value. Where little but vessels is left,
+        their edges stand for the tissue. A dark lumen cannot be found without a tree: the bright tissue is
+        shown.
 
         Parameters
         ----------
@@ -110,17 +111,18 @@ class Window:
         """Return the window that has a name.
 
         Those of fixed values are for HU: ``"cta"`` 900/300 (width/level), which shows contrast medium as
-        middle grey and calcifications brighter, ``"bone"`` 2500/480 and ``"lung"`` 1500/-600, as the OHIF
-        viewer has them. The others are taken from the volume: ``"auto"`` as :meth:`from_data` does,
-        ``"full"`` from the smallest voxel to the largest, and ``"mra"`` all tissues of an MR angiography,
-        whose values have no unit: from the 1st percentile to the 99.9th of all that is no padding.
+        middle grey and calcifications brighter, ``"soft-tissue"`` 400/40, ``"bone"`` 2500/480 and ``"lung"``
+        1500/-600, as the OHIF viewer has them. The others are taken from the volume: ``"auto"`` as
+        :meth:`from_data` does, ``"full"`` from the smallest voxel to the largest, and ``"mra"`` all tissues
+        of an MR angiography, whose values have no unit: from the 1st percentile to the 99.9th of all that is
+        no padding.
 
         Parameters
         ----------
-        name : {"cta", "mra", "bone", "lung", "full", "auto"}
+        name : {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra"}
             What the window is called.
         volume : Volume, or whatever else :func:`lumencut.render` takes as one, optional
-            The angiography; ``"cta"``, ``"bone"`` and ``"lung"`` need none.
+            The angiography; ``"cta"``, ``"soft-tissue"``, ``"bone"`` and ``"lung"`` need none.
         tree : VesselTree, optional
             Its centerlines, for ``"auto"``.
 
@@ -148,16 +150,7 @@ class Window:
         shown = as_volume(volume)
 
         def find() -> tuple[float, float]:
-            match name:
-                case "auto":
-                    return _lumencut.window_from_data(shown, None if tree is None else tree._arrays())
-                case "mip":
-                    return _lumencut.mip_window(shown)
-                case "whole":
-                    return _lumencut.whole_window(shown)
-                case "full":
-                    return _lumencut.full_window(shown)
-            return _lumencut.mra_window(shown)
+            return _lumencut.find_window(name, shown, None if tree is None else tree._arrays())
 
         return cls(*shown._windows.window(shown._voxels, name, tree, find))
 

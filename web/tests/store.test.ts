@@ -1,9 +1,17 @@
 import { afterEach, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
+import { choosePreset } from '../src/state/actions';
 import * as store from '../src/state/store';
 import { expectNear } from './helpers';
 
-const WINDOWS = { main: [300, 900], mip: [400, 600], whole: [0, 2000], full: [500, 3000] } as const;
+const WINDOWS = {
+  main: [300, 900],
+  contexts: { mida: [300, 900], mip: [400, 600], minip: [0, 2000] },
+  presets: [
+    { name: 'auto', words: 'From the data', window: [300, 900] },
+    { name: 'soft-tissue', words: 'Soft tissue', window: [40, 400] },
+  ],
+} as const;
 
 afterEach(() => {
   store.report.value = null;
@@ -36,13 +44,12 @@ test('each context has the window of its kind', () => {
   expect(store.viewSettings.value).toEqual({ window: [320, 900], context_window: [320, 900] });
 });
 
-test.each([
-  ['mida', 'main'],
-  ['dvr', 'main'],
-  ['mip', 'mip'],
-  ['minip', 'whole'],
-  ['average', 'whole'],
-] as const)('the context %s has the window %s', (context, name) => {
-  const windows = { main: [1, 2], mip: [3, 4], whole: [5, 6], full: [7, 8] } as const;
-  expect(store.windowOf(context, windows)).toBe(windows[name]);
+test('a window that has a name is the one of its number; without a volume there is none', () => {
+  choosePreset(1);
+  expect(store.window_.value).toEqual([300, 900]);
+  store.report.value = { volume: null, vessels: null, windows: WINDOWS } as unknown as Report;
+  choosePreset(1);
+  expect(store.window_.value).toEqual([40, 400]);
+  choosePreset(7);
+  expect(store.window_.value).toEqual([40, 400]);
 });

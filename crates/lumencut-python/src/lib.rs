@@ -85,11 +85,9 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(views::zoomed, module)?)?;
     module.add_function(wrap_pyfunction!(views::panned, module)?)?;
     module.add_function(wrap_pyfunction!(views::positions, module)?)?;
-    module.add_function(wrap_pyfunction!(windows::window_from_data, module)?)?;
-    module.add_function(wrap_pyfunction!(windows::mip_window, module)?)?;
-    module.add_function(wrap_pyfunction!(windows::whole_window, module)?)?;
-    module.add_function(wrap_pyfunction!(windows::full_window, module)?)?;
-    module.add_function(wrap_pyfunction!(windows::mra_window, module)?)?;
+    module.add_function(wrap_pyfunction!(windows::find_window, module)?)?;
+    module.add_function(wrap_pyfunction!(windows::context_window, module)?)?;
+    windows::add_presets(module)?;
     module.add_function(wrap_pyfunction!(placement::placement, module)?)?;
     module.add_function(wrap_pyfunction!(placement::better_place, module)?)?;
     module.add_function(wrap_pyfunction!(placement::fits_nowhere, module)?)?;

@@ -1,66 +1,44 @@
-//! Windows from the data, for `lumencut.Window`.
+//! Windows from the data and those that have a name, for `lumencut.Window`.
 
-use lumencut::error::Result;
-use lumencut::settings::Window;
-use lumencut::volume::Volume;
-use lumencut::windows;
+use lumencut::named::Named;
+use lumencut::settings::ContextName;
+use lumencut::window_presets::{DataWindow, PresetSource, WINDOW_PRESETS};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
 
-/// Level and width of a window that tells lumen from its surroundings; without vessels from the volume alone.
+/// Level and width of a window from the data, by its name; vessels matter to "auto" alone.
 #[pyfunction]
-#[pyo3(signature = (volume, vessels))]
+#[pyo3(signature = (name, volume, vessels))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn window_from_data(
+pub fn find_window(
     py: Python<'_>,
+    name: &str,
     volume: VolumeArgument<'_>,
     vessels: Option<Vec<VesselArrays<'_>>>,
 ) -> PyResult<(f64, f64)> {
+    let kind = DataWindow::named("window from the data", name).map_err(to_python)?;
     let tree = vessels.map(|vessels| tree(&vessels)).transpose()?;
-    found(py, &volume, |volume| match &tree {
-        Some(tree) => windows::along(volume, tree),
-        None => windows::of_volume(volume),
-    })
-}
-
-/// Level and width of a window for a MIP of the volume alone.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)]
-pub fn mip_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64, f64)> {
-    found(py, &volume, windows::of_mip)
-}
-
-/// Level and width of a window that shows air to lumen.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)]
-pub fn whole_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64, f64)> {
-    found(py, &volume, windows::whole)
-}
-
-/// Level and width of a window from the smallest voxel to the largest.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)]
-pub fn full_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64, f64)> {
-    found(py, &volume, windows::full)
-}
-
-/// Level and width of a window that shows all tissues of an MR angiography.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)]
-pub fn mra_window(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<(f64, f64)> {
-    found(py, &volume, windows::mra)
-}
-
-fn found(
-    py: Python<'_>,
-    volume: &VolumeArgument<'_>,
-    window: impl Fn(&Volume) -> Result<Window> + Sync,
-) -> PyResult<(f64, f64)> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
-    let window = py.detach(|| window(&volume)).map_err(to_python)?;
+    let window = py.detach(|| kind.find(&volume, tree.as_ref())).map_err(to_python)?;
     Ok((window.level, window.width))
+}
+
+/// The name of the window from the data that a context takes where its user chooses none.
+#[pyfunction]
+pub fn context_window(context: &str, has_tree: bool) -> PyResult<&'static str> {
+    let context = ContextName::named("context", context).map_err(to_python)?;
+    Ok(DataWindow::of_context(context, has_tree).name())
+}
+
+/// Adds the windows that have a name: what a page calls each, with level and width where they are fixed.
+pub fn add_presets(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let presets = WINDOW_PRESETS.map(|preset| match preset.source {
+        PresetSource::Fixed(window) => (preset.name, preset.words, Some((window.level, window.width))),
+        PresetSource::Data(_) => (preset.name, preset.words, None),
+    });
+    module.add("WINDOW_PRESETS", presets.to_vec())
 }

@@ -31,6 +31,7 @@ pub mod study;
 mod text;
 pub mod turn;
 pub mod views;
+pub mod window_presets;
 pub mod windows;
 
 pub use lumencut_core::{

@@ -25,6 +25,9 @@ const GAP: f64 = 0.05;
 /// Where fewer voxels than this part are left, they are vessels alone.
 const VESSELS_ALONE: f64 = 0.08;
 
+/// Which part of what is brighter than air is darker than what stands for the darkest tissue.
+const DARKEST_TISSUE: f64 = 0.1;
+
 /// Which part of all cubes is brighter than tissue at most, and how often the brighter ones are parted for it.
 const BRIGHTER: f64 = 1.0 / 3.0;
 const PARTINGS: usize = 8;
@@ -124,6 +127,8 @@ pub fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
 /// until it is less than a third of all. The 95th percentile of the darker cubes is the brightest tissue; the lumen is
 /// the 20th percentile of the brighter ones, as bone and metal are the larger part of them.
 pub struct Populations {
+    /// The smallest voxel that was looked at.
+    pub smallest: f64,
     /// The darkest voxels (1st percentile).
     pub darkest: f64,
     /// The median of the tissue.
@@ -143,16 +148,10 @@ pub struct Populations {
 impl Populations {
     /// What the voxels are; None of no voxels.
     pub fn of(looked: &mut Looked) -> Option<Self> {
-        let darkest = quantile(&mut looked.voxels, DARKEST)?;
+        let Air { smallest, darkest, ends, at: air, .. } = Air::of(looked)?;
         let enough = VESSELS_ALONE * looked.count as f64;
         let shown = without_padding(&mut looked.voxels);
-        let first = *shown.first()?;
-        let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
         let peak = quantile(shown, PEAK)?;
-        // Padding that the other values follow without a gap is air that was cut off.
-        let is_air = first - darkest < GAP * (ends[1] - darkest);
-        let low = if is_air { darkest } else { ends[0] };
-        let air = low + AIR * (ends[1] - low);
         let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
         let is_body = body.len() as f64 >= enough && !body.is_empty();
         // Of one value alone, or of few voxels beside padding, all count.
@@ -167,8 +166,51 @@ impl Populations {
             [tissue, tissue, bright]
         };
         let has_edges = !is_body && bright - edges > EDGE * (bright - darkest);
-        Some(Self { darkest, tissue, brightest_tissue, lumen, brightest: ends[1], peak, has_edges })
+        Some(Self { smallest, darkest, tissue, brightest_tissue, lumen, brightest: ends[1], peak, has_edges })
     }
+}
+
+/// Where air ends, and how dark the voxels are.
+struct Air {
+    /// The smallest voxel that was looked at.
+    smallest: f64,
+    /// The darkest voxels (1st percentile).
+    darkest: f64,
+    /// The 1st and the 99th percentile of what is no padding.
+    ends: [f64; 2],
+    /// What is darker is air.
+    at: f64,
+    /// Whether air was cut off: many voxels have the darkest value, and the others follow it without a gap.
+    is_cut_off: bool,
+}
+
+impl Air {
+    fn of(looked: &mut Looked) -> Option<Self> {
+        let darkest = quantile(&mut looked.voxels, DARKEST)?;
+        let has_padding = padding(&mut looked.voxels).is_some();
+        let smallest = *looked.voxels.first()?;
+        let shown = without_padding(&mut looked.voxels);
+        let first = *shown.first()?;
+        let ends = [quantile(shown, DARKEST)?, quantile(shown, 1.0 - DARKEST)?];
+        // Padding that the other values follow without a gap is air that was cut off.
+        let is_air = first - darkest < GAP * (ends[1] - darkest);
+        let low = if is_air { darkest } else { ends[0] };
+        let at = low + AIR * (ends[1] - low);
+        Some(Self { smallest, darkest, ends, at, is_cut_off: has_padding && is_air })
+    }
+}
+
+/// The darkest tissue of a volume, which is fat in a CT: the 10th percentile of what is brighter than air. Where air was cut
+/// off at a value that is at least `cut_off`, that value, as tissue may be darker than what counts as air then. None where
+/// little but vessels is shown.
+pub fn darkest_tissue(looked: &mut Looked, cut_off: f64) -> Option<f64> {
+    let air = Air::of(looked)?;
+    if air.is_cut_off && air.darkest >= cut_off {
+        return Some(air.darkest);
+    }
+    let enough = VESSELS_ALONE * looked.count as f64;
+    let mut body: Vec<f64> = looked.voxels.iter().copied().filter(|value| *value > air.at).collect();
+    if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE) }
 }
 
 /// The tissue, the brightest tissue and the lumen of vessels among tissue and bone, by the largest values of cubes.

@@ -8,7 +8,7 @@ use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::Volume;
 use lumencut_core::with_voxels;
 
-use crate::populations::{Looked, Populations, padding, range, without_padding};
+use crate::populations::{Looked, Populations, darkest_tissue, padding, range, without_padding};
 use crate::text::rounded;
 use lumencut_core::math::statistics::{median, quantile};
 
@@ -20,15 +20,13 @@ const UNKNOWN_RADIUS: f64 = 10.0;
 const LARGEST: f64 = 1e12;
 
 /// Where the lumen lies in a window along centerlines: from black to white, at least and at most.
-const LUMEN_AT: [f64; 2] = [0.52, 0.65];
+const LUMEN_AT: [f64; 2] = [0.60, 0.72];
 
 /// How far below the lumen such a window begins, in differences of lumen and tissue: without noise, and at most.
 const BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
 
-/// Where dark values are cut off, tissue above them lies at this part of the way from black to the lumen at least. For that,
-/// black lies below them by at most so many times their distance from the tissue.
-const TISSUE_AT: f64 = 0.23;
-const BELOW_DARKEST: f64 = 2.0;
+/// How far below the darkest tissue such a window begins, in differences of lumen and darkest tissue.
+const BELOW_DARKEST_TISSUE: f64 = 0.1;
 
 /// Which part of a normal distribution lies within a standard deviation below its middle, and within one above.
 const SPREAD: [f64; 2] = [0.16, 0.84];
@@ -67,9 +65,10 @@ pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
 ///
 /// The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for the tissue
 /// around it; where most of that is padding or outside the volume, the edges of the vessels do. Black lies 1.5 times their
-/// difference below the lumen, farther for a lumen that is noisy, and not below what the volume holds, except as far as the
-/// tissue would be black. White lies where the brightest voxels are, so far as the lumen stays at 52 to 65 % of the
-/// range. Where the lumen is the darker of the two, all this is mirrored: it lies at 35 to 48 %, its surroundings above.
+/// difference below the lumen, farther for a lumen that is noisy and where the darkest tissue, such as fat, would be black; at
+/// most 2.2 times, and not below what the volume holds. White lies where the brightest voxels are, so far as the lumen
+/// stays at 60 to 72 % of the range. Where the lumen is the darker of the two, all this is mirrored: it lies at 28 to 40 %,
+/// or darker where the volume holds nothing that is as dark as black would be; its surroundings lie above.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
@@ -80,10 +79,10 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
         return Ok(OF_NOTHING);
     };
     let mut looked = Looked::at(volume);
-    let is_cut_off = padding(&mut looked.voxels).is_some();
     let Some(beyond) = tissue_around(volume, tree, level, &mut looked) else {
         return Ok(OF_NOTHING);
     };
+    let darkest_tissue = darkest_tissue(&mut looked, level - BELOW_LUMEN[1] * (level - beyond));
     let mut wall = finite(&sample(volume, &beside(tree, 0.0)));
     // A dark lumen among bright tissue is a bright one of the negated values.
     let sign = if level < beyond { -1.0 } else { 1.0 };
@@ -93,9 +92,12 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let [lower, upper] = SPREAD.map(|part| quantile(&mut lumen, part).unwrap_or_default());
     let [low, high] = [DARKEST, BRIGHTEST].map(|part| quantile(&mut looked.voxels, part).unwrap_or_default());
     let high = high.max(quantile(&mut wall, BRIGHT).unwrap_or(high));
-    // Only dark values are cut off, not what is bright.
-    let darkest = if is_cut_off && sign > 0.0 { darkest(level, beyond, low) } else { low };
-    let [black, white] = around_lumen(sign * level, sign * beyond, (upper - lower) / 2.0, [darkest, high]);
+    let tissue = Tissue { middle: sign * beyond, darkest: darkest_tissue.filter(|_| sign > 0.0) };
+    let [black, mut white] = around_lumen(sign * level, tissue, (upper - lower) / 2.0, [low, high]);
+    if sign < 0.0 {
+        // What is white of the negated values is black, which never lies below all of the volume.
+        white = white.min(quantile(&mut looked.voxels, 1.0).unwrap_or(white));
+    }
     within(sign * (black + white) / 2.0, white - black, || {
         format!("values around {} along the centerlines, {} beside", rounded(level, 3), rounded(beyond, 3))
     })
@@ -117,24 +119,26 @@ fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, looked: &mut Lo
     median(&mut around)
 }
 
+/// What lies around a lumen that is brighter.
+#[derive(Clone, Copy)]
+struct Tissue {
+    middle: f64,
+    /// Such as fat, where it is known.
+    darkest: Option<f64>,
+}
+
 /// Black and white around a lumen that is brighter than its tissue, in a volume with these ends.
-fn around_lumen(lumen: f64, tissue: f64, spread: f64, ends: [f64; 2]) -> [f64; 2] {
-    let difference = lumen - tissue;
+fn around_lumen(lumen: f64, tissue: Tissue, spread: f64, ends: [f64; 2]) -> [f64; 2] {
+    let difference = lumen - tissue.middle;
     let mut below = 2.0 * spread;
     // A lumen that hardly differs from its tissue has no window but that of its noise.
     if difference > spread / 2.0 {
-        below = below.clamp(BELOW_LUMEN[0] * difference, BELOW_LUMEN[1] * difference);
+        let darkest = tissue.darkest.map_or(0.0, |darkest| (1.0 + BELOW_DARKEST_TISSUE) * (lumen - darkest));
+        below = below.max(darkest).clamp(BELOW_LUMEN[0] * difference, BELOW_LUMEN[1] * difference);
     }
-    let black = (lumen - below).max(ends[0].min(tissue)).min(lumen);
+    let black = (lumen - below).max(ends[0].min(tissue.middle)).min(lumen);
     let [farthest, nearest] = LUMEN_AT.map(|place| lumen + (lumen - black) * (1.0 / place - 1.0));
     [black, ends[1].clamp(nearest, farthest)]
-}
-
-/// The darkest voxels that are cut off at `low`, as at 0 HU, as they would be for a window: far enough below the tissue to
-/// leave it visible.
-fn darkest(lumen: f64, tissue: f64, low: f64) -> f64 {
-    let visible = (tissue - TISSUE_AT * lumen) / (1.0 - TISSUE_AT);
-    low.min(visible.max(low - BELOW_DARKEST * (tissue - low).max(0.0)))
 }
 
 /// Six points around each point of the tree, so far beyond the wall (mm, LPS).
@@ -180,7 +184,9 @@ fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Resu
         [found.brightest_tissue, found.tissue.min(found.brightest_tissue)].map(|tissue| found.lumen - tissue);
     let least = ALONE_NARROWEST * (found.brightest - found.darkest);
     let width = (above[0] / ALONE_BELOW[0]).max(above[1] / ALONE_BELOW[1]).max(least);
-    let black = found.lumen - ALONE_LUMEN_AT * width;
+    // Nothing is darker than the smallest value: a window that began below would show it grey.
+    let black = (found.lumen - ALONE_LUMEN_AT * width).max(found.smallest);
+    let width = (found.lumen - black) / ALONE_LUMEN_AT;
     let width = width * wider(&found, [black, width]);
     within(black + width / 2.0, width, || from_to(found.darkest, found.brightest))
 }

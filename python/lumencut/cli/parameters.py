@@ -18,7 +18,7 @@ _Context: TypeAlias = "click.Context | None"
 
 
 #: The names of ``lumencut.window.WINDOW_NAMES``, here so that ``--help`` need not import numpy.
-WINDOW_NAMES = ("cta", "mra", "bone", "lung", "full", "auto")
+WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra")
 
 
 class Parts(_Type):

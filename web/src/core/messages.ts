@@ -108,11 +108,21 @@ export interface VesselReport {
   readonly has_radius: boolean;
 }
 
+/** The windows of what is open, as the core decides them. */
+export interface Windows {
+  /** That of cut surface and flat views. */
+  readonly main: Window;
+  /** Those of the contexts, by their names. */
+  readonly contexts: Readonly<Record<string, Window>>;
+  /** Those that have a name, in the order to show them. */
+  readonly presets: readonly { readonly name: string; readonly words: string; readonly window: Window }[];
+}
+
 /** What is open. */
 export interface Report {
   readonly volume: VolumeReport | null;
   readonly vessels: readonly VesselReport[] | null;
-  readonly windows: { main: Window; mip: Window; whole: Window; full: Window } | null;
+  readonly windows: Windows | null;
 }
 
 /** What a file says of its grid: without it no lengths in mm, and no sides of the patient, are shown. */

@@ -10,16 +10,6 @@ import { stopMeasuring } from '../measure/profiles';
 import { putRulerAway } from '../measure/rulers';
 import * as store from './store';
 
-/** Windows by their key; none stands for one that the data tell. */
-export const PRESETS: readonly { readonly name: string; readonly window: Window | 'main' | 'full' }[] = [
-  { name: 'From the data', window: 'main' },
-  { name: 'CT angiography', window: [300, 900] },
-  { name: 'Soft tissue', window: [40, 400] },
-  { name: 'Bone', window: [480, 2500] },
-  { name: 'Lung', window: [-600, 1500] },
-  { name: 'All values', window: 'full' },
-];
-
 /** How much of the window a drag of one pixel changes. */
 const WINDOW_PER_PIXEL = 0.004;
 const NARROWEST = 1e-3;
@@ -93,15 +83,11 @@ export function setWindow(window: Window): void {
   store.window_.value = [window[0], Math.max(window[1], NARROWEST)];
 }
 
+/** The window of this number among those that have a name. */
 export function choosePreset(number: number): void {
-  const preset = PRESETS[number]?.window;
-  const windows = store.report.value?.windows;
-  if (preset === 'main' || preset === 'full') {
-    if (windows) {
-      setWindow(windows[preset]);
-    }
-  } else if (preset) {
-    setWindow(preset);
+  const preset = store.report.value?.windows?.presets[number];
+  if (preset) {
+    setWindow(preset.window);
   }
 }
 

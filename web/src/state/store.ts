@@ -92,21 +92,12 @@ export const viewSettings = computed<Settings>(() => {
   const windows = report.value?.windows;
   const context = 'context' in chosen ? chosen.context : 'mida';
   chosen.window = window_.value;
-  if (windows && context !== null) {
-    const own = windowOf(String(context), windows);
+  const own = windows?.contexts[String(context)];
+  if (windows && own) {
     chosen.context_window = moved(own, windows.main, window_.value);
   }
   return chosen;
 });
-
-/** The window of a context that the data suggest, as Python chooses it (`scene_windows.py`). */
-export function windowOf(context: string, windows: NonNullable<Report['windows']>): Window {
-  if (context === 'mip') {
-    return windows.mip;
-  }
-  // The smallest values and the means along rays lie far below those of the vessels.
-  return context === 'minip' || context === 'average' ? windows.whole : windows.main;
-}
 
 /** A window of its own, moved and widened as the user did with the main one. */
 export function moved(own: Window, from: Window, to: Window): Window {

@@ -1,7 +1,7 @@
 /** The window over the histogram of the volume: its ends and its middle can be dragged, and moved by arrow keys. */
 import { useRef } from 'preact/hooks';
 import type { Histogram, Window } from '../core/messages';
-import { choosePreset, PRESETS, setWindow } from '../state/actions';
+import { choosePreset, setWindow } from '../state/actions';
 import * as store from '../state/store';
 
 const WIDTH = 220;
@@ -43,8 +43,8 @@ export function WindowStrip() {
           <option value="" disabled>
             Window
           </option>
-          {PRESETS.map((preset, number) => (
-            <option key={preset.name} value={number}>{`${preset.name} (${number + 1})`}</option>
+          {store.report.value?.windows?.presets.map((preset, number) => (
+            <option key={preset.name} value={number}>{`${preset.words} (${number + 1})`}</option>
           ))}
         </select>
       </label>

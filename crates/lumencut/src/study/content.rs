@@ -1,11 +1,13 @@
 //! The one study that is open: a volume, a tree, or both.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::windows;
+use crate::window_presets::{DataWindow, PresetSource, WINDOW_PRESETS};
 use glam::DVec3;
+use lumencut_core::named::Named;
 use lumencut_core::scene::{LeveledTree, Scene};
-use lumencut_core::settings::Window;
+use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::VesselTree;
 use serde::Serialize;
 use serde_json::json;
@@ -45,17 +47,23 @@ pub struct Content {
 /// Level and width of a window, as the page has them.
 type LevelWidth = [f64; 2];
 
-/// The windows that the data suggest.
-#[derive(Clone, Copy, Debug, Serialize)]
+/// The windows that the page offers.
+#[derive(Clone, Debug, Serialize)]
 pub struct Windows {
-    /// That of cut surface and context.
+    /// That of cut surface and flat views.
     main: LevelWidth,
-    /// That of a MIP.
-    mip: LevelWidth,
-    /// That of contexts of minimum and mean: air to lumen.
-    whole: LevelWidth,
-    /// From the smallest voxel to the largest.
-    full: LevelWidth,
+    /// Those of the contexts, by their names.
+    contexts: BTreeMap<&'static str, LevelWidth>,
+    /// Those that have a name, in the order to show them.
+    presets: Vec<NamedWindow>,
+}
+
+/// A window that has a name, with its numbers for what is open.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct NamedWindow {
+    name: &'static str,
+    words: &'static str,
+    window: LevelWidth,
 }
 
 impl Content {
@@ -84,25 +92,33 @@ impl Content {
     /// `volume` for values beyond all windows.
     pub fn windows(&self) -> Result<Option<Windows>> {
         if let Some(known) = self.windows.get() {
-            return Ok(*known);
+            return Ok(known.clone());
         }
         let made = self.windows_of_data()?;
-        Ok(*self.windows.get_or_init(|| made))
+        Ok(self.windows.get_or_init(|| made).clone())
     }
 
     fn windows_of_data(&self) -> Result<Option<Windows>> {
         let Some(held) = &self.held else { return Ok(None) };
-        let volume = &held.volume()?;
-        let (main, mip) = match self.tree() {
-            Some(tree) => {
-                let along = windows::along(volume, tree.tree())?;
-                (along, along)
-            }
-            None => (windows::of_volume(volume)?, windows::of_mip(volume)?),
-        };
+        let (volume, tree) = (&held.volume()?, self.tree().map(|tree| tree.tree()));
         let pair = |window: Window| [window.level, window.width];
-        let [whole, full] = [windows::whole(volume)?, windows::full(volume)?].map(pair);
-        Ok(Some(Windows { main: pair(main), mip: pair(mip), whole, full }))
+        // Each is found once, whoever takes it.
+        let found = DataWindow::NAMES
+            .iter()
+            .map(|(name, kind)| Ok((*name, pair(kind.find(volume, tree)?))))
+            .collect::<Result<BTreeMap<_, _>>>()?;
+        let contexts = ContextName::NAMES
+            .iter()
+            .map(|(name, context)| (*name, found[DataWindow::of_context(*context, tree.is_some()).name()]));
+        let presets = WINDOW_PRESETS.map(|preset| {
+            let window = match preset.source {
+                PresetSource::Fixed(window) => pair(window),
+                PresetSource::Data(kind) => found[kind.name()],
+            };
+            NamedWindow { name: preset.name, words: preset.words, window }
+        });
+        let main = found[DataWindow::Auto.name()];
+        Ok(Some(Windows { main, contexts: contexts.collect(), presets: presets.to_vec() }))
     }
 
     /// What a view of all of it must show: the corners of the volume, or the points of the tree.

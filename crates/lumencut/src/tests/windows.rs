@@ -43,7 +43,9 @@ fn a_window_along_centerlines_has_the_lumen_light_and_the_darkest_tissue_black()
 #[test]
 fn a_dark_lumen_has_the_mirrored_window_of_a_bright_one() {
     let [bright, dark] = [1.0, -1.0].map(|sign| {
-        let voxels: Vec<f32> = rod().iter().map(|value| sign * value).collect();
+        // Something is brighter than white, so that of the negated values something is darker than black.
+        let voxels: Vec<f32> =
+            rod().iter().enumerate().map(|(i, value)| sign * if i < 50 { 1500.0 } else { *value }).collect();
         along(&volume(&voxels, [40; 3]), &tree(Some(4.0))).unwrap()
     });
     assert_eq!(dark, Window { level: -bright.level, width: bright.width });
@@ -53,43 +55,68 @@ fn a_dark_lumen_has_the_mirrored_window_of_a_bright_one() {
 fn white_is_the_brightest_there_is_and_black_the_darkest_within_what_the_lumen_needs() {
     for (ends, expected) in [
         // Black lies 1.5 times the difference below the lumen.
-        ([-1000.0, 600.0], [-50.0, 600.0]),
-        ([0.0, 600.0], [0.0, 600.0]),
-        ([-1000.0, 5000.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.52 - 1.0)]),
-        ([-1000.0, 330.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.65 - 1.0)]),
+        ([-1000.0, 550.0], [-50.0, 550.0]),
+        ([0.0, 500.0], [0.0, 500.0]),
+        ([-1000.0, 5000.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.60 - 1.0)]),
+        ([-1000.0, 330.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.72 - 1.0)]),
         // Never above the tissue.
-        ([90.0, 330.0], [75.0, 325.0 + 250.0 * (1.0 / 0.65 - 1.0)]),
+        ([90.0, 330.0], [75.0, 325.0 + 250.0 * (1.0 / 0.72 - 1.0)]),
     ] {
-        let found = around_lumen(325.0, 75.0, 0.0, ends);
+        let found = around_lumen(325.0, Tissue { middle: 75.0, darkest: None }, 0.0, ends);
         let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-9);
         assert!(close, "{found:?}, expected {expected:?}");
     }
 }
 
 #[test]
-fn tissue_just_above_what_is_cut_off_is_not_black() {
-    // A CT whose values below 0 HU are cut off.
-    let [black, white] = around_lumen(325.0, 30.0, 0.0, [darkest(325.0, 30.0, 0.0), 1000.0]);
-    let share = (30.0 - black) / (white - black);
-    assert!(black < 0.0 && (0.1..0.15).contains(&share), "black {black}, tissue at {share}");
-    // Nearly as dark as the darkest: hardly any tissue, so hardly any range for it.
-    assert!((darkest(325.0, 1.0, 0.0) + 2.0).abs() < 1e-9);
-    assert!(darkest(325.0, 0.0, 0.0).abs() < 1e-9);
-    // Bright enough as it is.
-    assert!(darkest(325.0, 80.0, 0.0).abs() < 1e-9);
+fn the_darkest_tissue_is_above_black_as_long_as_the_tissue_stays_dark() {
+    let ends = [-1000.0, 5000.0];
+    for (darkest, expected) in [
+        // Bright enough as it is: black lies 1.5 times the difference below the lumen.
+        (-10.0, -75.0),
+        (-100.0, 300.0 - 1.1 * 400.0),
+        // At most 2.2 times.
+        (-800.0, -250.0),
+    ] {
+        let tissue = Tissue { middle: 50.0, darkest: Some(darkest) };
+        let [black, white] = around_lumen(300.0, tissue, 0.0, ends);
+        assert!((black - expected).abs() < 1e-9, "{darkest}: {black}");
+        assert!((50.0 - black) / (white - black) < 0.4);
+    }
+}
+
+#[test]
+fn no_window_begins_below_the_smallest_value() {
+    // A thick rod in tissue; a quarter of all is masked, and 0.
+    let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
+        (0..7, 0..7) => 300.0,
+        _ if i < 30 => 10.0 + ((3 * i + 5 * j + 7 * k) % 101) as f32,
+        _ => 0.0,
+    });
+    let masked = volume(&voxels, [40; 3]);
+    let black = |window: Window| window.level - window.width / 2.0;
+    for found in [of_volume(&masked), of_mip(&masked), along(&masked, &tree(Some(6.0)))] {
+        assert!(black(found.unwrap()).abs() < 1e-9);
+    }
+    assert!((share(of_volume(&masked).unwrap(), 300.0) - ALONE_LUMEN_AT).abs() < 1e-9);
+    // A dark lumen: nothing is as dark as black would be.
+    let voxels =
+        grid([40; 3], |[_, j, k]| if j.abs_diff(20) < 5 && k.abs_diff(20) < 5 { 20.0 } else { 200.0 });
+    let dark = along(&volume(&voxels, [40; 3]), &tree(Some(4.0))).unwrap();
+    assert!((black(dark) - 20.0).abs() < 1e-9 && share(dark, 200.0) > 0.6, "{dark:?}");
 }
 
 #[test]
 fn noise_widens_a_window_until_the_tissue_would_be_grey() {
     let ends = [-1000.0, 5000.0];
-    let black = |spread| around_lumen(300.0, 200.0, spread, ends)[0];
+    let black = |spread| around_lumen(300.0, Tissue { middle: 200.0, darkest: None }, spread, ends)[0];
     for (spread, expected) in [(10.0, 150.0), (75.0, 150.0), (100.0, 100.0), (110.0, 80.0), (190.0, 80.0)] {
         assert!((black(spread) - expected).abs() < 1e-9, "noise of {spread}: {}", black(spread));
     }
     // A lumen that cannot be told from its tissue has the window of its noise.
     assert_eq!(black(210.0), -120.0);
     for spread in [0.0, 60.0, 190.0] {
-        let [black, white] = around_lumen(300.0, 200.0, spread, ends);
+        let [black, white] = around_lumen(300.0, Tissue { middle: 200.0, darkest: None }, spread, ends);
         assert!((200.0 - black) / (white - black) < 0.4);
     }
 }

@@ -165,7 +165,14 @@ fn the_report_names_vessels_and_windows() {
     let study = opened("stenosis");
     let report = study.report().expect("a report");
     assert_eq!(report["vessels"].as_array().map(Vec::len), Some(1));
-    assert!(report["windows"]["main"][1].as_f64().expect("a width") > 0.0);
+    let windows = &report["windows"];
+    assert!(windows["main"][1].as_f64().expect("a width") > 0.0);
+    assert_eq!(windows["contexts"]["mip"], windows["main"]);
+    assert_ne!(windows["contexts"]["average"], windows["main"]);
+    let presets = windows["presets"].as_array().expect("a list");
+    assert_eq!(presets[0], json!({"name": "auto", "words": "From the data", "window": windows["main"]}));
+    assert_eq!(presets[1], json!({"name": "cta", "words": "CT angiography", "window": [300.0, 900.0]}));
+    assert_eq!(presets.len(), crate::window_presets::WINDOW_PRESETS.len());
     assert!(Study::default().report().expect("a report")["volume"].is_null());
 }
 

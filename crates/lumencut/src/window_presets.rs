@@ -1,0 +1,104 @@
+//! The windows that have a name, and which of them a context takes where its user chooses none.
+
+use lumencut_core::error::Result;
+use lumencut_core::named::Named;
+use lumencut_core::settings::{ContextName, Window};
+use lumencut_core::vessel_tree::VesselTree;
+use lumencut_core::volume::Volume;
+
+use crate::windows;
+
+/// The windows that are taken from the data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DataWindow {
+    /// Lumen apart from its surroundings: [`windows::along`] the vessels, or [`windows::of_volume`].
+    Auto,
+    /// [`windows::of_mip`].
+    Mip,
+    /// [`windows::whole`].
+    Whole,
+    /// [`windows::full`].
+    Full,
+    /// [`windows::mra`].
+    Mra,
+}
+
+impl Named for DataWindow {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("auto", Self::Auto),
+        ("mip", Self::Mip),
+        ("whole", Self::Whole),
+        ("full", Self::Full),
+        ("mra", Self::Mra),
+    ];
+}
+
+impl DataWindow {
+    /// Finds the window; the tree matters to [`DataWindow::Auto`] alone.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Volume`](lumencut_core::error::ErrorKind::Volume) for values beyond all windows.
+    pub fn find(self, volume: &Volume, tree: Option<&VesselTree>) -> Result<Window> {
+        match (self, tree) {
+            (Self::Auto, Some(tree)) => windows::along(volume, tree),
+            (Self::Auto, None) => windows::of_volume(volume),
+            (Self::Mip, _) => windows::of_mip(volume),
+            (Self::Whole, _) => windows::whole(volume),
+            (Self::Full, _) => windows::full(volume),
+            (Self::Mra, _) => windows::mra(volume),
+        }
+    }
+
+    /// The window of a context where its user chooses none.
+    pub fn of_context(context: ContextName, has_tree: bool) -> Self {
+        match context {
+            ContextName::Mip if !has_tree => Self::Mip,
+            // The smallest values and the means along rays lie far below those of the vessels.
+            ContextName::Minip | ContextName::Average => Self::Whole,
+            ContextName::Mida | ContextName::Dvr | ContextName::Mip => Self::Auto,
+        }
+    }
+}
+
+/// Where a window that has a name comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PresetSource {
+    /// The same for every volume (HU).
+    Fixed(Window),
+    /// From the data.
+    Data(DataWindow),
+}
+
+/// A window that users choose by its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindowPreset {
+    /// Its name on the command line, in files and in Python.
+    pub name: &'static str,
+    /// What a page calls it.
+    pub words: &'static str,
+    /// Where it comes from.
+    pub source: PresetSource,
+}
+
+const fn fixed(name: &'static str, words: &'static str, level: f64, width: f64) -> WindowPreset {
+    WindowPreset { name, words, source: PresetSource::Fixed(Window { level, width }) }
+}
+
+const fn from_data(name: &'static str, words: &'static str, window: DataWindow) -> WindowPreset {
+    WindowPreset { name, words, source: PresetSource::Data(window) }
+}
+
+/// The windows that have a name, in the order to show them to users; those of bone and lung are the OHIF viewer's.
+pub const WINDOW_PRESETS: [WindowPreset; 7] = [
+    from_data("auto", "From the data", DataWindow::Auto),
+    fixed("cta", "CT angiography", 300.0, 900.0),
+    fixed("soft-tissue", "Soft tissue", 40.0, 400.0),
+    fixed("bone", "Bone", 480.0, 2500.0),
+    fixed("lung", "Lung", -600.0, 1500.0),
+    from_data("full", "All values", DataWindow::Full),
+    from_data("mra", "MR angiography", DataWindow::Mra),
+];
+
+#[cfg(test)]
+#[path = "tests/window_presets.rs"]
+mod tests;
