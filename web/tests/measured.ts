@@ -25,7 +25,6 @@ export function madeProfile(length = 60): Profile {
       screen: `#fffff${n}`,
     })),
     center: places.map((at): Vector => [0, 0, at]),
-    normal: places.map((): Vector => [0, 0, 1]),
     fwhm: 1.2,
     fwhm_source: 'given',
     narrowest: { at: length / 2, diameter: 4 },

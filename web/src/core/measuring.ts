@@ -37,7 +37,6 @@ export interface Profile {
   /** Every flag that there is, in the order of plots and tables. */
   readonly flag_table: readonly FlagLook[];
   readonly center: readonly Vector[];
-  readonly normal: readonly Vector[];
   /** Full width at half maximum of the point spread (mm), and how it was found: `given`, `estimated on …`, `assumed: …`. */
   readonly fwhm: number;
   readonly fwhm_source: string;

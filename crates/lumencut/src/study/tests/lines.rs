@@ -82,7 +82,7 @@ fn a_path_runs_from_its_first_line_to_its_last_whatever_their_directions() {
     assert_eq!(path(&along, &words).expect("a path"), line);
     let back = path(&[third.clone(), second, first.clone()], &words).expect("a path");
     assert_eq!(back.points, reversed(line).points);
-    assert_eq!(path(&[first.clone()], &words).expect("a path"), first);
+    assert_eq!(path(std::slice::from_ref(&first), &words).expect("a path"), first);
     let error = path(&[first, third], &words).expect_err("a gap");
     assert_eq!(error.found, "a gap of 4 mm between a and b");
 }
