@@ -13,7 +13,7 @@ from PIL import Image
 import lumencut
 from lumencut import Flag, FormatError, MissingPackageError, Profile, Window, measure, phantom
 from lumencut.contact_sheet import contact_sheet
-from lumencut.measured_vessel import Marked, MeasuredVessel, profiles_of, vessels_json
+from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
 from lumencut.profile_files import csv_text
 from lumencut.profile_plot import figure_of, write
 from lumencut.profile_sections import counts, flag_words, marks, nearest
@@ -66,14 +66,14 @@ def test_tables_give_back_the_numbers_to_seven_digits(branched, tmp_path):
 
 
 def test_every_column_of_a_length_states_its_unit(profile):
-    (head,) = csv.reader([csv_text([({}, profile)]).partition("\n")[0]])
+    (head,) = csv.reader([csv_text(profile).partition("\n")[0]])
     without = {"counts", "flags", "fwhm_source", "lumen_level", "background_level"}
     without |= {f"normal_{axis}_lps" for axis in "xyz"}
     assert {name for name in head if not name.endswith(("_mm", "_mm2"))} == without
 
 
 def test_a_table_of_several_vessels_says_whose_a_line_is(narrow, marked):
-    twice = csv_text(profiles_of([marked, marked]))
+    twice = vessels_csv([marked, marked])
     rows = rows_of(twice)
     assert len(rows) == 2 * len(marked.profile)
     assert {(row["vessel"], row["name"]) for row in rows} == {("0", narrow.tree[0].name)}
@@ -82,7 +82,7 @@ def test_a_table_of_several_vessels_says_whose_a_line_is(narrow, marked):
 def test_flags_are_words_of_all_that_is_set(branched):
     assert flag_words(int(Flag.NO_EDGE | Flag.BRANCH)) == ["branch", "no edge"]
     assert flag_words(0) == []
-    rows = rows_of(csv_text([({}, branched)]))
+    rows = rows_of(csv_text(branched))
     for row, bits in zip(rows, branched.flags, strict=True):
         words = row["flags"].split("; ") if row["flags"] else []
         assert sum(int(Flag[word.upper().replace(" ", "_")]) for word in words) == bits
@@ -235,7 +235,7 @@ def test_a_sheet_begins_lines_where_it_is_told():
 def test_the_sheet_shows_marked_places_and_tells_its_progress(narrow, marked):
     view = SectionView(narrow.volume, Window(level=200, width=800))
     told = []
-    bare = MeasuredVessel("0", marked.vessel, marked.profile, (), None, None)
+    bare = MeasuredVessel("0", marked.vessel, marked.profile, (), None)
     few = sections_sheet(view, [bare, bare], 3, lambda *step: told.append(step))
     more = sections_sheet(view, [marked, marked], 3)
     assert told == [(1, 2), (2, 2)]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lumencut import MeasuringError, SettingsError, Vessel, Volume, measure
+from lumencut import MeasuringError, SettingsError, Vessel, Volume, measure, phantom
 from lumencut.profile import Profile, Spot
 from measure_scenes import FWHM, Grid, narrowed, round_tube
 
@@ -187,3 +187,23 @@ def test_c_arms_see_a_stretch_in_its_whole_length(bent):
 def test_stretches_that_are_none_are_refused(bent, call, message):
     with pytest.raises(MeasuringError, match=message):
         call(bent)
+
+
+BETWEEN = "A branch lies between the place and a reference: beyond it a vessel may be of another width."
+
+
+@pytest.fixture(scope="module")
+def past_a_junction() -> Profile:
+    """A trunk of 10.6 mm that becomes a narrower branch 30 mm from its beginning."""
+    scene = phantom.y_junction()
+    return measure(scene.volume, scene.tree.path([0, 1]), tree=scene.tree)
+
+
+def test_a_percentage_tells_what_makes_it_doubtful(past_a_junction, half):
+    assert half.stenosis(30, 45).doubts == ()
+    for at, doubts in ((50, (BETWEEN,)), (36, ("At these places: branch.", BETWEEN))):
+        graded = past_a_junction.stenosis(at, 10)
+        assert graded.doubts == doubts
+        assert str(graded).endswith(f"mm at 10.0 mm. {' '.join(doubts)}")
+    # An assumed diameter has no place.
+    assert past_a_junction.stenosis(50, 10, "ecst", 12.0).doubts == ()

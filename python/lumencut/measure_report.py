@@ -108,7 +108,11 @@ def _page(renderer: Renderer, view: SectionView, one: MeasuredVessel, settings: 
         f'<p class="notice">{NOTICE}</p>',
     ]
     if one.stenosis is not None:
-        parts.append(f'<p class="stenosis">{escape(str(one.stenosis))}</p>')
+        words, doubts = one.stenosis._graded.words(), one.stenosis.doubts
+        parts.append(f'<p class="stenosis">{escape(words)}</p>')
+        parts += [f'<p class="doubts">{escape(doubt)}</p>' for doubt in doubts]
+    if one.not_graded is not None:
+        parts.append(f'<p class="stenosis">No percentage: {escape(one.not_graded)}</p>')
     if one.group is not None:
         parts.append(f"<p>Group of the field: {escape(one.group)}</p>")
     parts += [_figure(_plot(renderer, view, one), "Straightened CPR and diameter along the vessel", "plot")]
@@ -139,9 +143,9 @@ def _plot(renderer: Renderer, view: SectionView, one: MeasuredVessel) -> bytes:
 def _places(one: MeasuredVessel) -> str:
     """The numbers of marked places and of the widest one as a table."""
     rows = [_row(one, mark.title, mark.arc_length) for mark in one.marks]
-    widest = one.profile.widest()
+    widest = one.profile._core.offered_widest()
     if widest is not None:
-        rows.append(_row(one, "longest diameter", widest.arc_length))
+        rows.append(_row(one, "longest diameter", widest[0]))
     if not rows:
         return "<p>No section counts: see the flags.</p>"
     head = ("arc length (mm)", "diameter ± 1 SD (mm)", "shortest (mm)", "longest (mm)", "area (mm²)")

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from lumencut import _lumencut
 from lumencut.profile import Profile
-from lumencut.profile_sections import Mark, marks
+from lumencut.profile_sections import Mark
 from lumencut.stenosis import METHODS, Method, Stenosis
 from lumencut.vessel import Vessel
 
@@ -18,12 +18,14 @@ GROUPS: tuple[Literal["carotid", "coronary"], ...] = ("carotid", "coronary")
 
 @dataclass(frozen=True)
 class Marked:
-    """What a reader marked on one vessel; see :meth:`lumencut.Profile.stenosis`.
+    """What a reader marked on one vessel to have it graded; see :meth:`lumencut.Profile.stenosis`.
+
+    It may hold what another method than the chosen one needs: that is left aside.
 
     Attributes
     ----------
     at : float or None
-        The place of a stenosis, an arc length (mm); nothing is marked without it.
+        The place of a stenosis, an arc length (mm).
     references : tuple of float
         One or two places to compare it with (mm).
     method : {"nascet", "ecst", "area"}
@@ -41,13 +43,6 @@ class Marked:
     comparison: float | None = None
     group: Literal["carotid", "coronary"] | None = None
 
-    def stenosis(self, profile: Profile) -> Stenosis | None:
-        """Return the stenosis, or None where only a place is marked or nothing is."""
-        if self.at is None or not (self.references or self.method == "ecst"):
-            return None
-        references = self.references or None
-        return profile.stenosis(self.at, references, self.method, self.original, comparison=self.comparison)
-
 
 @dataclass(frozen=True)
 class MeasuredVessel:
@@ -63,34 +58,43 @@ class MeasuredVessel:
         Its sections.
     marks : tuple of Mark
         Places to look at: those that a reader marked, or suggestions.
-    stenosis : Stenosis or None
-        The stenosis that a reader marked.
-    group : str or None
-        The group of that, with its source.
     """
 
     number: str
     vessel: Vessel
     profile: Profile
     marks: tuple[Mark, ...]
-    stenosis: Stenosis | None
-    group: str | None
+    _grade: _lumencut.Grade | None
 
     @classmethod
     def of(cls, number: str, vessel: Vessel, profile: Profile, marked: Marked) -> MeasuredVessel:
-        """Return a measured vessel with what a reader marked on it.
+        """Return a measured vessel with what is told of the places that a reader marked on it.
+
+        A place that cannot be graded is no error: :attr:`not_graded` says why there is no percentage.
 
         Raises
         ------
-        MeasuringError
-            For places that cannot be graded.
+        SettingsError
+            For another method or group.
         """
-        stenosis = marked.stenosis(profile)
-        found = marks(profile, marked.at, marked.references)
-        group = None
-        if stenosis is not None and marked.group is not None:
-            group = stenosis.group(marked.group)
-        return cls(number, vessel, profile, tuple(found), stenosis, group)
+        found = [Mark(*parts) for parts in _lumencut.marked_places(profile._core, marked)]
+        return cls(number, vessel, profile, tuple(found), _lumencut.grade(profile._core, marked))
+
+    @property
+    def stenosis(self) -> Stenosis | None:
+        """The stenosis that a reader marked; None where nothing is marked, or it is not graded."""
+        graded = None if self._grade is None else self._grade.stenosis
+        return None if graded is None else Stenosis(graded)
+
+    @property
+    def group(self) -> str | None:
+        """The group of the stenosis, with its source; None where its method has none."""
+        return None if self._grade is None else self._grade.group
+
+    @property
+    def not_graded(self) -> str | None:
+        """Why a marked place has no percentage: what is still missing, or what is wrong with a place."""
+        return None if self._grade is None else self._grade.not_graded
 
     @property
     def name(self) -> str:
@@ -100,27 +104,26 @@ class MeasuredVessel:
     @property
     def told(self) -> list[str]:
         """What there is to say of it, in lines: each percentage with its method, its references and mm."""
-        if self.stenosis is None:
-            return [str(mark) for mark in self.marks] or ["no section counts: see the flags"]
-        group = [] if self.group is None else [f"group of the field: {self.group}"]
-        return [str(self.stenosis), *group]
+        lines = [] if self._grade is None else self._grade.lines
+        if self.stenosis is not None:
+            return lines
+        places = [str(mark) for mark in self.marks] or ["no section counts: see the flags"]
+        return [*places, *lines]
 
 
-def profiles_of(measured: Sequence[MeasuredVessel]) -> list[tuple[dict[str, str], Profile]]:
-    """Return profiles with the columns that say in a table whose they are."""
-    return [({"vessel": one.number, "name": one.vessel.name or ""}, one.profile) for one in measured]
+def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:
+    """Return vessels as one table, a line for each section after the line of the names.
+
+    Columns that are the same in all lines of a vessel say which it is and what is told of the place that a
+    reader marked on it: ``stenosis``, ``doubts`` or ``not_graded``.
+    """
+    return _lumencut.vessels_csv([_parts(one) for one in measured])
 
 
 def vessels_json(asked: Mapping[str, Any], measured: Sequence[MeasuredVessel]) -> str:
     """Return vessels with their stenoses as JSON; `asked` are the options of ``lumencut measure`` by name."""
-    parts = [
-        (
-            one.number,
-            one.vessel.name,
-            one.profile._core,
-            None if one.stenosis is None else one.stenosis._graded,
-            one.group,
-        )
-        for one in measured
-    ]
-    return _lumencut.vessels_json(asked, parts)
+    return _lumencut.vessels_json(asked, [_parts(one) for one in measured])
+
+
+def _parts(one: MeasuredVessel) -> tuple[str, str | None, _lumencut.Profile, _lumencut.Grade | None]:
+    return one.number, one.vessel.name, one.profile._core, one._grade

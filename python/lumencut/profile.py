@@ -221,7 +221,7 @@ class Profile(ProfileOutputs):
             None if original is None else number(MeasuringError, "original diameter", original),
             None if comparison is None else number(MeasuringError, "comparison", comparison),
         )
-        return Stenosis(graded, method)
+        return Stenosis(graded)
 
     def narrowest(self) -> Spot | None:
         """Return where the vessel is narrowest, of the sections that count: a suggestion, not a finding.
@@ -233,7 +233,12 @@ class Profile(ProfileOutputs):
         return None if found is None else Spot(*found)
 
     def widest(self) -> Spot | None:
-        """Return the place of the longest diameter of all sections that count, and that diameter."""
+        """Return the place of the longest diameter of all sections that count, and that diameter.
+
+        It is the largest number whatever the flags say: an odd outline, or a branch beside it, may be what
+        makes it so. Files, reports and the viewer leave it out where a section within 1 mm is irregular or
+        lies in a branch.
+        """
         found = self._core.widest()
         return None if found is None else Spot(*found)
 

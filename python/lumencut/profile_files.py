@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from lumencut import _lumencut
@@ -22,13 +21,12 @@ def is_profile_file(path: Path) -> bool:
     return path.suffix.lower() in _ENDINGS
 
 
-def csv_text(profiles: Sequence[tuple[Mapping[str, str], Sections]]) -> str:
-    """Return profiles as one table, a line for each section after the line of the names.
+def csv_text(sections: Sections) -> str:
+    """Return a profile as a table, a line for each section after the line of the names.
 
-    Each profile comes with columns that stand before its own and are the same in all its lines, such as the
-    vessel. Numbers have seven digits, and what could not be measured is empty.
+    Numbers have seven digits, and what could not be measured is empty.
     """
-    return _lumencut.profiles_csv([(list(first.items()), sections._core) for first, sections in profiles])
+    return _lumencut.profile_csv(sections._core)
 
 
 def json_text(sections: Sections) -> str:
@@ -45,4 +43,4 @@ def save(sections: Sections, path: str | os.PathLike[str]) -> None:
     if not is_profile_file(checked):
         raise FormatError(str(checked), f"the ending {checked.suffix!r}", " or ".join(_ENDINGS))
     is_table = checked.suffix.lower() == ".csv"
-    write_text(checked, csv_text([({}, sections)]) if is_table else json_text(sections))
+    write_text(checked, csv_text(sections) if is_table else json_text(sections))

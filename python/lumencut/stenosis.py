@@ -18,9 +18,8 @@ class Stenosis:
     Lumencut is not a medical device: a percentage is a number, not a diagnosis.
     """
 
-    def __init__(self, graded: _lumencut.Stenosis, method: Method) -> None:
+    def __init__(self, graded: _lumencut.Stenosis) -> None:
         self._graded = graded
-        self._method = method
         self._numbers = graded.numbers()
 
     @property
@@ -59,7 +58,16 @@ class Stenosis:
     @property
     def method(self) -> Method:
         """How it is graded: ``"nascet"``, ``"ecst"`` or ``"area"``."""
-        return self._method
+        return self._graded.method
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What makes the percentage doubtful, a sentence each; empty where nothing does.
+
+        The flags of the sections at the places that it comes from (:class:`lumencut.Flag`), and a branch
+        between the place and a reference. With ``"ecst"`` the percentage comes from the place alone.
+        """
+        return tuple(self._graded.doubts)
 
     def group(self, vessel: Literal["carotid", "coronary"]) -> str:
         """Return the group of the field that the percentage falls into, with its source.
@@ -80,8 +88,8 @@ class Stenosis:
         return self._graded.group(vessel)
 
     def __str__(self) -> str:
-        """One line with method, mm and both diameters."""
-        return self._graded.words()
+        """One line with method, mm and both diameters, and what makes it doubtful."""
+        return self._graded.doubtful_words()
 
     def __repr__(self) -> str:
         return f"Stenosis({self})"

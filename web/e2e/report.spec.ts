@@ -52,7 +52,7 @@ test('a report without a percentage says so where a place is marked, and what no
     tube.viewer.page.waitForEvent('download'),
     tube.button('Save report').click(),
   ]);
-  const words = 'No percentage: a place is marked and not graded. Mark a reference';
+  const words = 'No percentage: Mark a reference: where the vessel is normal.';
   await expect(tube.viewer.page.getByTestId('told')).toContainText(`Saved as lumencut-report.html. ${words}`);
   const html = readFileSync(await download.path(), 'utf-8');
   expect(html).toContain(words);

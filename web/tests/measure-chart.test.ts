@@ -2,7 +2,7 @@
 import { describe, expect, test } from 'vitest';
 import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
 import { bandPath, counted, linePath, lonely, spreadOf, stretches, topOf } from '../src/measure/curves';
-import { doubtsOf, flagsIn, offeredWidest, runs } from '../src/measure/flags';
+import { flagsIn, runs } from '../src/measure/flags';
 import { lyingBox, lyingIn, lyingPicture } from '../src/measure/lying';
 import { pixelAt, ticks, valueAt } from '../src/measure/scale';
 import { fittingSide } from '../src/measure/sections';
@@ -151,52 +151,5 @@ describe('the lying vessel', () => {
     expect(fittingSide(madeProfile())).toBe(22);
     const nothing = madeProfile().diameter_max.map(() => null);
     expect(fittingSide({ ...madeProfile(), diameter_max: nothing })).toBe(30);
-  });
-});
-
-describe('doubts', () => {
-  const profile = madeProfile();
-  const stenosis = (at: number, ...references: number[]) => ({
-    percent: 50,
-    at,
-    diameter: 4,
-    uncertainty: null,
-    reference: 8,
-    references: references.map((place) => ({ at: place, diameter: 8 })),
-    method: 'nascet' as const,
-    words: '',
-    group: null,
-  });
-
-  test('a percentage has the flags of all places that it comes from, each once', () => {
-    expect(doubtsOf(profile, stenosis(30, 15, 45))).toEqual([]);
-    expect(doubtsOf(profile, stenosis(30, 20, 45))).toEqual(['At these places: calcium.']);
-    expect(doubtsOf(profile, stenosis(20.5, 20, 55))[0]).toBe('At these places: branch, calcium.');
-  });
-
-  test('a branch between the place and a reference is told, one beyond the references is not', () => {
-    const between =
-      'A branch lies between the place and a reference: beyond it a vessel may be of another width.';
-    const branchFrom = (from: number, to: number) => ({
-      ...profile,
-      flags: profile.arc_length.map((at) => (at >= from && at <= to ? ['branch'] : [])),
-    });
-    expect(doubtsOf(branchFrom(36, 38), stenosis(30, 15, 45))).toEqual([between]);
-    expect(doubtsOf(branchFrom(20, 22), stenosis(30, 15, 45))).toEqual([between]);
-    expect(doubtsOf(branchFrom(47, 49), stenosis(30, 15, 45))).toEqual([]);
-    expect(doubtsOf(branchFrom(45, 45), stenosis(30, 15, 45))).toEqual(['At these places: branch.']);
-  });
-
-  test('a widest place at or beside a branch, or of an irregular outline, is not offered', () => {
-    const widestAt = (at: number) => offeredWidest({ ...profile, widest: { at, diameter: 9 } });
-    expect(widestAt(10)).toEqual({ at: 10, diameter: 9 });
-    // Calcium is told beside it.
-    expect(widestAt(20)?.at).toBe(20);
-    expect(widestAt(49)?.at).toBe(49);
-    expect(widestAt(49.5)).toBeNull();
-    expect(widestAt(55)).toBeNull();
-    const irregular = profile.flags.map((_, n) => (n === 20 ? ['irregular'] : []));
-    expect(offeredWidest({ ...profile, flags: irregular })).toBeNull();
-    expect(offeredWidest({ ...profile, widest: null })).toBeNull();
   });
 });

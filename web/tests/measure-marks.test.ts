@@ -4,7 +4,7 @@ import type { Pair, Vector } from '../src/core/messages';
 import { EMPTY } from '../src/edit/document';
 import {
   allConfirmed,
-  isGraded,
+  comparedIn,
   moved,
   NOTHING_SUGGESTED,
   type Place,
@@ -61,6 +61,13 @@ describe('places', () => {
       'reference 1 50',
     ]);
   });
+});
+
+test('what is compared is the place with its references, marked or suggested', () => {
+  const compared = comparedIn(found(marks({ references: [40], stretch: [1, 5] })));
+  expect(compared?.at).toBe(30);
+  expect(compared?.references.map(({ at }) => at)).toEqual([15, 40]);
+  expect(comparedIn([])).toBeNull();
 });
 
 describe('moving', () => {
@@ -126,7 +133,6 @@ describe('taking and removing', () => {
   test('all suggestions are taken at once', () => {
     const after = allConfirmed(profile, marks({}), SUGGESTED);
     expect(after).toEqual(marks({ at: 30, references: [15, 45] }));
-    expect(isGraded(after)).toBe(true);
   });
 
   test('what is taken stands where it was shown, also beside references that lie on one side', () => {
@@ -139,13 +145,6 @@ describe('taking and removing', () => {
       const offered = dashed.filter(({ kind }) => kind === 'reference').map(({ at }) => at);
       expect(after.references).toEqual([...references, ...offered].sort((a, b) => a - b));
     }
-  });
-
-  test('nothing is graded by suggestions, and nothing by ECST without an original diameter', () => {
-    expect(isGraded(marks({}))).toBe(false);
-    expect(isGraded(marks({ at: 30 }))).toBe(false);
-    expect(isGraded(marks({ at: 30, references: [45], method: 'ecst' }))).toBe(false);
-    expect(isGraded(marks({ at: 30, method: 'ecst', original: 9 }))).toBe(true);
   });
 
   test('a mark that is removed is a suggestion again; a suggestion stays', () => {

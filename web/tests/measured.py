@@ -11,8 +11,7 @@ import sys
 from typing import Any
 
 from lumencut import Profile, _lumencut, measure, phantom
-from lumencut.measured_vessel import Marked, MeasuredVessel, profiles_of, vessels_json
-from lumencut.profile_files import csv_text
+from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
 from lumencut.profile_sections import counts, flag_words, nearest
 
 #: Where the first vessel is asked, in parts of its length.
@@ -25,7 +24,7 @@ def numbers(profile: Profile) -> dict[str, Any]:
     def listed(values: Any) -> list[float | None]:
         return [float(value) if math.isfinite(value) else None for value in values]
 
-    narrowest, widest = profile.narrowest(), profile.widest()
+    narrowest, widest = profile.narrowest(), profile._core.offered_widest()
     return {
         "arc_length": listed(profile.arc_length),
         "diameter": listed(profile.diameter_equivalent),
@@ -59,6 +58,7 @@ def asked(profile: Profile) -> dict[str, Any]:
         "references": [before, after],
         "percent": graded.percent,
         "words": str(graded),
+        "doubts": list(graded.doubts),
         "suggested": [spot and spot._asdict() for spot in profile.suggested_references(at)],
         "diameter_at": profile.diameter_at(at),
         "number": number,
@@ -83,7 +83,7 @@ def main() -> None:
     found = {
         "profiles": [numbers(profile) for profile in profiles],
         "asked": asked(profiles[0]),
-        "csv": csv_text(profiles_of(measured)),
+        "csv": vessels_csv(measured),
         "json": vessels_json(options | {"step": 0.5}, measured),
     }
     json.dump(found, sys.stdout, allow_nan=False)

@@ -67,7 +67,7 @@ async function answers(
   length: number,
   { at, references }: Truth['asked'],
 ) {
-  const graded = await host.stenosis(line, { ...NO_MARKS, at, references, method: 'area' });
+  const { stenosis: graded } = await host.grade(line, { ...NO_MARKS, at, references, method: 'area' });
   const section = await host.section(line, at);
   const stretch = await host.stretch(line, references);
   const spots = await host.suggestedReferences(line, at);
@@ -76,7 +76,9 @@ async function answers(
     at: graded?.at,
     references: graded?.references.map((spot) => spot.at),
     percent: graded?.percent,
-    words: graded?.words,
+    // A percentage and its doubts are one line in Python.
+    words: [graded?.words, ...(graded?.doubts ?? [])].join(graded?.doubts.length ? '. ' : ''),
+    doubts: await host.doubts(line, { at, references, method: 'area' }),
     suggested: spots.map((spot) => spot && { arc_length: spot.at, diameter: spot.diameter }),
     diameter_at: [diameter, uncertainty],
     number: section.number,

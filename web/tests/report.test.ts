@@ -86,7 +86,7 @@ describe('the report', () => {
   test('says when it was saved, and where a marked place is not graded', () => {
     expect(page).toContain('<p>Saved on 2024-05-06 07:08</p>');
     expect(page).toContain('<span style="color: #ff6b6b">●</span> marked place');
-    const words = 'No percentage: a place is marked and not graded. Mark a reference';
+    const words = 'No percentage: Mark a reference: where the vessel is normal.';
     expect(reportPage({ ...CONTENT, ungraded: words })).toContain(words);
   });
 

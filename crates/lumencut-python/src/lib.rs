@@ -11,6 +11,7 @@ mod errors;
 mod kept_profiles;
 mod labels;
 mod line_edits;
+mod marked;
 mod mask_tracing;
 mod measuring;
 mod phantom;
@@ -45,6 +46,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<kept_profiles::KeptProfiles>()?;
     module.add_class::<measuring::Profile>()?;
     module.add_class::<measuring::Stenosis>()?;
+    module.add_class::<marked::Grade>()?;
+    module.add_function(wrap_pyfunction!(marked::grade, module)?)?;
     module.add_class::<renderer::Renderer>()?;
     module.add_class::<settings::Checked>()?;
     module.add_class::<tracing::Tracer>()?;
@@ -67,7 +70,9 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(profile_files::flag_words, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::profile_json, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::profile_marks, module)?)?;
-    module.add_function(wrap_pyfunction!(profile_files::profiles_csv, module)?)?;
+    module.add_function(wrap_pyfunction!(profile_files::marked_places, module)?)?;
+    module.add_function(wrap_pyfunction!(profile_files::profile_csv, module)?)?;
+    module.add_function(wrap_pyfunction!(profile_files::vessels_csv, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::vessels_json, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_cr, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;

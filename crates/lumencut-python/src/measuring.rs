@@ -182,6 +182,11 @@ impl Profile {
         self.0.widest().map(pair)
     }
 
+    /// The longest diameter as it is offered to readers: arc length and diameter (mm).
+    fn offered_widest(&self) -> Option<(f64, f64)> {
+        self.0.offered_widest().map(pair)
+    }
+
     /// Places before and after an arc length (mm) to compare it with: arc length and diameter (mm) of each.
     fn suggested_references(&self, at: f64) -> PyResult<[Option<(f64, f64)>; 2]> {
         let spots = self.0.suggested_references(at).map_err(to_python)?;
@@ -239,9 +244,26 @@ impl Stenosis {
         self.0.references.iter().map(|[at, diameter]| (*at, *diameter)).collect()
     }
 
-    /// The whole in one line.
+    /// The name of the method.
+    #[getter]
+    fn method(&self) -> &'static str {
+        self.0.method.name()
+    }
+
+    /// What makes the percentage doubtful, a sentence each.
+    #[getter]
+    fn doubts(&self) -> Vec<String> {
+        measure_words::of_doubts(&self.0.doubts)
+    }
+
+    /// The percentage in one line.
     fn words(&self) -> String {
         measure_words::of_stenosis(&self.0)
+    }
+
+    /// The percentage and its doubts in one line.
+    fn doubtful_words(&self) -> String {
+        measure_words::of_doubtful_stenosis(&self.0)
     }
 
     /// The group of the field and its source.

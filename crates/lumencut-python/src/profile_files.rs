@@ -2,13 +2,14 @@
 
 use lumencut::measure::stretch::CArm;
 use lumencut::measure_words;
-use lumencut::profile_marks::marks;
-use lumencut::profile_record::{self, Asked, Measured, NOTICE};
-use lumencut::profile_table::{self, Labelled};
+use lumencut::profile_marks::{Mark, Measured, marks};
+use lumencut::profile_record::{self, Asked, NOTICE};
+use lumencut::profile_table;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
-use crate::measuring::{Profile, Stenosis};
+use crate::marked::{Grade, MarkedParts};
+use crate::measuring::Profile;
 
 /// What every file of profiles says of itself.
 pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -44,20 +45,33 @@ impl From<Options> for Asked {
     }
 }
 
-/// Profiles, each with names and values of the columns that stand before its own.
-type LabelledParts = Vec<(Vec<(String, String)>, Py<Profile>)>;
+/// Id, name and profile of a vessel, and what is told of the place that is marked on it.
+type MeasuredParts = (String, Option<String>, Py<Profile>, Option<Py<Grade>>);
 
-/// Id, name and profile of a vessel, its stenosis, and the group of that.
-type MeasuredParts = (String, Option<String>, Py<Profile>, Option<Py<Stenosis>>, Option<String>);
+fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
+    Measured {
+        id: id.clone(),
+        name: name.clone(),
+        profile: &profile.get().0,
+        grade: grade.as_ref().map(|grade| &grade.get().0),
+    }
+}
 
-/// Profiles as CSV.
+fn rows(measured: &[MeasuredParts]) -> Vec<Measured<'_>> {
+    measured.iter().map(row).collect()
+}
+
+/// One profile as CSV.
+#[pyfunction]
+pub fn profile_csv(profile: &Profile) -> String {
+    profile_table::profile_csv(&profile.0)
+}
+
+/// Measured vessels as CSV.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub fn profiles_csv(profiles: LabelledParts) -> String {
-    let rows = profiles
-        .iter()
-        .map(|(labels, profile)| Labelled { labels: labels.clone(), profile: &profile.get().0 });
-    profile_table::csv_text(&rows.collect::<Vec<_>>())
+pub fn vessels_csv(measured: Vec<MeasuredParts>) -> String {
+    profile_table::vessels_csv(&rows(&measured))
 }
 
 /// One profile as JSON.
@@ -70,27 +84,29 @@ pub fn profile_json(profile: &Profile) -> String {
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn vessels_json(options: Options, measured: Vec<MeasuredParts>) -> String {
-    let rows = measured.iter().map(|(id, name, profile, stenosis, group)| Measured {
-        id: id.clone(),
-        name: name.clone(),
-        profile: &profile.get().0,
-        stenosis: stenosis.as_ref().map(|graded| &graded.get().0),
-        group: group.clone(),
-    });
-    profile_record::vessels_json(&options.into(), &rows.collect::<Vec<_>>())
+    profile_record::vessels_json(&options.into(), &rows(&measured))
 }
 
-/// Places to look at: the name of each, its arc length and diameter (mm), and whether it is a suggestion.
+/// The name of a place to look at, its arc length and diameter (mm), and whether it is a suggestion.
+type MarkParts = (&'static str, f64, f64, bool);
+
+fn parts_of(marks: &[Mark]) -> Vec<MarkParts> {
+    marks.iter().map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion)).collect()
+}
+
+/// The places to look at on a vessel on which a reader marked some, without those where nothing was measured.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn marked_places(profile: &Profile, marked: MarkedParts) -> PyResult<Vec<MarkParts>> {
+    Ok(parts_of(&marked.marked()?.places(&profile.0)))
+}
+
+/// Places to look at.
 #[pyfunction]
 #[pyo3(signature = (profile, at, references))]
 #[allow(clippy::needless_pass_by_value)]
-pub fn profile_marks(
-    profile: &Profile,
-    at: Option<f64>,
-    references: Vec<f64>,
-) -> PyResult<Vec<(&'static str, f64, f64, bool)>> {
-    let found = marks(&profile.0, at, &references).map_err(to_python)?;
-    Ok(found.iter().map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion)).collect())
+pub fn profile_marks(profile: &Profile, at: Option<f64>, references: Vec<f64>) -> PyResult<Vec<MarkParts>> {
+    marks(&profile.0, at, &references).map(|found| parts_of(&found)).map_err(to_python)
 }
 
 /// The flags that are set as words.

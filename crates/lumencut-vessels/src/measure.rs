@@ -28,3 +28,7 @@ pub mod slab;
 pub mod stenosis;
 pub mod stretch;
 pub mod suggestions;
+
+#[cfg(test)]
+#[path = "measure/tests/made_profile.rs"]
+mod made_profile;

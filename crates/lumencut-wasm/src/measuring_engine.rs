@@ -8,8 +8,8 @@ use crate::engine::{Answer, Engine, answer, read, told};
 use crate::stopping::{LONG, is_asked};
 use lumencut::study::failure::Result;
 use lumencut::study::measure_messages::{
-    DiameterMessage, MarksMessage, ProfileMessage, SectionMessage, SpotMessage, StenosisMessage,
-    StretchMessage, VesselMessage,
+    ComparedMessage, DiameterMessage, GradeMessage, MarksMessage, ProfileMessage, SectionMessage,
+    SpotMessage, StretchMessage, VesselMessage,
 };
 
 /// Measuring goes on until the page cancels.
@@ -34,14 +34,25 @@ impl Engine {
         told(self.study.profile(line, fwhm, &stop).map(ProfileMessage::from))
     }
 
-    /// The stenosis that was marked on a line, as JSON; null where what it needs is not marked yet.
+    /// What is told of the place that was marked on a line, as JSON: the stenosis, or why it is not graded.
     ///
     /// # Errors
     /// See the module.
-    pub fn stenosis(&mut self, line: usize, marks: &str) -> Answer<String> {
-        let graded = read::<MarksMessage>("marks", marks)
-            .and_then(|marks| self.measured(line).and_then(|profile| marks.graded(profile)));
-        told(graded.map(|graded| graded.map(StenosisMessage::from)))
+    pub fn grade(&mut self, line: usize, marks: &str) -> Answer<String> {
+        let grade = read::<MarksMessage>("marks", marks)
+            .and_then(|marks| marks.marked())
+            .and_then(|marked| self.measured(line).map(|profile| marked.grade(profile)));
+        told(grade.map(GradeMessage::from))
+    }
+
+    /// What would make a percentage from places doubtful that are given as JSON, as a list of JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn doubts(&mut self, line: usize, compared: &str) -> Answer<String> {
+        let doubts = read::<ComparedMessage>("places that are compared", compared)
+            .and_then(|compared| self.measured(line).and_then(|profile| compared.doubts(profile)));
+        told(doubts)
     }
 
     /// Places before and after an arc length (mm) to compare it with, as JSON.

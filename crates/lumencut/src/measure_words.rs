@@ -2,7 +2,7 @@
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;
-use lumencut_vessels::measure::stenosis::{Method, Stenosis};
+use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
 use lumencut_vessels::measure::stretch::CArm;
 
 use crate::flag_table::set_in;
@@ -37,6 +37,22 @@ pub fn of_stenosis(graded: &Stenosis) -> String {
 fn places(references: &[[f64; 2]]) -> String {
     let places: Vec<String> = references.iter().map(|[at, _]| format!("{} mm", fixed(*at, 1))).collect();
     if places.is_empty() { String::new() } else { format!(" at {}", places.join(", ")) }
+}
+
+/// What makes a percentage doubtful, a sentence each.
+pub fn of_doubts(doubts: &Doubts) -> Vec<String> {
+    let flags = of_flags(doubts.flags).join(", ");
+    let at_places = (doubts.flags != 0).then(|| format!("At these places: {flags}."));
+    let between =
+        "A branch lies between the place and a reference: beyond it a vessel may be of another width.";
+    at_places.into_iter().chain(doubts.is_branch_between.then(|| between.to_owned())).collect()
+}
+
+/// A stenosis as [`of_stenosis`] has it, and behind it what makes it doubtful.
+pub fn of_doubtful_stenosis(graded: &Stenosis) -> String {
+    let doubts = of_doubts(&graded.doubts);
+    let words = of_stenosis(graded);
+    if doubts.is_empty() { words } else { format!("{words}. {}", doubts.join(" ")) }
 }
 
 /// The angles of a C-arm as they stand on it, such as `RAO 20° CRAN 5°`. What is rounded to 0° has the side of 0.

@@ -1,10 +1,14 @@
-//! Places on a measured vessel: those that a reader marked, and suggestions for what was not marked.
+//! Places on a measured vessel: those that a reader marked with what is told of them, and suggestions for what was not marked.
 
 use lumencut_core::error::Result;
+use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
 
-/// What a reader marked on one vessel to have it graded.
+use crate::measure_words::{of_doubts, of_stenosis};
+
+/// What a reader marked on one vessel to have it graded. It may hold what another method than the chosen one needs: readers try
+/// several, and nothing that they gave is lost.
 #[derive(Clone, Debug)]
 pub struct Marked {
     /// The place of a stenosis, an arc length (mm).
@@ -13,21 +17,126 @@ pub struct Marked {
     pub method: Method,
     /// What it is compared with.
     pub compared: Compared,
+    /// The vessel whose groups of the field are asked for.
+    pub group: Option<Territory>,
+}
+
+/// What is told of a place that a reader marked.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Grade {
+    /// A percentage.
+    Graded {
+        /// The stenosis.
+        stenosis: Stenosis,
+        /// Its group of the field with its source, where a territory was named and its method has groups.
+        group: Option<String>,
+    },
+    /// Why there is none: what is still missing, or what is wrong with a place.
+    NotGraded(String),
+}
+
+impl Grade {
+    /// The stenosis, where there is a percentage.
+    pub fn stenosis(&self) -> Option<&Stenosis> {
+        match self {
+            Self::Graded { stenosis, .. } => Some(stenosis),
+            Self::NotGraded(_) => None,
+        }
+    }
+
+    /// The group of the stenosis.
+    pub fn group(&self) -> Option<&str> {
+        match self {
+            Self::Graded { group, .. } => group.as_deref(),
+            Self::NotGraded(_) => None,
+        }
+    }
+
+    /// Why there is no percentage.
+    pub fn not_graded(&self) -> Option<&str> {
+        match self {
+            Self::Graded { .. } => None,
+            Self::NotGraded(reason) => Some(reason),
+        }
+    }
+
+    /// All of it in lines: the percentage, what makes it doubtful, and its group; or why there is none.
+    pub fn lines(&self) -> Vec<String> {
+        match self {
+            Self::NotGraded(reason) => vec![format!("no percentage: {reason}")],
+            Self::Graded { stenosis, group } => {
+                let group = group.iter().map(|group| format!("group of the field: {group}"));
+                [of_stenosis(stenosis)].into_iter().chain(of_doubts(&stenosis.doubts)).chain(group).collect()
+            }
+        }
+    }
 }
 
 impl Marked {
-    /// The stenosis; None where its place, or what its method compares it with, is not marked yet.
-    ///
-    /// # Errors
-    /// As [`Profile::stenosis`].
-    pub fn stenosis(&self, profile: &Profile) -> Result<Option<Stenosis>> {
-        let is_whole = match self.method {
-            Method::Ecst => self.compared.original.is_some(),
-            Method::Nascet | Method::Area => !self.compared.reference.is_empty(),
-        };
-        let at = self.at.filter(|_| is_whole);
-        at.map(|at| profile.stenosis(at, self.method, &self.compared)).transpose()
+    /// What is told of the marked place; None where nothing is marked. Of what was given only what the method uses counts, and
+    /// only a method that has groups gets one.
+    pub fn grade(&self, profile: &Profile) -> Option<Grade> {
+        let is_marked = self.at.is_some() || !self.compared.reference.is_empty();
+        is_marked.then(|| self.graded(profile).unwrap_or_else(Grade::NotGraded))
     }
+
+    fn graded(&self, profile: &Profile) -> std::result::Result<Grade, String> {
+        let at = self.at.ok_or("Mark the place of the stenosis.")?;
+        let words = |error: lumencut_core::error::Error| error.to_string();
+        profile.diameter_at(at).map_err(words)?;
+        if let Some(missing) = self.missing() {
+            return Err(missing.to_owned());
+        }
+        let stenosis = profile.stenosis(at, self.method, &self.used()).map_err(words)?;
+        // Other methods than that of the groups have none.
+        let group = self.group.and_then(|territory| stenosis.group(territory).ok());
+        Ok(Grade::Graded { stenosis, group })
+    }
+
+    /// What its method still needs to be given.
+    fn missing(&self) -> Option<&'static str> {
+        match self.method {
+            Method::Ecst => self
+                .compared
+                .original
+                .is_none()
+                .then_some("ECST needs the diameter that the vessel is assumed to have had there."),
+            Method::Nascet | Method::Area => {
+                self.compared.reference.is_empty().then_some("Mark a reference: where the vessel is normal.")
+            }
+        }
+    }
+
+    /// What its method uses of what was given.
+    fn used(&self) -> Compared {
+        let Compared { reference, original, comparison } = self.compared.clone();
+        let none = Compared::default();
+        match self.method {
+            Method::Ecst => Compared { original, ..none },
+            Method::Nascet => Compared { reference, comparison, ..none },
+            Method::Area => Compared { reference, ..none },
+        }
+    }
+
+    /// The places to look at, as [`marks`] has them, without those where nothing was measured.
+    pub fn places(&self, profile: &Profile) -> Vec<Mark> {
+        let is_measured = |place: &f64| profile.diameter_at(*place).is_ok();
+        let references: Vec<f64> = self.compared.reference.iter().copied().filter(is_measured).collect();
+        marks(profile, self.at.filter(is_measured), &references).unwrap_or_default()
+    }
+}
+
+/// A measured vessel with what was graded on it.
+#[derive(Clone, Debug)]
+pub struct Measured<'a> {
+    /// Its id in the tree, or those of the vessels that it is made of.
+    pub id: String,
+    /// Its name, where it has one.
+    pub name: Option<String>,
+    /// Its sections.
+    pub profile: &'a Profile,
+    /// What is told of the place that a reader marked, where one is marked.
+    pub grade: Option<&'a Grade>,
 }
 
 /// A place that somebody should look at.

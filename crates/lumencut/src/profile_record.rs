@@ -2,13 +2,12 @@
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::stenosis::Stenosis;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
 
-use crate::measure_words::{of_flags, of_source};
-use crate::profile_marks::{Mark, marks};
+use crate::measure_words::{of_doubts, of_flags, of_source};
+use crate::profile_marks::{Grade, Mark, Measured, marks};
 use crate::profile_table::columns;
 
 /// What every file says of itself.
@@ -32,21 +31,6 @@ pub struct Asked {
     /// The diameter of a vessel like the normal one (mm).
     pub comparison_mm: Option<f64>,
     /// The name of the vessel whose groups of the field were asked for.
-    pub group: Option<String>,
-}
-
-/// A measured vessel with what was graded on it.
-#[derive(Clone, Debug)]
-pub struct Measured<'a> {
-    /// Its id in the tree, or those of the vessels that it is made of.
-    pub id: String,
-    /// Its name, where it has one.
-    pub name: Option<String>,
-    /// Its sections.
-    pub profile: &'a Profile,
-    /// The stenosis that a reader marked.
-    pub stenosis: Option<&'a Stenosis>,
-    /// The group of that, with its source.
     pub group: Option<String>,
 }
 
@@ -92,12 +76,18 @@ struct VesselRecord {
     #[serde(flatten)]
     profile: ProfileRecord,
     stenosis: Option<StenosisRecord>,
+    not_graded: Option<String>,
 }
 
 impl VesselRecord {
     fn of(one: &Measured) -> Self {
-        let stenosis = one.stenosis.map(|graded| StenosisRecord::of(graded, one.group.clone()));
-        Self { id: one.id.clone(), name: one.name.clone(), profile: ProfileRecord::of(one.profile), stenosis }
+        Self {
+            id: one.id.clone(),
+            name: one.name.clone(),
+            profile: ProfileRecord::of(one.profile),
+            stenosis: one.grade.and_then(StenosisRecord::of),
+            not_graded: one.grade.and_then(Grade::not_graded).map(str::to_owned),
+        }
     }
 }
 
@@ -123,7 +113,7 @@ impl ProfileRecord {
             fwhm_source: of_source(&profile.fwhm_source),
             noise: profile.noise,
             length_mm: profile.length(),
-            longest_diameter: profile.widest().map(longest),
+            longest_diameter: profile.offered_widest().map(longest),
             suggestions: Suggestions::of(profile),
             sections: Sections::of(profile),
         }
@@ -210,12 +200,14 @@ struct StenosisRecord {
     reference_mm: f64,
     references: Vec<Place>,
     group: Option<String>,
+    doubts: Vec<String>,
 }
 
 impl StenosisRecord {
-    fn of(graded: &Stenosis, group: Option<String>) -> Self {
+    fn of(grade: &Grade) -> Option<Self> {
+        let graded = grade.stenosis()?;
         let place = |[at, diameter]: &[f64; 2]| Place { arc_length_mm: *at, diameter_mm: *diameter };
-        Self {
+        Some(Self {
             percent: graded.percent,
             method: graded.method.name(),
             at_mm: graded.at,
@@ -223,7 +215,8 @@ impl StenosisRecord {
             uncertainty_mm: graded.uncertainty,
             reference_mm: graded.reference,
             references: graded.references.iter().map(place).collect(),
-            group,
-        }
+            group: grade.group().map(str::to_owned),
+            doubts: of_doubts(&graded.doubts),
+        })
     }
 }

@@ -2,19 +2,21 @@
 
 use lumencut_vessels::measure::profile::Profile;
 
-use crate::measure_words::{of_flags, of_source};
+use crate::measure_words::{of_doubts, of_flags, of_source, of_stenosis};
+use crate::profile_marks::{Grade, Measured};
 use crate::text::rounded;
 
 /// Significant digits of a number in a table.
 const DIGITS: usize = 7;
 
-/// A profile with columns that stand before its own and are the same in all its lines, such as the vessel's name.
-#[derive(Clone, Debug)]
-pub struct Labelled<'a> {
-    /// Names and values of these columns.
-    pub labels: Vec<(String, String)>,
-    /// The profile.
-    pub profile: &'a Profile,
+/// Names and values of columns that are the same in all lines of a vessel.
+type Same = Vec<(&'static str, String)>;
+
+/// A profile between columns that are the same in all its lines.
+struct Part<'a> {
+    before: Same,
+    profile: &'a Profile,
+    behind: Same,
 }
 
 /// The numbers of all sections by their names with units.
@@ -42,22 +44,51 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     ]
 }
 
-/// Profiles as one table, a line for each section after the line of the names; all profiles have the same labels. Numbers have
-/// seven digits, and what could not be measured is empty.
-pub fn csv_text(profiles: &[Labelled]) -> String {
+/// A profile as a table, a line for each section after the line of the names. Numbers have seven digits, and what could not be
+/// measured is empty.
+pub fn profile_csv(profile: &Profile) -> String {
+    csv_text(&[Part { before: Same::new(), profile, behind: Same::new() }])
+}
+
+/// Vessels as one table: the columns of [`profile_csv`] between those that say which vessel it is and what is told of the place
+/// that a reader marked on it.
+pub fn vessels_csv(vessels: &[Measured]) -> String {
+    let parts: Vec<Part> = vessels
+        .iter()
+        .map(|one| {
+            let name = one.name.clone().unwrap_or_default();
+            let before = vec![("vessel", one.id.clone()), ("name", name)];
+            Part { before, profile: one.profile, behind: told(one.grade) }
+        })
+        .collect();
+    csv_text(&parts)
+}
+
+/// What is told of a marked place; empty where none is marked.
+fn told(grade: Option<&Grade>) -> Same {
+    let stenosis = grade.and_then(Grade::stenosis);
+    vec![
+        ("stenosis", stenosis.map(of_stenosis).unwrap_or_default()),
+        ("doubts", stenosis.map(|graded| of_doubts(&graded.doubts).join(" ")).unwrap_or_default()),
+        ("not_graded", grade.and_then(Grade::not_graded).unwrap_or_default().to_owned()),
+    ]
+}
+
+fn csv_text(parts: &[Part]) -> String {
+    let names = |same: &Same| same.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
+    let values = |same: &Same| same.iter().map(|(_, value)| value.clone()).collect::<Vec<_>>();
     let mut text = String::new();
-    for (number, Labelled { labels, profile }) in profiles.iter().enumerate() {
+    for (number, Part { before, profile, behind }) in parts.iter().enumerate() {
         let found = columns(profile);
         if number == 0 {
-            let names = labels.iter().map(|(name, _)| name.clone());
             let own = found.iter().map(|(name, _)| (*name).to_owned());
             let last = ["counts", "flags", "fwhm_mm", "fwhm_source"].map(str::to_owned);
-            write_line(&mut text, names.chain(own).chain(last));
+            write_line(&mut text, names(before).into_iter().chain(own).chain(last).chain(names(behind)));
         }
         for n in 0..profile.len() {
-            let labels = labels.iter().map(|(_, value)| value.clone());
             let numbers = found.iter().map(|(_, values)| written(values[n]));
-            write_line(&mut text, labels.chain(numbers).chain(words(profile, n)));
+            let own = numbers.chain(words(profile, n));
+            write_line(&mut text, values(before).into_iter().chain(own).chain(values(behind)));
         }
     }
     text

@@ -170,6 +170,8 @@ def _measured(
         for number, (ids, vessel) in enumerate(vessels, 1):
             try:
                 profile = library(voxels, vessel, chosen["step"], fwhm, tree=tree)
+                if marked.at is not None:
+                    _refuse(profile, marked.at, marked)
                 found.append(MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked)))
             except MeasuringError as error:
                 if number == len(vessels) and not found:
@@ -177,6 +179,16 @@ def _measured(
                 warn(f"vessel {ids} is not measured: {error}")
             told(number, len(vessels))
     return found
+
+
+def _refuse(profile: Profile, at: float, marked: Marked) -> None:
+    """Refuse options that cannot be graded; of what a session file marks the reason is told instead."""
+    profile.diameter_at(at)
+    if marked.references or marked.method == "ecst":
+        of = (marked.references or None, marked.method, marked.original)
+        graded = profile.stenosis(at, *of, comparison=marked.comparison)
+        if marked.group is not None:
+            graded.group(marked.group)
 
 
 def _session(chosen: dict[str, Any]) -> SessionFile | None:

@@ -96,11 +96,10 @@ def _check_twice(paths: Sequence[Path | None]) -> None:
 
 def _write_profiles(path: Path, measured: Sequence[MeasuredVessel], chosen: dict[str, Any]) -> None:
     from lumencut._files import write_text
-    from lumencut.measured_vessel import profiles_of, vessels_json
-    from lumencut.profile_files import csv_text
+    from lumencut.measured_vessel import vessels_csv, vessels_json
 
     is_table = path.suffix.lower() == ".csv"
-    text = csv_text(profiles_of(measured)) if is_table else vessels_json(chosen, measured)
+    text = vessels_csv(measured) if is_table else vessels_json(chosen, measured)
     write_text(path, text)
     count = "1 vessel" if len(measured) == 1 else f"{len(measured)} vessels"
     say(f"{path}: {count}, {sum(len(one.profile) for one in measured)} sections")
@@ -120,7 +119,8 @@ def _write_plot(path: Path, measured: Sequence[MeasuredVessel]) -> None:
 
 def _title(one: MeasuredVessel) -> str:
     name = f"vessel {one.name}, {one.profile.arc_length[-1]:.1f} mm"
-    return name if one.stenosis is None else f"{name}\n{one.stenosis}"
+    lines = [] if one.stenosis is None else one.told
+    return "\n".join([name, *lines])
 
 
 def _write_sheet(path: Path, voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel]) -> None:

@@ -15,8 +15,8 @@ from PIL import Image
 
 import lumencut
 from lumencut import Camera, Settings, Window, _lumencut, phantom
+from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv
 from lumencut.orientation import edges
-from lumencut.profile_files import csv_text
 
 HERE = Path(__file__).parent
 
@@ -65,7 +65,8 @@ def measured() -> None:
         "aorta": stretches(),
     }
     (HERE / "measuring.json").write_text(json.dumps(told, indent=2) + "\n", "utf-8")
-    table = csv_text([({"vessel": "0", "name": vessel.name or ""}, profile)])
+    marked = MeasuredVessel.of("0", vessel, profile, Marked(30.0, (10.0, 50.0)))
+    table = vessels_csv([marked])
     (HERE / "measuring.csv").write_text(table, "utf-8")
 
 

@@ -1,7 +1,15 @@
 /** Measuring as the page uses it: what the worker's `MeasuringHost` is asked for. */
 import type { Remote } from 'comlink';
 import type { MeasuringHost } from '../worker/measuring-host';
-import type { MeasuredSection, MeasuredVessel, Measuring, Profile, Stenosis, Stretch } from './measuring';
+import type {
+  Compared,
+  Grade,
+  MeasuredSection,
+  MeasuredVessel,
+  Measuring,
+  Profile,
+  Stretch,
+} from './measuring';
 import type { Pair, Progress } from './messages';
 
 /** Hears an answer that the user waits for. */
@@ -21,8 +29,12 @@ export class MeasuringClient implements Measuring {
     return profile;
   }
 
-  stenosis(line: number, marks: MeasuredVessel['marks']): Promise<Stenosis | null> {
-    return this.first(this.host.stenosis(line, marks));
+  grade(line: number, marks: MeasuredVessel['marks']): Promise<Grade> {
+    return this.first(this.host.grade(line, marks));
+  }
+
+  doubts(line: number, compared: Compared): Promise<readonly string[]> {
+    return this.first(this.host.doubts(line, compared));
   }
 
   suggestedReferences(line: number, at: number): ReturnType<Measuring['suggestedReferences']> {

@@ -42,6 +42,7 @@ export interface Profile {
   readonly fwhm_source: string;
   /** Suggestions, not findings. */
   readonly narrowest: Spot | null;
+  /** The longest diameter; null also where an odd outline or a branch may be what makes it so. */
   readonly widest: Spot | null;
 }
 
@@ -59,6 +60,20 @@ export interface Marks {
   readonly group: Territory | null;
 }
 
+/** Places that are compared before anything is graded (arc lengths, mm). */
+export interface Compared {
+  readonly at: number;
+  readonly references: readonly number[];
+  readonly method: StenosisMethod;
+}
+
+/** What is told of a place that was marked: one of both, or nothing where none is marked. */
+export interface Grade {
+  readonly stenosis: Stenosis | null;
+  /** What is still missing, or what is wrong with a place. */
+  readonly not_graded: string | null;
+}
+
 export interface Stenosis {
   readonly percent: number;
   readonly at: number;
@@ -67,8 +82,10 @@ export interface Stenosis {
   readonly reference: number;
   readonly references: readonly Spot[];
   readonly method: StenosisMethod;
-  /** The whole in one line, as Python's `str(stenosis)` has it. */
+  /** The percentage in one line. Python's `str(stenosis)` has it with its doubts. */
   readonly words: string;
+  /** What makes the percentage doubtful, a sentence each. */
+  readonly doubts: readonly string[];
   /** The group of the field with its source, where a territory was named. */
   readonly group: string | null;
 }
@@ -112,8 +129,10 @@ export interface MeasuredVessel {
 export interface Measuring {
   /** The profile of a line among the lines that are shown: kept, or measured with a step of 0.5 mm. */
   profile(line: LineId, fwhm: number | null, told: (progress: Progress) => void): Promise<Profile>;
-  /** The stenosis that was marked; null where a reference or an original diameter is still missing. */
-  stenosis(line: LineId, marks: Marks): Promise<Stenosis | null>;
+  /** The stenosis that was marked, or why it is not graded. */
+  grade(line: LineId, marks: Marks): Promise<Grade>;
+  /** What would make a percentage from these places doubtful, a sentence each. */
+  doubts(line: LineId, compared: Compared): Promise<readonly string[]>;
   /** Places before and after an arc length that it could be compared with. */
   suggestedReferences(line: LineId, at: number): Promise<readonly [Spot | null, Spot | null]>;
   /** The diameter at a place and its standard deviation. */

@@ -17,7 +17,7 @@ export function NumbersPanel() {
       {unitless() && <p data-testid="unitless">{unitless()}</p>}
       {profile && (
         <>
-          <StenosisPart profile={profile} />
+          <StenosisPart />
           <PlacesTable profile={profile} />
           <StretchPart profile={profile} />
         </>

@@ -3,7 +3,7 @@ import type { Profile } from '../core/measuring';
 import { moveTo } from '../link/along';
 import { currentPlaces } from './current';
 import { confirm, remove } from './editing';
-import { meanings, offeredWidest } from './flags';
+import { meanings } from './flags';
 import type { Place } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
@@ -11,7 +11,7 @@ import { area, mm, NOTHING, placeName, spread } from './words';
 
 export function PlacesTable({ profile }: { readonly profile: Profile }) {
   const places = currentPlaces.value.filter(({ kind }) => kind === 'place' || kind === 'reference');
-  const widest = offeredWidest(profile);
+  const { widest } = profile;
   const doubts = widest ? sectionNumbers(profile, widest.at).flags : [];
   return (
     <section aria-label="Places">

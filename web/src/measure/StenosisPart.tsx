@@ -1,16 +1,14 @@
 /** A stenosis that the reader marked: never a percentage without its method, its references and mm. */
-import type { Profile, StenosisMethod, Territory } from '../core/measuring';
+import type { StenosisMethod, Territory } from '../core/measuring';
 import { STENOSIS_METHODS } from '../core/method-names';
 import type { VesselMarks } from '../edit/document';
 import { attempt } from '../output/attempt';
 import { saveReport } from '../output/report';
-import { answers, comparedPlaces, currentMarks, currentPlaces } from './current';
+import { answers, currentMarks, currentPlaces } from './current';
 import { changeMarks, confirmAll } from './editing';
-import { doubtsOf } from './flags';
-import { missingWords } from './marks';
-import { stenosisWords, told } from './words';
+import { notGradedWords, stenosisWords, told } from './words';
 
-export function StenosisPart({ profile }: { readonly profile: Profile }) {
+export function StenosisPart() {
   const marks = currentMarks.value;
   if (!marks) {
     return null;
@@ -19,7 +17,7 @@ export function StenosisPart({ profile }: { readonly profile: Profile }) {
     <section aria-label="Stenosis">
       <h3>Stenosis</h3>
       <Result marks={marks} />
-      <Doubts profile={profile} />
+      <Doubts />
       <button type="button" class="save-report" onClick={() => attempt(saveReport)}>
         Save report
       </button>
@@ -75,16 +73,9 @@ function set(words: string, some: Partial<VesselMarks>): void {
   changeMarks(words, (marks) => ({ ...marks, ...some }));
 }
 
-/** What was graded, why it cannot be, or what is still to be marked. */
+/** What was graded, or why it is not. */
 function Result({ marks }: { readonly marks: VesselMarks }) {
-  const { stenosis, problem } = answers.value;
-  if (problem) {
-    return (
-      <p class="refused" role="status" data-testid="stenosis">
-        {`No percentage: ${problem.subject}: ${told(problem.found)}. ${sentence(told(problem.mend || `Expected ${problem.expected}`))}`}
-      </p>
-    );
-  }
+  const { stenosis } = answers.value;
   if (stenosis) {
     return (
       <div role="status" data-testid="stenosis">
@@ -93,13 +84,12 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
       </div>
     );
   }
-  return <Missing marks={marks} />;
+  return <NotGraded marks={marks} />;
 }
 
 /** What makes the percentage doubtful, or that of the places that are offered. */
-function Doubts({ profile }: { readonly profile: Profile }) {
-  const compared = answers.value.stenosis ?? comparedPlaces.value;
-  const doubts = compared ? doubtsOf(profile, compared) : [];
+function Doubts() {
+  const { doubts } = answers.value;
   return doubts.length > 0 ? (
     <p class="doubts" data-testid="doubts">
       {doubts.join(' ')}
@@ -107,11 +97,15 @@ function Doubts({ profile }: { readonly profile: Profile }) {
   ) : null;
 }
 
-function Missing({ marks }: { readonly marks: VesselMarks }) {
+const NOTHING_MARKED =
+  'Nothing is marked. Look at the suggested places, drag them where they belong, or confirm them.';
+
+function NotGraded({ marks }: { readonly marks: VesselMarks }) {
   const suggestions = currentPlaces.value.filter((place) => place.isSuggestion);
+  const isMarked = marks.at !== null || marks.references.length > 0;
   return (
     <div role="status" data-testid="stenosis">
-      <p>{missingWords(marks)}</p>
+      {isMarked ? <p class="refused">{notGradedWords(answers.value)}</p> : <p>{NOTHING_MARKED}</p>}
       {suggestions.length > 0 && (
         <button type="button" onClick={confirmAll}>
           {suggestions.length === 1 ? 'Confirm the suggested place' : 'Confirm the suggested places'}
@@ -120,8 +114,6 @@ function Missing({ marks }: { readonly marks: VesselMarks }) {
     </div>
   );
 }
-
-const sentence = (text: string): string => `${text[0]?.toUpperCase() ?? ''}${text.slice(1)}.`;
 
 interface LengthProps {
   readonly name: string;

@@ -1,7 +1,6 @@
 /** Asks the engine what the marks measure, whenever they or the vessel change. */
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import { Failure } from '../core/failure';
 import type { Profile } from '../core/measuring';
 import type { LineId } from '../core/messages';
 import { engine } from '../core/shared';
@@ -11,7 +10,7 @@ import * as store from '../state/store';
 import { Latest } from '../views/latest';
 import { isArriving } from './arriving';
 import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
-import { isGraded, mainPlace, NOTHING_SUGGESTED, type Suggested } from './marks';
+import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
 import { beingMeasured, forgetProfiles, measure, profiles, stopped } from './profiles';
 
 /** Keeps profile and answers of the picked vessel up to date; the layout uses it once. */
@@ -74,12 +73,18 @@ function arrive(): void {
 
 /** All that the engine says of marks. */
 export async function asked(line: LineId, profile: Profile, marks: VesselMarks): Promise<Answers> {
-  const [suggested, graded, stretches] = await Promise.all([
+  const [suggested, { stenosis, not_graded }, stretches] = await Promise.all([
     suggestedFor(line, profile, marks),
-    gradedBy(line, marks),
+    engine.measuring.grade(line, marks),
     stretchesOf(line, marks),
   ]);
-  return { suggested, ...graded, ...stretches };
+  const compared = comparedIn(placesOf(profile, marks, suggested));
+  const references = compared?.references.map(({ at }) => at) ?? [];
+  const doubts =
+    stenosis || !compared
+      ? (stenosis?.doubts ?? [])
+      : await engine.measuring.doubts(line, { at: compared.at, references, method: marks.method });
+  return { suggested, stenosis, notGraded: not_graded, doubts, ...stretches };
 }
 
 async function suggestedFor(line: LineId, profile: Profile, marks: VesselMarks): Promise<Suggested> {
@@ -89,17 +94,6 @@ async function suggestedFor(line: LineId, profile: Profile, marks: VesselMarks):
   } catch {
     // A place where nothing was measured has no suggestions: grading says why.
     return NOTHING_SUGGESTED;
-  }
-}
-
-async function gradedBy(line: LineId, marks: VesselMarks): Promise<Pick<Answers, 'stenosis' | 'problem'>> {
-  if (!isGraded(marks)) {
-    return { stenosis: null, problem: null };
-  }
-  try {
-    return { stenosis: await engine.measuring.stenosis(line, marks), problem: null };
-  } catch (error) {
-    return { stenosis: null, problem: Failure.of(error) };
   }
 }
 

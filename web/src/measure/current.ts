@@ -6,8 +6,14 @@ import type { LineId } from '../core/messages';
 import type { VesselMarks } from '../edit/document';
 import { document_ } from '../edit/history';
 import * as store from '../state/store';
-import type { ComparedPlaces } from './flags';
-import { NOTHING_SUGGESTED, type Place, placesOf, type Suggested } from './marks';
+import {
+  type ComparedPlaces,
+  comparedIn,
+  NOTHING_SUGGESTED,
+  type Place,
+  placesOf,
+  type Suggested,
+} from './marks';
 import { profiles } from './profiles';
 import { marksOf } from './vessels';
 
@@ -48,11 +54,14 @@ export const currentMarks = computed<VesselMarks | null>(() => {
   return vessel && marksOf(document_.value, vessel.line);
 });
 
-/** What the engine said of the marks; `problem` in place of a stenosis that cannot be graded. */
+/** What the engine said of the marks. */
 export interface Answers {
   readonly suggested: Suggested;
   readonly stenosis: Stenosis | null;
-  readonly problem: Failure | null;
+  /** Why a marked place has no percentage. */
+  readonly notGraded: string | null;
+  /** What makes the percentage doubtful, or would make that of the places that are offered so. */
+  readonly doubts: readonly string[];
   readonly stretch: Stretch | null;
   readonly secondStretch: Stretch | null;
   /** Between both stretches (radians). */
@@ -62,7 +71,8 @@ export interface Answers {
 export const NO_ANSWERS: Answers = {
   suggested: NOTHING_SUGGESTED,
   stenosis: null,
-  problem: null,
+  notGraded: null,
+  doubts: [],
   stretch: null,
   secondStretch: null,
   angle: null,
@@ -77,10 +87,4 @@ export const currentPlaces = computed<readonly Place[]>(() => {
 });
 
 /** The narrowest place and its references among them, marked or suggested. */
-export const comparedPlaces = computed<ComparedPlaces | null>(() => {
-  const places = currentPlaces.value;
-  const narrowest = places.find(({ kind }) => kind === 'place');
-  return narrowest
-    ? { at: narrowest.at, references: places.filter(({ kind }) => kind === 'reference') }
-    : null;
-});
+export const comparedPlaces = computed<ComparedPlaces | null>(() => comparedIn(currentPlaces.value));

@@ -40,6 +40,18 @@ export function placesOf(profile: Profile, marks: VesselMarks, suggested: Sugges
   return [...(main ? [main] : []), ...references, ...stretchEnds(marks)];
 }
 
+/** The place of the stenosis, and those that it is compared with (mm). */
+export interface ComparedPlaces {
+  readonly at: number;
+  readonly references: readonly Place[];
+}
+
+/** Those among the places of a vessel that are compared, marked or suggested; null where there is none to compare. */
+export function comparedIn(places: readonly Place[]): ComparedPlaces | null {
+  const main = places.find(({ kind }) => kind === 'place');
+  return main ? { at: main.at, references: places.filter(({ kind }) => kind === 'reference') } : null;
+}
+
 function shownReferences(marks: VesselMarks, main: number, suggested: Suggested): Place[] {
   const places: Place[] = [];
   referenceSlots(marks, main).forEach((at, n) => {
@@ -152,21 +164,6 @@ export function stretchAround(profile: Profile, at: number): Pair {
   const from = within(at - length / 8, [0, (3 * length) / 4]);
   return [from, from + length / 4];
 }
-
-/** What is still to be marked before a stenosis is graded. */
-export function missingWords({ at, references, method, original }: VesselMarks): string {
-  if (at === null) {
-    return 'Nothing is marked. Look at the suggested places, drag them where they belong, or confirm them.';
-  }
-  if (method === 'ecst' && original === null) {
-    return 'ECST needs the diameter that the vessel is assumed to have had there.';
-  }
-  return references.length === 0 ? 'Mark a reference: where the vessel is normal.' : 'Grading…';
-}
-
-/** Whether anything is marked that grades a stenosis. */
-export const isGraded = (marks: VesselMarks): boolean =>
-  marks.at !== null && (marks.method === 'ecst' ? marks.original !== null : marks.references.length > 0);
 
 function within(value: number, [low, high]: Pair): number {
   return Math.min(Math.max(value, low), high);

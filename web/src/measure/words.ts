@@ -39,6 +39,10 @@ export function told(words: string): string {
 /** A graded stenosis in one line. */
 export const stenosisWords = (stenosis: Stenosis): string => told(stenosis.words);
 
+/** Why a marked place has no percentage; the engine has not answered yet where it does not say. */
+export const notGradedWords = ({ notGraded }: { readonly notGraded: string | null }): string =>
+  notGraded === null ? 'Grading…' : `No percentage: ${told(notGraded)}`;
+
 /** How a place is called. */
 export function placeName({ kind, slot, isSuggestion }: Place): string {
   const end = slot === 0 ? 'start' : 'end';

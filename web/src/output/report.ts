@@ -14,14 +14,22 @@ import {
   currentProfile,
   currentVessel,
 } from '../measure/current';
-import { doubtsOf, offeredWidest } from '../measure/flags';
 import { lyingIn } from '../measure/lying';
-import { missingWords, type Place, placesOf } from '../measure/marks';
+import { type Place, placesOf } from '../measure/marks';
 import { COLORS } from '../measure/PlaceHandles';
 import { givenFwhm } from '../measure/profiles';
 import { rulerLength } from '../measure/rulers';
 import { fittingSide, lengthOf, sectionNumbers } from '../measure/sections';
-import { degrees, mm, NOTHING, placeName, stenosisWords, told, unitless } from '../measure/words';
+import {
+  degrees,
+  mm,
+  NOTHING,
+  notGradedWords,
+  placeName,
+  stenosisWords,
+  told,
+  unitless,
+} from '../measure/words';
 import * as store from '../state/store';
 import { saveAs } from './pictures';
 import { plotMarkup } from './ReportPlot';
@@ -68,14 +76,13 @@ async function reportContent(): Promise<ReportContent> {
     }
     return sections;
   };
-  const isUngraded = marks.at !== null && !answers.stenosis && !answers.problem;
   return {
     saved: new Date().toLocaleString('sv-SE', { dateStyle: 'short', timeStyle: 'short' }),
     vessel: vessel.name,
     length: mm(lengthOf(profile), 1),
     scan: isNamed ? store.studyName.value : null,
-    ungraded: isUngraded ? `No percentage: a place is marked and not graded. ${missingWords(marks)}` : null,
-    ...findingsOf(answers, profile),
+    ungraded: answers.notGraded === null ? null : notGradedWords(answers),
+    ...findingsOf(answers),
     view: { data: await viewPicture(profile, places), words: viewWords() },
     plot: await plotOf(number, profile, places),
     rows: marked.map((place) => rowOf(profile, place)),
@@ -88,12 +95,11 @@ async function reportContent(): Promise<ReportContent> {
 }
 
 /** What was found, in words: never a percentage without its method, its references and mm. */
-function findingsOf({ stenosis, problem, stretch, secondStretch, angle }: Answers, profile: Profile) {
+function findingsOf({ stenosis, stretch, secondStretch, angle }: Answers) {
   const findings = stenosis ? [stenosisWords(stenosis)] : [];
   const remarks = [
-    ...(stenosis ? doubtsOf(profile, stenosis) : []),
+    ...(stenosis?.doubts ?? []),
     ...(stenosis?.group ? [`Group of the field: ${told(stenosis.group)}`] : []),
-    ...(problem ? [`No percentage: ${problem.subject}: ${told(problem.found)}.`] : []),
     ...[stretch, secondStretch].flatMap((one) =>
       one
         ? [
@@ -112,7 +118,7 @@ function findingsOf({ stenosis, problem, stretch, secondStretch, angle }: Answer
 /** What Lumencut offers and no reader confirmed. */
 function suggestionsOf(profile: Profile, suggested: readonly Place[]): ReportRow[] {
   const rows = suggested.map((place) => rowOf(profile, place));
-  const widest = offeredWidest(profile);
+  const { widest } = profile;
   return widest
     ? [...rows, { ...numbersAt(profile, widest.at), place: 'longest diameter', color: null }]
     : rows;

@@ -1,12 +1,13 @@
 /** What the page asks its worker for to measure vessels. All numbers are the engine's. */
 import { proxyMarker } from 'comlink';
 import type {
+  Compared,
+  Grade,
   Marks,
   MeasuredSection,
   MeasuredVessel,
   Profile,
   Spot,
-  Stenosis,
   Stretch,
 } from '../core/measuring';
 import type { LineId, Pair } from '../core/messages';
@@ -25,8 +26,12 @@ export class MeasuringHost {
     return this.run((engine) => JSON.parse(engine.profile(line, fwhm ?? undefined)));
   }
 
-  stenosis(line: LineId, marks: Marks): Promise<Stenosis | null> {
-    return this.run((engine) => JSON.parse(engine.stenosis(line, JSON.stringify(marks))));
+  grade(line: LineId, marks: Marks): Promise<Grade> {
+    return this.run((engine) => JSON.parse(engine.grade(line, JSON.stringify(marks))));
+  }
+
+  doubts(line: LineId, compared: Compared): Promise<readonly string[]> {
+    return this.run((engine) => JSON.parse(engine.doubts(line, JSON.stringify(compared))));
   }
 
   suggestedReferences(line: LineId, at: number): Promise<readonly [Spot | null, Spot | null]> {

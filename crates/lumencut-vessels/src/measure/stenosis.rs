@@ -10,6 +10,7 @@
 
 use std::f64::consts::PI;
 
+use super::flags::BRANCH;
 use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::same_place::ALONG_LINE;
@@ -56,6 +57,15 @@ pub struct Compared {
     pub comparison: Option<f64>,
 }
 
+/// What makes a percentage doubtful; a reader is told it beside the percentage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Doubts {
+    /// The flags of the sections at the places that the percentage comes from; see [`super::flags`].
+    pub flags: u32,
+    /// Whether a branch lies between the place and a reference: beyond it a vessel may be of another width.
+    pub is_branch_between: bool,
+}
+
 /// A graded stenosis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stenosis {
@@ -73,6 +83,8 @@ pub struct Stenosis {
     pub references: Vec<[f64; 2]>,
     /// How it was graded.
     pub method: Method,
+    /// What makes the percentage doubtful.
+    pub doubts: Doubts,
 }
 
 impl Profile {
@@ -104,7 +116,8 @@ impl Profile {
         let share = diameter / reference;
         let left = if method == Method::Area { share * share } else { share };
         let percent = 100.0 * (1.0 - left);
-        Ok(Stenosis { percent, at, diameter, uncertainty, reference, references, method })
+        let doubts = self.doubts(at, method, &compared.reference);
+        Ok(Stenosis { percent, at, diameter, uncertainty, reference, references, method, doubts })
     }
 
     /// The diameter at an arc length (mm), between sections, and its standard deviation (mm).
@@ -148,6 +161,21 @@ impl Profile {
         }
         median(&mut widths)
             .ok_or_else(|| measuring("reference of the stenosis", format!("nothing at {at:.1} mm"), MEASURED))
+    }
+
+    /// What makes a percentage doubtful that compares one arc length with references (mm) by a method. The sections are those
+    /// that are nearest to these places.
+    pub fn doubts(&self, at: f64, method: Method, references: &[f64]) -> Doubts {
+        let place = self.nearest_section(at);
+        // Where the original diameter is assumed, no other place tells anything.
+        let told_by = if method == Method::Ecst { &[] } else { references };
+        let others: Vec<usize> = told_by.iter().map(|reference| self.nearest_section(*reference)).collect();
+        let between = |other: usize| (place.min(other) + 1)..place.max(other);
+        let is_branch = |n: usize| self.flags[n] & BRANCH != 0;
+        Doubts {
+            flags: others.iter().fold(self.flags[place], |flags, other| flags | self.flags[*other]),
+            is_branch_between: others.iter().any(|other| between(*other).any(is_branch)),
+        }
     }
 
     /// The diameters of the sections that count among some (mm).
@@ -230,3 +258,7 @@ fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/doubts.rs"]
+mod tests;

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::flags::BRANCH;
+use super::flags::{BRANCH, IRREGULAR};
 use super::profile::Profile;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::{median, quantile};
@@ -19,6 +19,9 @@ const NORMAL: f64 = 0.92;
 
 /// A diameter is not sure where its standard deviation is more than this share of it.
 const UNSURE: f64 = 1.0 / 3.0;
+
+/// A longest diameter is not offered where a section within this distance (mm) of it is irregular or lies in a branch.
+const BESIDE: f64 = 1.0;
 
 /// A place on a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,11 +54,20 @@ impl Profile {
         self.uncertainty[n] <= UNSURE * diameter
     }
 
-    /// The longest diameter of all sections that count, and its place; None where none counts.
+    /// The longest diameter of all sections that count, whatever else their flags say, and its place; None where none counts.
     pub fn widest(&self) -> Option<Spot> {
         let spot = |n| Spot { at: self.arc_length[n], diameter: self.diameter_max[n] };
         let spots = (0..self.len()).filter(|n| self.counts(*n)).map(spot);
         spots.reduce(|a, b| if b.diameter > a.diameter { b } else { a })
+    }
+
+    /// The longest diameter as it is offered to readers: None where an odd outline or a branch, at its place or beside it, may be
+    /// what makes it the longest one. [`Profile::widest`] has it all the same.
+    pub fn offered_widest(&self) -> Option<Spot> {
+        let spot = self.widest()?;
+        let is_beside = |n: &usize| (self.arc_length[*n] - spot.at).abs() <= BESIDE;
+        let is_odd = |n: usize| self.flags[n] & (BRANCH | IRREGULAR) != 0;
+        (!(0..self.len()).filter(is_beside).any(is_odd)).then_some(spot)
     }
 
     /// Places before and after an arc length (mm) that it could be compared with: the nearest ones whose walls are parallel and

@@ -1,14 +1,14 @@
 //! What was measured, as the page and its worker tell it each other: the types of `web/src/core/measuring.ts`.
 
 use crate::flag_table::{FLAGS, FlagLook};
-use crate::measure_words::{of_c_arm, of_flags, of_source, of_stenosis};
-use crate::profile_marks::Marked;
+use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_source, of_stenosis};
+use crate::profile_marks::{Grade, Marked};
 use crate::profile_record::Asked;
 use glam::DVec3;
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
+use lumencut_vessels::measure::stenosis::{Compared, Method};
 use lumencut_vessels::measure::stretch::{towards_detector, up_at_detector};
 use lumencut_vessels::measure::suggestions::Spot;
 use serde::{Deserialize, Serialize};
@@ -65,7 +65,7 @@ impl<'a> From<&'a Profile> for ProfileMessage<'a> {
             fwhm: profile.fwhm,
             fwhm_source: of_source(&profile.fwhm_source),
             narrowest: profile.narrowest().map(SpotMessage::from),
-            widest: profile.widest().map(SpotMessage::from),
+            widest: profile.offered_widest().map(SpotMessage::from),
         }
     }
 }
@@ -81,36 +81,20 @@ pub struct MarksMessage {
     group: Option<String>,
 }
 
-/// A stenosis with its group of the field.
-#[derive(Clone, Debug)]
-pub struct Graded {
-    /// The stenosis.
-    pub stenosis: Stenosis,
-    /// The group and its source, where a territory was named and there are groups by the method.
-    pub group: Option<String>,
-}
-
 impl MarksMessage {
-    /// The stenosis that is marked on a profile; none where what it needs is not marked yet.
+    /// What was marked.
     ///
     /// # Errors
-    /// `measuring` for places that cannot be graded, `settings` for another method or territory.
-    pub fn graded(&self, profile: &Profile) -> Result<Option<Graded>> {
+    /// `settings` for another method or territory.
+    pub fn marked(&self) -> Result<Marked> {
         let method = Method::named("method of the stenosis", &self.method)?;
+        let territory = self.group.as_ref().map(|name| Territory::named("vessel of the group", name));
         let compared = Compared {
             reference: self.references.clone(),
             original: self.original,
             comparison: self.comparison,
         };
-        let Some(stenosis) = (Marked { at: self.at, method, compared }).stenosis(profile)? else {
-            return Ok(None);
-        };
-        // The groups are those of NASCET's percentages.
-        let territory = self.group.as_ref().filter(|_| method == Method::Nascet);
-        let group = territory
-            .map(|name| Territory::named("vessel of the group", name).and_then(|one| stenosis.group(one)))
-            .transpose()?;
-        Ok(Some(Graded { stenosis, group }))
+        Ok(Marked { at: self.at, method, compared, group: territory.transpose()? })
     }
 
     /// The same as what the command line is asked for; without a graded stenosis its place alone.
@@ -130,9 +114,22 @@ impl MarksMessage {
     }
 }
 
-/// A graded stenosis.
+/// What is told of a place that was marked; nothing where none is.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct GradeMessage {
+    stenosis: Option<StenosisMessage>,
+    not_graded: Option<String>,
+}
+
+impl From<Option<Grade>> for GradeMessage {
+    fn from(grade: Option<Grade>) -> Self {
+        let not_graded = grade.as_ref().and_then(Grade::not_graded).map(str::to_owned);
+        Self { stenosis: grade.as_ref().and_then(StenosisMessage::of), not_graded }
+    }
+}
+
 #[derive(Clone, Debug, Serialize)]
-pub struct StenosisMessage {
+struct StenosisMessage {
     percent: f64,
     at: f64,
     diameter: f64,
@@ -141,13 +138,15 @@ pub struct StenosisMessage {
     references: Vec<SpotMessage>,
     method: &'static str,
     words: String,
+    doubts: Vec<String>,
     group: Option<String>,
 }
 
-impl From<Graded> for StenosisMessage {
-    fn from(Graded { stenosis, group }: Graded) -> Self {
+impl StenosisMessage {
+    fn of(grade: &Grade) -> Option<Self> {
+        let stenosis = grade.stenosis()?;
         let spot = |[at, diameter]: &[f64; 2]| SpotMessage { at: *at, diameter: *diameter };
-        Self {
+        Some(Self {
             percent: stenosis.percent,
             at: stenosis.at,
             diameter: stenosis.diameter,
@@ -155,9 +154,29 @@ impl From<Graded> for StenosisMessage {
             reference: stenosis.reference,
             references: stenosis.references.iter().map(spot).collect(),
             method: stenosis.method.name(),
-            words: of_stenosis(&stenosis),
-            group,
-        }
+            words: of_stenosis(stenosis),
+            doubts: of_doubts(&stenosis.doubts),
+            group: grade.group().map(str::to_owned),
+        })
+    }
+}
+
+/// Places that are compared before anything is graded, such as those that are offered (arc lengths, mm).
+#[derive(Clone, Debug, Deserialize)]
+pub struct ComparedMessage {
+    at: f64,
+    references: Vec<f64>,
+    method: String,
+}
+
+impl ComparedMessage {
+    /// What would make a percentage from these places doubtful, a sentence each.
+    ///
+    /// # Errors
+    /// `settings` for another method.
+    pub fn doubts(&self, profile: &Profile) -> Result<Vec<String>> {
+        let method = Method::named("method of the stenosis", &self.method)?;
+        Ok(of_doubts(&profile.doubts(self.at, method, &self.references)))
     }
 }
 

@@ -1,15 +1,22 @@
 //! Measuring the lines that are shown, as `lumencut.measure(volume, vessel, 0.5, fwhm, tree=tree)` of Python does.
 
-use crate::profile_record::{Asked, Measured, vessels_json};
-use crate::profile_table::{Labelled, csv_text};
+use crate::profile_marks::{Grade, Measured};
+use crate::profile_record::{Asked, vessels_json};
+use crate::profile_table::vessels_csv;
 use lumencut_core::stop::Stop;
 use lumencut_vessels::measure::measuring::STEP;
 use lumencut_vessels::measure::profile::Profile;
 
 use crate::study::failure::Result;
-use crate::study::measure_messages::{Graded, VesselMessage};
+use crate::study::measure_messages::VesselMessage;
 use crate::study::open_study::Study;
 use crate::study::profiles::{Asking, Profiles};
+
+/// A vessel that is measured: the number of its profile, and what is told of the place that is marked on it.
+struct GradedVessel {
+    number: usize,
+    grade: Option<Grade>,
+}
 
 impl Study {
     /// The profile of a line that is shown, under a point spread of this width (mm), or under the one that the tree tells.
@@ -38,40 +45,45 @@ impl Study {
     /// Sections of vessels as `lumencut measure -o x.csv` writes them.
     ///
     /// # Errors
-    /// As [`Study::profile`].
+    /// As [`Study::profile`]; `settings` for marks with another method or territory.
     pub fn profiles_csv(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<String> {
-        let found = self.all_of(vessels, stop)?;
-        let rows = vessels.iter().zip(found).map(|(vessel, n)| {
-            let labels = [("vessel", &vessel.id), ("name", &vessel.name)];
-            let labels = labels.map(|(name, value)| (name.to_owned(), value.clone())).to_vec();
-            Labelled { labels, profile: self.profiles.kept(n) }
-        });
-        Ok(csv_text(&rows.collect::<Vec<_>>()))
+        let graded = self.graded(vessels, stop)?;
+        Ok(vessels_csv(&self.rows(vessels, &graded)))
     }
 
     /// Vessels as `lumencut measure -o x.json` writes them. What was marked stands among the settings where it is one vessel, as
-    /// there; each vessel has its stenosis.
+    /// there; each vessel has its stenosis, or why it has none.
     ///
     /// # Errors
-    /// As [`Study::profile`], and those of places that cannot be graded.
+    /// As [`Study::profiles_csv`].
     pub fn profiles_json(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<String> {
-        let found = self.all_of(vessels, stop)?;
-        let profiles: Vec<&Profile> = found.into_iter().map(|n| self.profiles.kept(n)).collect();
-        let graded = vessels.iter().zip(&profiles).map(|(vessel, profile)| vessel.marks.graded(profile));
-        let graded: Vec<Option<Graded>> = graded.collect::<Result<_>>()?;
-        let rows = vessels.iter().zip(profiles).zip(&graded).map(|((vessel, profile), graded)| Measured {
-            id: vessel.id.clone(),
-            name: Some(vessel.name.clone()).filter(|name| !name.is_empty()),
-            profile,
-            stenosis: graded.as_ref().map(|graded| &graded.stenosis),
-            group: graded.as_ref().and_then(|graded| graded.group.clone()),
-        });
+        let graded = self.graded(vessels, stop)?;
         let asked = match (vessels, &graded[..]) {
-            ([one], [graded]) => one.marks.asked(graded.is_some()),
+            ([one], [graded]) => one.marks.asked(graded.grade.as_ref().and_then(Grade::stenosis).is_some()),
             _ => Asked::default(),
         };
         let asked = Asked { step_mm: STEP, fwhm_mm: self.common_width(vessels), ..asked };
-        Ok(vessels_json(&asked, &rows.collect::<Vec<_>>()))
+        Ok(vessels_json(&asked, &self.rows(vessels, &graded)))
+    }
+
+    /// Each vessel measured, and what is told of the place that is marked on it.
+    fn graded(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<GradedVessel>> {
+        let numbers = self.all_of(vessels, stop)?;
+        let graded = |(vessel, number): (&VesselMessage, usize)| {
+            let grade = vessel.marks.marked()?.grade(self.profiles.kept(number));
+            Ok(GradedVessel { number, grade })
+        };
+        vessels.iter().zip(numbers).map(graded).collect()
+    }
+
+    fn rows<'a>(&'a self, vessels: &[VesselMessage], graded: &'a [GradedVessel]) -> Vec<Measured<'a>> {
+        let row = |(vessel, graded): (&VesselMessage, &'a GradedVessel)| Measured {
+            id: vessel.id.clone(),
+            name: Some(vessel.name.clone()).filter(|name| !name.is_empty()),
+            profile: self.profiles.kept(graded.number),
+            grade: graded.grade.as_ref(),
+        };
+        vessels.iter().zip(graded).map(row).collect()
     }
 
     fn all_of(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<usize>> {

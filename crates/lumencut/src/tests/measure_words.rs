@@ -1,5 +1,5 @@
 use super::*;
-use lumencut_vessels::measure::flags::{AT_LIMIT, NO_EDGE};
+use lumencut_vessels::measure::flags::{AT_LIMIT, BRANCH, CALCIUM, NO_EDGE};
 
 fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
     Stenosis {
@@ -10,6 +10,7 @@ fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
         reference: 5.0,
         references,
         method,
+        doubts: Doubts::default(),
     }
 }
 
@@ -27,6 +28,22 @@ fn a_stenosis_is_told_with_method_and_references() {
         of_stenosis(&graded(Method::Ecst, vec![[20.0, 5.1]])),
         "58 % of the diameter (ECST): 2.08 ± 0.06 mm at 41.2 mm, assumed original 5.00 mm"
     );
+}
+
+#[test]
+fn doubts_stand_behind_the_percentage() {
+    let sure = graded(Method::Nascet, vec![[20.0, 5.1]]);
+    assert_eq!(of_doubtful_stenosis(&sure), of_stenosis(&sure));
+    assert!(of_doubts(&sure.doubts).is_empty());
+    let doubts = Doubts { flags: CALCIUM | BRANCH, is_branch_between: true };
+    let told = [
+        "At these places: branch, calcium.",
+        "A branch lies between the place and a reference: beyond it a vessel may be of another width.",
+    ];
+    assert_eq!(of_doubts(&doubts), told);
+    let doubtful = Stenosis { doubts, ..sure.clone() };
+    assert_eq!(of_doubtful_stenosis(&doubtful), format!("{}. {}", of_stenosis(&sure), told.join(" ")));
+    assert_eq!(of_doubts(&Doubts { flags: 0, is_branch_between: true }), told[1..]);
 }
 
 #[test]

@@ -1,33 +1,6 @@
-use glam::DVec3;
-
-use super::super::profile::Source;
+use super::super::flags::CALCIUM;
+use super::super::made_profile::profile;
 use super::*;
-
-/// A profile of circles of these diameters and uncertainties (mm), 0.5 mm apart.
-fn profile(sections: &[[f64; 2]]) -> Profile {
-    let count = sections.len();
-    let numbers = |of: &dyn Fn(&[f64; 2]) -> f64| sections.iter().map(of).collect::<Vec<_>>();
-    let diameter = numbers(&|[diameter, _]| *diameter);
-    Profile {
-        arc_length: (0..count).map(|n| 0.5 * n as f64).collect(),
-        diameter_min: diameter.clone(),
-        diameter_max: diameter,
-        area: numbers(&|[diameter, _]| PI * diameter * diameter / 4.0),
-        uncertainty: numbers(&|[_, uncertainty]| *uncertainty),
-        flags: vec![0; count],
-        center: vec![DVec3::ZERO; count],
-        normal: vec![DVec3::Z; count],
-        axes: vec![[DVec3::X, DVec3::Y]; count],
-        contour: vec![Vec::new(); count],
-        half_axes: vec![[DVec3::ZERO; 2]; count],
-        inscribed_radius: vec![0.0; count],
-        levels: vec![[300.0, 50.0]; count],
-        noise: 10.0,
-        fwhm: 1.0,
-        fwhm_source: Source::Given,
-        on_vessel: vec![DVec3::ZERO; count],
-    }
-}
 
 fn narrowest(sections: &[[f64; 2]]) -> [f64; 2] {
     let spot = profile(sections).narrowest().expect("a place");
@@ -84,4 +57,36 @@ fn where_no_reference_lies_before_a_branch_it_is_passed() {
     profile.flags[38..50].fill(BRANCH);
     let [before, after] = profile.suggested_references(30.0).expect("a place on it");
     assert_eq!((before.map(|spot| spot.diameter), after), (Some(12.0), None));
+}
+
+/// The place of the longest diameter that is offered, where that of 9 mm is at 10 mm and a section at `at` mm has `flags`.
+fn offered(at: f64, flags: u32) -> Option<f64> {
+    let mut sections = vec![[8.0, 0.1]; 60];
+    sections[20][0] = 9.0;
+    let mut profile = profile(&sections);
+    profile.flags[(at / 0.5).round() as usize] = flags;
+    profile.offered_widest().map(|spot| spot.at)
+}
+
+#[test]
+fn an_odd_longest_diameter_is_not_offered() {
+    for flags in [IRREGULAR, BRANCH, BRANCH | CALCIUM] {
+        for at in [9.0, 10.5, 11.0] {
+            assert_eq!(offered(at, flags), None, "{flags} at {at} mm");
+        }
+        // Farther away it tells nothing.
+        assert_eq!((offered(8.5, flags), offered(11.5, flags)), (Some(10.0), Some(10.0)));
+    }
+    assert_eq!(offered(10.0, IRREGULAR), None);
+    assert_eq!(offered(10.0, CALCIUM), Some(10.0));
+}
+
+#[test]
+fn the_longest_diameter_that_is_not_offered_is_known_all_the_same() {
+    let mut odd = profile(&[[8.0, 0.1]; 20]);
+    odd.flags[4] = IRREGULAR;
+    assert_eq!(odd.widest().map(|spot| spot.at), Some(0.0));
+    odd.flags[0] = IRREGULAR;
+    assert_eq!((odd.widest().map(|spot| spot.at), odd.offered_widest()), (Some(0.0), None));
+    assert_eq!(profile(&[[f64::NAN; 2]; 4]).offered_widest(), None);
 }

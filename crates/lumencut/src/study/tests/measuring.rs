@@ -12,7 +12,7 @@ use serde_json::{Value as Json, json};
 use super::*;
 use crate::study::lines::NamedLine;
 use crate::study::measure_messages::{
-    MarksMessage, ProfileMessage, SectionMessage, StenosisMessage, StretchMessage,
+    GradeMessage, MarksMessage, ProfileMessage, SectionMessage, StretchMessage,
 };
 use crate::study::tests::opened;
 
@@ -116,7 +116,8 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
     let mut study = tube();
     let line = line_of(&study, 0);
     let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
-    let graded = |text| marks(text).graded(profile).expect("a grade").map(StenosisMessage::from).map(as_json);
+    let grade = |text| as_json(GradeMessage::from(marks(text).marked().expect("marks").grade(profile)));
+    let graded = |text| Some(grade(text)["stenosis"].take()).filter(|stenosis| !stenosis.is_null());
     let whole =
         graded(json!({"at": 18.0, "references": [5.0, 31.0], "group": "carotid"})).expect("a stenosis");
     let percent = whole["percent"].as_f64().expect("a number");
@@ -131,12 +132,62 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
     assert!((ecst["percent"].as_f64().expect("a number") - expected).abs() < 0.7);
     // Groups are those of NASCET.
     assert!(ecst["group"].is_null());
-    for missing in [json!({"references": [5.0]}), json!({"at": 18.0}), json!({"at": 18.0, "method": "ecst"})]
-    {
-        assert!(graded(missing).is_none());
+    assert_eq!(whole["doubts"], json!([]));
+}
+
+#[test]
+fn a_place_that_is_not_graded_has_the_reason() {
+    let mut study = tube();
+    let line = line_of(&study, 0);
+    let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let grade = |text| as_json(GradeMessage::from(marks(text).marked().expect("marks").grade(profile)));
+    for (given, reason) in [
+        (json!({"references": [5.0]}), "Mark the place of the stenosis."),
+        (json!({"at": 18.0}), "Mark a reference: where the vessel is normal."),
+        (
+            json!({"at": 18.0, "method": "area", "original": 8.0}),
+            "Mark a reference: where the vessel is normal.",
+        ),
+        (
+            json!({"at": 18.0, "references": [5.0], "method": "ecst"}),
+            "ECST needs the diameter that the vessel is assumed to have had there.",
+        ),
+        (
+            json!({"at": 18.0, "references": [99.0]}),
+            "reference of the stenosis: found 99 mm; expected an arc length from 0 to 35.000 mm",
+        ),
+        (json!({"at": 99.0}), "place on the vessel: found 99 mm; expected an arc length from 0 to 35.000 mm"),
+    ] {
+        assert_eq!(grade(given), json!({"stenosis": null, "not_graded": reason}));
     }
-    let beyond = marks(json!({"at": 18.0, "references": [99.0]})).graded(profile).expect_err("beyond");
-    assert_eq!(beyond.kind, "measuring");
+    // Nothing is missing where nothing is marked.
+    for given in [json!({}), json!({"method": "ecst", "original": 8.0, "group": "carotid"})] {
+        assert_eq!(grade(given), json!({"stenosis": null, "not_graded": null}));
+    }
+    assert_eq!(marks(json!({"method": "who"})).marked().expect_err("no method").kind, "settings");
+    assert_eq!(marks(json!({"group": "aorta"})).marked().expect_err("no territory").kind, "settings");
+}
+
+#[test]
+fn what_another_method_needs_is_left_aside() {
+    let mut study = tube();
+    let line = line_of(&study, 0);
+    let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
+    let grade = |text| as_json(GradeMessage::from(marks(text).marked().expect("marks").grade(profile)));
+    for method in ["nascet", "area", "ecst"] {
+        let all =
+            json!({"at": 18.0, "references": [31.0], "original": 8.0, "comparison": 5.0, "method": method});
+        let used = match method {
+            "nascet" => json!({"at": 18.0, "references": [31.0], "comparison": 5.0}),
+            "area" => json!({"at": 18.0, "references": [31.0], "method": method}),
+            _ => json!({"at": 18.0, "original": 8.0, "method": method}),
+        };
+        assert!(grade(all.clone())["stenosis"]["percent"].is_f64(), "{method}");
+        assert_eq!(grade(all), grade(used), "{method}");
+    }
+    // A reference that ECST does not use is not looked at.
+    let ecst = json!({"at": 18.0, "references": [99.0], "original": 8.0, "method": "ecst"});
+    assert_eq!(grade(ecst)["stenosis"]["references"], json!([]));
 }
 
 #[test]
@@ -282,6 +333,8 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 1 + counts[0] + counts[1]);
     assert!(lines[0].starts_with("vessel,name,arc_length_mm,"));
+    assert!(lines[0].ends_with(",fwhm_source,stenosis,doubts,not_graded"));
+    assert!(lines[1..].iter().all(|line| line.ends_with(",,,Mark a reference: where the vessel is normal.")));
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
     // Of several vessels no single place was asked for.
     let all: Json =

@@ -1,0 +1,45 @@
+use super::super::flags::{CALCIUM, METAL};
+use super::super::made_profile::profile;
+use super::*;
+
+/// A vessel of 30 mm with flags at some arc lengths (mm).
+fn flagged(flags: &[(f64, u32)]) -> Profile {
+    let mut made = profile(&[[4.0, 0.1]; 61]);
+    for (at, flags) in flags {
+        made.flags[(at / 0.5).round() as usize] |= flags;
+    }
+    made
+}
+
+#[test]
+fn the_flags_are_those_of_all_places_that_are_compared() {
+    let made = flagged(&[(10.0, CALCIUM), (20.0, METAL), (15.0, METAL)]);
+    assert_eq!(made.doubts(5.0, Method::Nascet, &[25.0]), Doubts::default());
+    assert_eq!(made.doubts(10.2, Method::Nascet, &[25.0]).flags, CALCIUM);
+    assert_eq!(made.doubts(10.0, Method::Nascet, &[20.1, 25.0]).flags, CALCIUM | METAL);
+    // Without a reference the place alone.
+    assert_eq!(made.doubts(20.0, Method::Nascet, &[]), Doubts { flags: METAL, is_branch_between: false });
+}
+
+#[test]
+fn a_branch_counts_between_the_place_and_a_reference_alone() {
+    let between =
+        |at: f64| flagged(&[(at, BRANCH)]).doubts(15.0, Method::Nascet, &[10.0, 20.0]).is_branch_between;
+    assert!(between(10.5) && between(14.5) && between(15.5) && between(19.5));
+    assert!(!between(9.5) && !between(20.5));
+    // A branch at a place is one of its flags.
+    for at in [10.0, 15.0, 20.0] {
+        let doubts = flagged(&[(at, BRANCH)]).doubts(15.0, Method::Nascet, &[10.0, 20.0]);
+        assert_eq!(doubts, Doubts { flags: BRANCH, is_branch_between: false });
+    }
+}
+
+#[test]
+fn ecst_is_not_doubtful_for_references_that_it_does_not_use() {
+    let made = flagged(&[(10.0, CALCIUM), (12.0, BRANCH)]);
+    let compared = Compared { reference: vec![10.0], original: Some(6.0), comparison: None };
+    let ecst = made.stenosis(15.0, Method::Ecst, &compared).expect("a stenosis");
+    assert_eq!(ecst.doubts, Doubts::default());
+    let area = made.stenosis(15.0, Method::Area, &compared).expect("a stenosis");
+    assert_eq!(area.doubts, Doubts { flags: CALCIUM, is_branch_between: true });
+}

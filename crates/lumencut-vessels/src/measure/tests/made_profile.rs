@@ -1,0 +1,33 @@
+//! Profiles that are made up, for tests.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::profile::{Profile, Source};
+
+/// A profile of circles of these diameters and uncertainties (mm), 0.5 mm apart.
+pub fn profile(sections: &[[f64; 2]]) -> Profile {
+    let count = sections.len();
+    let numbers = |of: &dyn Fn(&[f64; 2]) -> f64| sections.iter().map(of).collect::<Vec<_>>();
+    let diameter = numbers(&|[diameter, _]| *diameter);
+    Profile {
+        arc_length: (0..count).map(|n| 0.5 * n as f64).collect(),
+        diameter_min: diameter.clone(),
+        diameter_max: diameter,
+        area: numbers(&|[diameter, _]| PI * diameter * diameter / 4.0),
+        uncertainty: numbers(&|[_, uncertainty]| *uncertainty),
+        flags: vec![0; count],
+        center: vec![DVec3::ZERO; count],
+        normal: vec![DVec3::Z; count],
+        axes: vec![[DVec3::X, DVec3::Y]; count],
+        contour: vec![Vec::new(); count],
+        half_axes: vec![[DVec3::ZERO; 2]; count],
+        inscribed_radius: vec![0.0; count],
+        levels: vec![[300.0, 50.0]; count],
+        noise: 10.0,
+        fwhm: 1.0,
+        fwhm_source: Source::Given,
+        on_vessel: vec![DVec3::ZERO; count],
+    }
+}
