@@ -1,11 +1,16 @@
 """The point spread is that of the scan: a tree shares it, and no sharp wall passes for a blurred one."""
 
+import json
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
-from lumencut import Vessel, VesselTree, Volume, measure
+from lumencut import Vessel, VesselTree, Volume, _lumencut, measure, phantom, write_centerlines
+from lumencut.cli import main
 from lumencut.profile import Profile
 from measure_scenes import Grid, round_tube
+from scene_files import write_volume_of
 
 LINE = Vessel(np.linspace([0, 0, -10], [0, 0, 10], 41))
 
@@ -54,3 +59,53 @@ def test_all_vessels_of_a_tree_are_measured_with_one_point_spread():
     given = tree.measured(volume, fwhm=first.fwhm)
     for one, other in zip(tree.measured(volume), given, strict=True):
         assert (one.radius == other.radius).all()
+
+
+@pytest.fixture(scope="module")
+def branches(tmp_path_factory):
+    """Three vessels that meet, and their volume as a file."""
+    folder, scene = tmp_path_factory.mktemp("branches"), phantom.y_junction()
+    write_centerlines(scene.tree, folder / "lines.vtp")
+    return scene, (write_volume_of(scene.volume, folder / "ct.nii.gz"), folder / "lines.vtp")
+
+
+def told(files, path, *words):
+    """The widths and sources that `lumencut measure` tells."""
+    result = CliRunner().invoke(main, ["measure", *map(str, (*files, "-o", path, *words))])
+    assert result.exit_code == 0, result.output
+    return {(one["fwhm_mm"], one["fwhm_source"]) for one in json.loads(path.read_text("utf-8"))["vessels"]}
+
+
+def test_a_path_is_measured_with_the_point_spread_of_its_tree(branches, tmp_path):
+    _, files = branches
+    alone = told(files, tmp_path / "all.json")
+    assert len(alone) == 1
+    assert told(files, tmp_path / "path.json", "--path", "0,1") == alone
+
+
+def test_a_tree_that_tells_nothing_tells_nothing_of_a_path_either():
+    grid = Grid.even((0.4, 0.4, 0.4), (14, 14, 30))
+    volume = round_tube(5.0).volume(grid)
+    whole = Vessel(np.linspace([0, 0, -12], [0, 0, 12], 49))
+    # By itself the vessel tells it; its pieces are shorter than three sections.
+    assert measure(volume, whole).fwhm_source.startswith("estimated on ")
+    pieces = VesselTree(Vessel(np.linspace([0, 0, z], [0, 0, z + 0.4], 2)) for z in (-12.0, 11.6))
+    profile = measure(volume, whole, tree=pieces)
+    assert profile.fwhm_source == "assumed: 1.2 sides of a voxel, as no vessel is wide enough to tell it"
+    assert profile.fwhm == pytest.approx(1.2 * 0.4)
+
+
+def test_a_tree_is_asked_once(branches, monkeypatch):
+    scene, _ = branches
+    asked, find = [], _lumencut.point_spread
+    monkeypatch.setattr(_lumencut, "point_spread", lambda *of: asked.append(of) or find(*of))
+    volume = Volume(scene.volume.array, world_from_index=scene.volume.world_from_index)
+    vessels = [*scene.tree, scene.tree.path([0, 1])]
+    first = [measure(volume, vessel, tree=scene.tree) for vessel in vessels]
+    assert len(asked) == 1
+    assert len({(one.fwhm, one.fwhm_source) for one in first}) == 1
+    # Another step is another question, and a width that is given none.
+    measure(volume, vessels[0], 1.0, tree=scene.tree)
+    assert len(asked) == 2
+    measure(volume, vessels[0], fwhm=0.9, tree=scene.tree)
+    assert len(asked) == 2

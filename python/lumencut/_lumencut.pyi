@@ -52,6 +52,7 @@ __all__ = [
     "Cpr",
     "Grade",
     "KeptProfiles",
+    "PointSpread",
     "Profile",
     "Renderer",
     "Setting",
@@ -97,6 +98,7 @@ __all__ = [
     "path",
     "picture",
     "placement",
+    "point_spread",
     "positions",
     "profile_csv",
     "profile_json",
@@ -271,6 +273,9 @@ class Profile:
     def c_arm(self, ends: tuple[float, float], lao: float | None = None) -> tuple[float, float]: ...
 
 @final
+class PointSpread: ...
+
+@final
 class Stenosis:
     def numbers(self) -> tuple[float, float, float, float, float]: ...
     @property
@@ -365,7 +370,12 @@ def is_session_file(content: bytes) -> bool: ...
 def levels(vessels: list[_Arrays], count: int) -> list[list[_Arrays]]: ...
 def marked_places(profile: Profile, marked: _Marked) -> list[_MarkParts]: ...
 def measure(
-    volume: Any, measured: _Arrays, step: float, fwhm: float | None = None, tree: list[_Arrays] | None = None
+    volume: Any,
+    measured: _Arrays,
+    step: float,
+    fwhm: float | None = None,
+    tree: list[_Arrays] | None = None,
+    spread: PointSpread | None = None,
 ) -> Profile: ...
 def measured_radii(
     volume: Any, vessels: list[_Arrays], step: float, fwhm: float | None = None
@@ -379,6 +389,7 @@ def placement(
     known: Mapping[str, str | None],
     volume: Any,
 ) -> dict[str, Any]: ...
+def point_spread(volume: Any, tree: list[_Arrays], step: float) -> PointSpread: ...
 def positions(camera: Any, depth: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]: ...
 def profile_csv(profile: Profile) -> str: ...
 def profile_json(profile: Profile) -> str: ...

@@ -46,9 +46,10 @@ def measure(
         The distance of sections (mm), at most; they lie evenly from the first point to the last.
     fwhm : float, optional
         The full width at half maximum of the scanner's point spread alone (mm), 0 excluded, at most 20.
-        Averaging over voxels is added to it. Without it, it is estimated where the vessel is wide, of a tree
-        on its widest vessels and then the same for all of them, or else assumed to be 1.2 sides of a voxel;
-        :attr:`Profile.fwhm_source` says which, and why.
+        Averaging over voxels is added to it. Without it, it is estimated where the vessel is wide, or else
+        assumed to be 1.2 sides of a voxel; :attr:`Profile.fwhm_source` says which, and why. With ``tree`` it
+        is found once on the widest vessels of the tree, and is then the same for all that is measured along
+        it, also for a path through several vessels.
     tree : VesselTree, optional
         The tree that the vessel is of: sections within the lumen of its other vessels get
         :attr:`Flag.BRANCH`.
@@ -74,14 +75,19 @@ def measure(
     _check_vessel(vessel)
     if not isinstance(tree, (VesselTree, type(None))):
         raise VesselTreeError("tree of the vessel", type(tree).__name__, "a VesselTree or None")
-    core = _lumencut.measure(
-        as_volume(volume),
-        (vessel.points, vessel.radius),
-        number(SettingsError, "step", step),
-        None if fwhm is None else number(SettingsError, "fwhm", fwhm),
-        None if tree is None else [(one.points, one.radius) for one in tree],
-    )
-    return Profile(core)
+    grid, along = as_volume(volume), number(SettingsError, "step", step)
+    given = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
+    others = None if tree is None else [(one.points, one.radius) for one in tree]
+    spread = None if others is None or given is not None else _point_spread(grid, tree, others, along)
+    return Profile(_lumencut.measure(grid, (vessel.points, vessel.radius), along, given, others, spread))
+
+
+def _point_spread(
+    volume: Volume, tree: VesselTree | None, arrays: list[Any], step: float
+) -> _lumencut.PointSpread:
+    """The point spread that a tree tells in a volume, found once for all that is measured along it."""
+    found, name = volume._point_spreads, f"step {step}"
+    return found.once(volume._voxels, name, tree, lambda: _lumencut.point_spread(volume, arrays, step))
 
 
 @dataclass(frozen=True)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import functools
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut._checks import flag
-from lumencut._found_windows import FoundWindows
+from lumencut._found_once import FoundOnce
 from lumencut._values import KeepsReadOnly
 from lumencut.errors import VolumeError
+
+if TYPE_CHECKING:
+    from lumencut import _lumencut
 
 _UNIT_SPACING = (1.0, 1.0, 1.0)
 _NO_OFFSET = (0.0, 0.0, 0.0)
@@ -158,9 +161,14 @@ class Volume(KeepsReadOnly):
         return _lumencut.sample(self, _points(points))
 
     @functools.cached_property
-    def _windows(self) -> FoundWindows:
+    def _windows(self) -> FoundOnce[tuple[float, float]]:
         """The windows that were found in the voxels."""
-        return FoundWindows()
+        return FoundOnce()
+
+    @functools.cached_property
+    def _point_spreads(self) -> FoundOnce[_lumencut.PointSpread]:
+        """The point spreads that trees told."""
+        return FoundOnce()
 
     @property
     def _voxels(self) -> npt.NDArray[Any]:

@@ -152,7 +152,7 @@ class Window:
         def find() -> tuple[float, float]:
             return _lumencut.find_window(name, shown, None if tree is None else tree._arrays())
 
-        return cls(*shown._windows.window(shown._voxels, name, tree, find))
+        return cls(*shown._windows.once(shown._voxels, name, tree, find))
 
 
 @dataclass(frozen=True)

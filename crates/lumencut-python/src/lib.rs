@@ -46,6 +46,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<kept_profiles::KeptProfiles>()?;
     module.add_class::<measuring::Profile>()?;
     module.add_class::<measuring::Stenosis>()?;
+    module.add_class::<measuring::PointSpread>()?;
+    module.add_function(wrap_pyfunction!(measuring::point_spread, module)?)?;
     module.add_class::<marked::Grade>()?;
     module.add_function(wrap_pyfunction!(marked::grade, module)?)?;
     module.add_class::<renderer::Renderer>()?;

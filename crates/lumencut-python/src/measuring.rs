@@ -52,9 +52,33 @@ fn defaults() -> [(&'static str, f64); 4] {
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Profile(pub Arc<profile::Profile>);
 
-/// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree.
+/// The point spread of a scan, and where it is from.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct PointSpread((f64, profile::Source));
+
+/// The point spread that the vessels of a tree tell for all that is measured along them.
 #[pyfunction]
-#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn point_spread<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    tree: Vec<VesselArrays<'py>>,
+    step: f64,
+) -> PyResult<PointSpread> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    let tree = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
+    interruptible(py, None, |stop| {
+        let request = MeasureRequest { step, fwhm: None, tree: &tree, stop };
+        pool::install(|| measuring::point_spread_of(&volume, &request))?.map_err(to_python)
+    })
+    .map(PointSpread)
+}
+
+/// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree: under a point spread that is known,
+/// as its width (mm) or as the tree told it, or under the one that the vessel itself tells.
+#[pyfunction]
+#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, spread=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub fn measure<'py>(
     py: Python<'py>,
@@ -63,6 +87,7 @@ pub fn measure<'py>(
     step: f64,
     fwhm: Option<f64>,
     tree: Option<Vec<VesselArrays<'py>>>,
+    spread: Option<Py<PointSpread>>,
 ) -> PyResult<Profile> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
@@ -70,7 +95,11 @@ pub fn measure<'py>(
     let vessel = vessel_of(&measured)?;
     interruptible(py, None, |stop| {
         let request = MeasureRequest { step, fwhm, tree: &others, stop };
-        pool::install(|| measuring::measure(&volume, &vessel, &request))?.map_err(to_python)
+        let measured = || match &spread {
+            Some(spread) => measuring::measure_under(spread.get().0.clone(), &volume, &vessel, &request),
+            None => measuring::measure(&volume, &vessel, &request),
+        };
+        pool::install(measured)?.map_err(to_python)
     })
     .map(|profile| Profile(Arc::new(profile)))
 }

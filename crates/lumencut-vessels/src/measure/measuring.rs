@@ -64,12 +64,12 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     check(request.fwhm)?;
     let voxels = Voxels::new(volume);
     let looked = Looked::new(&voxels, vessel, request)?;
-    let fwhm = point_spread(&voxels, &looked, vessel, request)?;
+    let fwhm = point_spread(&voxels, &looked, request)?;
     looked.profile(&voxels, vessel, request, fwhm)
 }
 
-/// The profile of a vessel of the tree under the point spread that [`point_spread_of`] found for all of its vessels: the same as
-/// that of [`measure`], which finds it anew.
+/// The profile of a vessel under the point spread that [`point_spread_of`] found for its tree: the same as that of [`measure`],
+/// which finds it anew.
 ///
 /// # Errors
 /// As [`measure`].
@@ -92,28 +92,21 @@ fn check(fwhm: Option<f64>) -> Result<()> {
     Err(Error::new(ErrorKind::Settings, "fwhm", format!("{fwhm} mm"), "a width above 0 mm, or none"))
 }
 
-/// The point spread: as it is given, as the widest vessels of the tree tell it, or as a vessel that is not in the tree does.
-fn point_spread(
-    voxels: &Voxels,
-    looked: &Looked,
-    vessel: &Vessel,
-    request: &MeasureRequest,
-) -> Result<(f64, Source)> {
-    if let Some(fwhm) = request.fwhm {
-        return Ok((fwhm, Source::Given));
+/// The point spread: as it is given, as the tree tells it for all that is measured in its scan, or, where there is no tree, as the
+/// vessel itself tells it.
+fn point_spread(voxels: &Voxels, looked: &Looked, request: &MeasureRequest) -> Result<(f64, Source)> {
+    match request.fwhm {
+        Some(fwhm) => Ok((fwhm, Source::Given)),
+        None if !request.tree.is_empty() => of_tree(voxels, request),
+        None => Ok(match looked.point_spread(voxels, request.stop)? {
+            Told::Width(found) => (found.fwhm, Source::Estimated { on: found.on() }),
+            Told::Nothing(reason) => default(voxels, reason),
+        }),
     }
-    let (found, source) = of_tree(voxels, request)?;
-    if matches!(source, Source::Estimated { .. }) || request.tree.contains(vessel) {
-        return Ok((found, source));
-    }
-    Ok(match looked.point_spread(voxels, request.stop)? {
-        Told::Width(found) => (found.fwhm, Source::Estimated { on: found.on() }),
-        Told::Nothing(reason) => default(voxels, reason),
-    })
 }
 
 /// The point spread of a scan (FWHM, mm), as it is given or as the widest vessels of the tree tell it, and where it is from: the
-/// same for all of its vessels.
+/// same for all that is measured along the tree, its vessels and paths through several of them.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for a width that is none, [`ErrorKind::Interrupted`].

@@ -1,56 +1,54 @@
-"""The windows that were found in a volume, kept with it so that each is found once."""
+"""What was found in a volume, kept with it so that it is found once: windows, point spreads."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-#: Of how many trees windows are kept, and how many voxels tell whether the voxels were exchanged.
+#: Of how many trees things are kept, and how many voxels tell whether the voxels were exchanged.
 _MOST, _LOOKED_AT = 32, 32768
 
-#: Level and width.
-_LevelWidth = tuple[float, float]
+#: What is found.
+_T = TypeVar("_T")
 
 
-class FoundWindows:
-    """The windows of one volume, by what was asked for and by the vessels: the same objects in order.
+class FoundOnce(Generic[_T]):
+    """What was found in one volume, by what was asked for and by the vessels: the same objects in order.
 
-    The tree of each window is kept, so that no other vessels take its place in memory. Voxels may be written
-    to by whoever holds their array: where evenly spread ones have changed, all windows are found anew.
+    The tree of each is kept, so that no other vessels take its place in memory. Voxels may be written to by
+    whoever holds their array: where evenly spread ones have changed, all is found anew.
     """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._looked_at = b""
-        self._found: dict[tuple[Any, ...], tuple[_LevelWidth, Any]] = {}
+        self._found: dict[tuple[Any, ...], tuple[_T, Any]] = {}
 
-    def __reduce__(self) -> tuple[type[FoundWindows], tuple[()]]:
+    def __reduce__(self) -> tuple[type[FoundOnce[_T]], tuple[()]]:
         """Begin anew in copies of the volume."""
-        return FoundWindows, ()
+        return FoundOnce, ()
 
     def __len__(self) -> int:
-        """Return how many windows are kept."""
+        """Return how many are kept."""
         return len(self._found)
 
-    def window(
-        self, voxels: npt.NDArray[Any], name: str, tree: Any, find: Callable[[], _LevelWidth]
-    ) -> _LevelWidth:
-        """Return the window of this name along the vessels of a tree, or of the volume alone.
+    def once(self, voxels: npt.NDArray[Any], name: str, tree: Any, find: Callable[[], _T]) -> _T:
+        """Return what has this name along the vessels of a tree, or in the volume alone.
 
         Parameters
         ----------
         voxels : numpy.ndarray, shape (n,)
             The voxels of the volume, in the order of memory.
         name : str
-            What tells this window from others.
+            What tells it from others.
         tree : VesselTree or None
-            The vessels along which the window lies.
+            The vessels along which it is found.
         find : callable
-            Finds level and width; called where they are not known.
+            Finds it; called where it is not known.
         """
         key = (name, *map(id, tree or ()))
         with self._lock:
