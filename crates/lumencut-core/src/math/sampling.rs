@@ -86,6 +86,7 @@ impl Grid {
 
     /// The voxels' value at continuous index `p`: NaN more than half a voxel beyond the outermost centres,
     /// the outermost voxels' within that half voxel.
+    #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         let (mut offset, mut weights) = (0, [0.0; 3]);
         for a in 0..3 {

@@ -24,6 +24,7 @@ pub struct Blocks<T> {
 #[derive(Clone, Debug)]
 struct Kept<T> {
     place: usize,
+    corner: [i32; 3],
     block: T,
 }
 
@@ -35,6 +36,7 @@ impl<T> Blocks<T> {
     }
 
     /// The place of the block that a voxel of the volume lies in.
+    #[inline]
     pub fn place_of(&self, voxel: [i32; 3]) -> usize {
         let [i, j, k] = voxel.map(|c| c as usize / SIDE);
         (k * self.count[1] + j) * self.count[0] + i
@@ -47,22 +49,31 @@ impl<T> Blocks<T> {
     }
 
     /// The place of block `number`.
+    #[inline]
     pub fn place(&self, number: usize) -> usize {
         self.kept[number].place
     }
 
+    /// The first voxel of block `number`.
+    #[inline]
+    pub fn corner_of(&self, number: usize) -> [i32; 3] {
+        self.kept[number].corner
+    }
+
     /// The number of the block at a place, where it is kept.
+    #[inline]
     pub fn find(&self, place: usize) -> Option<usize> {
         let number = self.numbers[place];
         (number != NO_BLOCK).then_some(number as usize)
     }
 
     /// The number of the block at a place, which is made where it is not kept yet.
+    #[inline]
     pub fn find_or_make(&mut self, place: usize, make: impl FnOnce(&Self) -> T) -> usize {
         self.find(place).unwrap_or_else(|| {
             let block = make(self);
             self.numbers[place] = self.kept.len() as u32;
-            self.kept.push(Kept { place, block });
+            self.kept.push(Kept { place, corner: self.corner(place), block });
             self.kept.len() - 1
         })
     }
@@ -85,30 +96,35 @@ impl<T> Blocks<T> {
 impl<T> Index<usize> for Blocks<T> {
     type Output = T;
 
+    #[inline]
     fn index(&self, number: usize) -> &T {
         &self.kept[number].block
     }
 }
 
 impl<T> IndexMut<usize> for Blocks<T> {
+    #[inline]
     fn index_mut(&mut self, number: usize) -> &mut T {
         &mut self.kept[number].block
     }
 }
 
 /// Voxel `n` of the block whose first voxel is `corner`.
+#[inline]
 pub fn voxel_of(corner: [i32; 3], n: usize) -> [i32; 3] {
     let step = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)];
     std::array::from_fn(|a| corner[a] + step[a] as i32)
 }
 
 /// The place in its block of a voxel by its steps from the block's first one, i fastest.
+#[inline]
 pub fn index_in(inside: [i32; 3]) -> usize {
     let [i, j, k] = inside.map(|c| c as usize);
     (k * SIDE + j) * SIDE + i
 }
 
 /// The place of a voxel of the volume in its block.
+#[inline]
 pub fn index_of(voxel: [i32; 3]) -> usize {
     index_in(voxel.map(|c| c % SIDE as i32))
 }
@@ -132,6 +148,7 @@ mod tests {
             assert_eq!(blocks.find_or_make(place, |_| number * 10), number);
             assert_eq!(blocks.find_or_make(place, |_| 99), number);
             assert_eq!(voxel_of(blocks.corner(place), index_of(voxel)), voxel);
+            assert_eq!(blocks.corner_of(number), blocks.corner(place));
         }
         assert_eq!(blocks.places().collect::<Vec<_>>(), [0, 5, 1]);
         let gone = blocks.place_of(voxels[0]);

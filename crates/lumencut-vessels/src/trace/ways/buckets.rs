@@ -20,6 +20,7 @@ impl<T> Default for Buckets<T> {
 
 impl<T> Buckets<T> {
     /// Puts what has this way (mm) among those that wait; what has a way longer than all buckets is left out.
+    #[inline]
     pub fn put(&mut self, way: f32, waiting: T) {
         let bucket = bucket_of(way).max(self.first);
         if bucket >= MOST_BUCKETS {
@@ -32,12 +33,14 @@ impl<T> Buckets<T> {
     }
 
     /// Whether nothing waits any more whose way is as short as this one (mm), to the width of a bucket.
+    #[inline]
     pub fn have_passed(&mut self, way: f32) -> bool {
         self.advance();
         bucket_of(way) < self.first
     }
 
     /// The next one; none where nothing waits.
+    #[inline]
     pub fn pop(&mut self) -> Option<T> {
         self.advance();
         self.buckets.get_mut(self.first)?.pop()
@@ -50,6 +53,7 @@ impl<T> Buckets<T> {
         waiting
     }
 
+    #[inline]
     fn advance(&mut self) {
         while let Some(bucket) = self.buckets.get_mut(self.first).filter(|bucket| bucket.is_empty()) {
             *bucket = Vec::new();

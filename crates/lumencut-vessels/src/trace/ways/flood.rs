@@ -71,7 +71,7 @@ impl Flood {
     /// The index (i, j, k) of a voxel.
     pub fn voxel(&self, number: u32) -> [i32; 3] {
         let place = self.places[number as usize] as usize;
-        voxel_of(self.blocks.corner(self.blocks.place(place / BLOCK)), place % BLOCK)
+        voxel_of(self.blocks.corner_of(place / BLOCK), place % BLOCK)
     }
 
     /// The block of the volume that a voxel lies in, and its place there.
@@ -117,7 +117,8 @@ impl Flood {
 
     /// The block of a voxel and its place there; none outside the volume.
     fn locate(&self, voxel: [i32; 3]) -> Option<(usize, usize)> {
-        let is_inside = (0..3).all(|a| voxel[a] >= 0 && (voxel[a] as usize) < self.size[a]);
+        // Negative indices are huge without a sign.
+        let is_inside = (0..3).all(|a| (voxel[a] as usize) < self.size[a]);
         is_inside.then(|| (self.blocks.place_of(voxel), index_of(voxel)))
     }
 }
