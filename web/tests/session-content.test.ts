@@ -1,8 +1,8 @@
-/** A document goes into a session file and comes back; a session of another scan is told apart. */
+/** A document goes into a session file and comes back. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
 import { type Document, NO_MARKS } from '../src/edit/document';
-import { cameraOf, contentOf, documentOf, isOfScan, type Looked } from '../src/session/content';
+import { cameraOf, contentOf, documentOf, type Looked } from '../src/session/content';
 
 const GRID = [
   [0.5, 0, 0, -10],
@@ -100,20 +100,6 @@ describe('the content of a session', () => {
     const keys = Object.keys(contentOf(DOCUMENT, REPORT, LOOKED).session);
     expect(keys).toEqual(['scan', 'vessels', 'doubtful', 'stoppers', 'bridge', 'rulers', 'fwhm_mm', 'view']);
   });
-});
-
-describe('the scan of a session', () => {
-  const saved = contentOf(DOCUMENT, REPORT, null).session.scan;
-
-  test('is known again', () => expect(saved && isOfScan(saved, REPORT)).toBe(true));
-
-  test.each([
-    ['size', { size: [10, 11, 13] as const, world_from_index: GRID }],
-    ['place', { size: [10, 11, 12] as const, world_from_index: GRID.map((row) => row.map((n) => n + 0.1)) }],
-  ])('is told from one of another %s', (_, other) => expect(isOfScan(other, REPORT)).toBe(false));
-
-  test('is not known where no scan is open', () =>
-    expect(saved && isOfScan(saved, { ...REPORT, volume: null })).toBe(false));
 });
 
 test('a camera shows as much in a pane of another size', () => {

@@ -132,22 +132,6 @@ function marksOf(saved: SavedMarks): VesselMarks {
   };
 }
 
-/** By how much the grids of one scan may differ after they were written and read (mm). */
-const ROUNDING = 1e-3;
-
-/** Whether a session was made of the scan that is open. */
-export function isOfScan(saved: SavedScan, report: Report): boolean {
-  const { volume } = report;
-  const rows = volume?.world_from_index ?? [];
-  const isNear = (here: number | undefined, there: number) =>
-    here !== undefined && Math.abs(here - there) <= ROUNDING;
-  return (
-    volume !== null &&
-    saved.size.every((count, axis) => count === volume.size[axis]) &&
-    saved.world_from_index.every((row, i) => row.every((value, j) => isNear(rows[i]?.[j], value)))
-  );
-}
-
 /** The camera of a saved view in a pane of another size: as much is seen along the shorter side. */
 export function cameraOf({ camera }: SavedView, size: Pair): Camera {
   const scale = Math.min(...camera.size) / Math.min(...size);

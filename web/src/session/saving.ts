@@ -11,7 +11,7 @@ import { beginDocument, pickedId, tree } from '../edit/shown';
 import { giveFwhm, givenFwhm } from '../measure/profiles';
 import { recover } from '../state/device';
 import * as store from '../state/store';
-import { cameraOf, contentOf, documentOf, isOfScan, type Looked } from './content';
+import { cameraOf, contentOf, documentOf, type Looked } from './content';
 
 /** Where the field of a session stands in its file: in the first lines, before the curves. */
 const HEAD = 4096;
@@ -46,19 +46,10 @@ function looked(): Looked | null {
   );
 }
 
-/** Goes on with a saved session of the scan that is open. */
+/** Goes on with a saved session of the scan that is open; the engine refuses one of another scan. */
 export async function openSession({ file }: GivenFile): Promise<void> {
-  const report = store.report.value;
-  const mend = 'open the scan that the session was made of, then the session';
-  if (!report?.volume) {
-    throw new Failure('session', file.name, 'a session without its scan', 'a scan that is open', mend);
-  }
   const content = await engine.sessions.read(new Uint8Array(await file.arrayBuffer()), file.name);
-  const { scan, view } = content.session;
-  if (scan && !isOfScan(scan, report)) {
-    const found = `a session of a scan of ${scan.size.join(' × ')} voxels in another place`;
-    throw new Failure('session', file.name, found, 'a session of the scan that is open', mend);
-  }
+  const { view } = content.session;
   const document = documentOf(content);
   batch(() => {
     beginDocument(document);

@@ -1,15 +1,21 @@
 //! Session files: their lines become lines that the page holds, and the other way round.
 
+use glam::DMat4;
 use lumencut_io as centerlines;
-use lumencut_io::session_file::{DoubtfulBranch, Session, SessionFile, read_session, write_session};
+use lumencut_io::session_file::{DoubtfulBranch, Scan, Session, SessionFile, read_session, write_session};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::study::failure::{Failure, Result};
+use crate::study::held_volume::HeldVolume;
 use crate::study::lines::{Line, Lines, NamedLine};
+use crate::study::open_study::Study;
 
 /// The program that writes the files.
 const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
+
+/// By how much the grids of one scan may differ after they were written and read (mm).
+const ROUNDING: f64 = 1e-3;
 
 /// A session as the page has it: lines by their numbers, and all else as the file has it but for what is known at each point.
 #[derive(Debug, Deserialize, Serialize)]
@@ -62,12 +68,48 @@ fn session_of(mut said: Value, counts: (usize, usize)) -> Result<Session> {
     serde_json::from_value(said).map_err(|error| wrong(&error.to_string()))
 }
 
+impl Study {
+    /// The bytes of a session file.
+    ///
+    /// # Errors
+    /// As [`written`].
+    pub fn write_session(&self, content: SessionContent) -> Result<Vec<u8>> {
+        written(content, &self.lines)
+    }
+
+    /// The content of a session file of the scan that is open; its lines are held from now on, and nothing is shown yet.
+    ///
+    /// # Errors
+    /// `session` where no scan is open and for a session of another one, `format` for an invalid file. Nothing is held then.
+    pub fn read_session(&mut self, bytes: &[u8], name: &str) -> Result<SessionContent> {
+        let Some(held) = &self.content.held else {
+            return Err(not_of_scan(name, "a session without its scan", "a scan that is open"));
+        };
+        let file = read_session(bytes, name)?;
+        if let Some(scan) = file.session.scan.as_ref().filter(|scan| !is_of(scan, held)) {
+            let [ni, nj, nk] = scan.size;
+            let found = format!("a session of a scan of {ni} × {nj} × {nk} voxels in another place");
+            return Err(not_of_scan(name, &found, "a session of the scan that is open"));
+        }
+        taken(file, &mut self.lines)
+    }
+}
+
+/// Whether a session was made of a volume.
+fn is_of(saved: &Scan, held: &HeldVolume) -> bool {
+    let here = DMat4::from(held.world_from_index).transpose().to_cols_array();
+    let there = saved.world_from_index.as_flattened();
+    saved.size == held.size && here.iter().zip(there).all(|(here, there)| (here - there).abs() <= ROUNDING)
+}
+
+fn not_of_scan(name: &str, found: &str, expected: &str) -> Failure {
+    let mend = "open the scan that the session was made of, then the session".to_owned();
+    Failure { kind: "session", mend, ..Failure::of_message(name, &found, expected) }
+}
+
 /// The content of a session file, whose lines are held from now on.
-///
-/// # Errors
-/// `format` for a file that is damaged or none.
-pub fn read(bytes: &[u8], name: &str, lines: &mut Lines) -> Result<SessionContent> {
-    let SessionFile { lines: curves, mut session } = read_session(bytes, name)?;
+fn taken(file: SessionFile, lines: &mut Lines) -> Result<SessionContent> {
+    let SessionFile { lines: curves, mut session } = file;
     let mut named = Vec::with_capacity(curves.len());
     for (curve, state) in curves.into_iter().zip(&mut session.vessels) {
         let line = Line {
@@ -129,7 +171,8 @@ mod tests {
         let content = content(&mut lines, said());
         let bytes = written(content, &lines).expect("a file");
         let mut other = Lines::default();
-        let back = read(&bytes, "saved.mrk.json", &mut other).expect("a session");
+        let file = read_session(&bytes, "saved.mrk.json").expect("a session");
+        let back = taken(file, &mut other).expect("a session");
         assert_eq!(*other.get(back.lines[0].line).expect("a line"), line(Some(vec![false, true])));
         assert_eq!(*other.get(back.doubtful_lines[0].line).expect("a line"), line(None));
         assert_eq!(back.lines[0].name, "renal");
@@ -155,6 +198,34 @@ mod tests {
         odd["bridge"] = json!("yes");
         let odd = content_of(odd, &mut lines);
         assert!(refused(odd, &lines).contains("invalid type"));
-        assert_eq!(read(b"{}", "no.mrk.json", &mut lines).expect_err("no session").kind, "format");
+    }
+
+    /// A study with a volume of 2 x 3 x 4 voxels at a place along the first axis (mm).
+    fn study_at(place: f64) -> Study {
+        let mut study = Study::default();
+        let rows = [[1.0, 0.0, 0.0, place], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+        let header = json!({"size": [2, 3, 4], "dtype": "uint8", "world_from_index": rows});
+        study.begin_volume(&header.to_string()).expect("room");
+        study
+    }
+
+    #[test]
+    fn a_session_goes_on_with_its_own_scan_alone() {
+        let mut study = study_at(5.0);
+        let mut with_scan = said();
+        let rows = [[1.0, 0.0, 0.0, 5.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+        with_scan["scan"] = json!({"size": [2, 3, 4], "world_from_index": rows});
+        let content = content(&mut study.lines, with_scan);
+        let bytes = study.write_session(content).expect("a file");
+        let back = study.read_session(&bytes, "saved.mrk.json").expect("a session");
+        assert_eq!(*study.lines.get(back.lines[0].line).expect("a line"), line(Some(vec![false, true])));
+        // Rounded as files are; elsewhere it is another scan.
+        assert!(study_at(5.0005).read_session(&bytes, "saved.mrk.json").is_ok());
+        let other = study_at(5.1).read_session(&bytes, "saved.mrk.json").expect_err("another scan");
+        assert_eq!((other.kind, other.subject.as_str()), ("session", "saved.mrk.json"));
+        assert_eq!(other.found, "a session of a scan of 2 × 3 × 4 voxels in another place");
+        let none = Study::default().read_session(&bytes, "saved.mrk.json").expect_err("no scan");
+        assert_eq!(none.found, "a session without its scan");
+        assert_eq!(study.read_session(b"{}", "no.mrk.json").expect_err("no session").kind, "format");
     }
 }
