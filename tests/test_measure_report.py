@@ -24,7 +24,8 @@ def page() -> Page:
     ]
     renderer = Renderer(scene.volume, VesselTree([vessel]), "cpu")
     told = []
-    text = report(renderer, scene.volume, measured, {"step": "0.5 mm"}, lambda *step: told.append(step))
+    asked = dict.fromkeys(("fwhm", "at", "reference", "method", "original", "comparison", "group"))
+    text = report(renderer, scene.volume, measured, asked | {"step": 0.5}, lambda *step: told.append(step))
     assert told == [(1, 2), (2, 2)]
     return Page(text)
 
@@ -65,7 +66,9 @@ def test_no_percentage_without_method_references_and_mm(page):
 
 def test_every_number_of_the_table_has_its_unit(page):
     heads = ["arc length (mm)", "diameter ± 1 SD (mm)", "shortest (mm)", "longest (mm)", "area (mm²)"]
+    # The marked places and the longest diameter of one vessel, and the suggestions of the other.
+    assert page.count("table") == 3
     for head in heads:
-        assert page.text.count(head) == 2
+        assert page.source.count(f"<th>{head}</th>") == 3
     assert page.text.count("narrowest place (suggestion)") == 2
     assert page.text.count("marked place") == 2

@@ -102,6 +102,11 @@ class MeasuredVessel:
         return self.number if self.vessel.name is None else f"{self.number} {self.vessel.name}"
 
     @property
+    def parts(self) -> tuple[str, str | None, _lumencut.Profile, _lumencut.Grade | None]:
+        """What tables, JSON and reports are made of."""
+        return self.number, self.vessel.name, self.profile._core, self._grade
+
+    @property
     def told(self) -> list[str]:
         """What there is to say of it, in lines: each percentage with its method, its references and mm."""
         lines = [] if self._grade is None else self._grade.lines
@@ -117,13 +122,9 @@ def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:
     Columns that are the same in all lines of a vessel say which it is and what is told of the place that a
     reader marked on it: ``stenosis``, ``doubts`` or ``not_graded``.
     """
-    return _lumencut.vessels_csv([_parts(one) for one in measured])
+    return _lumencut.vessels_csv([one.parts for one in measured])
 
 
 def vessels_json(asked: Mapping[str, Any], measured: Sequence[MeasuredVessel]) -> str:
     """Return vessels with their stenoses as JSON; `asked` are the options of ``lumencut measure`` by name."""
-    return _lumencut.vessels_json(asked, [_parts(one) for one in measured])
-
-
-def _parts(one: MeasuredVessel) -> tuple[str, str | None, _lumencut.Profile, _lumencut.Grade | None]:
-    return one.number, one.vessel.name, one.profile._core, one._grade
+    return _lumencut.vessels_json(asked, [one.parts for one in measured])

@@ -26,9 +26,6 @@ _DEVIATIONS, _DPI = 2, 150
 _WIDTH, _HEIGHT = 10.0, 3.8
 _SIDES, _BELOW, _ABOVE = (0.075, 0.65), 0.55, 0.55
 
-#: The shortest and the tallest strip, and what is above and below it (inches).
-_STRIP_HEIGHT, _STRIP_MARGINS = (0.9, 2.6), 0.15
-
 _LINE, _LEFT_OUT, _MARKS = "#1f4e9c", "#9a9a9a", "#c8102e"
 _FLAGS = {Flag(bit): color for _, bit, _, _, color, _ in _lumencut.MEASURING_FLAGS}
 
@@ -99,37 +96,22 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.03), fontsize=8, frameon=False)
 
 
-def figure_of(
-    profiles: Sequence[tuple[str, Sections, Sequence[Mark]]], strip: npt.NDArray[np.uint8] | None = None
-) -> Figure:
-    """Return a figure of profiles below each other, each with its title.
-
-    A strip (H, W, 4), the picture of a single vessel from its first point on the left to its last, is
-    drawn above it to the same scale of arc length; its height is that of as many mm as its pixels tell.
-    """
+def figure_of(profiles: Sequence[tuple[str, Sections, Sequence[Mark]]]) -> Figure:
+    """Return a figure of profiles below each other, each with its title."""
     check_matplotlib()
     from matplotlib import style
     from matplotlib.figure import Figure
 
     with style.context("default"):
-        above = 0.0 if strip is None else _strip_height(strip)
-        # Below a strip there is no title.
-        each = _HEIGHT if strip is None else _HEIGHT - _ABOVE + 0.1
-        height = len(profiles) * each + above
+        height = len(profiles) * _HEIGHT
         figure = Figure(figsize=(_WIDTH, height))
         left, right = _SIDES
         for number, (title, sections, marks) in enumerate(profiles):
-            bottom = (len(profiles) - number - 1) * each + _BELOW
+            bottom = (len(profiles) - number - 1) * _HEIGHT + _BELOW
             tall = _HEIGHT - _BELOW - _ABOVE
             axes = figure.add_axes((left, bottom / height, right - left, tall / height))
             draw(axes, sections, marks)
-            if strip is None:
-                axes.set_title(title, loc="left", fontsize=10, parse_math=False)
-        if strip is not None:
-            _, sections, marks = profiles[0]
-            tall = above - _STRIP_MARGINS
-            place = (left, 1 - (tall + 0.08) / height, right - left, tall / height)
-            _draw_strip(figure.add_axes(place), strip, sections, marks)
+            axes.set_title(title, loc="left", fontsize=10, parse_math=False)
         return figure
 
 
@@ -206,23 +188,3 @@ def _runs(sections: Sections, flag: Flag) -> list[tuple[float, float]]:
     is_set = np.concatenate([[False], (sections.flags & int(flag)) != 0, [False]])
     starts, ends = np.flatnonzero(is_set[1:] & ~is_set[:-1]), np.flatnonzero(is_set[:-1] & ~is_set[1:]) - 1
     return [(float(x[a]) - step / 2, float(x[b] - x[a]) + step) for a, b in zip(starts, ends, strict=True)]
-
-
-def _strip_height(strip: npt.NDArray[np.uint8]) -> float:
-    """The height of a strip in the figure with its margins (inches): true to scale unless flat or tall."""
-    width = (_SIDES[1] - _SIDES[0]) * _WIDTH
-    return float(np.clip(width * strip.shape[0] / strip.shape[1], *_STRIP_HEIGHT)) + _STRIP_MARGINS
-
-
-def _draw_strip(axes: Axes, strip: npt.NDArray[np.uint8], sections: Sections, marks: Sequence[Mark]) -> None:
-    length = float(sections.arc_length[-1])
-    half = length * strip.shape[0] / strip.shape[1] / 2
-    axes.imshow(strip, extent=(0, length, -half, half), aspect="auto")
-    axes.set_facecolor("black")
-    for mark in marks:
-        axes.axvline(mark.arc_length, color=_MARKS, lw=0.7, ls="--" if mark.is_suggestion else "-")
-    axes.tick_params(labelbottom=False)
-    natural = (_SIDES[1] - _SIDES[0]) * _WIDTH * strip.shape[0] / strip.shape[1]
-    drawn = _strip_height(strip) - _STRIP_MARGINS
-    same = abs(drawn / natural - 1) < 0.01
-    axes.set_ylabel("across (mm)" if same else f"across (mm),\nheight × {drawn / natural:.2g}")

@@ -59,8 +59,8 @@ test('a report without a percentage says so where a place is marked, and what no
   expect(html).toMatch(/Saved on \d{4}-\d\d-\d\d \d\d:\d\d/);
   const [looked = '', offered = ''] = html.split('Suggestions, not looked at');
   expect(looked).toContain('marked place</td>');
-  expect(looked).not.toContain('reference before</td>');
-  expect(offered).toContain('reference before</td>');
+  expect(looked).not.toContain('reference before');
+  expect(offered).toContain('reference before (suggestion)</td>');
   await tube.marked();
 });
 

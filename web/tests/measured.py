@@ -10,7 +10,7 @@ import math
 import sys
 from typing import Any
 
-from lumencut import Profile, _lumencut, measure, phantom
+from lumencut import Profile, Vessel, _lumencut, measure, phantom
 from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
 from lumencut.profile_sections import counts, flag_words, nearest
 
@@ -35,8 +35,8 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "counts": counts(profile).tolist(),
         "flags": [flag_words(int(flags)) for flags in profile.flags],
         "flag_table": [
-            {"word": word, "meaning": meaning, "paper": paper, "screen": screen}
-            for _, _, word, meaning, paper, screen in _lumencut.MEASURING_FLAGS
+            {"word": word, "meaning": meaning, "screen": screen}
+            for _, _, word, meaning, _, screen in _lumencut.MEASURING_FLAGS
         ],
         "center": profile.center.tolist(),
         "normal": profile.normal.tolist(),
@@ -71,6 +71,18 @@ def asked(profile: Profile) -> dict[str, Any]:
     }
 
 
+def report(vessel: Vessel, profile: Profile, options: dict[str, Any]) -> str:
+    """The report of the first vessel, with a marked place and reference, without pictures."""
+    length = float(profile.arc_length[-1])
+    at, before = PLACE * length, BEFORE * length
+    one = MeasuredVessel.of("0", vessel, profile, Marked(at, (before,), group="carotid"))
+    places = [(mark.name, mark.arc_length, mark.is_suggestion) for mark in one.marks]
+    asked = options | {"step": 0.5, "at": at, "reference": [before], "method": "nascet", "group": "carotid"}
+    strip = ("QUJD", (1344, 100), length / 1344)
+    page = {"measured": one.parts, "places": places, "strip": strip, "sections": ["QUJD"] * len(places)}
+    return _lumencut.report_html(asked, (300.0, 700.0), [page])
+
+
 def main() -> None:
     """Write it."""
     scene = getattr(phantom, sys.argv[1])()
@@ -85,6 +97,7 @@ def main() -> None:
         "asked": asked(profiles[0]),
         "csv": vessels_csv(measured),
         "json": vessels_json(options | {"step": 0.5}, measured),
+        "report": report(scene.tree[0], profiles[0], options),
     }
     json.dump(found, sys.stdout, allow_nan=False)
 

@@ -21,7 +21,6 @@ export function madeProfile(length = 60): Profile {
     flag_table: ['branch', 'calcium', 'metal', 'irregular'].map((word, n) => ({
       word,
       meaning: `what ${word} means`,
-      paper: `#00000${n}`,
       screen: `#fffff${n}`,
     })),
     center: places.map((at): Vector => [0, 0, at]),

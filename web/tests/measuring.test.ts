@@ -17,6 +17,7 @@ interface Truth {
   readonly asked: { readonly at: number; readonly references: Pair; readonly [name: string]: unknown };
   readonly csv: string;
   readonly json: string;
+  readonly report: string;
 }
 
 const here = import.meta.dirname;
@@ -91,6 +92,32 @@ async function answers(
   };
 }
 
+/** The report of a vessel, with pictures that show nothing. */
+async function reported(host: MeasuringHost, vessel: MeasuredVessel, length: number): Promise<string> {
+  const { places } = await host.reportPlan(vessel);
+  return host.report({
+    vessel,
+    scan: null,
+    saved: 'a day',
+    has_units: true,
+    has_orientation: true,
+    window: [300, 700],
+    settings: {},
+    view: { picture: 'QUJD', method: 'csr' },
+    strip: { picture: 'QUJD', size: [1344, 100], spacing: length / 1344 },
+    sections: places.map(() => 'QUJD'),
+    stretches: [],
+    distances: [],
+  });
+}
+
+/** The words of a report in their order, but for the view that the page alone shows, and the date. */
+function textOf(report: string): string[] {
+  const body = report.slice(report.indexOf('<body>'));
+  const words = body.split(/<[^>]*>/).map((text) => text.replace('; view CSR', '').trim());
+  return words.filter((text) => text !== '' && text !== 'Saved on a day' && !text.startsWith('CSR of'));
+}
+
 test('numbers that differ are told', () => {
   const same = { a: [1, null], b: 'x' };
   expect(apart(same, { a: [1 + 1e-12, null], b: 'x' })).toBe('');
@@ -118,5 +145,9 @@ describe.skipIf(!existsSync(python))('measuring is that of Python', () => {
     const json = await host.json(measured);
     expect(apart(JSON.parse(json), JSON.parse(expected.json))).toBe('');
     expect(withoutNumbers(json)).toBe(withoutNumbers(expected.json));
+    const { at, references } = expected.asked;
+    const marks = { ...NO_MARKS, at, references: references.slice(0, 1), group: 'carotid' } as const;
+    const [first] = measured as [MeasuredVessel];
+    expect(textOf(await reported(host, { ...first, marks }, length))).toEqual(textOf(expected.report));
   });
 });

@@ -21,6 +21,7 @@ mod pool;
 mod profile_files;
 mod ranges;
 mod renderer;
+mod report;
 mod seed_tracing;
 mod session_file;
 mod settings;
@@ -76,6 +77,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(profile_files::profile_csv, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::vessels_csv, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::vessels_json, module)?)?;
+    module.add_function(wrap_pyfunction!(report::report_html, module)?)?;
+    module.add_function(wrap_pyfunction!(report::report_plan, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_cr, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_opacity, module)?)?;

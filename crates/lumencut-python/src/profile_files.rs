@@ -46,9 +46,10 @@ impl From<Options> for Asked {
 }
 
 /// Id, name and profile of a vessel, and what is told of the place that is marked on it.
-type MeasuredParts = (String, Option<String>, Py<Profile>, Option<Py<Grade>>);
+pub type MeasuredParts = (String, Option<String>, Py<Profile>, Option<Py<Grade>>);
 
-fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
+/// The vessel of the facade.
+pub fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
     Measured {
         id: id.clone(),
         name: name.clone(),

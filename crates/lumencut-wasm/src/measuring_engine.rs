@@ -11,6 +11,7 @@ use lumencut::study::measure_messages::{
     ComparedMessage, DiameterMessage, GradeMessage, MarksMessage, ProfileMessage, SectionMessage,
     SpotMessage, StretchMessage, VesselMessage,
 };
+use lumencut::study::report_messages::ReportMessage;
 
 /// Measuring goes on until the page cancels.
 fn stop() -> bool {
@@ -116,5 +117,23 @@ impl Engine {
     pub fn profiles_json(&mut self, vessels: &str) -> Answer<String> {
         let vessels = read::<Vec<VesselMessage>>("vessels", vessels);
         answer(vessels.and_then(|vessels| self.study.profiles_json(&vessels, &stop)))
+    }
+
+    /// The pictures that the report of a vessel asks for, which is given as JSON, as JSON.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn report_plan(&mut self, vessel: &str) -> Answer<String> {
+        let vessel = read::<VesselMessage>("vessel", vessel);
+        told(vessel.and_then(|vessel| self.study.report_plan(&vessel, &stop)))
+    }
+
+    /// The report of a vessel with its pictures, which are given as JSON, as HTML.
+    ///
+    /// # Errors
+    /// See the module.
+    pub fn measured_report(&mut self, message: &str) -> Answer<String> {
+        let message = read::<ReportMessage>("report", message);
+        answer(message.and_then(|message| self.study.measured_report(&message, &stop)))
     }
 }

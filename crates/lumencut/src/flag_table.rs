@@ -19,6 +19,7 @@ pub struct FlagLook {
     /// What it means, as a part of a sentence.
     pub meaning: &'static str,
     /// Its colour on paper, `#rrggbb`.
+    #[serde(skip)]
     pub paper: &'static str,
     /// Its colour on a dark screen, `#rrggbb`.
     pub screen: &'static str,

@@ -25,6 +25,7 @@ pub mod positions;
 pub mod profile_marks;
 pub mod profile_record;
 pub mod profile_table;
+pub mod report;
 mod samples;
 pub mod scale_bar;
 pub mod study;

@@ -21,6 +21,7 @@ mod opening;
 pub mod picking;
 pub mod planes;
 pub mod profiles;
+pub mod report_messages;
 pub mod session_files;
 pub mod settings;
 pub mod straightened;

@@ -103,7 +103,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     All vessels are measured unless --vessel, --exclude or --path choose among them. Nothing is called a
     stenosis unless --at marks it, or a reader did in the session file that stands for CENTERLINES; the
     narrowest place and references are suggestions to look at. A lumen
-    is not the vessel: thrombus and plaque are not lumen. --plot and --report need matplotlib.
+    is not the vessel: thrombus and plaque are not lumen. --plot needs matplotlib.
 
     \b
     lumencut measure ct.nii.gz centerlines.vtp -o profile.csv --plot profile.png

@@ -29,18 +29,6 @@ _SECTIONS, _IN_ALL, _LEAST = 20, 240, 4
 #: The most vessels of a plot: each takes 4 inches of its height.
 _PLOTTED = 40
 
-#: What a report states of what was asked for, with the unit.
-_ASKED = {
-    "step": " mm",
-    "fwhm": " mm",
-    "at": " mm",
-    "reference": " mm",
-    "method": "",
-    "original": " mm",
-    "comparison": " mm",
-    "group": "",
-}
-
 
 def check_outputs(output: Sequence[Path], chosen: dict[str, Any]) -> None:
     """Refuse files that could not be written, before any is read."""
@@ -56,7 +44,7 @@ def check_outputs(output: Sequence[Path], chosen: dict[str, Any]) -> None:
     if chosen["device"] != "auto" and chosen["report"] is None:
         raise click.UsageError("--device does nothing without --report: the CPU measures; leave it out")
     _check_twice([path for _, path in named] + [chosen["sections"]])
-    if chosen["plot"] is not None or chosen["report"] is not None:
+    if chosen["plot"] is not None:
         from lumencut.profile_plot import check_matplotlib
 
         check_matplotlib()
@@ -146,13 +134,6 @@ def _write_report(
     from lumencut.measure_report import report
     from lumencut.renderer import Renderer
 
-    asked = {
-        name: f"{_words(chosen[name])}{unit}" for name, unit in _ASKED.items() if chosen[name] is not None
-    }
     with bar("report", "page") as told:
-        write_text(path, report(Renderer(voxels, tree, chosen["device"]), voxels, measured, asked, told))
+        write_text(path, report(Renderer(voxels, tree, chosen["device"]), voxels, measured, chosen, told))
     say(str(path))
-
-
-def _words(value: Any) -> str:
-    return " and ".join(f"{place:g}" for place in value) if isinstance(value, tuple) else str(value)

@@ -8,6 +8,8 @@ import type {
   MeasuredVessel,
   Measuring,
   Profile,
+  ReportPlan,
+  ReportRequest,
   Stretch,
 } from './measuring';
 import type { Pair, Progress } from './messages';
@@ -63,5 +65,13 @@ export class MeasuringClient implements Measuring {
 
   json(vessels: readonly MeasuredVessel[]): Promise<string> {
     return this.first(this.host.json(vessels));
+  }
+
+  reportPlan(vessel: MeasuredVessel): Promise<ReportPlan> {
+    return this.first(this.host.reportPlan(vessel));
+  }
+
+  report(request: ReportRequest): Promise<string> {
+    return this.first(this.host.report(request));
   }
 }

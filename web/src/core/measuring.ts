@@ -1,5 +1,5 @@
 /** What the page and its worker tell each other of measuring. Lengths are in mm along a vessel, or in mm; points in world space (LPS, mm). */
-import type { LineId, Pair, Progress, Vector } from './messages';
+import type { LineId, Method, Pair, Progress, Settings, Vector } from './messages';
 
 export type StenosisMethod = 'nascet' | 'ecst' | 'area';
 export type Territory = 'carotid' | 'coronary';
@@ -14,8 +14,7 @@ export interface Spot {
 export interface FlagLook {
   readonly word: string;
   readonly meaning: string;
-  /** Its colour on paper, and on the dark ground of the page. */
-  readonly paper: string;
+  /** Its colour on the dark ground of the page. */
   readonly screen: string;
 }
 
@@ -125,6 +124,47 @@ export interface MeasuredVessel {
   readonly marks: Marks;
 }
 
+/** A place of a report. */
+export interface ReportPlace {
+  /** Such as `marked place`, or `reference before (suggestion)`. */
+  readonly name: string;
+  readonly at: number;
+  readonly is_suggestion: boolean;
+  readonly is_reference: boolean;
+}
+
+/** The pictures that the report of a vessel asks for (mm). */
+export interface ReportPlan {
+  /** Of the straightened vessel: what is seen across it, and the side of a pixel. */
+  readonly width: number;
+  readonly spacing: number;
+  /** The places whose sections are shown, in this order, and the side of their pictures. */
+  readonly places: readonly ReportPlace[];
+  readonly side: number;
+}
+
+/** What the report of a vessel is made of; pictures are PNGs in base64. */
+export interface ReportRequest {
+  readonly vessel: MeasuredVessel;
+  /** The name of the scan, where the user wants it there. */
+  readonly scan: string | null;
+  /** When it was saved, in words. */
+  readonly saved: string;
+  readonly has_units: boolean;
+  readonly has_orientation: boolean;
+  /** Level and width. */
+  readonly window: Pair;
+  readonly settings: Settings;
+  readonly view: { readonly picture: string; readonly method: Method };
+  /** The straightened vessel from left to right, its columns and rows, and the side of a pixel (mm). */
+  readonly strip: { readonly picture: string; readonly size: Pair; readonly spacing: number };
+  /** A section for each place of the plan. */
+  readonly sections: readonly string[];
+  /** Stretches from one arc length to another, and straight distances (mm). */
+  readonly stretches: readonly Pair[];
+  readonly distances: readonly number[];
+}
+
 /** Measuring. All of it throws `Failure`. Profiles are kept by line as long as the study is open. */
 export interface Measuring {
   /** The profile of a line among the lines that are shown: kept, or measured with a step of 0.5 mm. */
@@ -148,4 +188,8 @@ export interface Measuring {
   csv(vessels: readonly MeasuredVessel[]): Promise<string>;
   /** What `lumencut measure -o x.json` writes. */
   json(vessels: readonly MeasuredVessel[]): Promise<string>;
+  /** The pictures that the report of a vessel asks for. */
+  reportPlan(vessel: MeasuredVessel): Promise<ReportPlan>;
+  /** The report as HTML, as `lumencut measure --report` writes it. */
+  report(request: ReportRequest): Promise<string>;
 }

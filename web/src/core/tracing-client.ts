@@ -38,7 +38,7 @@ export class TracingClient implements Tracing {
     return this.first(this.host.brightest(view, column, row));
   }
 
-  traceFrom(seed: Vector, smallestRadius: number, told: Told): Promise<readonly SeedBranch[]> {
+  traceFrom(seed: Vector, smallestRadius: number | null, told: Told): Promise<readonly SeedBranch[]> {
     return this.first(this.host.traceFrom(seed, smallestRadius, proxy(told)));
   }
 

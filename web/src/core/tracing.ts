@@ -67,10 +67,10 @@ export interface Tracing {
   path(request: PathRequest): Promise<readonly Vector[] | null>;
   /** The brightest voxel on the ray of a pixel (CSS pixels of the camera). */
   brightest(view: View, pixel: readonly [number, number]): Promise<Pick>;
-  /** All branches that a seed reaches. */
+  /** All branches that a seed reaches, to where they are narrower than a radius (mm); null stands for that of Python. */
   traceFrom(
     seed: Vector,
-    smallestRadius: number,
+    smallestRadius: number | null,
     told: (progress: Progress) => void,
   ): Promise<readonly SeedBranch[]>;
   /** The lines of a mask of vessels, refined by the scan that is open; it must lie where the scan does. */

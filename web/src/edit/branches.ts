@@ -6,13 +6,10 @@ import { changed, freshName, vesselOf, without, withVessel } from './changes';
 import { commitPlain, inTurn } from './committing';
 import type { Document } from './document';
 
-/** Where branches of a seed end (mm), as in Python. */
-const SMALLEST_RADIUS = 1;
-
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
 export function addBranches(tracing: Tracing, seed: Vector): Promise<boolean> {
   return inTurn('add all branches from here', async (_, told) => {
-    const branches = await tracing.traceFrom(seed, SMALLEST_RADIUS, told);
+    const branches = await tracing.traceFrom(seed, null, told);
     const add = (document: Document, { line, doubt }: (typeof branches)[number]) =>
       withVessel(document, { line, doubt, name: freshName(document, 'Branch') });
     return (now) => branches.reduce(add, now);

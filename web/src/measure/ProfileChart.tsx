@@ -1,4 +1,4 @@
-/** The diameter of a vessel by its arc length, drawn: in the page and in the report. */
+/** The diameter of a vessel by its arc length, drawn in the page. */
 import type { Profile } from '../core/measuring';
 import type { ChartLayout } from './chart-layout';
 import { bandPath, counted, DEVIATIONS, linePath, lonely, spreadOf } from './curves';
@@ -6,34 +6,14 @@ import { flagsIn, runs } from './flags';
 import type { Kind } from './marks';
 import { pixelAt, ticks } from './scale';
 
-/** Colours on a ground. */
-export interface Palette {
-  readonly flags: 'paper' | 'screen';
-  readonly line: string;
-  readonly leftOut: string;
-  readonly text: string;
-  readonly quiet: string;
-  readonly grid: string;
-}
-
-export const SCREEN: Palette = {
-  flags: 'screen',
+/** The colours of curves and words on the dark ground of the page. */
+const COLORS = {
   line: '#7db0ff',
   leftOut: '#9aa3ad',
   text: '#e6e9ed',
   quiet: '#aab3be',
   grid: '#ffffff1c',
-};
-
-/** Those of Python's plots. */
-export const PAPER: Palette = {
-  flags: 'paper',
-  line: '#1f4e9c',
-  leftOut: '#808080',
-  text: '#111111',
-  quiet: '#444444',
-  grid: '#00000020',
-};
+} as const;
 
 /** A place as it is drawn in the chart. */
 export interface ChartMark {
@@ -46,13 +26,12 @@ export interface ChartMark {
 interface ProfileChartProps {
   readonly profile: Profile;
   readonly layout: ChartLayout;
-  readonly palette: Palette;
   /** Whether lengths are known in mm. */
   readonly hasUnits: boolean;
 }
 
 export function ProfileChart(props: ProfileChartProps) {
-  const { layout, palette } = props;
+  const { layout } = props;
   const [width, height] = layout.size;
   return (
     <svg
@@ -62,7 +41,7 @@ export function ProfileChart(props: ProfileChartProps) {
       viewBox={`0 0 ${width} ${height}`}
       font-size="11"
       font-family="system-ui, sans-serif"
-      fill={palette.text}
+      fill={COLORS.text}
       role="img"
       aria-label="diameter of the lumen along the vessel"
     >
@@ -74,7 +53,7 @@ export function ProfileChart(props: ProfileChartProps) {
   );
 }
 
-function Grid({ layout, palette, hasUnits }: ProfileChartProps) {
+function Grid({ layout, hasUnits }: ProfileChartProps) {
   const { x, y, bottom } = layout;
   const unit = hasUnits ? ' (mm)' : '';
   const middle = (y.start + y.end) / 2;
@@ -82,21 +61,21 @@ function Grid({ layout, palette, hasUnits }: ProfileChartProps) {
     <g>
       {ticks(x.low, x.high, (x.end - x.start) / 60).map((value) => (
         <g key={`x${value}`}>
-          <path d={`M${pixelAt(x, value)} ${y.end}V${bottom + 4}`} stroke={palette.grid} />
-          <text x={pixelAt(x, value)} y={bottom + 15} text-anchor="middle" fill={palette.quiet}>
+          <path d={`M${pixelAt(x, value)} ${y.end}V${bottom + 4}`} stroke={COLORS.grid} />
+          <text x={pixelAt(x, value)} y={bottom + 15} text-anchor="middle" fill={COLORS.quiet}>
             {value}
           </text>
         </g>
       ))}
       {ticks(y.low, y.high, (y.start - y.end) / 18).map((value) => (
         <g key={`y${value}`}>
-          <path d={`M${x.start - 4} ${pixelAt(y, value)}H${x.end}`} stroke={palette.grid} />
-          <text x={x.start - 7} y={pixelAt(y, value) + 4} text-anchor="end" fill={palette.quiet}>
+          <path d={`M${x.start - 4} ${pixelAt(y, value)}H${x.end}`} stroke={COLORS.grid} />
+          <text x={x.start - 7} y={pixelAt(y, value) + 4} text-anchor="end" fill={COLORS.quiet}>
             {value}
           </text>
         </g>
       ))}
-      <path d={`M${x.start} ${y.end}V${y.start}H${x.end}`} fill="none" stroke={palette.quiet} />
+      <path d={`M${x.start} ${y.end}V${y.start}H${x.end}`} fill="none" stroke={COLORS.quiet} />
       <text x={(x.start + x.end) / 2} y={bottom + 29} text-anchor="middle">
         {`arc length${unit}`}
       </text>
@@ -107,7 +86,7 @@ function Grid({ layout, palette, hasUnits }: ProfileChartProps) {
   );
 }
 
-function Curves({ profile, layout, palette, hasUnits }: ProfileChartProps) {
+function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
   const { x, y } = layout;
   const at = profile.arc_length;
   const width = counted(profile, profile.diameter);
@@ -115,22 +94,16 @@ function Curves({ profile, layout, palette, hasUnits }: ProfileChartProps) {
   const limit = 1.5 * profile.fwhm;
   return (
     <g>
-      <path d={bandPath(x, y, at, range)} fill={palette.line} fill-opacity="0.16" class="range" />
-      <path d={bandPath(x, y, at, spreadOf(profile))} fill={palette.line} fill-opacity="0.4" class="band" />
-      <path
-        d={linePath(x, y, at, width)}
-        fill="none"
-        stroke={palette.line}
-        stroke-width="1.6"
-        class="width"
-      />
+      <path d={bandPath(x, y, at, range)} fill={COLORS.line} fill-opacity="0.16" class="range" />
+      <path d={bandPath(x, y, at, spreadOf(profile))} fill={COLORS.line} fill-opacity="0.4" class="band" />
+      <path d={linePath(x, y, at, width)} fill="none" stroke={COLORS.line} stroke-width="1.6" class="width" />
       {lonely(width).map((n) => (
         <circle
           key={n}
           cx={pixelAt(x, at[n] ?? 0)}
           cy={pixelAt(y, width[n] ?? 0)}
           r="1.8"
-          fill={palette.line}
+          fill={COLORS.line}
         />
       ))}
       {profile.diameter.map((value, n) =>
@@ -142,7 +115,7 @@ function Curves({ profile, layout, palette, hasUnits }: ProfileChartProps) {
             cy={pixelAt(y, value)}
             r="1.8"
             fill="none"
-            stroke={palette.leftOut}
+            stroke={COLORS.leftOut}
           />
         ),
       )}
@@ -150,10 +123,10 @@ function Curves({ profile, layout, palette, hasUnits }: ProfileChartProps) {
         <g class="limit">
           <path
             d={`M${x.start} ${pixelAt(y, limit)}H${x.end}`}
-            stroke={palette.leftOut}
+            stroke={COLORS.leftOut}
             stroke-dasharray="1.5 3"
           />
-          <text x={x.end - 4} y={pixelAt(y, limit) - 3} text-anchor="end" fill={palette.quiet}>
+          <text x={x.end - 4} y={pixelAt(y, limit) - 3} text-anchor="end" fill={COLORS.quiet}>
             {`1.5 × FWHM: ${limit.toFixed(2)}${hasUnits ? ' mm' : ''}`}
           </text>
         </g>
@@ -163,13 +136,13 @@ function Curves({ profile, layout, palette, hasUnits }: ProfileChartProps) {
 }
 
 /** A row for each flag that is set somewhere, under the line where the diameter is 0. */
-function Flags({ profile, layout, palette }: ProfileChartProps) {
+function Flags({ profile, layout }: ProfileChartProps) {
   const { x, y, row } = layout;
   return (
     <g>
       {flagsIn(profile).map((flag, n) => {
         const top = y.start + n * row;
-        const color = flag[palette.flags];
+        const color = flag.screen;
         return (
           <g key={flag.word} class="flag">
             {runs(profile, flag.word).map(([from, to]) => {
@@ -203,23 +176,23 @@ function Flags({ profile, layout, palette }: ProfileChartProps) {
   );
 }
 
-function Legend({ layout, palette }: ProfileChartProps) {
+function Legend({ layout }: ProfileChartProps) {
   const { x } = layout;
   const isNarrow = x.end - x.start < 640;
   return (
-    <g class="legend" fill={palette.quiet} transform={`translate(${x.start} 12)`}>
-      <path d="M0 -3H18" stroke={palette.line} stroke-width="1.6" />
+    <g class="legend" fill={COLORS.quiet} transform={`translate(${x.start} 12)`}>
+      <path d="M0 -3H18" stroke={COLORS.line} stroke-width="1.6" />
       <text x="23">{isNarrow ? 'diameter' : 'diameter of a circle of the same area'}</text>
       <g transform={`translate(${isNarrow ? 84 : 238} 0)`}>
-        <rect y="-8" width="18" height="9" fill={palette.line} fill-opacity="0.4" />
+        <rect y="-8" width="18" height="9" fill={COLORS.line} fill-opacity="0.4" />
         <text x="23">{isNarrow ? `± ${DEVIATIONS} SD` : `± ${DEVIATIONS} standard deviations`}</text>
       </g>
       <g transform={`translate(${isNarrow ? 160 : 404} 0)`}>
-        <rect y="-8" width="18" height="9" fill={palette.line} fill-opacity="0.16" />
+        <rect y="-8" width="18" height="9" fill={COLORS.line} fill-opacity="0.16" />
         <text x="23">shortest to longest</text>
       </g>
       <g transform={`translate(${isNarrow ? 296 : 540} 0)`}>
-        <circle cx="9" cy="-4" r="2.5" fill="none" stroke={palette.leftOut} />
+        <circle cx="9" cy="-4" r="2.5" fill="none" stroke={COLORS.leftOut} />
         <text x="16">left out</text>
       </g>
     </g>

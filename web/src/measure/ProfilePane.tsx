@@ -10,7 +10,7 @@ import { LyingCpr } from './LyingCpr';
 import { type Lying, lyingIn } from './lying';
 import { NoProfile } from './NoProfile';
 import { COLORS, PlaceHandles } from './PlaceHandles';
-import { ProfileChart, SCREEN } from './ProfileChart';
+import { ProfileChart } from './ProfileChart';
 import { ProfileReading } from './ProfileReading';
 import { type Axis, pixelAt, valueAt } from './scale';
 import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
@@ -66,7 +66,7 @@ function Chart({ profile, size, x, lying }: ChartProps) {
   const [hovered, setHovered] = useState<number | null>(null);
   const layout = useMemo(() => chartLayout(profile, size), [profile, size[0], size[1]]);
   const drawn = useMemo(
-    () => <ProfileChart profile={profile} layout={layout} palette={SCREEN} hasUnits={hasUnits} />,
+    () => <ProfileChart profile={profile} layout={layout} hasUnits={hasUnits} />,
     [profile, layout, hasUnits],
   );
   const top = Math.round(lying.height);

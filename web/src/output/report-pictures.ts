@@ -1,14 +1,13 @@
 /** The pictures of a report, drawn on canvases. */
 import { pixelOf } from '../core/camera';
 import { Failure } from '../core/failure';
-import type { Profile } from '../core/measuring';
-import type { Cpr, LineId, Pair, Picture, PictureLabels, Plane } from '../core/messages';
+import type { Profile, ReportPlace, ReportPlan, ReportRequest } from '../core/measuring';
+import type { Cpr, LineId, Picture, PictureLabels, Plane } from '../core/messages';
 import { engine } from '../core/shared';
-import { type Lying, lyingPicture } from '../measure/lying';
-import type { Place } from '../measure/marks';
+import { lyingPicture } from '../measure/lying';
 import { COLORS } from '../measure/PlaceHandles';
 import { CONTOUR } from '../measure/SectionMarks';
-import { centerAt, fittingSide, nearestSection } from '../measure/sections';
+import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
 import { pixelOn } from '../views/planes';
 import { composed } from './pictures';
@@ -28,49 +27,52 @@ function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRend
 
 const pixelsOf = ({ size, bytes }: Picture): ImageData => new ImageData(bytes, size[0], size[1]);
 
+/** The content of a canvas as a PNG in base64. */
+const pngOf = (canvas: HTMLCanvasElement): string => canvas.toDataURL('image/png').split(',')[1] ?? '';
+
 /** The turning view as it is shown, with its labels and with the marked places. */
-export async function viewPicture(profile: Profile, places: readonly Place[]): Promise<string> {
+export async function viewPicture(profile: Profile, places: readonly ReportPlace[]): Promise<string> {
   const camera = store.camera.value;
   const canvas = await composed('labels');
   const context = canvas.getContext('2d');
   if (camera && context) {
     const density = canvas.height / camera.size[1];
-    for (const { kind, at, isSuggestion } of places) {
-      const center = centerAt(profile, at);
-      if (center && (kind === 'place' || kind === 'reference')) {
+    for (const place of places) {
+      const center = centerAt(profile, place.at);
+      if (center) {
         const [x, y] = pixelOf(camera, center);
         context.beginPath();
         context.arc((x + 0.5) * density, (y + 0.5) * density, 7 * density, 0, 2 * Math.PI);
         context.lineWidth = 2 * density;
-        context.strokeStyle = COLORS[kind];
-        context.setLineDash(isSuggestion ? [3 * density, 3 * density] : []);
+        context.strokeStyle = COLORS[place.is_reference ? 'reference' : 'place'];
+        context.setLineDash(place.is_suggestion ? [3 * density, 3 * density] : []);
         context.stroke();
       }
     }
   }
-  return canvas.toDataURL('image/png');
+  return pngOf(canvas);
 }
 
-/** The lying vessel, and how many pixels it has. */
-export async function lyingData(
+/** The straightened vessel from left to right. */
+export async function straightened(
   vessel: number,
-  { width, spacing }: Lying,
-): Promise<{ data: string; pixels: Pair }> {
+  { width, spacing }: ReportPlan,
+): Promise<ReportRequest['strip']> {
   const cpr: Cpr = { vessel, angle: store.cprAngle.value, width, pixel_spacing: spacing, feature: null };
   const picture = lyingPicture(await engine.straightened(cpr, store.window_.value));
   const [canvas, context] = canvasOf(...picture.size);
   context.putImageData(pixelsOf(picture), 0, 0);
-  return { data: canvas.toDataURL('image/png'), pixels: picture.size };
+  return { picture: pngOf(canvas), size: picture.size, spacing };
 }
 
 /** The section at a place, with its contour on the left and without it on the right. */
 export async function sectionPair(
-  { vessel, line }: { readonly vessel: number; readonly line: LineId },
+  { vessel, line, side }: { readonly vessel: number; readonly line: LineId; readonly side: number },
   profile: Profile,
   at: number,
 ): Promise<string> {
   const number = nearestSection(profile, at);
-  const plane = await planeOf(vessel, profile, number);
+  const plane = await planeOf(vessel, profile, { number, side });
   const [picture, section] = await Promise.all([
     engine.slice(plane, store.window_.value),
     engine.measuring.section(line, at),
@@ -92,18 +94,22 @@ export async function sectionPair(
     const { bar } = await engine.labels({ ...plane, width: SIDE });
     drawBar(context, bar);
   }
-  return canvas.toDataURL('image/png');
+  return pngOf(canvas);
 }
 
 /** The plane that was measured, with the lumen in its middle. */
-async function planeOf(vessel: number, profile: Profile, number: number): Promise<Plane> {
+async function planeOf(
+  vessel: number,
+  profile: Profile,
+  { number, side }: { readonly number: number; readonly side: number },
+): Promise<Plane> {
   const [middle, right, down] = await engine.across(vessel, profile.arc_length[number] ?? 0);
   return {
     center: profile.center[number] ?? middle,
     right,
     down,
     size: [SIDE, SIDE],
-    pixel_spacing: fittingSide(profile) / (SIDE - 1),
+    pixel_spacing: side / (SIDE - 1),
   };
 }
 

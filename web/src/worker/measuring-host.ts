@@ -7,6 +7,8 @@ import type {
   MeasuredSection,
   MeasuredVessel,
   Profile,
+  ReportPlan,
+  ReportRequest,
   Spot,
   Stretch,
 } from '../core/measuring';
@@ -60,5 +62,13 @@ export class MeasuringHost {
 
   json(vessels: readonly MeasuredVessel[]): Promise<string> {
     return this.run((engine) => engine.profiles_json(JSON.stringify(vessels)));
+  }
+
+  reportPlan(vessel: MeasuredVessel): Promise<ReportPlan> {
+    return this.run((engine) => JSON.parse(engine.report_plan(JSON.stringify(vessel))));
+  }
+
+  report(request: ReportRequest): Promise<string> {
+    return this.run((engine) => engine.measured_report(JSON.stringify(request)));
   }
 }

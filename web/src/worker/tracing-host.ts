@@ -50,9 +50,9 @@ export class TracingHost {
     return this.asked((engine) => engine.brightest(JSON.stringify(view), column, row));
   }
 
-  traceFrom(seed: Vector, smallestRadius: number, told: Told): Promise<SeedBranch[]> {
+  traceFrom(seed: Vector, smallestRadius: number | null, told: Told): Promise<SeedBranch[]> {
     const work = (engine: Engine, heard: Heard) =>
-      engine.trace_from(JSON.stringify(seed), smallestRadius, heard);
+      engine.trace_from(JSON.stringify(seed), smallestRadius ?? undefined, heard);
     return this.long('Finding branches', told, work);
   }
 

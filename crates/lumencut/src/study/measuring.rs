@@ -13,7 +13,7 @@ use crate::study::open_study::Study;
 use crate::study::profiles::{Asking, Profiles};
 
 /// A vessel that is measured: the number of its profile, and what is told of the place that is marked on it.
-struct GradedVessel {
+pub(super) struct GradedVessel {
     number: usize,
     grade: Option<Grade>,
 }
@@ -58,16 +58,21 @@ impl Study {
     /// As [`Study::profiles_csv`].
     pub fn profiles_json(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<String> {
         let graded = self.graded(vessels, stop)?;
-        let asked = match (vessels, &graded[..]) {
-            ([one], [graded]) => one.marks.asked(graded.grade.as_ref().and_then(Grade::stenosis).is_some()),
-            _ => Asked::default(),
-        };
-        let asked = Asked { step_mm: STEP, fwhm_mm: self.common_width(vessels), ..asked };
+        let asked = self.asked(vessels, &graded);
         Ok(vessels_json(&asked, &self.rows(vessels, &graded)))
     }
 
+    /// What was asked for: what was marked among it where it is one vessel.
+    pub(super) fn asked(&self, vessels: &[VesselMessage], graded: &[GradedVessel]) -> Asked {
+        let asked = match (vessels, graded) {
+            ([one], [graded]) => one.marks.asked(graded.grade.as_ref().and_then(Grade::stenosis).is_some()),
+            _ => Asked::default(),
+        };
+        Asked { step_mm: STEP, fwhm_mm: self.common_width(vessels), ..asked }
+    }
+
     /// Each vessel measured, and what is told of the place that is marked on it.
-    fn graded(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<GradedVessel>> {
+    pub(super) fn graded(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<Vec<GradedVessel>> {
         let numbers = self.all_of(vessels, stop)?;
         let graded = |(vessel, number): (&VesselMessage, usize)| {
             let grade = vessel.marks.marked()?.grade(self.profiles.kept(number));
@@ -76,7 +81,11 @@ impl Study {
         vessels.iter().zip(numbers).map(graded).collect()
     }
 
-    fn rows<'a>(&'a self, vessels: &[VesselMessage], graded: &'a [GradedVessel]) -> Vec<Measured<'a>> {
+    pub(super) fn rows<'a>(
+        &'a self,
+        vessels: &[VesselMessage],
+        graded: &'a [GradedVessel],
+    ) -> Vec<Measured<'a>> {
         let row = |(vessel, graded): (&VesselMessage, &'a GradedVessel)| Measured {
             id: vessel.id.clone(),
             name: Some(vessel.name.clone()).filter(|name| !name.is_empty()),

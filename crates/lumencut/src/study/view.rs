@@ -48,6 +48,11 @@ impl From<&Camera> for CameraMessage {
 pub const METHODS: [[&str; 2]; 4] =
     [["csr", "CSR"], ["csr-paper", "CSR (paper)"], ["cr", "CR"], ["mpcpr", "mpCPR"]];
 
+/// How readers call a method of a view.
+pub fn method_word(name: &str) -> &str {
+    METHODS.iter().find(|[known, _]| *known == name).map_or(name, |[_, word]| word)
+}
+
 /// A view as the page asks for it.
 #[derive(Clone, Debug, Deserialize)]
 pub struct ViewMessage {

@@ -1,0 +1,68 @@
+//! The report of measured vessels: what Python made pictures of, for the facade.
+
+use lumencut::report::{self, Lengths, Plan, ReportMark, Shown, Strip, VesselPage};
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+use crate::measuring::Profile;
+use crate::profile_files::{MeasuredParts, Options, row};
+
+/// A place: what it is, its arc length (mm), and whether it is a suggestion.
+type PlaceParts = (String, f64, bool);
+
+fn marks(places: &[PlaceParts]) -> Vec<ReportMark> {
+    let mark = |(name, at, is_suggestion): &PlaceParts| ReportMark {
+        name: name.clone(),
+        at: *at,
+        is_suggestion: *is_suggestion,
+    };
+    places.iter().map(mark).collect()
+}
+
+/// A vessel with its places, its straightened picture (PNG in base64, columns and rows, mm) and the pictures of its sections.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct PageParts {
+    measured: MeasuredParts,
+    places: Vec<PlaceParts>,
+    strip: (String, [usize; 2], f64),
+    sections: Vec<String>,
+}
+
+/// The pictures of a vessel that its report asks for: width and side of a pixel of the straightened vessel (mm), arc lengths of
+/// the sections and the side of their pictures (mm).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {
+    let Plan { width, spacing, places, side } = report::plan(&profile.0, &marks(&places));
+    (width, spacing, places.iter().map(|place| place.at).collect(), side)
+}
+
+fn page(parts: &PageParts) -> VesselPage<'_> {
+    let (picture, size, spacing) = parts.strip.clone();
+    VesselPage {
+        measured: row(&parts.measured),
+        marks: marks(&parts.places),
+        lengths: Lengths::default(),
+        view: None,
+        strip: Some(Strip { picture, size, spacing }),
+        sections: parts.sections.clone(),
+    }
+}
+
+/// The report as HTML, from the options that vessels were measured by, and level and width of the window of pictures.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn report_html(options: Options, window: [f64; 2], pages: Vec<PageParts>) -> PyResult<String> {
+    let shown = Shown {
+        scan: None,
+        saved: None,
+        has_units: true,
+        has_orientation: true,
+        asked: options.into(),
+        window,
+        settings: Vec::new(),
+    };
+    let vessels: Vec<VesselPage> = pages.iter().map(page).collect();
+    report::html(&shown, &vessels).map_err(to_python)
+}

@@ -1,0 +1,206 @@
+//! The report of measured vessels as a web page that needs nothing beside itself: no script, no address, and of the patient
+//! only what its pictures show and the names of vessels; the name of the scan where a host gives it. Hosts give pictures,
+//! the facade all words, their order and their look.
+
+mod curves;
+mod findings;
+mod markup;
+mod places;
+mod plan;
+mod plot;
+mod scale;
+mod told;
+
+use lumencut_core::error::Result;
+use lumencut_vessels::measure::profile::Profile;
+use serde::Deserialize;
+
+use crate::flag_table::{FLAGS, FlagLook};
+use crate::profile_marks::Measured;
+use crate::profile_record::{Asked, NOTICE};
+use crate::study::view::method_word;
+use findings::findings;
+use markup::{escaped, figure, paragraph};
+pub use places::{Place, ReportMark};
+use places::{places, row, table, widest_row};
+pub use plan::{Plan, plan};
+use plot::Plot;
+use told::{EXPLAINED, UNITLESS, told};
+
+const STYLE: &str = include_str!("report/style.css");
+
+/// What all vessels of a report share.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The name of the scan, where it is asked for.
+    pub scan: Option<String>,
+    /// When the report was saved, in words.
+    pub saved: Option<String>,
+    /// Whether the file states how far its voxels lie apart: lengths have no unit otherwise.
+    pub has_units: bool,
+    /// Whether the file states where the patient's left is: angles of a C-arm are not told otherwise.
+    pub has_orientation: bool,
+    /// What was asked for.
+    pub asked: Asked,
+    /// Level and width of the window of its pictures.
+    pub window: [f64; 2],
+    /// How its pictures were made beside that: names and values.
+    pub settings: Vec<[String; 2]>,
+}
+
+/// A measured vessel with its pictures, all of them PNGs in base64.
+#[derive(Clone, Debug)]
+pub struct VesselPage<'a> {
+    /// The vessel, its sections and its stenosis.
+    pub measured: Measured<'a>,
+    /// Marked and suggested places.
+    pub marks: Vec<ReportMark>,
+    /// What else a reader measured.
+    pub lengths: Lengths,
+    /// A view of all vessels, and the name of its method.
+    pub view: Option<View>,
+    /// The straightened vessel.
+    pub strip: Option<Strip>,
+    /// The section at each of [`Plan::places`], with its contour and without.
+    pub sections: Vec<String>,
+}
+
+/// Lengths that a reader measured beside the diameters.
+#[derive(Clone, Debug, Default)]
+pub struct Lengths {
+    /// Stretches of the vessel, from one arc length to another (mm): two at most.
+    pub stretches: Vec<[f64; 2]>,
+    /// Straight distances (mm).
+    pub distances: Vec<f64>,
+}
+
+/// A view of all vessels.
+#[derive(Clone, Debug, Deserialize)]
+pub struct View {
+    /// A PNG in base64.
+    pub picture: String,
+    /// The name of its method, such as `csr`.
+    pub method: String,
+}
+
+/// The straightened vessel from left to right: the middle of its first column is the beginning of the vessel.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Strip {
+    /// A PNG in base64.
+    pub picture: String,
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// The side of a pixel (mm).
+    pub spacing: f64,
+}
+
+/// The report as HTML.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Settings`] for a picture that is not base64.
+pub fn html(shown: &Shown, vessels: &[VesselPage]) -> Result<String> {
+    let title = match vessels {
+        [one] => format!("lumen of {}", name_of(&one.measured)),
+        several => format!("lumen of {} vessels", several.len()),
+    };
+    let pages = vessels.iter().map(|vessel| page(shown, vessel)).collect::<Result<Vec<_>>>()?.concat();
+    Ok(format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Lumencut: {}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n{pages}</body>\n</html>\n",
+        escaped(&title)
+    ))
+}
+
+/// What a vessel is called: its id and, where it has one, its name.
+fn name_of(measured: &Measured) -> String {
+    let name = measured.name.as_ref().map_or_else(String::new, |name| format!(" {name}"));
+    format!("vessel {}{name}", measured.id)
+}
+
+fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
+    let (profile, places) = (vessel.measured.profile, places(&vessel.marks));
+    let plot = Plot { profile, places: &places, strip: vessel.strip.as_ref(), has_units: shown.has_units };
+    let unitless = if shown.has_units { String::new() } else { paragraph("small", UNITLESS) };
+    Ok(format!(
+        "<section>\n{}{}<figure class=\"plot\">\n{}<figcaption>Straightened CPR and diameter along the vessel, on \
+         one axis</figcaption>\n</figure>\n{}{}{unitless}{}</section>\n",
+        head(shown, vessel),
+        top(shown, vessel)?,
+        plot.svg()?,
+        tables(shown, vessel, &places)?,
+        paragraph("small", EXPLAINED),
+        paragraph("small", &told(shown, vessel)),
+    ))
+}
+
+/// The name of the vessel, what the report is of, and what it is not.
+fn head(shown: &Shown, vessel: &VesselPage) -> String {
+    let length = shown.length(vessel.measured.profile.length(), 1);
+    let mut name = name_of(&vessel.measured);
+    name.replace_range(..1, "V");
+    let mut head = format!("<h1>{}, {length}</h1>\n", escaped(&name));
+    for (what, words) in [("Scan: ", &shown.scan), ("Saved on ", &shown.saved)] {
+        if let Some(words) = words {
+            head.push_str(&paragraph("", &format!("{what}{words}")));
+        }
+    }
+    head + &paragraph("notice", NOTICE)
+}
+
+/// The view beside what was found.
+fn top(shown: &Shown, vessel: &VesselPage) -> Result<String> {
+    let found = findings(shown, vessel);
+    let Some(view) = &vessel.view else { return Ok(found) };
+    let words = format!("{} of the vessels, as it was shown", method_word(&view.method));
+    Ok(format!("<div class=\"top\">\n{}<div>\n{found}</div>\n</div>\n", figure(&view.picture, &words)?))
+}
+
+/// What was marked, and apart from it what nobody confirmed.
+fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String> {
+    let profile = vessel.measured.profile;
+    let rows = |is_suggestion: bool| {
+        let these = places.iter().filter(move |place| place.is_suggestion == is_suggestion);
+        these.map(|place| row(profile, place)).collect::<Vec<_>>()
+    };
+    let (marked, mut offered) = (rows(false), rows(true));
+    offered.extend(profile.offered_widest().map(|spot| widest_row(profile, spot.at)));
+    let mut text = "<h2>Places</h2>\n".to_owned();
+    if marked.is_empty() && offered.is_empty() {
+        text += &paragraph("", "No place is marked, and no section counts: see the flags.");
+        return Ok(text);
+    }
+    text += &if marked.is_empty() {
+        paragraph("", "No place is marked.")
+    } else {
+        table(&marked, shown.has_units)
+    };
+    text += &sections(shown, vessel, places, false)?;
+    if !offered.is_empty() {
+        text += "<h2>Suggestions, not looked at</h2>\n";
+        text += &table(&offered, shown.has_units);
+        text += &sections(shown, vessel, places, true)?;
+    }
+    Ok(text)
+}
+
+/// The pictures of the sections at marked places, or at suggested ones.
+fn sections(shown: &Shown, vessel: &VesselPage, places: &[Place], is_suggestion: bool) -> Result<String> {
+    let with_pictures = places.iter().zip(&vessel.sections);
+    let these = with_pictures.filter(|(place, _)| place.is_suggestion == is_suggestion);
+    let figures = these.map(|(place, picture)| figure(picture, &place.caption(shown.unit())));
+    let figures = figures.collect::<Result<Vec<_>>>()?.concat();
+    if figures.is_empty() {
+        return Ok(figures);
+    }
+    let head = "<h2>Sections at these places, with the contour and without</h2>";
+    Ok(format!("{head}\n<div class=\"sections\">\n{figures}</div>\n"))
+}
+
+/// The flags that are set somewhere, in their order.
+fn flag_rows(profile: &Profile) -> Vec<&'static FlagLook> {
+    FLAGS.iter().filter(|flag| profile.flags.iter().any(|bits| bits & flag.bit > 0)).collect()
+}
+
+#[cfg(test)]
+#[path = "tests/report.rs"]
+mod tests;

@@ -1,0 +1,75 @@
+//! The curves of a profile as paths of an SVG. Values that are not a number are not drawn.
+
+use std::fmt::Write;
+
+use super::scale::Axis;
+
+/// Both axes of a plot.
+#[derive(Clone, Copy, Debug)]
+pub struct Axes {
+    /// Along the vessel (mm).
+    pub x: Axis,
+    /// The diameter (mm).
+    pub y: Axis,
+}
+
+impl Axes {
+    fn point(&self, at: f64, value: f64) -> [f64; 2] {
+        [self.x.pixel(at), self.y.pixel(value)]
+    }
+}
+
+/// A line through values, interrupted where there is none; a value between two without one is no line.
+pub fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
+    let mut path = String::new();
+    for run in stretches(values).iter().filter(|run| run.len() > 1) {
+        push(&mut path, run.clone().map(|n| axes.point(at[n], values[n])));
+    }
+    path
+}
+
+/// The area between two lines, where both have values.
+pub fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
+    let both: Vec<f64> = low.iter().zip(high).map(|(low, high)| low + high).collect();
+    let mut path = String::new();
+    for run in stretches(&both).iter().filter(|run| run.len() > 1) {
+        let upper = run.clone().map(|n| axes.point(at[n], high[n]));
+        push(&mut path, upper.chain(run.clone().rev().map(|n| axes.point(at[n], low[n]))));
+        path.push('Z');
+    }
+    path
+}
+
+/// The numbers of values that stand alone between two that are missing.
+pub fn lonely(values: &[f64]) -> Vec<usize> {
+    stretches(values).iter().filter(|run| run.len() == 1).map(|run| run.start).collect()
+}
+
+/// Stretches of values that are numbers.
+fn stretches(values: &[f64]) -> Vec<std::ops::Range<usize>> {
+    runs(values.len(), |n| values[n].is_finite())
+}
+
+/// Stretches of numbers below `count` for which something holds.
+pub fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
+    let mut found: Vec<std::ops::Range<usize>> = Vec::new();
+    for n in (0..count).filter(|n| holds(*n)) {
+        match found.last_mut() {
+            Some(last) if last.end == n => last.end = n + 1,
+            _ => found.push(n..n + 1),
+        }
+    }
+    found
+}
+
+fn push(path: &mut String, points: impl Iterator<Item = [f64; 2]>) {
+    for (n, [x, y]) in points.enumerate() {
+        let letter = if n == 0 { 'M' } else { 'L' };
+        // Writing to memory does not fail.
+        let _ = write!(path, "{letter}{x:.2} {y:.2}");
+    }
+}
+
+#[cfg(test)]
+#[path = "../tests/report_curves.rs"]
+mod tests;

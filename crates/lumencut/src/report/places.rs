@@ -1,0 +1,119 @@
+//! The places of a vessel that a report shows: what a reader marked, and apart from it what is only offered.
+
+use lumencut_vessels::measure::profile::Profile;
+use serde::Serialize;
+
+use super::markup::escaped;
+use crate::measure_words::of_flags;
+use crate::profile_marks::Mark;
+use crate::text::fixed;
+
+/// What the places are called that a stenosis is compared with.
+const REFERENCE: &str = "reference";
+
+/// The colours of the place of a stenosis and of its references, `#rrggbb`: those of the handles over pictures.
+const COLORS: [&str; 2] = ["#ff6b6b", "#7ee787"];
+
+/// What stands where there is no number.
+const NOTHING: &str = "–";
+
+/// A marked or suggested place, as [`crate::profile_marks::marks`] gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReportMark {
+    /// What it is: `marked place`, `narrowest place` or `reference`.
+    pub name: String,
+    /// Its arc length (mm).
+    pub at: f64,
+    /// Whether it is offered; a reader marked it otherwise.
+    pub is_suggestion: bool,
+}
+
+impl From<&Mark> for ReportMark {
+    fn from(mark: &Mark) -> Self {
+        Self { name: mark.name.to_owned(), at: mark.at, is_suggestion: mark.is_suggestion }
+    }
+}
+
+/// A place with its name and colour.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Place {
+    /// Such as `marked place` or `reference before (suggestion)`.
+    pub name: String,
+    /// Its arc length (mm).
+    pub at: f64,
+    /// Whether it is offered; a reader marked it otherwise.
+    pub is_suggestion: bool,
+    /// Whether it is compared with the place of a stenosis.
+    pub is_reference: bool,
+}
+
+impl Place {
+    /// Its colour, `#rrggbb`.
+    pub fn color(&self) -> &'static str {
+        COLORS[usize::from(self.is_reference)]
+    }
+
+    /// Its name and where it is.
+    pub fn caption(&self, unit: &str) -> String {
+        format!("{} at {}{unit}", self.name, fixed(self.at, 1))
+    }
+}
+
+/// The places of marks: references say on which side of the first place they lie.
+pub fn places(marks: &[ReportMark]) -> Vec<Place> {
+    let main = marks.iter().find(|mark| mark.name != REFERENCE).map(|mark| mark.at);
+    let named = |mark: &ReportMark| {
+        let is_reference = mark.name == REFERENCE;
+        let side = match main {
+            Some(main) if is_reference => [" before", " after"][usize::from(mark.at > main)],
+            _ => "",
+        };
+        let offered = if mark.is_suggestion { " (suggestion)" } else { "" };
+        let name = format!("{}{side}{offered}", mark.name);
+        Place { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
+    };
+    let mut found: Vec<Place> = marks.iter().map(named).collect();
+    // The place of a stenosis first, then its references along the vessel.
+    found.sort_by(|a, b| a.is_reference.cmp(&b.is_reference).then(a.at.total_cmp(&b.at)));
+    found
+}
+
+/// A line of the table: the numbers of the section that is nearest to a place.
+pub fn row(profile: &Profile, place: &Place) -> String {
+    let dot = format!("<span style=\"color: {}\">●</span> ", place.color());
+    numbers(profile, &format!("{dot}{}", escaped(&place.name)), place.at)
+}
+
+/// The line of the place of the longest diameter, which nobody marked.
+pub fn widest_row(profile: &Profile, at: f64) -> String {
+    numbers(profile, "longest diameter (suggestion)", at)
+}
+
+fn numbers(profile: &Profile, name: &str, at: f64) -> String {
+    let n = profile.nearest_section(at);
+    let number = |value: f64, decimals| {
+        if value.is_finite() { fixed(value, decimals) } else { NOTHING.to_owned() }
+    };
+    let diameter = 2.0 * (profile.area[n] / std::f64::consts::PI).sqrt();
+    let cells = [
+        number(profile.arc_length[n], 1),
+        format!("{} ± {}", number(diameter, 2), number(profile.uncertainty[n], 2)),
+        number(profile.diameter_min[n], 2),
+        number(profile.diameter_max[n], 2),
+        number(profile.area[n], 1),
+    ];
+    let cells: String = cells.iter().map(|text| format!("<td>{text}</td>")).collect();
+    let flags = of_flags(profile.flags[n]).join(", ");
+    let flags = if flags.is_empty() { "none" } else { &flags };
+    format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")
+}
+
+/// A table of lines; lengths have no unit where none is known.
+pub fn table(rows: &[String], has_units: bool) -> String {
+    let [mm, square] = if has_units { [" (mm)", " (mm²)"] } else { [""; 2] };
+    let heads = ["arc length", "diameter ± 1 SD", "shortest", "longest"].map(|name| format!("{name}{mm}"));
+    let heads: String =
+        heads.iter().chain([&format!("area{square}")]).map(|name| format!("<th>{name}</th>")).collect();
+    let rows = rows.concat();
+    format!("<table><tr><th>place</th>{heads}<th class=\"words\">flags</th></tr>\n{rows}</table>\n")
+}

@@ -1,0 +1,330 @@
+//! The profile of a vessel as an SVG below the straightened vessel, which lies on the same axis.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use lumencut_core::error::Result;
+use lumencut_vessels::measure::profile::Profile;
+
+use super::curves::{Axes, band, line, lonely, runs};
+use super::markup::png_address;
+use super::places::Place;
+use super::scale::Axis;
+use super::{Strip, flag_rows};
+use crate::flag_table::FlagLook;
+use crate::text::{fixed, rounded};
+
+/// The width of the plot and the heights of its parts (pixels of its own): the chart, and the straightened vessel at most.
+const WIDTH: f64 = 1000.0;
+const CHART: f64 = 270.0;
+pub(super) const STRIP: f64 = 150.0;
+
+/// Room for the numbers at the left, for words at the right, for the legend above and for the ticks below.
+const LEFT: f64 = 56.0;
+const RIGHT: f64 = 104.0;
+const ABOVE: f64 = 38.0;
+const BELOW: f64 = 34.0;
+
+/// The height of a row of flags; all rows take no more than this share of the height.
+const ROW: f64 = 12.0;
+const MOST_ROWS: f64 = 0.45;
+
+/// The number of standard deviations that the band reaches to both sides.
+const DEVIATIONS: f64 = 2.0;
+
+/// The largest diameter takes this share more.
+const ROOM: f64 = 1.12;
+
+/// A diameter below this multiple of the point spread's width is at the limit.
+const LIMIT: f64 = 1.5;
+
+const CURVE: &str = "#1f4e9c";
+const LEFT_OUT: &str = "#808080";
+const QUIET: &str = "#444444";
+const OUTLINE: &str = "#222222";
+
+/// What is drawn.
+pub struct Plot<'a> {
+    /// The sections.
+    pub profile: &'a Profile,
+    /// Marked and suggested places.
+    pub places: &'a [Place],
+    /// The straightened vessel.
+    pub strip: Option<&'a Strip>,
+    /// Whether lengths are known in mm.
+    pub has_units: bool,
+}
+
+/// Where things lie.
+struct Layout {
+    axes: Axes,
+    /// The flags that are set somewhere.
+    flags: Vec<&'static FlagLook>,
+    /// The height of the row of a flag, the first of which begins where the diameter is 0.
+    row: f64,
+    /// Where the chart ends below the rows.
+    bottom: f64,
+}
+
+/// The axis along a vessel of this length (mm).
+pub fn axis_along(length: f64) -> Axis {
+    Axis { low: 0.0, high: length, start: LEFT, end: WIDTH - RIGHT }
+}
+
+impl Layout {
+    fn of(profile: &Profile) -> Self {
+        let flags = flag_rows(profile);
+        let bottom = CHART - BELOW;
+        let row = ROW.min(MOST_ROWS * (bottom - ABOVE) / flags.len().max(1) as f64);
+        let start = bottom - row * flags.len() as f64;
+        let y = Axis { low: 0.0, high: top(profile), start, end: ABOVE };
+        Self { axes: Axes { x: axis_along(profile.length()), y }, flags, row, bottom }
+    }
+}
+
+impl Plot<'_> {
+    /// The markup of the plot.
+    ///
+    /// # Errors
+    /// Where the picture of the vessel is not base64.
+    pub fn svg(&self) -> Result<String> {
+        let layout = Layout::of(self.profile);
+        let (strip, top) = self.strip_markup(&layout.axes.x)?;
+        let mut svg = format!(
+            "<svg viewBox=\"0 0 {WIDTH} {}\" role=\"img\" aria-label=\"vessel and its diameter\" \
+             font-size=\"11\" font-family=\"system-ui, sans-serif\" fill=\"#111111\">\n{strip}\
+             <g transform=\"translate(0 {top:.2})\">\n",
+            fixed(top + CHART, 2)
+        );
+        self.push_grid(&mut svg, &layout);
+        self.push_curves(&mut svg, &layout);
+        self.push_flags(&mut svg, &layout);
+        push_legend(&mut svg);
+        svg.push_str("</g>\n");
+        for place in self.places {
+            self.push_place(&mut svg, &layout, place, top);
+        }
+        svg.push_str("</svg>\n");
+        Ok(svg)
+    }
+
+    /// The straightened vessel, and its height.
+    fn strip_markup(&self, x: &Axis) -> Result<(String, f64)> {
+        let Some(strip) = self.strip else { return Ok((String::new(), 0.0)) };
+        let per_mm = (x.end - x.start) / (x.high - x.low);
+        let [columns, rows] = strip.size.map(|count| count as f64 * strip.spacing * per_mm);
+        let height = rows.min(STRIP);
+        // The middle of the first column is at the beginning of the vessel.
+        let left = x.start - strip.spacing * per_mm / 2.0;
+        let address = png_address(&strip.picture)?;
+        let mut markup = format!(
+            "<image href=\"{address}\" x=\"{left:.2}\" y=\"0\" width=\"{columns:.2}\" height=\"{height:.2}\" \
+             preserveAspectRatio=\"none\"/>\n"
+        );
+        if (height / rows - 1.0).abs() > 0.01 {
+            let (column, row) = (x.end + 6.0, height / 2.0);
+            let words = format!("height × {}", rounded(height / rows, 2));
+            push(&mut markup, format_args!("<text x=\"{column}\" y=\"{row:.2}\">{words}</text>\n"));
+        }
+        Ok((markup, height))
+    }
+
+    fn push_grid(&self, svg: &mut String, layout: &Layout) {
+        let (Axes { x, y }, bottom) = (layout.axes, layout.bottom);
+        let unit = if self.has_units { " (mm)" } else { "" };
+        for value in x.ticks(60.0) {
+            let (at, words) = (x.pixel(value), rounded(value, 6));
+            push(
+                svg,
+                format_args!(
+                    "<path d=\"M{at:.2} {}V{}\" stroke=\"#00000020\"/><text x=\"{at:.2}\" y=\"{}\" \
+                     text-anchor=\"middle\" fill=\"{QUIET}\">{words}</text>\n",
+                    y.end,
+                    bottom + 4.0,
+                    bottom + 15.0
+                ),
+            );
+        }
+        for value in y.ticks(18.0) {
+            let (at, words) = (y.pixel(value), rounded(value, 6));
+            push(
+                svg,
+                format_args!(
+                    "<path d=\"M{} {at:.2}H{}\" stroke=\"#00000020\"/><text x=\"{}\" y=\"{:.2}\" \
+                     text-anchor=\"end\" fill=\"{QUIET}\">{words}</text>\n",
+                    x.start - 4.0,
+                    x.end,
+                    x.start - 7.0,
+                    at + 4.0
+                ),
+            );
+        }
+        push(
+            svg,
+            format_args!(
+                "<path d=\"M{} {}V{:.2}H{}\" fill=\"none\" stroke=\"{QUIET}\"/>\n\
+                 <text x=\"{}\" y=\"{}\" text-anchor=\"middle\">arc length{unit}</text>\n\
+                 <text transform=\"translate(12 {:.2}) rotate(-90)\" text-anchor=\"middle\">diameter{unit}</text>\n",
+                x.start,
+                y.end,
+                y.start,
+                x.end,
+                f64::midpoint(x.start, x.end),
+                bottom + 29.0,
+                f64::midpoint(y.start, y.end)
+            ),
+        );
+    }
+
+    fn push_curves(&self, svg: &mut String, layout: &Layout) {
+        let (axes, profile) = (&layout.axes, self.profile);
+        let at = &profile.arc_length;
+        let counted = |values: &[f64]| -> Vec<f64> {
+            (0..values.len()).map(|n| if profile.counts(n) { values[n] } else { f64::NAN }).collect()
+        };
+        let all = profile.diameter_equivalent();
+        let width = counted(&all);
+        let spread = |sign: f64| -> Vec<f64> {
+            let away = |n: usize| width[n] + sign * DEVIATIONS * profile.uncertainty[n];
+            // What is not a number stays so.
+            (0..width.len()).map(away).map(|edge| if edge < 0.0 { 0.0 } else { edge }).collect()
+        };
+        let range = band(axes, at, &counted(&profile.diameter_min), &counted(&profile.diameter_max));
+        let (spread, curve) = (band(axes, at, &spread(-1.0), &spread(1.0)), line(axes, at, &width));
+        push(
+            svg,
+            format_args!(
+                "<path class=\"range\" d=\"{range}\" fill=\"{CURVE}\" fill-opacity=\"0.16\"/>\n\
+                 <path class=\"band\" d=\"{spread}\" fill=\"{CURVE}\" fill-opacity=\"0.4\"/>\n\
+                 <path class=\"width\" d=\"{curve}\" fill=\"none\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\n"
+            ),
+        );
+        for n in lonely(&width) {
+            push_dot(svg, [axes.x.pixel(at[n]), axes.y.pixel(width[n])], &format!("fill=\"{CURVE}\""));
+        }
+        let is_left_out = |n: &usize| !profile.counts(*n) && all[*n] <= axes.y.high;
+        for n in (0..profile.len()).filter(is_left_out) {
+            let look = format!("class=\"left-out\" fill=\"none\" stroke=\"{LEFT_OUT}\"");
+            push_dot(svg, [axes.x.pixel(at[n]), axes.y.pixel(all[n])], &look);
+        }
+        self.push_limit(svg, axes);
+    }
+
+    /// The line below which little is left of a diameter in the picture.
+    fn push_limit(&self, svg: &mut String, axes: &Axes) {
+        let limit = LIMIT * self.profile.fwhm;
+        if limit < axes.y.high {
+            let (at, unit) = (axes.y.pixel(limit), if self.has_units { " mm" } else { "" });
+            push(
+                svg,
+                format_args!(
+                    "<path class=\"limit\" d=\"M{} {at:.2}H{}\" stroke=\"{LEFT_OUT}\" \
+                     stroke-dasharray=\"1.5 3\"/><text x=\"{}\" y=\"{:.2}\" text-anchor=\"end\" \
+                     fill=\"{QUIET}\">{LIMIT} × FWHM: {}{unit}</text>\n",
+                    axes.x.start,
+                    axes.x.end,
+                    axes.x.end - 4.0,
+                    at - 3.0,
+                    fixed(limit, 2)
+                ),
+            );
+        }
+    }
+
+    /// A row for each flag that is set somewhere. Stretches begin half a step before their first section.
+    fn push_flags(&self, svg: &mut String, layout: &Layout) {
+        let (Axes { x, y }, row) = (layout.axes, layout.row);
+        let (at, flags) = (&self.profile.arc_length, &self.profile.flags);
+        let half = if at.len() > 1 { (at[1] - at[0]) / 2.0 } else { 0.5 };
+        for (n, flag) in layout.flags.iter().enumerate() {
+            let (color, top) = (flag.paper, y.start + n as f64 * row);
+            for run in runs(flags.len(), |n| flags[n] & flag.bit > 0) {
+                let [start, end] =
+                    [at[run.start] - half, at[run.end - 1] + half].map(|at| x.pixel_within(at));
+                push(
+                    svg,
+                    format_args!(
+                        "<rect x=\"{start:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{color}\"/>",
+                        top + 0.2 * row,
+                        (end - start).max(1.0),
+                        0.6 * row
+                    ),
+                );
+            }
+            push(
+                svg,
+                format_args!(
+                    "<text class=\"flag\" x=\"{}\" y=\"{:.2}\" fill=\"{color}\" font-size=\"{:.2}\">\
+                     <title>{}</title>{}</text>\n",
+                    x.end + 6.0,
+                    top + 0.5 * row + 4.0,
+                    row.clamp(7.0, 11.0),
+                    flag.meaning,
+                    flag.word
+                ),
+            );
+        }
+    }
+
+    fn push_place(&self, svg: &mut String, layout: &Layout, place: &Place, top: f64) {
+        let Axes { x, y } = layout.axes;
+        let area = self.profile.area[self.profile.nearest_section(place.at)];
+        let diameter = if area.is_finite() { 2.0 * (area / PI).sqrt() } else { 0.0 };
+        let (column, row) = (x.pixel(place.at), top + y.pixel_within(diameter));
+        let color = place.color();
+        let (fill, dashes) =
+            if place.is_suggestion { ("#ffffff", " stroke-dasharray=\"4 3\"") } else { (color, "") };
+        let symbol = if place.is_reference {
+            format!("M{column:.2} {row:.2}m0 -6l5 6l-5 6l-5 -6Z")
+        } else {
+            format!("M{column:.2} {row:.2}m-5 -5h10l-5 9Z")
+        };
+        push(
+            svg,
+            format_args!(
+                "<g class=\"place\" stroke=\"{OUTLINE}\" fill=\"{fill}\"><path d=\"M{column:.2} 0V{top:.2}M{column:.2} {:.2}V{:.2}\" \
+                 stroke=\"{color}\" stroke-width=\"1.4\"{dashes}/><path d=\"{symbol}\"/></g>\n",
+                // The words between the vessel and the chart stay free.
+                top + ABOVE,
+                top + layout.bottom
+            ),
+        );
+    }
+}
+
+fn push_legend(svg: &mut String) {
+    push(
+        svg,
+        format_args!(
+            "<g class=\"legend\" fill=\"{QUIET}\" transform=\"translate({LEFT} 12)\">\
+             <path d=\"M0 -3H18\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\
+             <text x=\"23\">diameter of a circle of the same area</text>\
+             <rect x=\"238\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.4\"/>\
+             <text x=\"261\">± {DEVIATIONS} standard deviations</text>\
+             <rect x=\"404\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.16\"/>\
+             <text x=\"427\">shortest to longest</text>\
+             <circle cx=\"549\" cy=\"-4\" r=\"2.5\" fill=\"none\" stroke=\"{LEFT_OUT}\"/>\
+             <text x=\"556\">left out: see the flags</text></g>\n"
+        ),
+    );
+}
+
+fn push_dot(svg: &mut String, [x, y]: [f64; 2], look: &str) {
+    push(svg, format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"1.8\" {look}/>\n"));
+}
+
+fn push(svg: &mut String, markup: std::fmt::Arguments) {
+    // Writing to memory does not fail.
+    let _ = svg.write_fmt(markup);
+}
+
+/// The largest diameter (mm) that has room: that of the sections that count, or of all where none does.
+fn top(profile: &Profile) -> f64 {
+    let widest = |is_among: &dyn Fn(usize) -> bool| {
+        let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);
+        among.filter(|value| value.is_finite()).fold(0.0, f64::max)
+    };
+    let counted = widest(&|n| profile.counts(n));
+    let most = if counted > 0.0 { counted } else { widest(&|_| true) };
+    if most > 0.0 { ROOM * most } else { 1.0 }
+}

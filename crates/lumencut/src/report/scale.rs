@@ -1,0 +1,47 @@
+//! The way from lengths to pixels of a plot, and where an axis has its ticks.
+
+/// A straight axis: `low` lies at the pixel `start`, `high` at `end`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// The length at the beginning.
+    pub low: f64,
+    /// The length at the end.
+    pub high: f64,
+    /// The pixel of the beginning.
+    pub start: f64,
+    /// The pixel of the end.
+    pub end: f64,
+}
+
+impl Axis {
+    /// The pixel of a length.
+    pub fn pixel(&self, value: f64) -> f64 {
+        self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
+    }
+
+    /// The pixel of a length, no farther than both ends.
+    pub fn pixel_within(&self, value: f64) -> f64 {
+        self.pixel(value.clamp(self.low, self.high))
+    }
+
+    /// Multiples of 1, 2 or 5 times a power of ten with at least this number of pixels between them; none on an axis without
+    /// length.
+    pub fn ticks(&self, pixels: f64) -> Vec<f64> {
+        let span = self.high - self.low;
+        let most = (self.end - self.start).abs() / pixels;
+        if !(span > 0.0 && most >= 1.0) {
+            return Vec::new();
+        }
+        let power = 10f64.powf((span / most).log10().floor());
+        let is_wide = |step: &f64| span / step <= most;
+        let step = [1.0, 2.0, 5.0].map(|factor| factor * power).into_iter().find(is_wide);
+        let step = step.unwrap_or(10.0 * power);
+        let first = (self.low / step - 1e-9).ceil() as i64;
+        let last = (self.high / step + 1e-9).floor() as i64;
+        (first..=last).map(|n| n as f64 * step).collect()
+    }
+}
+
+#[cfg(test)]
+#[path = "../tests/report_scale.rs"]
+mod tests;

@@ -1,0 +1,107 @@
+//! How vessels were measured and shown, in words.
+
+use lumencut_core::math::statistics::median;
+use lumencut_core::named::Named;
+use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::stenosis::Method;
+
+use super::{Shown, VesselPage, flag_rows};
+use crate::measure_words::{of_method, of_source};
+use crate::text::{fixed, rounded, shortest};
+
+/// How to read the numbers.
+pub const EXPLAINED: &str = "Diameters are those of the lumen: thrombus and plaque are not lumen, so that an aneurysm may be \
+    wider. Diameter means that of a circle of the same area; ± is one standard deviation from noise and fit. A stenosis is \
+    compared with the median within 1.5 mm of each reference. Suggested places are no findings: a reader must look at them. \
+    The contour of a section is cyan where it counts for what is narrowest or widest, and orange where its flags leave it out.";
+
+/// Why lengths have no unit.
+pub const UNITLESS: &str =
+    "The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.";
+
+impl Shown {
+    /// The unit of lengths behind a number; empty where none is known.
+    pub(super) fn unit(&self) -> &'static str {
+        if self.has_units { " mm" } else { "" }
+    }
+
+    /// A length (mm).
+    pub(super) fn length(&self, value: f64, decimals: usize) -> String {
+        format!("{}{}", fixed(value, decimals), self.unit())
+    }
+
+    /// A sentence of the engine, without units where lengths have none.
+    pub(super) fn spoken(&self, words: &str) -> String {
+        if self.has_units { words.to_owned() } else { words.replace(" mm²", "").replace(" mm", "") }
+    }
+}
+
+/// How a vessel was measured and shown.
+pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
+    let profile = vessel.measured.profile;
+    let counted = (0..profile.len()).filter(|n| profile.counts(*n)).count();
+    format!(
+        "Measured by Lumencut {}. Settings: {}. FWHM of the point spread {}, {}. {} sections, of which {counted} count; \
+         flags: {}. {}",
+        env!("CARGO_PKG_VERSION"),
+        settings(shown),
+        shown.length(profile.fwhm, 2),
+        shown.spoken(&of_source(&profile.fwhm_source)),
+        profile.len(),
+        flags(profile),
+        contrast(profile),
+    )
+}
+
+fn settings(shown: &Shown) -> String {
+    let asked = &shown.asked;
+    let length = |mm: &f64| format!("{}{}", shortest(*mm), shown.unit());
+    let lengths = |places: &Vec<f64>| places.iter().map(length).collect::<Vec<_>>().join(" and ");
+    let [level, width] = shown.window.map(intensity);
+    let named = [
+        ("step", Some(length(&asked.step_mm))),
+        ("FWHM", asked.fwhm_mm.as_ref().map(length)),
+        ("window", Some(format!("W {width} L {level}"))),
+        ("at", asked.at_mm.as_ref().map(length)),
+        ("reference", asked.reference_mm.as_ref().map(lengths)),
+        ("method", asked.method.as_deref().map(method_word)),
+        ("original", asked.original_mm.as_ref().map(length)),
+        ("comparison", asked.comparison_mm.as_ref().map(length)),
+        ("group", asked.group.clone()),
+    ];
+    let told = named.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?)));
+    let shown = shown.settings.iter().map(|[name, value]| format!("{name} {value}"));
+    told.chain(shown).collect::<Vec<_>>().join("; ")
+}
+
+/// How readers call a method of grading.
+fn method_word(name: &str) -> String {
+    Method::named("method", name).map_or_else(|_| name.to_owned(), of_method)
+}
+
+/// A number in about four digits, without an exponent where it is an intensity of a usual scale.
+fn intensity(value: f64) -> String {
+    if (100.0..1e7).contains(&value.abs()) { fixed(value, 0) } else { rounded(value, 3) }
+}
+
+/// The flags that are set, each with the number of its sections.
+fn flags(profile: &Profile) -> String {
+    let count = |bit: u32| profile.flags.iter().filter(|bits| *bits & bit > 0).count();
+    let words: Vec<String> =
+        flag_rows(profile).iter().map(|flag| format!("{} {}", flag.word, count(flag.bit))).collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+}
+
+/// How far lumen and background lie apart.
+fn contrast(profile: &Profile) -> String {
+    let mut contrasts: Vec<f64> =
+        profile.levels.iter().map(|[lumen, around]| (lumen - around).abs()).collect();
+    contrasts.retain(|value| value.is_finite());
+    let Some(contrast) = median(&mut contrasts) else { return "No contrast is known.".to_owned() };
+    let ratio = if profile.noise > 0.0 { contrast / profile.noise } else { f64::INFINITY };
+    format!(
+        "Contrast to noise {}, contrast {} in the unit of the volume.",
+        fixed(ratio, 0),
+        rounded(contrast, 4)
+    )
+}
