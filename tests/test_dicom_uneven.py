@@ -155,7 +155,7 @@ def test_holes_stay_refused_unless_they_may_be_filled(tmp_path):
     hole = r"25 mm between IM0007\.dcm and IM0008\.dcm"
     with pytest.raises(FormatError, match=rf"add what is missing of {hole}, or .* together with fill_gaps"):
         read_volume(folder)
-    with pytest.raises(FormatError, match=rf"with a hole of {hole}.*filled with fill_gaps=True"):
+    with pytest.raises(FormatError, match=rf"with a hole of {hole}.*interpolated with fill_gaps=True"):
         read_volume(folder, resample_slices=True)
     volume = read_volume(folder, resample_slices=True, fill_gaps=True)
     assert_linear(volume, sum(gaps))

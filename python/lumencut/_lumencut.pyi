@@ -6,6 +6,7 @@ from typing import Any, Literal, Protocol, TypedDict, final
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.mends import MendName
 from lumencut.placement import Coordinates, Unit
 
 _Axis = str | npt.NDArray[np.float64]
@@ -38,6 +39,7 @@ __all__ = [
     "LARGEST_EXTENT",
     "MEASURING_FLAGS",
     "MEASURING_NOTICE",
+    "MENDS",
     "MILLIMETRES",
     "PAPER",
     "SETTINGS",
@@ -158,6 +160,9 @@ DICOM_ATTRIBUTES: dict[str, list[str]]
 
 # The views of the body: direction from the viewer into the scene, and up (LPS).
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
+
+# The names of all mends of errors.
+MENDS: tuple[MendName, ...]
 
 # Of centerlines: millimetres per unit, what brings each space to LPS, which extents (mm) pass for vessels.
 MILLIMETRES: dict[Unit, float]
@@ -327,7 +332,7 @@ class Renderer:
 
 def better_place(
     points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64], volume: Any
-) -> str | None: ...
+) -> tuple[str, tuple[Coordinates, Unit]] | None: ...
 def brightest(
     volume: Any, camera: Any, pixel: tuple[float, ...], depths: tuple[float, ...]
 ) -> list[float]: ...

@@ -13,6 +13,7 @@ from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.errors import FileError, FormatError, SpaceWarning
 from lumencut.file_kinds import kind_of
+from lumencut.mends import Told
 from lumencut.placement import (
     MILLIMETRES,
     Coordinates,
@@ -52,7 +53,7 @@ class CenterlineReport:
         How many vessels it forms, and how many points they have.
     radius : bool
         Whether every vessel has radii.
-    decision : str
+    decision : Told
         What was assumed or decided of space and unit, and by what; empty where file or caller said it.
     is_unusual : bool
         Whether the volume decided against LPS or the usual unit of the format, or the space by its values.
@@ -70,7 +71,7 @@ class CenterlineReport:
     vessels: int
     points: int
     radius: bool
-    decision: str
+    decision: Told
     is_unusual: bool
     notes: tuple[str, ...]
 
@@ -144,7 +145,8 @@ class CenterlineFile:
         """Do as `tree`, and tell how the file was read."""
         tree, report = self.placed(coordinates, unit, volume)
         if report.is_unusual:
-            warnings.warn(f"{self.path.name}: {report.decision}", SpaceWarning, stacklevel=4)
+            told = report.decision.after(f"{self.path.name}: ")
+            warnings.warn(SpaceWarning(told), stacklevel=4)
         elif report.decision:
             weak = report.space_from == "volume" and _mostly_outside(tree, volume)
             level = logging.WARNING if weak or report.space_from == "assumed" else logging.INFO

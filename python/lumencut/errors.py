@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lumencut.mends import Mend, Told, Write, as_argument, written
 from lumencut.series_report import SeriesReport
 
 
@@ -17,7 +18,14 @@ class LumencutError(Exception):
     expected : str
         What was expected instead.
     mend : str, optional
-        What would mend it, such as the option to give.
+        What would mend it, such as the argument to give.
+
+    Attributes
+    ----------
+    mends : tuple of Mend
+        What of it a program can act on, by names that stay, such as ``Mend("fill_gaps")``; may be empty.
+    advice : str
+        The rest of `mend`, in words alone.
     """
 
     def __init__(self, subject: str, found: str, expected: str, mend: str = "") -> None:
@@ -25,7 +33,21 @@ class LumencutError(Exception):
         super().__init__(subject, found, expected, mend)
 
     def __str__(self) -> str:
-        tail = f"; {self.mend}" if self.mend else ""
+        return self.written(as_argument)
+
+    @property
+    def mends(self) -> tuple[Mend, ...]:
+        """What mends it, by names that stay."""
+        return self.mend.mends if isinstance(self.mend, Told) else ()
+
+    @property
+    def advice(self) -> str:
+        """What mends it in words alone."""
+        return self.mend.advice if isinstance(self.mend, Told) else self.mend
+
+    def written(self, write: Write) -> str:
+        """Return the message with its options as a host writes them."""
+        tail = f"; {written(self.mend, write)}" if self.mend else ""
         return f"{self.subject}: found {self.found}; expected {self.expected}{tail}"
 
 
@@ -81,3 +103,7 @@ class DeviceWarning(UserWarning):
 
 class SpaceWarning(UserWarning):
     """Coordinates that fit the volume better in another space than the one stated."""
+
+    def written(self, write: Write) -> str:
+        """Return the warning with its options as a host writes them."""
+        return written(self.args[0], write)

@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut.errors import SettingsError, SpaceWarning, VesselTreeError
+from lumencut.mends import Mend, Option, Told
 
 if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
@@ -29,6 +30,8 @@ Origin: TypeAlias = Literal["asked", "stated", "volume", "values", "assumed"]
 _PointsAndRadius: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 
 MILLIMETRES: dict[Unit, float] = _lumencut.MILLIMETRES
+
+_NOTHING = Told()
 
 #: Extents between these (mm) pass for vessels of a body.
 SMALLEST, LARGEST = _lumencut.SMALLEST_EXTENT, _lumencut.LARGEST_EXTENT
@@ -53,8 +56,8 @@ class Placement:
         The space and unit in which they are read.
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
         Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
-    decision : str
-        What was decided, and by what; empty where the file or the caller said everything.
+    decision : Told
+        What was decided, by what, and what confirms it; empty where the file or the caller said everything.
     is_unusual : bool
         Whether the volume decided against LPS or the usual unit, or the space by its values alone.
     """
@@ -63,7 +66,7 @@ class Placement:
     unit: Unit
     space_from: Origin
     unit_from: Origin
-    decision: str = ""
+    decision: Told = _NOTHING
     is_unusual: bool = False
 
     @property
@@ -111,7 +114,18 @@ def placement(
         "stated_unit": stated.unit,
         "usual_unit": stated.usual_unit,
     }
-    return Placement(**_lumencut.placement(subject, lines.points, lines.radii, known, volume))
+    found = _lumencut.placement(subject, lines.points, lines.radii, known, volume)
+    decision = _decision(found.pop("decision"), *found.pop("confirmed_by"))
+    return Placement(decision=decision, **found)
+
+
+def _decision(words: str, space: Coordinates | None, unit: Unit | None) -> Told:
+    """What was decided, and what the caller would state to confirm it."""
+    stated = [Option(name, value) for name, value in (("coordinates", space), ("unit", unit)) if value]
+    if not stated:
+        return Told(words)
+    both = [stated[0], " and ", stated[1]] if len(stated) > 1 else stated
+    return Told(f"{words}; ", *both, " confirms it")
 
 
 def fits_nowhere(points: npt.NDArray[np.float64], volume: Volume) -> bool:
@@ -164,9 +178,14 @@ def check_meeting(volume: Volume, tree: VesselTree) -> None:
         box = np.round([volume.corners.min(axis=0), volume.corners.max(axis=0)], 1).tolist()
         found = f"none of its {len(points)} points inside the volume (points from {low} to {high} mm)"
         flipped = volume.contains(points * (-1, -1, 1)).sum()
-        mend = f'{flipped} points would be inside as RAS: read them with coordinates="ras"' if flipped else ""
+        mend = _as_ras(flipped) if flipped else ""
         raise VesselTreeError("vessel tree", found, f"points within {box[0]} to {box[1]} mm", mend)
     check_space_once(tree, volume)
+
+
+def _as_ras(count: int) -> Told:
+    advice, option = f"{count} points would be inside as RAS", Option("coordinates", "ras")
+    return Told(f"{advice}: read them with ", option, advice=advice, mends=(Mend("coordinates", ("ras",)),))
 
 
 def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stacklevel: int = 2) -> bool:
@@ -176,7 +195,19 @@ def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stackl
     `stacklevel` counts as for `warnings.warn` from whoever calls this.
     """
     lines = Lines.of((vessel.points, vessel.radius) for vessel in tree)
-    text = _lumencut.better_place(lines.points, lines.radii, volume)
-    if text is not None:
-        warnings.warn(f"{subject}: {text}", SpaceWarning, stacklevel=stacklevel + 1)
-    return text is not None
+    better = _lumencut.better_place(lines.points, lines.radii, volume)
+    if better is not None:
+        warnings.warn(SpaceWarning(_misread(subject, *better)), stacklevel=stacklevel + 1)
+    return better is not None
+
+
+def _misread(subject: str, found: str, meant: tuple[Coordinates, Unit]) -> Told:
+    """What was found, and how lines that were read as LPS in mm are to be read, by the place that fits."""
+    space, unit = meant
+    parts: list[str | Option] = [f"{subject}: {found}; read the centerlines with "]
+    if space == "ras":
+        parts += [Option("coordinates", "ras"), ", or ", Option("coordinates", "lps", "again")]
+        parts.append(" where they were read as RAS")
+    if unit != "mm":
+        parts += [", and " if space == "ras" else "", Option("unit", unit), " where they were read in mm"]
+    return Told(*parts)

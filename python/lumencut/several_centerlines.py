@@ -9,6 +9,7 @@ from typing import Any
 
 from lumencut.centerline_file import CenterlineFile, CenterlineReport
 from lumencut.errors import FormatError
+from lumencut.mends import Option, Told
 from lumencut.placement import Coordinates, Unit
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
@@ -69,7 +70,8 @@ class CenterlineFiles:
         assumed = [file for file, report in pairs if report.space_from == "assumed"]
         for other, report in pairs:
             if assumed and report.space != "lps":
-                mend = 'give a volume, or read them with coordinates="lps" or "ras"'
+                either = Option("coordinates", "lps"), " or ", Option("coordinates", "ras", "again")
+                mend = Told("give a volume, or read them with ", *either)
                 found = f"taken as lps for want of a statement, while {other.path.name} is in {report.space}"
                 _log.warning("%s: %s; %s", assumed[0].path, found, mend)
                 return

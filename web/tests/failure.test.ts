@@ -24,11 +24,29 @@ test('the place of a failure and the value there survive it too', () => {
   expect([FAILURE.place, FAILURE.value]).toEqual([null, null]);
 });
 
+test('what mends it comes behind the advice, in the words of the page', () => {
+  const mends = [{ name: 'fill_gaps', values: [] }] as const;
+  const failure = new Failure('format', 'the file', '1 missing slice', 'slices', 'add it', { mends });
+  expect(failure.mending).toBe('add it, or interpolate the missing slices');
+  expect(failure.message).toBe(
+    'the file: found 1 missing slice; expected slices; add it, or interpolate the missing slices',
+  );
+  expect([failure.isMendedBy('fill_gaps'), failure.isMendedBy('bridge')]).toEqual([true, false]);
+  expect(Failure.of(failure.text)).toEqual(failure);
+});
+
+test('a request that was stopped is no error, whatever its words', () => {
+  const stop = new AbortController();
+  stop.abort();
+  expect(Failure.of(stop.signal.reason).kind).toBe('interrupted');
+  expect(Failure.of(new DOMException('The connection was aborted', 'NetworkError')).kind).toBe('unexpected');
+});
+
 test.each([new Error('out of paper'), 'text', 7, null, undefined, '{"kind":1}', '[]', {}])(
   'anything else that is thrown is unexpected, in its own words: %o',
   (thrown) => {
     const failure = Failure.of(thrown);
     expect(failure.kind).toBe('unexpected');
-    expect(failure.mend).toContain('reload');
+    expect(failure.advice).toContain('reload');
   },
 );

@@ -39,7 +39,9 @@ def read(path: Path, **wanted: Any) -> dict[str, Any]:
         report, volume = inspected_volume(path, **wanted)
     except LumencutError as error:
         series = [one.uid for one in getattr(error, "series", ())]
-        return {"found": error.found, "expected": error.expected, "mend": error.mend, "series": series}
+        mends = [{"name": mend.name, "values": mend.values} for mend in error.mends]
+        words = {"found": error.found, "expected": error.expected, "mend": error.advice}
+        return {**words, "mends": mends, "series": series}
     voxels = np.ascontiguousarray(volume.array, np.float32)
     return {
         "size": list(volume.size),

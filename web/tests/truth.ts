@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { expect } from 'vitest';
+import type { Mend } from '../src/core/mends';
 import type { Wanted } from '../src/io/dicom/wanted';
 import type { Result } from './opened';
 
@@ -26,7 +27,9 @@ export interface Expected {
   readonly states: { readonly spacing: boolean; readonly orientation: boolean };
   readonly found?: string;
   readonly expected: string;
+  /** Advice in words. */
   readonly mend: string;
+  readonly mends: readonly Mend[];
   readonly series: readonly string[];
 }
 
@@ -92,11 +95,12 @@ function sameValues(values: Float32Array, truth: Expected): void {
 
 export function refusedLike({ failure }: Result, truth: Expected): void {
   expect(failure).not.toBeNull();
-  const { found, expected, mend } = failure ?? {};
-  expect({ found, expected, mend }).toEqual({
+  const { found, expected, advice, mends } = failure ?? {};
+  expect({ found, expected, advice, mends }).toEqual({
     found: truth.found,
     expected: truth.expected,
-    mend: truth.mend,
+    advice: truth.mend,
+    mends: truth.mends,
   });
   expect(failure?.series.map((one) => one.uid)).toEqual(truth.series);
 }

@@ -5,6 +5,8 @@ use std::fmt;
 
 use glam::DVec3;
 
+pub use crate::mend::Mend;
+
 /// The cause of an [`Error`]; each has its own exception class in Python.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorKind {
@@ -18,9 +20,9 @@ pub enum ErrorKind {
     Settings,
     /// A GPU that is not there, too small for the work, or failed.
     Device,
-    /// A point between which and others no centerline can be traced.
+    /// Points between which no centerline can be traced.
     Tracing,
-    /// A vessel whose lumen cannot be measured, or a place on it where a number makes no sense.
+    /// A vessel whose lumen cannot be measured, or a place on it for which a number would be meaningless.
     Measuring,
     /// The caller asked to stop.
     Interrupted,
@@ -45,11 +47,27 @@ impl ErrorKind {
 pub struct Place {
     /// The place (mm, LPS).
     pub point: DVec3,
-    /// What the volume has there; no number where it has none.
+    /// The value of the volume there; NaN outside of it.
     pub value: f64,
 }
 
-/// An error in one line: `subject: found …; expected …; mend`.
+/// Which of the clicked points an error is about; the subject tells the same in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clicked {
+    /// All points of the vessel with this number, from 0.
+    Vessel(usize),
+    /// One point of a vessel, both counted from 0.
+    Point {
+        /// The number of the vessel.
+        vessel: usize,
+        /// The number of the point along it.
+        point: usize,
+    },
+    /// A point of no vessel yet.
+    Single,
+}
+
+/// An error in one line: `subject: found …; expected …; advice, or mend`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     /// The cause.
@@ -60,10 +78,14 @@ pub struct Error {
     pub found: String,
     /// What was expected instead.
     pub expected: String,
-    /// What would mend it; empty where `expected` already says so.
+    /// Advice that no host acts on; empty where `expected` already says so.
     pub mend: String,
-    /// Where it shows in the volume: of a way without lumen the weakest place, of a point in no lumen that point.
+    /// What mends it beside the advice, for hosts to offer in their own words.
+    pub mended_by: Option<Mend>,
+    /// Where it shows in the volume: of a path without lumen the weakest place, of a point outside of the lumen that point.
     pub place: Option<Box<Place>>,
+    /// Which of the clicked points it is about.
+    pub clicked: Option<Box<Clicked>>,
 }
 
 impl Error {
@@ -80,14 +102,30 @@ impl Error {
             found: found.into(),
             expected: expected.into(),
             mend: String::new(),
+            mended_by: None,
             place: None,
+            clicked: None,
         }
     }
 
-    /// The same error with the step that would mend it.
+    /// The same error with advice that no host acts on.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
+        self
+    }
+
+    /// The same error with a mend that hosts offer in their own words.
+    #[must_use]
+    pub fn mended_by(mut self, mend: Mend) -> Self {
+        self.mended_by = Some(mend);
+        self
+    }
+
+    /// The same error with the clicked points that it is about.
+    #[must_use]
+    pub fn about(mut self, clicked: Clicked) -> Self {
+        self.clicked = Some(Box::new(clicked));
         self
     }
 
@@ -107,7 +145,12 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: found {}; expected {}", self.subject, self.found, self.expected)?;
-        if self.mend.is_empty() { Ok(()) } else { write!(f, "; {}", self.mend) }
+        match (self.mend.as_str(), self.mended_by) {
+            ("", None) => Ok(()),
+            ("", Some(mend)) => write!(f, "; {mend}"),
+            (advice, None) => write!(f, "; {advice}"),
+            (advice, Some(mend)) => write!(f, "; {advice}, or {mend}"),
+        }
     }
 }
 

@@ -10,6 +10,7 @@ pub mod frame;
 pub mod geometry;
 pub mod limits;
 pub mod math;
+mod mend;
 pub mod named;
 pub mod pipeline;
 pub mod progress;

@@ -2,6 +2,7 @@
 
 use crate::describing::described;
 use crate::error::{Error, ErrorKind, Result};
+use crate::mend::Mend;
 use crate::report::Report;
 use crate::series::{Series, plain};
 use crate::wording::{listed, quoted};
@@ -48,6 +49,6 @@ fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series
 fn not_one(series: Vec<Report>, expected: &str) -> Error {
     let told: Vec<String> = series.iter().map(ToString::to_string).collect();
     let error = Error::new(format!("{} series: {}", series.len(), told.join("; ")), expected);
-    let error = error.mended_by("give the folder of one series, or its number or UID as `series`");
-    Error { kind: ErrorKind::Series, series, ..error }
+    let error = error.mend("give the folder of one series").mended_by(Mend::Series);
+    Error { kind: ErrorKind::Series, series: series.into(), ..error }
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::keyword::Keyword;
+use crate::mend::Mend;
 use crate::phases::phases;
 use crate::slices::Slice;
 use crate::spacing::median;
@@ -47,7 +48,7 @@ fn alike(
         listed(&names),
     );
     let error = Error::new(found, "one stack of equal slices");
-    Err(error.mended_by("move the others to a folder of their own"))
+    Err(error.mend("move the others to a folder of their own"))
 }
 
 /// Refuses several slices at one place: phases if anything tells them apart, copies otherwise.
@@ -61,14 +62,13 @@ pub fn refuse_duplicates(ordered: &[Slice], gaps: &[f64]) -> Result<()> {
     let places = counted((ordered.len() - pairs.len()) as i64, "place");
     let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{} and {}", a.name(), b.name())).collect();
     let found = format!("{} slices at {places}: {}", ordered.len(), listed(&names));
-    if let Some(phases) = phases(ordered, &pairs) {
-        let error = Error::new(format!("{found}; {phases}"), "one slice per place");
-        return Err(error.mended_by("give the value of the one to read as `phase`"));
+    if let Some((phases, choice)) = phases(ordered, &pairs) {
+        return Err(Error::new(format!("{found}; {phases}"), "one slice per place").mended_by(choice));
     }
     let are_copies = pairs.iter().all(|(a, b)| are_copies(a, b));
     let copies = if are_copies { ", copies of one image each" } else { "" };
     let error = Error::new(format!("{found}{copies}"), "one slice per place");
-    Err(error.mended_by("remove all but one slice at each place"))
+    Err(error.mend("remove all but one slice at each place"))
 }
 
 fn are_copies(a: &Slice, b: &Slice) -> bool {
@@ -87,13 +87,9 @@ pub fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()>
         format!("{} between {} and {} ({apart})", steps[n] - 1, before.name(), after.name())
     });
     let found = format!("{}: {}", counted(missing, "missing slice"), listed(&holes.collect::<Vec<_>>()));
-    let filled = if is_mostly_missing(ordered, steps) {
-        ""
-    } else {
-        ", or have them interpolated with fill_gaps=True"
-    };
     let error = Error::new(found, format!("slices every {} mm", rounded(median(gaps), 4)));
-    Err(error.mended_by(format!("add the missing files{filled}")))
+    let error = error.mend("add the missing files");
+    Err(if is_mostly_missing(ordered, steps) { error } else { error.mended_by(Mend::FillGaps) })
 }
 
 /// Whether more slices are missing than there are: more made up than measured would be no mending.

@@ -81,7 +81,7 @@ fn require_decoder(image: &Image) -> Result<()> {
     let named = uids::name(&image.header.transfer_syntax).unwrap_or("an unknown transfer syntax");
     let expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels";
     let mend = "convert it to one of these, lossless where it can be";
-    Err(Error::new(format!("pixels in {named}"), expected).mended_by(mend))
+    Err(Error::new(format!("pixels in {named}"), expected).mend(mend))
 }
 
 /// Refuses pixels of which it is not known how many bits they have, and whether one is a sign.
@@ -111,11 +111,11 @@ fn require_groups(image: &Image) -> Result<()> {
     if count < 1 || (count > 1 && described == 0) {
         let found = format!("a multi-frame image of {count} frames without a position for each");
         let mend = "convert it to single-frame or enhanced DICOM, NIfTI or NRRD";
-        return Err(Error::new(found, "one slice per file, or functional groups").mended_by(mend));
+        return Err(Error::new(found, "one slice per file, or functional groups").mend(mend));
     }
     if described > 0 && i64::try_from(described) != Ok(count) {
         let found = format!("{count} frames and functional groups for {described}");
-        return Err(Error::new(found, "one group for each frame").mended_by("copy the file again"));
+        return Err(Error::new(found, "one group for each frame").mend("copy the file again"));
     }
     Ok(())
 }

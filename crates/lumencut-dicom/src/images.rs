@@ -20,7 +20,7 @@ pub fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<I
             }
             Some(_) if kind(file).ends_with("Image Storage") => {
                 let error = Error::new("an image without rows and columns", "a whole file");
-                return Err(error.of(number).mended_by("copy the file again"));
+                return Err(error.of(number).mend("copy the file again"));
             }
             _ => foreign.push(format!("{} ({})", printable(&file.name), printable(kind(file)))),
         }
@@ -44,5 +44,5 @@ fn no_image(foreign: &[String]) -> Error {
         return Error::new("nothing in it", "DICOM images");
     };
     let error = Error::new(format!("no image: {}", listed(foreign)), "DICOM images");
-    if first.contains(DIRECTORY) { error.mended_by("give the folder that it is in") } else { error }
+    if first.contains(DIRECTORY) { error.mend("give the folder that it is in") } else { error }
 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::error::{Error, Result};
 use crate::keyword::Keyword;
+use crate::mend::Mend;
 use crate::slices::Slice;
 use crate::value::Value;
 use crate::wording::{counted, listed, quoted, shown};
@@ -28,6 +29,8 @@ const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::FrameAcquisitionDateTime,
     Keyword::ContentTime,
 ];
+/// More phases than these are too many to choose among.
+const MOST_PHASES: usize = 40;
 
 /// Those of them that belong to a whole phase and never alternate from slice to slice within one. A
 /// two-dimensional MR acquisition may take the odd slices first: its acquisition number does not count.
@@ -37,12 +40,13 @@ const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::NominalPercentageOfCardiacPhase,
 ];
 
-/// Which attribute tells slices at one place apart, and how many slices have which value of it.
-pub fn phases(ordered: &[Slice], pairs: &[(&Slice, &Slice)]) -> Option<String> {
+/// Which attribute tells slices at one place apart, how many slices have which value of it, and the choice among these.
+pub fn phases(ordered: &[Slice], pairs: &[(&Slice, &Slice)]) -> Option<(String, Mend)> {
     let differs = |keyword| move |pair: &(&Slice, &Slice)| told(pair.0, keyword) != told(pair.1, keyword);
     let keyword = PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))?;
     let mixed = if keyword == Keyword::ConvolutionKernel { "kernels" } else { "phases" };
-    Some(format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword)))
+    let told = format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword));
+    Some((told, choice(ordered, keyword)))
 }
 
 /// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
@@ -75,7 +79,7 @@ pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
             let counts = values_of(ordered, keyword);
             let found = format!("slices that alternate between phases: {} is {counts}", keyword.name());
             let error = Error::new(found, "one phase");
-            return Err(error.mended_by("give the value of the one to read as `phase`"));
+            return Err(error.mended_by(choice(ordered, keyword)));
         }
     }
     Ok(())
@@ -84,6 +88,18 @@ pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
 /// A value as a text, by which phases are told apart.
 fn told(one: &Slice, keyword: Keyword) -> String {
     one.get(keyword).to_string()
+}
+
+/// The choice among the phases that an attribute tells apart, by values that can be shown as they are.
+fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
+    let different: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
+    let mut values: Vec<String> = different.into_iter().collect();
+    if values.len() > MOST_PHASES || values.iter().any(|value| shown(value) != *value) {
+        return Mend::Phase(Vec::new());
+    }
+    let number = |value: &str| value.parse().unwrap_or(f64::INFINITY);
+    values.sort_by(|a, b| number(a).total_cmp(&number(b)));
+    Mend::Phase(values)
 }
 
 /// Which values slices have, and how many have each.

@@ -104,7 +104,7 @@ fn require_positions(images: &[&Image]) -> Result<()> {
         format!("no ImagePositionPatient in {without}: {}", listed(&missing)),
         "a position for each slice",
     );
-    Err(error.mended_by("leave those images out"))
+    Err(error.mend("leave those images out"))
 }
 
 #[cfg(test)]

@@ -96,7 +96,7 @@ fn scaling(image: &Image, frame: usize) -> Result<(f64, f64)> {
     }
     if slope == 0.0 {
         let error = Error::new("RescaleSlope 0, which makes all values one", "any other slope");
-        return Err(error.mended_by("export the series again"));
+        return Err(error.mend("export the series again"));
     }
     Ok((slope, intercept))
 }

@@ -5,6 +5,7 @@
 //! what makes four times as many slices.
 
 use crate::error::{Error, Result};
+use crate::mend::Mend;
 use crate::slices::Slice;
 use crate::spacing::{ends, median, told, tolerance};
 use crate::wording::{counted, rounded};
@@ -31,12 +32,14 @@ impl Uneven<'_, '_> {
         if let Err(error) = self.require_line() {
             return error;
         }
-        let grid = "resample_slices=True puts them on a regular grid";
-        let mend = self.hole().map_or_else(
-            || grid.to_owned(),
-            |hole| format!("add what is missing {hole}, or {grid} together with fill_gaps=True"),
-        );
-        Error::new(self.found(), "one distance between all slices").mended_by(mend)
+        let error = Error::new(self.found(), "one distance between all slices");
+        match self.hole() {
+            None => error.mended_by(Mend::ResampleSlices),
+            Some(hole) => {
+                let error = error.mend(format!("add what is missing {hole}"));
+                if self.is_mostly_measured() { error.mended_by(Mend::ResampleAndFill) } else { error }
+            }
+        }
     }
 
     /// The index of each slice on a regular grid, whole where it is measured there.
@@ -46,10 +49,9 @@ impl Uneven<'_, '_> {
     pub fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
         self.require_line()?;
         if let Some(hole) = self.hole().filter(|_| !(fill_gaps && self.is_mostly_measured())) {
-            let filled = if fill_gaps { "" } else { ", or have it filled with fill_gaps=True" };
             let found = format!("{}, with a hole {hole}", self.found());
-            let error = Error::new(found, "a series without holes");
-            return Err(error.mended_by(format!("add the missing files{filled}")));
+            let error = Error::new(found, "a series without holes").mend("add the missing files");
+            return Err(if fill_gaps { error } else { error.mended_by(Mend::FillGaps) });
         }
         if self.gaps.len() < 2 {
             return Ok(vec![0.0, 1.0]);

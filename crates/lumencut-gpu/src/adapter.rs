@@ -1,6 +1,6 @@
 //! The GPUs of this machine, and which of them computes.
 
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use wgpu::{Adapter, Backends, DeviceType, Instance, InstanceDescriptor};
 
 /// Which GPUs will do.
@@ -80,6 +80,7 @@ pub(crate) async fn choose(choice: Choice) -> Result<Adapter> {
     };
     adapters.into_iter().find(is_wanted).ok_or_else(|| {
         Error::new(ErrorKind::Device, "device", found, "a GPU")
-            .mend("install its driver, or compute with the device 'cpu'")
+            .mend("install its driver")
+            .mended_by(Mend::Cpu)
     })
 }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use futures_channel::oneshot::{Sender, channel};
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use wgpu::{Adapter, Features, Limits};
 
 use crate::adapter::{Choice, Description, choose};
@@ -103,7 +103,7 @@ impl Device {
     /// An error for something that is larger than the GPU allows.
     pub(crate) fn too_large(&self, subject: &str, found: String, limit: &str) -> Error {
         let expected = format!("at most {limit} on {}", self.description.name);
-        Error::new(ErrorKind::Device, subject, found, expected).mend("compute with the device 'cpu'")
+        Error::new(ErrorKind::Device, subject, found, expected).mended_by(Mend::Cpu)
     }
 
     /// Simulates the loss of the GPU, for tests of what follows.
@@ -129,7 +129,8 @@ fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Trouble>>) {
 fn broken(name: &str, words: &str) -> Error {
     let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
     Error::new(ErrorKind::Device, format!("GPU {name}"), words, "a GPU that computes to the end")
-        .mend("try a smaller picture or volume, or compute with the device 'cpu'")
+        .mend("try a smaller picture or volume")
+        .mended_by(Mend::Cpu)
 }
 
 /// Refuses a GPU that has less of something than the stages need.
@@ -138,7 +139,7 @@ fn check_limits(name: &str, limits: &Limits) -> Result<()> {
     NEEDED.check_limits_with_fail_fn(limits, true, |limit, needed, found| {
         let subject = format!("limit {limit} of the GPU {name}");
         short = Err(Error::new(ErrorKind::Device, subject, found.to_string(), format!("at least {needed}"))
-            .mend("compute with the device 'cpu'"));
+            .mended_by(Mend::Cpu));
     });
     short
 }

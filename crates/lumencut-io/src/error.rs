@@ -3,7 +3,9 @@
 
 use std::fmt;
 
-/// An error in one line: `subject: found …; expected …; mend`.
+use crate::mend::Mend;
+
+/// An error in one line: `subject: found …; expected …; advice, or mend`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     /// The file, and the place in it that is wrong.
@@ -12,20 +14,30 @@ pub struct Error {
     pub found: String,
     /// What was expected instead.
     pub expected: String,
-    /// What would mend it; empty where `expected` already says so.
+    /// Advice that no host acts on; empty where `expected` already says so.
     pub mend: String,
+    /// What mends it beside the advice, for hosts to offer in their own words.
+    pub mended_by: Option<Box<Mend>>,
 }
 
 impl Error {
     /// An error about the place `subject` of a file.
     pub fn new(subject: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { subject: subject.into(), found: found.into(), expected: expected.into(), mend: String::new() }
+        let (subject, found, expected) = (subject.into(), found.into(), expected.into());
+        Self { subject, found, expected, mend: String::new(), mended_by: None }
     }
 
-    /// The same error with the step that would mend it.
+    /// The same error with advice that no host acts on.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
+        self
+    }
+
+    /// The same error with a mend that hosts offer in their own words.
+    #[must_use]
+    pub fn mended_by(mut self, mend: Mend) -> Self {
+        self.mended_by = Some(Box::new(mend));
         self
     }
 
@@ -50,7 +62,12 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: found {}; expected {}", self.subject, self.found, self.expected)?;
-        if self.mend.is_empty() { Ok(()) } else { write!(f, "; {}", self.mend) }
+        match (self.mend.as_str(), &self.mended_by) {
+            ("", None) => Ok(()),
+            ("", Some(mend)) => write!(f, "; {mend}"),
+            (advice, None) => write!(f, "; {advice}"),
+            (advice, Some(mend)) => write!(f, "; {advice}, or {mend}"),
+        }
     }
 }
 

@@ -32,6 +32,7 @@ mod json;
 mod jumps;
 pub mod junctions;
 mod kind;
+mod mend;
 mod meta_object;
 mod mrk_json;
 mod npy;
@@ -57,6 +58,7 @@ mod tests;
 
 pub use centerlines::{Centerlines, Line, Space};
 pub use error::{Error, Result};
+pub use mend::Mend;
 pub use unit::Unit;
 pub use write::{write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
 

@@ -1,10 +1,11 @@
 //! Centerline files for `lumencut.centerlines`.
 
 use lumencut::centerlines::{Centerlines, Error, Line, Space, Unit, junctions};
+use lumencut::mends::Mend;
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
-use crate::errors::exception;
+use crate::errors::mended;
 
 type Vessel<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>, Option<String>);
 
@@ -20,8 +21,7 @@ impl CenterlineFile {
     /// Reads the content of the file `name`.
     #[new]
     fn new(py: Python<'_>, content: &[u8], name: String) -> PyResult<Self> {
-        let lines =
-            py.detach(|| lumencut::centerlines::read(content, &name)).map_err(|error| raised(&error))?;
+        let lines = py.detach(|| lumencut::centerlines::read(content, &name)).map_err(raised)?;
         Ok(Self { name, lines })
     }
 
@@ -54,14 +54,16 @@ impl CenterlineFile {
     fn vessels<'py>(&self, py: Python<'py>, mm_per_unit: f64) -> PyResult<(Vec<Vessel<'py>>, Vec<String>)> {
         let lines = self.lines.clone();
         let placed = py.detach(|| lines.scaled(mm_per_unit).map(junctions::vessels));
-        let placed = placed.map_err(|error| raised(&error.in_file(&self.name)))?;
+        let placed = placed.map_err(|error| raised(error.in_file(&self.name)))?;
         Ok((placed.lines.into_iter().map(|line| vessel(py, line)).collect(), placed.notes))
     }
 }
 
 /// The exception that stands for an error of a file.
-pub fn raised(error: &Error) -> PyErr {
-    exception("FormatError", &error.subject, &error.found, &error.expected, &error.mend)
+pub fn raised(error: Error) -> PyErr {
+    let Error { subject, found, expected, mend, mended_by } = error;
+    let mended_by = mended_by.map(|mend| Mend::from(*mend));
+    mended("FormatError", [&subject, &found, &expected, &mend], mended_by.as_ref())
 }
 
 fn vessel(py: Python<'_>, line: Line) -> Vessel<'_> {

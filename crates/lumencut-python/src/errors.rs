@@ -3,8 +3,10 @@
 use std::ffi::CString;
 
 use lumencut::error::{Error, ErrorKind};
+use lumencut::mends::{self, Mend};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 /// The exception that stands for `error`.
 #[allow(clippy::needless_pass_by_value)]
@@ -19,21 +21,34 @@ pub fn to_python(error: Error) -> PyErr {
         ErrorKind::Measuring => "MeasuringError",
         ErrorKind::Interrupted => return PyKeyboardInterrupt::new_err(error.to_string()),
     };
-    exception(class, &error.subject, &error.found, &error.expected, &error.mend)
+    let Error { subject, found, expected, mend, mended_by, .. } = error;
+    mended(class, [&subject, &found, &expected, &mend], mended_by.map(Mend::from).as_ref())
 }
 
-/// An instance of the class of `lumencut.errors` with this name.
-pub fn exception(class: &str, subject: &str, found: &str, expected: &str, mend: &str) -> PyErr {
-    Python::attach(|py| {
-        let made = py
-            .import("lumencut.errors")
-            .and_then(|module| module.getattr(class))
-            .and_then(|class| class.call1((subject, found, expected, mend)));
-        match made {
-            Ok(exception) => PyErr::from_value(exception),
-            Err(error) => error,
-        }
-    })
+/// An instance of the class of `lumencut.errors` with this name, with advice that no host acts on.
+pub fn exception(class: &str, subject: &str, found: &str, expected: &str, advice: &str) -> PyErr {
+    mended(class, [subject, found, expected, advice], None)
+}
+
+/// The same: its subject, what was found and expected, and advice; and what mends it beside the advice.
+pub fn mended(class: &str, texts: [&str; 4], mended_by: Option<&Mend>) -> PyErr {
+    Python::attach(|py| made(py, class, texts, mended_by).map_or_else(|error| error, PyErr::from_value))
+}
+
+fn made<'py>(
+    py: Python<'py>,
+    class: &str,
+    [subject, found, expected, advice]: [&str; 4],
+    mended_by: Option<&Mend>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mends: Vec<_> = mended_by.iter().map(|mend| (mend.name(), mend.values())).collect();
+    let mend = py.import("lumencut.mends")?.getattr("told")?.call1((advice, mends))?;
+    py.import("lumencut.errors")?.getattr(class)?.call1((subject, found, expected, mend))
+}
+
+/// Adds the names of all mends.
+pub fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("MENDS", PyTuple::new(module.py(), mends::names())?)
 }
 
 /// Warns whoever called the function of the package that called this module.

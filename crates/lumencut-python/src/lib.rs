@@ -38,6 +38,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     settings::add_table(module)?;
     placement::add_names(module)?;
+    errors::add_names(module)?;
     dicom::add_names(module)?;
     views::add_names(module)?;
     measuring::add_names(module)?;

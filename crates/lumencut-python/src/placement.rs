@@ -6,7 +6,7 @@ use lumencut::extent::Extent;
 use lumencut::lumen_points::{Lines, lumen_count};
 use lumencut::misplaced;
 use lumencut::placement::{self as decision, Judge, Known};
-use lumencut::places::{LARGEST, SMALLEST, signs};
+use lumencut::places::{LARGEST, SMALLEST, Statement, signs};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -123,19 +123,28 @@ pub fn placement<'py>(
         }
         None => decision::placement(&known, &points, None),
     };
-    let found = found.map_err(|error| raised(&error.in_file(subject)))?;
+    let found = found.map_err(|error| raised(error.in_file(subject)))?;
     let fields = PyDict::new(py);
     fields.set_item("space", found.place.space.name())?;
     fields.set_item("unit", found.place.unit.name())?;
     fields.set_item("space_from", found.space_from.name())?;
     fields.set_item("unit_from", found.unit_from.name())?;
     fields.set_item("decision", found.decision)?;
+    fields.set_item("confirmed_by", names_of(found.confirmed_by))?;
     fields.set_item("is_unusual", found.is_unusual)?;
     Ok(fields)
 }
 
+/// The names of the space and of the unit that are stated.
+fn names_of(stated: Statement) -> (Option<&'static str>, Option<&'static str>) {
+    (stated.space.map(Space::name), stated.unit.map(Unit::name))
+}
+
+/// A better place: what was found, and the names of its space and unit.
+type Better = (String, (&'static str, &'static str));
+
 /// What is to be said of points (n, 3) (mm, LPS) with radii (n,) (mm), NaN where unknown, that another space or unit brings
-/// into a volume, or that look like lumen in another space alone.
+/// into a volume, or that look like lumen in another space alone; and the place that fits, where they were read as LPS in mm.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn better_place(
@@ -143,9 +152,10 @@ pub fn better_place(
     points: PyReadonlyArray2<'_, f64>,
     radii: PyReadonlyArray1<'_, f64>,
     volume: VolumeArgument<'_>,
-) -> PyResult<Option<String>> {
+) -> PyResult<Option<Better>> {
     let points = points_of(&points)?;
-    judged(py, (&points, &radii), &volume, |judge| misplaced::better_place(&points, judge))
+    let better = judged(py, (&points, &radii), &volume, |judge| misplaced::better_place(&points, judge))?;
+    Ok(better.map(|better| (better.found, (better.meant.space.name(), better.meant.unit.name()))))
 }
 
 /// Whether points (n, 3) (mm, LPS) miss a volume in whatever space and unit they might be meant.

@@ -14,6 +14,6 @@ pub fn is_session_file(py: Python<'_>, content: &[u8]) -> bool {
 /// What the content of the session file `name` holds beside the lines of its vessels, checked, as JSON.
 #[pyfunction]
 pub fn read_session_file(py: Python<'_>, content: &[u8], name: &str) -> PyResult<String> {
-    let file = py.detach(|| session_file::read_session(content, name)).map_err(|error| raised(&error))?;
-    file.session.json().map_err(|error| raised(&error))
+    let file = py.detach(|| session_file::read_session(content, name)).map_err(raised)?;
+    file.session.json().map_err(raised)
 }

@@ -12,6 +12,7 @@ use wasm_bindgen_futures::future_to_promise;
 use web_sys::OffscreenCanvas;
 
 use crate::{phantoms, stopping};
+use lumencut::study::centerline_files::AskedMessage;
 use lumencut::study::failure::{Failure, Result};
 use lumencut::study::labels::{LaidPicture, PictureLabels};
 use lumencut::study::open_study::{Picture, Study};
@@ -160,13 +161,13 @@ impl Engine {
         answer(phantoms::open(&mut self.study, name, scale))
     }
 
-    /// Opens centerlines; tells what was odd about them, as a list in JSON.
+    /// Opens centerlines, in the space and unit that are asked for (as JSON); tells what was odd about them, as a list in JSON.
     ///
     /// # Errors
     /// `format` for a file that is damaged or holds none.
-    #[allow(clippy::needless_pass_by_value)]
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, space: Option<String>) -> Answer<String> {
-        told(self.study.open_centerlines(bytes, name, space.as_deref()))
+    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, asked: &str) -> Answer<String> {
+        let asked = read("space and unit of the centerlines", asked).map(AskedMessage::statement);
+        told(asked.and_then(|asked| self.study.open_centerlines(bytes, name, asked)))
     }
 
     /// Closes the study.

@@ -1,12 +1,12 @@
 //! Phantoms by their names.
 
-use lumencut::error::{Error, ErrorKind};
+use lumencut::error::{Error, ErrorKind, Mend};
 use lumencut_phantom::Phantom;
 
 use lumencut::study::failure::{Failure, Result};
 use lumencut::study::held_volume::HeldVolume;
 use lumencut::study::open_study::Study;
-use lumencut::study::voxels::{COARSER, Stored};
+use lumencut::study::voxels::Stored;
 
 /// Opens a phantom in the place of all that is open, in `scale` times as many voxels along each axis where it is one that
 /// has scales.
@@ -36,7 +36,13 @@ pub fn phantom(name: &str, scale: f64) -> Result<Phantom> {
             return Err(Failure::of_message("name of the phantom", &other, expected));
         }
     };
-    let with_mend = |error: Error| if error.kind == ErrorKind::Volume { error.mend(COARSER) } else { error };
+    let with_mend = |error: Error| {
+        if error.kind == ErrorKind::Volume {
+            error.mend("close other pages").mended_by(Mend::EverySecond)
+        } else {
+            error
+        }
+    };
     Ok(made.map_err(with_mend)?)
 }
 

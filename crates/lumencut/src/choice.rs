@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use lumencut_io::{Error, Result, Space, Unit};
+use lumencut_io::{Error, Mend, Result, Space, Unit};
 
 use crate::lumen_points::LumenCount;
-use crate::places::{Place, Reading};
+use crate::places::{Place, Reading, Statement};
 
 /// A place is as good as another if it brings at least this part of the other's points into the volume.
 const AS_GOOD: f64 = 0.8;
@@ -72,7 +72,7 @@ impl Choice {
         };
         let by_values = format!(
             "both {} ({} of {} points inside) and {} ({}) fit the volume; of {} points looked at, {} look like lumen in {} and \
-             {} in {}: read in {}; {} confirms it",
+             {} in {}: read in {}",
             best.place,
             best.inside,
             self.total,
@@ -84,7 +84,6 @@ impl Choice {
             few.like_lumen,
             other.place.space.name(),
             best.place.space.name(),
-            space_option(best.place.space),
         );
         Some(Chosen { best, by_values: Some(by_values) })
     }
@@ -95,8 +94,7 @@ impl Choice {
         let units: Vec<&str> = units.map(Unit::name).collect();
         let found =
             format!("no point inside the volume, in {}, in {}", spaces.join(" or "), units.join(", "));
-        Error::new("", found, "centerlines of this volume")
-            .mend("give coordinates=\"lps\" or \"ras\" and the unit if the file belongs to this volume")
+        Error::new("", found, "centerlines of this volume").mended_by(Mend::Place)
     }
 
     fn undecided(&self, fitting: &[Reading]) -> Error {
@@ -104,14 +102,23 @@ impl Choice {
             format!("{} ({} of {} points inside)", reading.place, reading.inside, self.total)
         };
         let several: Vec<String> = fitting.iter().map(told).collect();
-        let mut options: BTreeSet<String> = fitting.iter().map(|r| space_option(r.place.space)).collect();
-        if options.len() == 1 {
-            options = fitting.iter().map(|r| unit_option(r.place.unit)).collect();
-        }
-        let options: Vec<String> = options.into_iter().collect();
+        let fits = |space| fitting.iter().any(|reading| reading.place.space == space);
+        let mend = if Space::ALL.into_iter().all(fits) {
+            Mend::Coordinates
+        } else {
+            Mend::Unit(fitting.iter().map(|reading| reading.place.unit).collect())
+        };
         let found = "neither stated nor to be told by the volume what its coordinates are";
-        Error::new("", format!("{found}: {}", several.join(", ")), "one that fits")
-            .mend(format!("give {}", options.join(" or ")))
+        Error::new("", format!("{found}: {}", several.join(", ")), "one that fits").mended_by(mend)
+    }
+
+    /// What the caller would state to confirm a choice against the usual place.
+    pub fn confirmed_by(&self, best: Reading) -> Statement {
+        let Place { space, unit } = best.place;
+        Statement {
+            space: (space != self.usual.space).then_some(space),
+            unit: (unit != self.usual.unit).then_some(unit),
+        }
     }
 
     /// The choice in words, with the counts that it rests on.
@@ -120,21 +127,13 @@ impl Choice {
             return self.told_as_usual(best);
         }
         let usual = self.readings.iter().find(|reading| reading.place == self.usual);
-        let mut options = Vec::new();
-        if best.place.space != self.usual.space {
-            options.push(space_option(best.place.space));
-        }
-        if best.place.unit != self.usual.unit {
-            options.push(unit_option(best.place.unit));
-        }
         format!(
-            "{} of {} points lie inside the volume in {}, but {} in {}: read so; {} confirms it",
+            "{} of {} points lie inside the volume in {}, but {} in {}: read so",
             usual.map_or(0, |reading| reading.inside),
             self.total,
             self.usual,
             best.inside,
             best.place,
-            options.join(" and "),
         )
     }
 
@@ -162,12 +161,4 @@ impl Reading {
     pub(crate) fn is_as_good_as(&self, inside: usize) -> bool {
         self.inside as f64 >= AS_GOOD * inside as f64
     }
-}
-
-fn space_option(space: Space) -> String {
-    format!("coordinates=\"{}\"", space.name())
-}
-
-fn unit_option(unit: Unit) -> String {
-    format!("unit=\"{}\"", unit.name())
 }

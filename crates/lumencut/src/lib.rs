@@ -16,6 +16,7 @@ pub mod letters;
 pub mod lumen_points;
 pub mod mask_notes;
 pub mod measure_words;
+pub mod mends;
 pub mod method;
 pub mod misplaced;
 pub mod placement;

@@ -5,21 +5,30 @@ use lumencut_io::{Space, Unit};
 
 use crate::extent::Extent;
 use crate::placement::Judge;
-use crate::places::{places, readings};
+use crate::places::{Place, places, readings};
 
 /// Whether points in LPS and mm miss the volume, in whatever space and unit they might be meant.
 pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
     readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(|reading| reading.inside == 0)
 }
 
+/// Points that another place fits better.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Misplaced {
+    /// What was found, in words.
+    pub found: String,
+    /// The place that fits, for points that were read as LPS in mm; its space being RAS, those that were read as RAS fit as LPS.
+    pub meant: Place,
+}
+
 /// What is to be said of points in LPS and mm where another place brings twice as many of them into the volume, and a
 /// tenth of all more: as when RAS was read as LPS, or centimetres as millimetres. Or where both spaces fit the volume, and
 /// the points evidently look like lumen with x and y negated alone.
-pub fn better_place(points: &[DVec3], volume: &Judge) -> Option<String> {
+pub fn better_place(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     better_by_extent(points, &volume.extent).or_else(|| mirrored_by_values(points, volume))
 }
 
-fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<String> {
+fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<Misplaced> {
     let mut candidates = places(&Space::ALL, &Unit::ALL);
     // The likeliest mistakes first: of places that fit alike the first one is named.
     candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
@@ -30,25 +39,24 @@ fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<String> {
     if better < 2 * as_read || better < as_read + (points.len() / 10).max(1) {
         return None;
     }
-    let (how, mend) = best.place.mistaken();
-    let total = points.len();
-    Some(format!(
-        "{as_read} of {total} points lie inside the volume as read, but {better} {how}; read the centerlines with {mend}"
-    ))
+    let (how, total) = (best.place.mistaken(), points.len());
+    let found = format!("{as_read} of {total} points lie inside the volume as read, but {better} {how}");
+    Some(Misplaced { found, meant: best.place })
 }
 
-fn mirrored_by_values(points: &[DVec3], volume: &Judge) -> Option<String> {
+fn mirrored_by_values(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     let found = readings(points, &places(&Space::ALL, &[Unit::Millimetre]), &volume.extent);
     let [as_read, mirrored] = found[..] else { return None };
     if mirrored.inside == 0 || !mirrored.is_as_good_as(as_read.inside) {
         return None;
     }
     let (few, count) = ((volume.lumen)(as_read.place), (volume.lumen)(mirrored.place));
-    let (how, mend) = mirrored.place.mistaken();
     count.is_evident_beside(few).then(|| {
-        format!(
-            "of {} points looked at, {} look like lumen as read, but {} {how}; read the centerlines with {mend}",
+        let how = mirrored.place.mistaken();
+        let found = format!(
+            "of {} points looked at, {} look like lumen as read, but {} {how}",
             count.of, few.like_lumen, count.like_lumen,
-        )
+        );
+        Misplaced { found, meant: mirrored.place }
     })
 }

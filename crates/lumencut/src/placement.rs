@@ -9,7 +9,7 @@ use lumencut_io::{Result, Space, Unit};
 use crate::choice::Choice;
 use crate::extent::Extent;
 use crate::lumen_points::LumenCount;
-use crate::places::{Place, places, readings};
+use crate::places::{Place, Statement, places, readings};
 
 /// What is known of the coordinates of a file before the volume is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +78,8 @@ pub struct Placement {
     pub unit_from: Origin,
     /// What was decided, and by what; empty where the file or the caller said everything.
     pub decision: String,
+    /// What the caller would state to confirm the decision of the volume; nothing where there is nothing to confirm.
+    pub confirmed_by: Statement,
     /// Whether the volume decided against LPS or the usual unit, or the space by its values alone.
     pub is_unusual: bool,
 }
@@ -107,6 +109,7 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         space_from,
         unit_from,
         decision,
+        confirmed_by: Statement::default(),
         is_unusual: place != usual,
     };
     if open.is_empty() {
@@ -124,11 +127,14 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
         if let Some(by_values) = found.by_values {
             let decision = format!("{nothing}; {by_values}");
             let placement = told(found.best.place, Origin::Values, unit_from.decided(), decision);
-            return Ok(Placement { is_unusual: true, ..placement });
+            let confirmed_by = Statement { space: Some(found.best.place.space), unit: None };
+            return Ok(Placement { is_unusual: true, confirmed_by, ..placement });
         }
         if found.best.inside > 0 {
             let decision = format!("{nothing}; {}", choice.told(found.best));
-            return Ok(told(found.best.place, space_from.decided(), unit_from.decided(), decision));
+            let confirmed_by = choice.confirmed_by(found.best);
+            let placement = told(found.best.place, space_from.decided(), unit_from.decided(), decision);
+            return Ok(Placement { confirmed_by, ..placement });
         }
     }
     let decision = format!("{nothing}; {usual} is assumed");

@@ -28,18 +28,16 @@ impl Place {
         signs(self.space) * self.unit.in_mm()
     }
 
-    /// How coordinates of this place that were read as LPS in mm would have to be changed, and the options that do it.
-    pub(crate) fn mistaken(self) -> (String, String) {
-        let (mut how, mut mend) = (Vec::new(), Vec::new());
+    /// How coordinates of this place that were read as LPS in mm would have to be changed.
+    pub(crate) fn mistaken(self) -> String {
+        let mut how = Vec::new();
         if self.space == Space::Ras {
             how.push("with x and y negated (LPS and RAS mixed up?)".to_owned());
-            mend.push("coordinates=\"ras\", or \"lps\" where they were read as RAS".to_owned());
         }
         if self.unit != Unit::Millimetre {
             how.push(format!("{} times as large (another unit?)", self.unit.in_mm()));
-            mend.push(format!("unit=\"{}\" where they were read in mm", self.unit.name()));
         }
-        (how.join(" and "), mend.join(", and "))
+        how.join(" and ")
     }
 }
 
@@ -47,6 +45,15 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} in {}", self.space.name(), self.unit.name())
     }
+}
+
+/// What a caller can state of coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Statement {
+    /// Their space.
+    pub space: Option<Space>,
+    /// Their unit.
+    pub unit: Option<Unit>,
 }
 
 /// What brings coordinates of the space to LPS, axis by axis.

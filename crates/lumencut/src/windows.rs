@@ -1,7 +1,7 @@
 //! Windows taken from the data: which intensities (in the volume's unit, HU for CT) tell lumen from its surroundings.
 
 use glam::DVec3;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use lumencut_core::math::sampling::Grid;
 use lumencut_core::settings::Window;
 use lumencut_core::vessel_tree::VesselTree;
@@ -241,7 +241,7 @@ fn within(level: f64, width: f64, found: impl Fn() -> String) -> Result<Window> 
         return Ok(Window { level, width });
     }
     let error = Error::new(ErrorKind::Volume, "window from the data", found(), "a window within ±1e+12");
-    Err(error.mend("scale the voxels, or give window= and context_window= where they stand for nothing"))
+    Err(error.mend("scale the voxels").mended_by(Mend::Windows))
 }
 
 fn finite(values: &[f32]) -> Vec<f64> {

@@ -56,7 +56,7 @@ def best(
             tree, report = file.placed(coordinates, unit, grid)
         except FormatError as error:
             tree, report = file.placed(coordinates, unit)
-            undecided = [one_line(f"{error.found}; {error.mend}")]
+            undecided = [f"{one_line(error.found)}; {one_line(error.mend)}"]
         places.append(Place(tree, report, volume["file"], tuple(undecided)))
         counts.append(_counts(tree, grid))
     n = max(range(len(volumes)), key=lambda n: (counts[n], -n))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import logging
-import re
 import sys
 import traceback
 import warnings
@@ -16,11 +15,15 @@ import click
 
 from lumencut.cli.signals import EndedError, ended_by_signals
 from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning
+from lumencut.mends import Option, Told, written
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
 FAILED, INTERRUPTED = 1, 130
 
 _VERBOSE = "lumencut.verbose"
+#: What the help calls the value of an option.
+_VALUES = {"series": "NUMBER|UID", "phase": "VALUE"}
+_WITH_OPTIONS = (Told, LumencutError)
 
 #: How bars are drawn whose steps are no things to count.
 _BAR = {"share": "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}"}
@@ -118,12 +121,16 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
 def one_line(text: object) -> str:
     """Say something in one line, with options in place of the library's arguments."""
     # Names of files may hold anything, what steers a terminal too.
-    line = "".join(letter if letter.isprintable() else "�" for letter in " ".join(str(text).split()))
-    # The library names its arguments; here they are options.
-    line = line.replace("as `series`", "as --series NUMBER|UID").replace("as `phase`", "as --phase VALUE")
-    line = line.replace("fill_gaps=True", "--fill-gaps").replace("resample_slices=True", "--resample-slices")
-    line = re.sub(r'(coordinates|unit)="(\w+)"', r"--\1 \2", line)
-    return re.sub(r'(--coordinates (?:lps|ras)),? or "(\w+)"', r"\1 or --coordinates \2", line)
+    words = written(text, as_option).split()
+    return "".join(letter if letter.isprintable() else "�" for letter in " ".join(words))
+
+
+def as_option(option: Option) -> str:
+    """Write what is an argument of Python as an option."""
+    name = f"--{option.name.replace('_', '-')}"
+    if option.form == "quoted":
+        return f"{name} {_VALUES[option.name]}"
+    return f"{name} {option.value}" if isinstance(option.value, str) else name
 
 
 def _show_warning(
@@ -142,6 +149,8 @@ def _show_warning(
 
 class _Told(logging.Handler):
     def emit(self, record: logging.LogRecord) -> None:
+        args = record.args or ()
+        record.args = tuple(one_line(arg) if isinstance(arg, _WITH_OPTIONS) else arg for arg in args)
         (warn if record.levelno >= logging.WARNING else detail)(record.getMessage())
 
 

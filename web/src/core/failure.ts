@@ -1,3 +1,4 @@
+import { type Mend, type MendName, mendWords } from './mends';
 import type { Vector } from './messages';
 
 /** A DICOM series that can be chosen. */
@@ -14,8 +15,20 @@ export interface SeriesChoice {
   readonly trouble: string;
 }
 
+/** Clicked points, counted from 0. */
+export interface About {
+  /** The vessel; null for a point of no vessel yet. */
+  readonly vessel: number | null;
+  /** The point along it; null where all of them are meant. */
+  readonly point: number | null;
+}
+
 /** What only some errors tell beside their words. */
-interface More {
+export interface More {
+  /** What mends it beside the advice. */
+  readonly mends?: readonly Mend[];
+  /** The clicked points that it is about. */
+  readonly about?: About;
   /** The DICOM series of which none was chosen. */
   readonly series?: readonly SeriesChoice[];
   /** Where it shows in the volume (mm, LPS), and what the volume has there. */
@@ -23,9 +36,11 @@ interface More {
   readonly value?: number;
 }
 
-/** Errors in the words of the whole of Lumencut: what is wrong, what was found, what was expected, what mends it. */
+/** An error: what is wrong, what was found, what was expected, advice, and what mends it, by names that the page words. */
 export class Failure extends Error {
+  readonly mends: readonly Mend[];
   readonly series: readonly SeriesChoice[];
+  readonly about: About | null;
   readonly place: Vector | null;
   readonly value: number | null;
 
@@ -34,21 +49,27 @@ export class Failure extends Error {
     readonly subject: string,
     readonly found: string,
     readonly expected: string,
-    readonly mend = '',
-    { series = [], place, value }: More = {},
+    /** Advice that the page does not act on. */
+    readonly advice = '',
+    { mends = [], series = [], about, place, value }: More = {},
   ) {
-    const words = [`${subject}: found ${found}`, `expected ${expected}`, mend];
+    const words = [`${subject}: found ${found}`, `expected ${expected}`, mending(advice, mends)];
     super(words.filter((part) => part !== '').join('; '));
     this.name = 'Failure';
+    this.mends = mends;
     this.series = series;
+    this.about = about ?? null;
     this.place = place ?? null;
     this.value = value ?? null;
   }
 
-  /** What was thrown as a failure: the JSON that the core throws, or any other error in its own words. */
+  /** What was thrown as a failure: the JSON that the core throws, a stop, or any other error in its own words. */
   static of(thrown: unknown): Failure {
     if (thrown instanceof Failure) {
       return thrown;
+    }
+    if (thrown instanceof DOMException && thrown.name === 'AbortError') {
+      return new Failure('interrupted', 'the page', 'a stop', 'to run to its end');
     }
     const text = thrown instanceof Error ? thrown.message : String(thrown);
     const fields = parsed(text);
@@ -65,12 +86,37 @@ export class Failure extends Error {
     );
   }
 
+  /** What mends it in the words of the page, advice first; empty where nothing is known. */
+  get mending(): string {
+    return mending(this.advice, this.mends);
+  }
+
+  /** Whether this mends it. */
+  isMendedBy(name: MendName): boolean {
+    return this.mends.some((mend) => mend.name === name);
+  }
+
+  /** What it tells beside its words. */
+  get more(): More {
+    const { mends, series, about, place, value } = this;
+    return {
+      mends,
+      series,
+      ...(about && { about }),
+      ...(place && { place }),
+      ...(value !== null && { value }),
+    };
+  }
+
   /** As a text that survives the way between worker and page; `of` reads it again. */
   get text(): string {
-    const { kind, subject, found, expected, mend, series, place, value } = this;
-    const more: More = { series, ...(place && { place }), ...(value !== null && { value }) };
+    const { kind, subject, found, expected, advice: mend, more } = this;
     return JSON.stringify({ kind, subject, found, expected, mend, ...more });
   }
+}
+
+function mending(advice: string, mends: readonly Mend[]): string {
+  return [advice, ...mends.map(mendWords)].filter((words) => words !== '').join(', or ');
 }
 
 interface Fields extends More {

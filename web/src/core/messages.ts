@@ -141,10 +141,14 @@ export interface GivenFile {
 export interface SeriesWish {
   /** The number or UID of a series. */
   readonly series?: string;
+  /** The value of an attribute that one phase has. */
+  readonly phase?: string;
   readonly fill_gaps?: boolean;
   readonly resample_slices?: boolean;
   /** The space of centerlines. */
-  readonly coordinates?: 'lps' | 'ras';
+  readonly coordinates?: string;
+  /** The unit of centerlines. */
+  readonly unit?: string;
   /** Every second voxel along each axis alone: where there is no memory for all of them. */
   readonly every_second?: boolean;
 }

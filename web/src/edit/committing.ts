@@ -93,7 +93,7 @@ export function tellRefusal(failure: Failure, bridge: (() => void) | null = null
 }
 
 /** Whether a stretch without lumen was refused, which can be bridged. */
-export const isGap = (failure: Failure): boolean => failure.mend.includes('bridge');
+export const isGap = (failure: Failure): boolean => failure.isMendedBy('bridge');
 
 /** What was refused is no longer told once something else is tried. */
 export function forgetRefusal(): void {

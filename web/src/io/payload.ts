@@ -1,4 +1,5 @@
 /** Voxels as bytes: plain, compressed or as text, never more memory than the file really fills. */
+import { EVERY_SECOND } from '../core/mends';
 import { inflated } from './inflating';
 import { ARRAYS, bytesOf, isInteger, type Kind, limits } from './numbers';
 import type { Source } from './source';
@@ -27,8 +28,6 @@ const TRUSTED = 8;
 /** WebAssembly has no more memory than this. */
 const MEMORY = 2 ** 32;
 const LONGEST_WORD = 400;
-/** The words of the engine for the same trouble. */
-const COARSER = 'take every second voxel along each axis (every_second=True), an eighth of them';
 
 /** Voxels of which so many are to be kept. */
 interface Kept extends Place {
@@ -49,7 +48,8 @@ export async function requireRoom(place: Kept, needed: number, kind: Kind, steps
   }
   if (share * needed > MEMORY) {
     const found = `${needed} bytes of voxels as the header says`;
-    throw formatFailure(source.path, found, `at most the ${MEMORY} bytes that a page can hold`, COARSER);
+    const expected = `at most the ${MEMORY} bytes that a page can hold`;
+    throw formatFailure(source.path, found, expected, '', { mends: [EVERY_SECOND] });
   }
   if (codec === 'zlib' && place.skip + needed > TRUSTED * held) {
     await count(place, needed, steps);

@@ -38,8 +38,10 @@ export function begin(sink: Sink, path: string, size: Size, affine: Affine, dtyp
     sink.begin_volume(JSON.stringify({ size, dtype, world_from_index: affine }));
   } catch (error) {
     const failure = Failure.of(error);
-    const { subject, found, expected, mend } = failure;
-    throw failure.kind === 'volume' ? formatFailure(path, `${subject} ${found}`, expected, mend) : failure;
+    const { subject, found, expected, advice, more } = failure;
+    throw failure.kind === 'volume'
+      ? formatFailure(path, `${subject} ${found}`, expected, advice, more)
+      : failure;
   }
 }
 

@@ -1,12 +1,18 @@
 /** The words of refusals: the same as those of the Python package, for the same faults. */
-import { Failure } from '../core/failure';
+import { Failure, type More } from '../core/failure';
 
 const LONGEST_VALUE = 60;
 const COPY_AGAIN = 'copy the file again';
 
 /** A file that is damaged or holds something else than its reader expects. */
-export function formatFailure(subject: string, found: string, expected: string, mend = ''): Failure {
-  return new Failure('format', subject, found, expected, mend);
+export function formatFailure(
+  subject: string,
+  found: string,
+  expected: string,
+  advice = '',
+  more: More = {},
+): Failure {
+  return new Failure('format', subject, found, expected, advice, more);
 }
 
 /** The same where a new copy of the file may be whole. */

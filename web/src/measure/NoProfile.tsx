@@ -20,7 +20,7 @@ function Why() {
       <p>
         <strong>This vessel cannot be measured.</strong>{' '}
         {`${failure.subject}: found ${failure.found}; expected ${failure.expected}.`}
-        {failure.mend && ` ${failure.mend[0]?.toUpperCase()}${failure.mend.slice(1)}.`}
+        {failure.mending && ` ${failure.mending[0]?.toUpperCase()}${failure.mending.slice(1)}.`}
       </p>
     );
   }

@@ -35,7 +35,7 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
     await (comesToEdits ? showBeside(engine, opened) : showStudy(engine, opened, opened.name ?? name));
   } catch (error) {
     const failure = Failure.of(error);
-    if (!isCancelled(failure)) {
+    if (failure.kind !== 'interrupted') {
       store.problem.value = failure;
     }
     await forgetWhatIsClosed(engine);
@@ -174,8 +174,4 @@ function forget(): void {
   store.frameTime.value = null;
   forgetLines();
   beginStudy(null);
-}
-
-function isCancelled(failure: Failure): boolean {
-  return failure.kind === 'interrupted' || failure.found.includes('aborted');
 }

@@ -1,50 +1,65 @@
-/** What can be done at once about files that were refused. */
+/** What can be done at once about what was refused: a button for each mend that the page can do here. */
 import type { Failure, SeriesChoice } from '../core/failure';
+import type { Mend, MendName } from '../core/mends';
 import type { SeriesWish } from '../core/messages';
 import { openAgain } from '../state/last-opened';
 
-const WISHES: readonly (readonly [keyof SeriesWish, string])[] = [
-  ['fill_gaps', 'Interpolate the missing slices'],
-  ['resample_slices', 'Put the slices on a regular grid'],
-  ['every_second', 'Take every second voxel along each axis'],
-];
+/** A button, and the wish with which it opens the same again. */
+type Button = readonly [words: string, wish: SeriesWish];
+
+const NONE = (): readonly Button[] => [];
+const spaces = ({ values }: Mend): readonly Button[] =>
+  values.map((space) => [`Read as ${space.toUpperCase()}`, { coordinates: space }]);
+
+/** The buttons for each mend; a series is chosen from its list, and a gap is bridged by the tool that met it. */
+const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
+  bridge: NONE,
+  every_second: () => [['Take every second voxel along each axis', { every_second: true }]],
+  cpu: NONE,
+  windows: NONE,
+  threshold: NONE,
+  fewer_pixels: NONE,
+  coordinates: spaces,
+  unit: ({ values }) => values.map((unit) => [`Read in ${unit}`, { unit }]),
+  place: spaces,
+  series: NONE,
+  phase: ({ values }) => values.map((phase) => [`Read the phase ${phase}`, { phase }]),
+  fill_gaps: () => [['Interpolate the missing slices', { fill_gaps: true }]],
+  resample_slices: () => [['Put the slices on a regular grid', { resample_slices: true }]],
+  resample_and_fill: () => [
+    [
+      'Put the slices on a regular grid, and interpolate the missing ones',
+      { resample_slices: true, fill_gaps: true },
+    ],
+  ],
+};
 
 export function Mends({ failure }: { readonly failure: Failure }) {
-  const wishes = WISHES.filter(([name]) => failure.mend.includes(`${name}=True`));
   return (
     <>
-      {failure.series.length > 0 && (
-        <ul class="series" aria-label="Series">
-          {failure.series.map((one) => (
-            <li key={one.uid}>
-              <button type="button" onClick={() => void openAgain({ series: one.uid })}>
-                {wordsOf(one)}
-              </button>
-            </li>
-          ))}
-        </ul>
-      )}
-      {failure.mend.includes('coordinates=') && <SpaceChoice />}
-      {wishes.map(([name, words]) => (
-        <button key={name} type="button" onClick={() => void openAgain({ [name]: true })}>
-          {words}
-        </button>
-      ))}
+      {failure.isMendedBy('series') && <Series of={failure.series} />}
+      {failure.mends
+        .flatMap((mend) => BUTTONS[mend.name](mend))
+        .map(([words, wish]) => (
+          <button key={words} type="button" onClick={() => void openAgain(wish)}>
+            {words}
+          </button>
+        ))}
     </>
   );
 }
 
-/** The two spaces that the coordinates of centerlines can be meant in. */
-function SpaceChoice() {
+function Series({ of }: { readonly of: readonly SeriesChoice[] }) {
   return (
-    <>
-      <button type="button" onClick={() => void openAgain({ coordinates: 'lps' })}>
-        Read as LPS
-      </button>
-      <button type="button" onClick={() => void openAgain({ coordinates: 'ras' })}>
-        Read as RAS
-      </button>
-    </>
+    <ul class="series" aria-label="Series">
+      {of.map((one) => (
+        <li key={one.uid}>
+          <button type="button" onClick={() => void openAgain({ series: one.uid })}>
+            {wordsOf(one)}
+          </button>
+        </li>
+      ))}
+    </ul>
   );
 }
 

@@ -86,11 +86,11 @@ function Bridging({ failure }: { readonly failure: Failure }) {
 }
 
 function Sentences({ failure }: { readonly failure: Failure }) {
-  const { found, expected, mend } = failure;
+  const { found, expected, mending } = failure;
   return (
     <>
       <span>{`Found ${found}; expected ${expected}.`}</span>
-      {mend && <span>{`${mend[0]?.toUpperCase() ?? ''}${mend.slice(1)}.`}</span>}
+      {mending && <span>{`${mending[0]?.toUpperCase() ?? ''}${mending.slice(1)}.`}</span>}
     </>
   );
 }

@@ -118,7 +118,7 @@ export class EngineHost {
     told: Told,
   ): Promise<Partial<Fetched> & { report: Report; notes: readonly string[] }> {
     const sources = files.map(({ path, file }) => new BlobSource(path, file));
-    const { coordinates: _, every_second: __, ...series } = wish;
+    const { coordinates: _, unit: __, every_second: ___, ...series } = wish;
     const work = async (means: Means) => {
       const { openFiles } = await import('../io/study');
       const { volume, notes } = await openFiles(sources, among(sources), { ...ALL_OF_IT, ...series }, means);
@@ -137,7 +137,7 @@ export class EngineHost {
     this.cancelled = new AbortController();
     const { signal } = this.cancelled;
     return this.run(async () => {
-      const replacing = new Replacing(this.ready(), wish.coordinates);
+      const replacing = new Replacing(this.ready(), wish);
       const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
         const loaded = await work({ study, loadJudge, steps: new Steps(told, signal) });

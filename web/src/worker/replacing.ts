@@ -8,7 +8,7 @@ export class Replacing implements Study {
 
   constructor(
     private readonly engine: Engine,
-    private readonly coordinates: SeriesWish['coordinates'],
+    private readonly wish: SeriesWish,
   ) {}
 
   close(): void {
@@ -26,7 +26,7 @@ export class Replacing implements Study {
   }
 
   open_centerlines(bytes: Uint8Array, name: string): string {
-    return this.engine.open_centerlines(bytes, name, this.coordinates);
+    return this.engine.open_centerlines(bytes, name, JSON.stringify(this.wish));
   }
 }
 

@@ -25,7 +25,7 @@ use self::stretched::Stretched;
 use self::surface::Surface;
 pub use self::view::View;
 use crate::camera::{MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
 use crate::math::path::Path;
 use crate::named::Named;
@@ -210,7 +210,7 @@ fn checked_size(size: [f64; 2]) -> Result<[usize; 2]> {
         let found = format!("{width} × {height} pixels");
         let expected = format!("at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
         let error = Error::new(ErrorKind::Camera, "size of the CPR", found, expected);
-        return Err(error.mend("a larger pixel_spacing or a smaller width makes fewer"));
+        return Err(error.mended_by(Mend::FewerPixels));
     }
     // Whole numbers within the limits.
     Ok(size.map(|side| side as usize))

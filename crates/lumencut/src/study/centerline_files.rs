@@ -3,12 +3,33 @@
 use crate::extent::Extent;
 use crate::lumen_points::{Lines, lumen_count};
 use crate::placement::{Judge, Known, placement};
+use crate::places::Statement;
 use glam::DVec3;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
 use lumencut_io::{self as centerlines, Space, Unit, junctions};
+use serde::Deserialize;
 
 use crate::study::failure::Result;
+
+/// In which space and unit centerlines are to be read, by names; what is left out is not asked for.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct AskedMessage {
+    /// `lps` or `ras`.
+    pub coordinates: Option<String>,
+    /// `um`, `mm`, `cm`, `dm` or `m`.
+    pub unit: Option<String>,
+}
+
+impl AskedMessage {
+    /// What it asks for; other names ask for nothing.
+    pub fn statement(self) -> Statement {
+        let space = |space: &Space| Some(space.name()) == self.coordinates.as_deref();
+        let unit = |unit: &Unit| Some(unit.name()) == self.unit.as_deref();
+        Statement { space: Space::ALL.into_iter().find(space), unit: Unit::ALL.into_iter().find(unit) }
+    }
+}
 
 /// Vessels, their names, and what was odd about their file.
 #[derive(Clone, Debug)]
@@ -21,21 +42,21 @@ pub struct PlacedVessels {
     pub notes: Vec<String>,
 }
 
-/// The vessels of the file `name` in world space, read in `space` (`lps` or `ras`) where one is named; what neither the file nor
-/// the caller says of space and unit the volume decides.
+/// The vessels of the file `name` in world space, read in the space and unit that are asked for; what neither the file nor the
+/// caller states of them the volume decides.
 ///
 /// # Errors
 /// `format` for a file that is damaged or holds no centerlines, and where nothing tells where they lie.
 pub fn read_centerlines(
     bytes: &[u8],
     name: &str,
-    space: Option<&str>,
+    asked: Statement,
     volume: Option<&Volume>,
 ) -> Result<PlacedVessels> {
     let lines = centerlines::read(bytes, name)?;
     let known = Known {
-        asked_space: Space::ALL.into_iter().find(|known| Some(known.name()) == space),
-        asked_unit: None,
+        asked_space: asked.space,
+        asked_unit: asked.unit,
         stated_space: lines.space,
         stated_unit: lines.unit,
         usual_unit: lines.conventional_unit.unwrap_or(Unit::Millimetre),

@@ -1,8 +1,10 @@
-//! Errors as the page gets them: the same four texts as everywhere, and the kind.
+//! Errors as the page gets them: the same texts as everywhere, the kind, and what mends them.
 
-use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::error::{Clicked, Error, ErrorKind};
 use lumencut_io as centerlines;
 use serde::Serialize;
+
+use crate::mends::Mend;
 
 /// An error for the page.
 #[derive(Debug, Serialize)]
@@ -15,11 +17,43 @@ pub struct Failure {
     pub found: String,
     /// What was expected instead.
     pub expected: String,
-    /// What would mend it; empty where `expected` already says so.
+    /// Advice in words; empty where there is none beside `mends`.
     pub mend: String,
+    /// What else is known of it.
+    #[serde(flatten)]
+    pub more: Box<More>,
+}
+
+/// What only some errors tell.
+#[derive(Debug, Default, Serialize)]
+pub struct More {
+    /// What mends it beside the advice.
+    pub mends: Vec<Mend>,
+    /// Which of the clicked points it is about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub about: Option<About>,
     /// Where it shows in the volume.
     #[serde(flatten)]
-    pub seen: Option<Box<Seen>>,
+    pub seen: Option<Seen>,
+}
+
+/// Points of a request to trace, counted from 0.
+#[derive(Debug, PartialEq, Eq, Serialize)]
+pub struct About {
+    /// The vessel; none for a point of no vessel yet.
+    pub vessel: Option<usize>,
+    /// The point along it; none where all of them are meant.
+    pub point: Option<usize>,
+}
+
+impl From<Clicked> for About {
+    fn from(clicked: Clicked) -> Self {
+        match clicked {
+            Clicked::Vessel(vessel) => Self { vessel: Some(vessel), point: None },
+            Clicked::Point { vessel, point } => Self { vessel: Some(vessel), point: Some(point) },
+            Clicked::Single => Self { vessel: None, point: None },
+        }
+    }
 }
 
 /// Where an error shows in the volume.
@@ -27,7 +61,7 @@ pub struct Failure {
 pub struct Seen {
     /// The place (mm, LPS).
     pub place: [f64; 3],
-    /// What the volume has there; `null` where that is no number.
+    /// The value of the volume there; `null` outside of it.
     pub value: f64,
 }
 
@@ -43,7 +77,7 @@ impl Failure {
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        let Error { kind, subject, found, expected, mend, place } = error;
+        let Error { kind, subject, found, expected, mend, mended_by, place, clicked } = error;
         let kind = match kind {
             ErrorKind::Volume => "volume",
             ErrorKind::VesselTree => "vessel tree",
@@ -54,14 +88,20 @@ impl From<Error> for Failure {
             ErrorKind::Measuring => "measuring",
             ErrorKind::Interrupted => "interrupted",
         };
-        let seen = place.map(|place| Box::new(Seen { place: place.point.to_array(), value: place.value }));
-        Self { kind, subject, found, expected, mend, seen }
+        let more = More {
+            mends: mended_by.into_iter().map(Mend::from).collect(),
+            about: clicked.map(|clicked| About::from(*clicked)),
+            seen: place.map(|place| Seen { place: place.point.to_array(), value: place.value }),
+        };
+        Self { kind, subject, found, expected, mend, more: Box::new(more) }
     }
 }
 
 impl From<centerlines::Error> for Failure {
     fn from(error: centerlines::Error) -> Self {
-        let centerlines::Error { subject, found, expected, mend, .. } = error;
-        Self { kind: "format", subject, found, expected, mend, seen: None }
+        let centerlines::Error { subject, found, expected, mend, mended_by } = error;
+        let mends = mended_by.into_iter().map(|mend| Mend::from(*mend)).collect();
+        let more = More { mends, ..More::default() };
+        Self { kind: "format", subject, found, expected, mend, more: Box::new(more) }
     }
 }

@@ -2,6 +2,7 @@
 
 use lumencut_core::vessel_tree::VesselTree;
 
+use crate::places::Statement;
 use crate::study::centerline_files::read_centerlines;
 use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, VolumeHeader};
@@ -47,14 +48,14 @@ impl Study {
         self.show_tree(tree, names)
     }
 
-    /// Opens centerlines beside the volume, in the place of those before, in the space (`lps` or `ras`) that is named; tells what
-    /// was odd about them.
+    /// Opens centerlines beside the volume, in the place of those before, in the space and unit that are asked for; tells what was
+    /// odd about them.
     ///
     /// # Errors
     /// `format` for a file that is damaged or holds none; the tree before stays then.
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, space: Option<&str>) -> Result<Vec<String>> {
+    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, asked: Statement) -> Result<Vec<String>> {
         let volume = self.content.held.as_ref().map(HeldVolume::volume).transpose()?;
-        let read = read_centerlines(bytes, name, space, volume.as_ref())?;
+        let read = read_centerlines(bytes, name, asked, volume.as_ref())?;
         self.content.forget_windows();
         self.show_tree(read.tree, read.names)?;
         Ok(read.notes)

@@ -1,6 +1,6 @@
 //! The voxels of the one volume that is open, in their own type. The page turns other types into one of these.
 
-use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::volume::Voxels;
 
 use crate::study::failure::{Failure, Result};
@@ -67,10 +67,6 @@ impl Stored {
     }
 }
 
-/// What mends a volume for which there is no memory: the page offers it by the name of the wish.
-pub const COARSER: &str =
-    "close other pages, or take every second voxel along each axis (every_second=True), an eighth of them";
-
 fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {
     let mut voxels = Vec::new();
     // A count beyond all numbers of bytes becomes the largest one, for which there is no room either.
@@ -79,7 +75,8 @@ fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {
         let found = format!("{megabytes} MB of voxels");
         let expected = "no more than this page can have in memory";
         return Err(Error::new(ErrorKind::Volume, "size of the volume", found, expected)
-            .mend(COARSER)
+            .mend("close other pages")
+            .mended_by(Mend::EverySecond)
             .into());
     }
     voxels.resize(count as usize, T::default());

@@ -1,7 +1,8 @@
 use glam::DAffine3;
 
 use super::*;
-use crate::misplaced::{better_place, fits_nowhere};
+use crate::misplaced::{Misplaced, better_place, fits_nowhere};
+use lumencut_io::Mend;
 
 /// A volume of 100 mm along each axis, far enough from the origin that only one space fits it.
 fn volume() -> Extent {
@@ -63,6 +64,7 @@ fn the_volume_confirms_the_usual_place() {
     let expected = "lps in mm fits the volume (50 of 50 points inside, 0 in ras)";
     assert_eq!(found.decision, format!("the file states no space and no unit; {expected}"));
     assert!(!found.is_unusual);
+    assert_eq!(found.confirmed_by, Statement::default());
 }
 
 #[test]
@@ -72,8 +74,8 @@ fn the_volume_decides_against_the_usual_place() {
     assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Millimetre });
     assert_eq!((found.space_from, found.unit_from), (Origin::Volume, Origin::Stated));
     let counts = "0 of 50 points lie inside the volume in lps in mm, but 50 in ras in mm";
-    let expected = format!("the file states no space; {counts}: read so; coordinates=\"ras\" confirms it");
-    assert_eq!(found.decision, expected);
+    assert_eq!(found.decision, format!("the file states no space; {counts}: read so"));
+    assert_eq!(found.confirmed_by, Statement { space: Some(Space::Ras), unit: None });
     assert!(found.is_unusual);
 }
 
@@ -81,11 +83,7 @@ fn the_volume_decides_against_the_usual_place() {
 fn a_space_and_a_unit_can_both_be_unusual() {
     let found = decided(&nothing(), &points(Space::Ras, Unit::Centimetre));
     assert_eq!(found.place, Place { space: Space::Ras, unit: Unit::Centimetre });
-    assert!(
-        found.decision.ends_with("coordinates=\"ras\" and unit=\"cm\" confirms it"),
-        "{}",
-        found.decision
-    );
+    assert_eq!(found.confirmed_by, Statement { space: Some(Space::Ras), unit: Some(Unit::Centimetre) });
 }
 
 #[test]
@@ -95,8 +93,20 @@ fn spaces_that_fit_alike_are_left_to_the_caller() {
     let error = placement(&nothing(), &points, Some(&silent(around))).unwrap_err().in_file("lines.csv");
     let found = "neither stated nor to be told by the volume what its coordinates are: lps in mm (20 of 20 points \
                  inside), ras in mm (20 of 20 points inside)";
-    let mend = "give coordinates=\"lps\" or coordinates=\"ras\"";
+    let mend = "state the space, lps or ras";
     assert_eq!(error.to_string(), format!("lines.csv: found {found}; expected one that fits; {mend}"));
+    assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates));
+}
+
+#[test]
+fn units_that_fit_alike_are_left_to_the_caller() {
+    let wide = Extent::new([2001; 3], DAffine3::from_translation(DVec3::splat(150.0)));
+    let points: Vec<DVec3> = (0..20).map(|n| DVec3::splat(16.0 + 0.1 * f64::from(n))).collect();
+    let known = Known { stated_space: Some(Space::Lps), ..nothing() };
+    let error = placement(&known, &points, Some(&silent(wide))).unwrap_err();
+    let units = vec![Unit::Centimetre, Unit::Decimetre];
+    assert_eq!(error.mended_by.as_deref(), Some(&Mend::Unit(units)));
+    assert!(error.to_string().ends_with("; state the unit, cm or dm"), "{error}");
 }
 
 #[test]
@@ -104,6 +114,7 @@ fn centerlines_of_another_volume_are_refused() {
     let far: Vec<DVec3> = (0..50).map(|n| DVec3::new(7000.0, f64::from(n), 0.0)).collect();
     let error = placement(&nothing(), &far, Some(&silent(volume()))).unwrap_err();
     assert_eq!(error.found, "no point inside the volume, in lps or ras, in um, mm, cm, dm, m");
+    assert_eq!(error.mended_by.as_deref(), Some(&Mend::Place));
     // Where the file states the space there is nothing to ask for.
     let known = Known { stated_space: Some(Space::Ras), ..nothing() };
     let found = decided(&known, &far);
@@ -112,15 +123,13 @@ fn centerlines_of_another_volume_are_refused() {
 }
 
 #[test]
-fn a_better_place_is_named_with_its_option() {
+fn a_better_place_is_named() {
     assert_eq!(better_place(&points(Space::Lps, Unit::Millimetre), &silent(volume())), None);
-    let text = better_place(&points(Space::Ras, Unit::Centimetre), &silent(volume())).unwrap();
+    let better = better_place(&points(Space::Ras, Unit::Centimetre), &silent(volume())).unwrap();
     let how = "with x and y negated (LPS and RAS mixed up?) and 10 times as large (another unit?)";
-    let mend = "coordinates=\"ras\", or \"lps\" where they were read as RAS, and unit=\"cm\" where they were read in mm";
-    let expected = format!(
-        "0 of 50 points lie inside the volume as read, but 50 {how}; read the centerlines with {mend}"
-    );
-    assert_eq!(text, expected);
+    let found = format!("0 of 50 points lie inside the volume as read, but 50 {how}");
+    let meant = Place { space: Space::Ras, unit: Unit::Centimetre };
+    assert_eq!(better, Misplaced { found, meant });
 }
 
 #[test]
@@ -166,17 +175,17 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
         let (best, other) = if space == Space::Lps { ("lps", "ras") } else { ("ras", "lps") };
         let expected = format!(
             "the file states no space and no unit; both {best} in mm (20 of 20 points inside) and {other} in mm (20) fit the \
-             volume; of 100 points looked at, {} look like lumen in {best} and {} in {other}: read in {best}; \
-             coordinates=\"{best}\" confirms it",
+             volume; of 100 points looked at, {} look like lumen in {best} and {} in {other}: read in {best}",
             lps.max(ras),
             lps.min(ras),
         );
         assert_eq!(found.decision, expected);
+        assert_eq!(found.confirmed_by, Statement { space: Some(space), unit: None });
     }
     // Too alike, too few of all.
     for (lps, ras) in [(90, 31), (31, 90), (49, 0), (0, 0), (70, 70)] {
         let error = found(lps, ras, &nothing()).unwrap_err();
-        assert!(error.to_string().contains("coordinates=\"lps\" or coordinates=\"ras\""), "{error}");
+        assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates), "{error}");
     }
     // What is stated or asked is not asked of the values.
     let stated = Known { stated_space: Some(Space::Lps), ..nothing() };
@@ -196,9 +205,9 @@ fn fewer_than_twenty_points_decide_nothing() {
 fn values_that_speak_for_the_mirrored_lines_are_told() {
     let (extent, points) = around_the_origin();
     let told = |lps, ras| better_place(&points, &Judge { extent, lumen: &counts(lps, ras) });
-    let expected = "of 100 points looked at, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?); \
-                    read the centerlines with coordinates=\"ras\", or \"lps\" where they were read as RAS";
-    assert_eq!(told(20, 80).as_deref(), Some(expected));
+    let found = "of 100 points looked at, 20 look like lumen as read, but 80 with x and y negated (LPS and RAS mixed up?)";
+    let meant = Place { space: Space::Ras, unit: Unit::Millimetre };
+    assert_eq!(told(20, 80), Some(Misplaced { found: found.into(), meant }));
     assert_eq!((told(80, 20), told(30, 80), told(0, 49)), (None, None, None));
     // Lines that leave the volume when they are mirrored lie where they are read.
     let judge = Judge { extent: volume(), lumen: &counts(0, 100) };

@@ -16,6 +16,7 @@ import numpy as np
 
 from lumencut._lumencut import describe_dicom, judge_dicom
 from lumencut.errors import FormatError, SeriesError
+from lumencut.mends import told
 from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
 from lumencut.volume_files.dicom.files import File
@@ -82,15 +83,16 @@ def _document(record: Record) -> bytes:
 
 
 def _answer(path: Path, files: Sequence[File], answer: str) -> Record:
-    told: Record = json.loads(answer)
-    if "error" in told:
-        raise _error(path, files, told["error"])
-    return told
+    read: Record = json.loads(answer)
+    if "error" in read:
+        raise _error(path, files, read["error"])
+    return read
 
 
 def _error(path: Path, files: Sequence[File], error: Record) -> FormatError:
     subject = str(path if error["file"] is None else files[error["file"]].source)
-    words = subject, error["found"], error["expected"], error["mend"]
+    mends = [(mend["name"], mend["values"]) for mend in error["mends"]]
+    words = subject, error["found"], error["expected"], told(error["mend"], mends)
     if error["kind"] != "series":
         return FormatError(*words)
     several = SeriesError(*words)

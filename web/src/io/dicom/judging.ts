@@ -1,5 +1,6 @@
 /** What the judge makes of headers: a plan of the volume, or why there is none. */
 import { Failure, type SeriesChoice } from '../../core/failure';
+import type { Mend } from '../../core/mends';
 import type { LookedInto } from './headers';
 import { TRANSFER_SYNTAXES } from './pixels';
 import type { Asked } from './records';
@@ -36,7 +37,9 @@ interface Trouble {
   readonly file: number | null;
   readonly found: string;
   readonly expected: string;
+  /** Advice in words. */
   readonly mend: string;
+  readonly mends: readonly Mend[];
   readonly series: readonly SeriesChoice[];
 }
 
@@ -53,5 +56,6 @@ export function judged(judge: Judge, subject: string, files: readonly LookedInto
   }
   const trouble: Trouble = answer.error;
   const named = trouble.file === null ? subject : (files[trouble.file]?.source.path ?? subject);
-  throw new Failure('format', named, trouble.found, trouble.expected, trouble.mend, trouble);
+  const { found, expected, mend, mends, series } = trouble;
+  throw new Failure('format', named, found, expected, mend, { mends, series });
 }

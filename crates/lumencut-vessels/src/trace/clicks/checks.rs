@@ -6,7 +6,7 @@ use crate::trace::lines::centerline::Centerline;
 use crate::trace::lumen::lumen_model::in_words;
 use crate::trace::ways::region::Stopper;
 use crate::voxels::Voxels;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
 /// What is to be traced.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,41 +24,42 @@ pub struct Clicks {
 
 /// Refuses clicks that no vessel can run through, whatever the volume holds.
 pub fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
-    let wrong = |subject: String, found: String, expected: &str| {
-        Err(Error::new(ErrorKind::Tracing, subject, found, expected))
+    let wrong = |vessel: usize, found: String, expected: &str| {
+        let error = Error::new(ErrorKind::Tracing, format!("points of vessel {vessel}"), found, expected);
+        Err(error.about(Clicked::Vessel(vessel)))
     };
-    for (n, points) in clicks.vessels.iter().enumerate() {
+    for (vessel, points) in clicks.vessels.iter().enumerate() {
         if points.len() < 2 {
             let found = format!("{} point(s)", points.len());
-            return wrong(format!("points of vessel {n}"), found, "2 or more, in order along the vessel");
+            return wrong(vessel, found, "2 or more, in order along the vessel");
         }
-        for (i, point) in points.iter().enumerate() {
-            check_place(voxels, *point, || format!("point {i} of vessel {n}"))?;
+        for (point, place) in points.iter().enumerate() {
+            let subject = || (format!("point {point} of vessel {vessel}"), Clicked::Point { vessel, point });
+            check_place(voxels, *place, subject)?;
         }
         let near = 0.5 * voxels.smallest_side;
         if let Some(i) = (1..points.len()).find(|i| points[*i].distance(points[i - 1]) < near) {
             let found = format!("points {} and {i}, both {}", i - 1, in_words(points[i]));
-            return wrong(
-                format!("points of vessel {n}"),
-                found,
-                "points that differ by more than half a voxel",
-            );
+            return wrong(vessel, found, "points that differ by more than half a voxel");
         }
     }
     for stopper in &clicks.stoppers {
         let is_usable = stopper.center.is_finite() && stopper.radius.is_finite() && stopper.radius > 0.0;
         if !is_usable {
             let found = format!("{} with radius {}", stopper.center, stopper.radius);
-            return wrong("stopper".to_owned(), found, "a finite position and a positive radius (mm)");
+            let expected = "a finite position and a positive radius (mm)";
+            return Err(Error::new(ErrorKind::Tracing, "stopper", found, expected));
         }
     }
     Ok(())
 }
 
 /// Refuses a click that is no place in the volume.
-pub fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> String) -> Result<()> {
-    let wrong =
-        |found: String, expected: String| Err(Error::new(ErrorKind::Tracing, subject(), found, expected));
+pub fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> (String, Clicked)) -> Result<()> {
+    let wrong = |found: String, expected: String| {
+        let (subject, clicked) = subject();
+        Err(Error::new(ErrorKind::Tracing, subject, found, expected).about(clicked))
+    };
     if !point.is_finite() {
         return wrong(format!("{point}"), "finite coordinates (mm, LPS)".to_owned());
     }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::ways::region::{FULL, Stopper, THIN};
 use crate::voxels::Voxels;
-use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// A stretch without lumen that is passed (mm): where the vessel goes on in the same direction, and elsewhere.
@@ -152,7 +152,8 @@ pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
         gap.value
     );
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
-        .mend("add a point where the vessel goes on, or ask for a bridge where it is occluded")
+        .mend("add a point where the vessel goes on")
+        .mended_by(Mend::Bridge)
         .at(gap.place, f64::from(gap.value))
 }
 

@@ -6,7 +6,7 @@ use crate::trace::clicks::traced::Traced;
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::refine::STEP;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least so much (mm).
@@ -53,7 +53,8 @@ fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Tr
         let found = "clicks whose vessel runs within earlier ones from end to end";
         let error =
             Error::new(ErrorKind::Tracing, format!("points of vessel {n}"), found, "a vessel of its own");
-        return Err(error.mend("leave these points out, or click where the vessel is not the other one"));
+        let error = error.mend("leave these points out, or click where the vessel is not the other one");
+        return Err(error.about(Clicked::Vessel(n)));
     }
     let junction = if inside > 0 {
         Some(left(earlier, &line, inside))

@@ -17,7 +17,7 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Stopper, Strictness};
 use crate::voxels::Voxels;
-use lumencut_core::error::{Error, Result};
+use lumencut_core::error::{Clicked, Error, Result};
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
@@ -108,7 +108,7 @@ impl Tracer {
     /// [`lumencut_core::error::ErrorKind::Tracing`] for a click outside of the volume, and for one whose value alone shows that it is no lumen.
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);
-        check_place(voxels, click, || format!("point {}", in_words(click)))?;
+        check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;
         let surroundings = self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, &[click]));
         surroundings.check_alone(voxels, click)
     }

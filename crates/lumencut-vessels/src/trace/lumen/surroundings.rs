@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::trace::lumen::lumen_model::{LumenModel, in_words, lower_median, quantile, tissue_level};
 use crate::voxels::Voxels;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
 /// A volume with at least this share of voxels below the limit is taken to hold Hounsfield units: fat and air are negative
 /// there, and nothing of a magnetic resonance image is.
@@ -141,7 +141,7 @@ impl Surroundings {
         let Some((tissue, expected)) = mistake else { return Ok(()) };
         let found = format!("{tissue}: the volume has {value:.0} there");
         let error = Error::new(ErrorKind::Tracing, format!("point {}", in_words(click)), found, expected);
-        let error = error.at(click, value);
+        let error = error.about(Clicked::Single).at(click, value);
         Err(match self.nearest_lumen(voxels, click) {
             Some(place) => {
                 let away = place.distance(click);

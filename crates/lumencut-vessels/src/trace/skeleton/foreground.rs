@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::trace::skeleton::label_value::LabelValue;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Volume, Voxels};
 
@@ -132,14 +132,11 @@ fn check_whole<T: Copy + LabelValue>(rows: &Rows<T>, stop: Stop) -> Result<()> {
         if let Some(odd) = rows.values(along, rows.place(start)).find_map(LabelValue::odd) {
             let found = format!("a voxel of {odd}");
             let error = Error::new(ErrorKind::Volume, "mask", found, "whole numbers, 0 for background");
-            return Err(error.mend(THRESHOLD));
+            return Err(error.mended_by(Mend::Threshold));
         }
     }
     Ok(())
 }
-
-/// What mends a mask of parts.
-const THRESHOLD: &str = "compare the values with a threshold first, as --threshold of the command line does";
 
 /// The voxels of a mask row by row.
 struct Rows<'a, T> {

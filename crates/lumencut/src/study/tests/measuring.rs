@@ -14,7 +14,7 @@ use crate::study::lines::NamedLine;
 use crate::study::measure_messages::{
     GradeMessage, MarksMessage, ProfileMessage, SectionMessage, StretchMessage,
 };
-use crate::study::tests::opened;
+use crate::study::tests::{LPS, opened};
 
 const SIZE: [usize; 3] = [40, 40, 80];
 const SIDE: f64 = 0.5;
@@ -69,7 +69,7 @@ fn tube() -> Study {
 }
 
 fn open_line(study: &mut Study, from: f64, to: f64) {
-    study.open_centerlines(line(from, to).as_bytes(), "line.csv", Some("lps")).expect("a line");
+    study.open_centerlines(line(from, to).as_bytes(), "line.csv", LPS).expect("a line");
 }
 
 /// The number of a vessel's line, as the page knows it.

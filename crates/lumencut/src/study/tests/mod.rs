@@ -9,15 +9,22 @@ use crate::backend::Backend;
 use crate::devices::Wanted;
 use glam::DVec3;
 use lumencut_core::pipeline::Request;
+use lumencut_io::Space;
 use lumencut_phantom::Phantom;
 use serde_json::json;
 
+use crate::mends::{OfCenterlines, OfCore};
+use crate::places::Statement;
+use crate::study::centerline_files::AskedMessage;
 use crate::study::held_volume::HeldVolume;
 use crate::study::open_study::Study;
 use crate::study::planes::Plane;
 use crate::study::straightened::{Aggregated, CprMessage};
 use crate::study::view::ViewMessage;
 use crate::study::voxels::Stored;
+
+/// Centerlines are asked for in LPS.
+pub const LPS: Statement = Statement { space: Some(Space::Lps), unit: None };
 
 /// A study that holds a phantom and its vessels.
 pub fn opened(phantom: &str) -> Study {
@@ -147,17 +154,30 @@ fn voxels_come_in_parts_and_must_fit() {
 #[test]
 fn a_broken_file_of_centerlines_leaves_the_tree() {
     let mut study = opened("y_junction");
-    let error = study.open_centerlines(b"<VTKFile", "tree.vtp", None).expect_err("broken");
+    let error = study.open_centerlines(b"<VTKFile", "tree.vtp", Statement::default()).expect_err("broken");
     assert_eq!(error.kind, "format");
     assert!(study.content.tree().is_some());
     let points = study.content.tree().expect("a tree").tree().vessels()[0].points().to_vec();
     let rows = points.iter().map(|p| format!("{},{},{},1.5\n", p.x, p.y, p.z)).collect::<String>();
     let text = format!("x,y,z,radius\n{rows}");
     // The phantom is as good a place for them mirrored.
-    let mend = study.open_centerlines(text.as_bytes(), "line.csv", None).expect_err("no space").mend;
-    assert!(mend.contains("coordinates"));
-    study.open_centerlines(text.as_bytes(), "line.csv", Some("lps")).expect("a line");
+    let failure =
+        study.open_centerlines(text.as_bytes(), "line.csv", Statement::default()).expect_err("no space");
+    assert_eq!(failure.more.mends, [OfCenterlines::Coordinates.into()]);
+    study.open_centerlines(text.as_bytes(), "line.csv", LPS).expect("a line");
     assert_eq!(study.content.tree().map(|tree| tree.tree().vessels().len()), Some(1));
+}
+
+#[test]
+fn centerlines_are_read_in_the_space_and_unit_that_are_asked_for() {
+    let mut study = opened("stenosis");
+    let asked = json!({"coordinates": "ras", "unit": "cm", "fill_gaps": true}).to_string();
+    let asked: AskedMessage = serde_json::from_str(&asked).expect("a message");
+    let lines = b"x,y,z\n0,0,-1\n1,0,1\n";
+    study.open_centerlines(lines, "line.csv", asked.statement()).expect("a line");
+    let points = study.content.tree().expect("a tree").tree().vessels()[0].points().to_vec();
+    assert_eq!(points, [DVec3::new(0.0, 0.0, -10.0), DVec3::new(-10.0, 0.0, 10.0)]);
+    assert_eq!(AskedMessage::default().statement(), Statement::default());
 }
 
 #[test]
@@ -208,5 +228,6 @@ fn where_memory_is_short_it_is_told_how_much_is_needed() {
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]});
     let failure = Study::default().begin_volume(&header.to_string()).expect_err("too much");
     assert_eq!((failure.kind, failure.found.as_str()), ("volume", "25600000000 MB of voxels"));
-    assert!(failure.mend.contains("every_second=True"));
+    assert_eq!(failure.mend, "close other pages");
+    assert_eq!(failure.more.mends, [OfCore::EverySecond.into()]);
 }

@@ -102,7 +102,7 @@ fn a_click_in_no_lumen_is_refused_with_its_place_and_value() {
     vessel[1] = corner.lerp(DVec3::from_array(vessel[1]), 0.05).to_array();
     let failure =
         traced(&mut study, request(std::slice::from_ref(&vessel), &[]), false).expect_err("no lumen");
-    let seen = failure.seen.as_ref().expect("a place");
+    let seen = failure.more.seen.as_ref().expect("a place");
     assert_eq!(seen.place, vessel[1]);
     assert!(seen.value < 100.0);
     let text = serde_json::to_value(&failure).expect("JSON");
@@ -117,7 +117,7 @@ fn a_click_that_no_vessel_can_begin_at_is_refused_alone() {
     let corner = study.content.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
     let fat = corner.lerp(DVec3::from_array(lumen), 0.05);
     let failure = study.check_click(fat.to_array()).expect_err("no lumen");
-    assert_eq!(failure.seen.map(|seen| seen.place), Some(fat.to_array()));
+    assert_eq!(failure.more.seen.map(|seen| seen.place), Some(fat.to_array()));
     let outside = corner + 2.0 * (corner - DVec3::from_array(lumen));
     let failure = study.check_click(outside.to_array()).expect_err("outside");
     assert!(failure.found.contains("outside the volume"), "{failure:?}");
@@ -129,7 +129,7 @@ fn two_vessels_that_do_not_meet_are_refused_at_the_weakest_place() {
     let [first, second] = [0, 1].map(|vessel| points(&study, vessel));
     let vessel = vec![first[first.len() / 4].to_array(), second[second.len() / 4].to_array()];
     let failure = traced(&mut study, request(&[vessel], &[]), false).expect_err("no lumen between");
-    let seen = failure.seen.expect("a place");
+    let seen = failure.more.seen.expect("a place");
     let place = DVec3::from_array(seen.place);
     let away = |line: &[DVec3]| line.iter().map(|point| point.distance(place)).fold(f64::MAX, f64::min);
     assert!(away(&first) > 1.0 && away(&second) > 1.0 && seen.value < 200.0);

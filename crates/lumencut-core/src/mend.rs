@@ -1,0 +1,78 @@
+//! What mends an error, where a host can do it or says it in words of its own.
+
+use std::fmt;
+
+/// A step that mends an [`Error`](crate::error::Error). Each host words it in its own way: as arguments of Python, as options
+/// of the command line, as buttons of a page. The words of [`fmt::Display`] are for programs in Rust.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mend {
+    /// Bridge the stretch between two points that does not look like lumen.
+    Bridge,
+    /// Take every second voxel along each axis, which needs an eighth of the memory.
+    EverySecond,
+    /// Compute on the CPU.
+    Cpu,
+    /// State the windows, which the data do not give.
+    Windows,
+    /// Compare the values of a mask with a threshold.
+    Threshold,
+    /// Ask for fewer pixels: larger ones, or a narrower picture.
+    FewerPixels,
+}
+
+impl Mend {
+    /// Every mend of this crate.
+    pub const ALL: [Self; 6] =
+        [Self::Bridge, Self::EverySecond, Self::Cpu, Self::Windows, Self::Threshold, Self::FewerPixels];
+
+    /// The name by which every host knows it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Bridge => "bridge",
+            Self::EverySecond => "every_second",
+            Self::Cpu => "cpu",
+            Self::Windows => "windows",
+            Self::Threshold => "threshold",
+            Self::FewerPixels => "fewer_pixels",
+        }
+    }
+}
+
+impl fmt::Display for Mend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Bridge => "ask for a bridge where it is occluded",
+            Self::EverySecond => "take every second voxel along each axis, an eighth of all",
+            Self::Cpu => "compute with the device 'cpu'",
+            Self::Windows => "state the windows where they stand for nothing",
+            Self::Threshold => "compare the values with a threshold first",
+            Self::FewerPixels => "larger pixels or a smaller width make fewer",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::{Error, ErrorKind};
+
+    #[test]
+    fn no_two_mends_share_a_name() {
+        let names: Vec<&str> = Mend::ALL.into_iter().map(Mend::name).collect();
+        assert!(names.iter().enumerate().all(|(n, name)| !names[..n].contains(name)), "{names:?}");
+    }
+
+    #[test]
+    fn it_stands_behind_the_advice() {
+        let error = Error::new(ErrorKind::Device, "device", "a", "b");
+        let line = |error: Error| error.to_string();
+        assert_eq!(line(error.clone()), "device: found a; expected b");
+        assert_eq!(line(error.clone().mend("c")), "device: found a; expected b; c");
+        let mended = error.mended_by(Mend::Cpu);
+        assert_eq!(line(mended.clone()), "device: found a; expected b; compute with the device 'cpu'");
+        assert_eq!(
+            line(mended.mend("c")),
+            "device: found a; expected b; c, or compute with the device 'cpu'"
+        );
+    }
+}

@@ -1,0 +1,82 @@
+//! What mends an error about a file, where a host can do it or says it in words of its own.
+
+use std::fmt;
+
+use crate::centerlines::Space;
+use crate::unit::Unit;
+
+/// A step that mends an [`Error`](crate::Error). Each host words it in its own way: as arguments of Python, as options of the
+/// command line, as buttons of a page. The words of [`fmt::Display`] are for programs in Rust.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Mend {
+    /// State the space of the coordinates, LPS or RAS: the volume does not tell.
+    Coordinates,
+    /// State the unit of the coordinates, one of these: the volume does not tell.
+    Unit(Vec<Unit>),
+    /// State space and unit of the coordinates, which fit the volume in none.
+    Place,
+}
+
+impl Mend {
+    /// The name of every mend of this crate.
+    pub const NAMES: [&str; 3] = ["coordinates", "unit", "place"];
+
+    /// The name by which every host knows it.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Coordinates => "coordinates",
+            Self::Unit(_) => "unit",
+            Self::Place => "place",
+        }
+    }
+
+    /// What can be chosen among: names of spaces or units.
+    #[must_use]
+    pub fn values(&self) -> Vec<&'static str> {
+        match self {
+            Self::Coordinates | Self::Place => Space::ALL.map(Space::name).to_vec(),
+            Self::Unit(units) => units.iter().map(|unit| unit.name()).collect(),
+        }
+    }
+}
+
+impl fmt::Display for Mend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let values = self.values().join(" or ");
+        match self {
+            Self::Coordinates => write!(f, "state the space, {values}"),
+            Self::Unit(_) => write!(f, "state the unit, {values}"),
+            Self::Place => {
+                write!(f, "state the space, {values}, and the unit if the file belongs to this volume")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_mend_has_its_name_and_its_choice() {
+        let all = [Mend::Coordinates, Mend::Unit(vec![Unit::Centimetre, Unit::Metre]), Mend::Place];
+        assert_eq!(all.each_ref().map(Mend::name), Mend::NAMES);
+        let values = [vec!["lps", "ras"], vec!["cm", "m"], vec!["lps", "ras"]];
+        assert_eq!(all.each_ref().map(Mend::values), values);
+    }
+
+    #[test]
+    fn it_stands_behind_the_advice() {
+        let error = crate::Error::new("lines.csv", "a", "b");
+        let line = |error: crate::Error| error.to_string();
+        assert_eq!(line(error.clone()), "lines.csv: found a; expected b");
+        assert_eq!(line(error.clone().mend("c")), "lines.csv: found a; expected b; c");
+        let mended = error.mended_by(Mend::Coordinates);
+        assert_eq!(line(mended.clone()), "lines.csv: found a; expected b; state the space, lps or ras");
+        assert_eq!(
+            line(mended.mend("c")),
+            "lines.csv: found a; expected b; c, or state the space, lps or ras"
+        );
+    }
+}

@@ -1,0 +1,179 @@
+"""What mends an error: a name that every host knows, and the words that name arguments or options for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+MendName: TypeAlias = Literal[
+    "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
+    "coordinates", "unit", "place",
+    "series", "phase", "fill_gaps", "resample_slices", "resample_and_fill",
+]  # fmt: skip
+
+
+class Option(NamedTuple):
+    """An argument of Python, which is an option of the command line.
+
+    Attributes
+    ----------
+    name : str
+        The argument.
+    value : str, bool or None
+        What to give for it; None where the reader knows.
+    form : "whole", "again", "quoted" or "plain"
+        Written as ``name=value``, as the value alone behind the same argument, or as the name alone, with
+        marks around it or plain.
+    """
+
+    name: str
+    value: str | bool | None
+    form: Literal["whole", "again", "quoted", "plain"] = "whole"
+
+
+#: How a host writes an option.
+Write: TypeAlias = Callable[[Option], str]
+
+_Parts: TypeAlias = tuple[str | Option, ...]
+
+
+def as_argument(option: Option) -> str:
+    """Write an option as an argument of Python."""
+    value = f'"{option.value}"' if isinstance(option.value, str) else option.value
+    return {
+        "whole": f"{option.name}={'' if value is None else value}",
+        "again": f"{value}",
+        "quoted": f"`{option.name}`",
+        "plain": option.name,
+    }[option.form]
+
+
+@dataclass(frozen=True)
+class Mend:
+    """A step that mends an error; as a text it is worded for Python.
+
+    Attributes
+    ----------
+    name : str
+        The same on every host: "bridge", "every_second", "cpu", "windows", "threshold" and "fewer_pixels" of
+        tracing, devices and volumes; "coordinates", "unit" and "place" of centerlines; "series", "phase",
+        "fill_gaps", "resample_slices" and "resample_and_fill" of DICOM.
+    values : tuple of str
+        What can be chosen among, such as units or phases; empty where there is nothing to choose.
+    """
+
+    name: MendName
+    values: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return self.written(as_argument)
+
+    def written(self, write: Write) -> str:
+        """Return the words with its options as a host writes them."""
+        return _written(WORDS[self.name](self.values), write)
+
+
+def _one_of(name: str, values: Sequence[str]) -> _Parts:
+    parts: list[str | Option] = ["give "]
+    for value in values:
+        parts += [Option(name, value), " or "]
+    return tuple(parts[:-1])
+
+
+def _place(_: Sequence[str]) -> _Parts:
+    either = Option("coordinates", "lps"), " or ", Option("coordinates", "ras", form="again")
+    return ("give ", *either, " and the unit if the file belongs to this volume")
+
+
+def _resampled(_: Sequence[str]) -> _Parts:
+    return (Option("resample_slices", value=True), " puts them on a regular grid")
+
+
+def _fewer_pixels(_: Sequence[str]) -> _Parts:
+    spacing, width = (Option(name, None, "plain") for name in ("pixel_spacing", "width"))
+    return ("a larger ", spacing, " or a smaller ", width, " makes fewer")
+
+
+def _windows(_: Sequence[str]) -> _Parts:
+    both = Option("window", None), " and ", Option("context_window", None)
+    return ("give ", *both, " where they stand for nothing")
+
+
+_THRESHOLD = "compare the values with a threshold first, as --threshold of the command line does"
+
+#: The words for each mend, of its values.
+WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
+    "bridge": lambda _: ("ask for a bridge where it is occluded",),
+    "every_second": lambda _: ("take every second voxel along each axis, an eighth of all",),
+    "cpu": lambda _: ("compute with the device 'cpu'",),
+    "windows": _windows,
+    "threshold": lambda _: (_THRESHOLD,),
+    "fewer_pixels": _fewer_pixels,
+    "coordinates": lambda values: _one_of("coordinates", values),
+    "unit": lambda values: _one_of("unit", values),
+    "place": _place,
+    "series": lambda _: ("its number or UID as ", Option("series", None, "quoted")),
+    "phase": lambda _: ("give the value of the one to read as ", Option("phase", None, "quoted")),
+    "fill_gaps": lambda _: ("have them interpolated with ", Option("fill_gaps", value=True)),
+    "resample_slices": _resampled,
+    "resample_and_fill": lambda values: (
+        *_resampled(values), " together with ", Option("fill_gaps", value=True),
+    ),
+}  # fmt: skip
+
+
+class Told(str):
+    """A text in the words of Python that other hosts can write with options of their own.
+
+    Attributes
+    ----------
+    advice : str
+        The words that name no options.
+    mends : tuple of Mend
+        What mends the error that the text belongs to; empty of a text that only tells something.
+    """
+
+    advice: str
+    mends: tuple[Mend, ...]
+    _parts: _Parts
+
+    def __new__(cls, *parts: str | Option, advice: str = "", mends: tuple[Mend, ...] = ()) -> Told:
+        """Join texts and options."""
+        made = super().__new__(cls, _written(parts, as_argument))
+        made.advice, made.mends, made._parts = advice, mends, parts
+        return made
+
+    def __reduce__(self) -> Any:
+        return _remade, (self._parts, self.advice, self.mends)
+
+    def written(self, write: Write) -> str:
+        """Return the text with its options as a host writes them."""
+        return _written(self._parts, write)
+
+    def after(self, words: str) -> Told:
+        """Return the same behind other words."""
+        return Told(words, *self._parts, advice=self.advice, mends=self.mends)
+
+
+def _remade(parts: _Parts, advice: str, mends: tuple[Mend, ...]) -> Told:
+    return Told(*parts, advice=advice, mends=mends)
+
+
+def told(advice: str, mends: Sequence[tuple[MendName, Sequence[str]]]) -> Told:
+    """Return advice and mends, given by their names and values, in one text."""
+    typed = tuple(Mend(name, tuple(values)) for name, values in mends)
+    parts: list[str | Option] = [advice] if advice else []
+    for mend in typed:
+        parts += [", or " if parts else "", *WORDS[mend.name](mend.values)]
+    return Told(*parts, advice=advice, mends=typed)
+
+
+def written(text: object, write: Write) -> str:
+    """Return a text, an error or a warning with its options as a host writes them."""
+    own = getattr(text, "written", None)
+    return str(text) if own is None else str(own(write))
+
+
+def _written(parts: Sequence[str | Option], write: Write) -> str:
+    return "".join(write(part) if isinstance(part, Option) else part for part in parts)

@@ -1,0 +1,52 @@
+/** What mends a failure: the names that every host knows, and the words of the page for each. */
+
+/** All names: those of the crates, in their order. */
+export const MEND_NAMES = [
+  'bridge',
+  'every_second',
+  'cpu',
+  'windows',
+  'threshold',
+  'fewer_pixels',
+  'coordinates',
+  'unit',
+  'place',
+  'series',
+  'phase',
+  'fill_gaps',
+  'resample_slices',
+  'resample_and_fill',
+] as const;
+
+export type MendName = (typeof MEND_NAMES)[number];
+
+export interface Mend {
+  readonly name: MendName;
+  /** What can be chosen among, such as units or phases. */
+  readonly values: readonly string[];
+}
+
+export const EVERY_SECOND: Mend = { name: 'every_second', values: [] };
+
+const spaces = ({ values }: Mend): string => values.map((space) => space.toUpperCase()).join(' or ');
+
+const WORDS: Record<MendName, (mend: Mend) => string> = {
+  bridge: () => 'bridge the gap where the vessel is occluded',
+  every_second: () => 'take every second voxel along each axis, an eighth of all',
+  cpu: () => 'compute on the CPU: add ?device=cpu to the address of this page',
+  windows: () => 'scale them by the Python package, which takes windows for them too',
+  threshold: () => 'make a mask of whole numbers of it, or trace it by `lumencut trace --threshold`',
+  fewer_pixels: () => 'make the view smaller',
+  coordinates: (mend) => `choose the space of its coordinates, ${spaces(mend)}`,
+  unit: ({ values }) => `choose the unit of its coordinates, ${values.join(' or ')}`,
+  place: (mend) => `choose the space of its coordinates, ${spaces(mend)}, if it belongs to this scan`,
+  series: () => 'choose one of the series',
+  phase: ({ values }) =>
+    values.length > 0 ? 'choose one of the phases' : 'read one phase by the Python package',
+  fill_gaps: () => 'interpolate the missing slices',
+  resample_slices: () => 'put the slices on a regular grid',
+  resample_and_fill: () => 'put the slices on a regular grid, and interpolate the missing ones',
+};
+
+/** A mend in the words of the page. */
+export const mendWords = (mend: Mend): string => WORDS[mend.name](mend);

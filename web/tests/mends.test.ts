@@ -1,0 +1,48 @@
+/** Every mend has words of the page, and none of them is Python. */
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { expect, test } from 'vitest';
+import { Failure } from '../src/core/failure';
+import { MEND_NAMES, type MendName, mendWords } from '../src/core/mends';
+
+/** What mends can be chosen among. */
+const VALUES: Partial<Record<MendName, readonly string[]>> = {
+  coordinates: ['lps', 'ras'],
+  place: ['lps', 'ras'],
+  unit: ['cm', 'dm'],
+  phase: ['0', '400'],
+};
+/** An argument of Python that is given or named, such as `fill_gaps=True`, `coordinates=` or `window`. */
+const PYTHON = /\w=|`\w+_\w+`|=True/;
+
+test.each(MEND_NAMES)('%s is worded by the page', (name) => {
+  for (const values of [VALUES[name] ?? [], []]) {
+    const mends = [{ name, values }];
+    const words = mendWords({ name, values });
+    expect(words.length).toBeGreaterThan(10);
+    expect(words.replace('?device=cpu', '')).not.toMatch(PYTHON);
+    expect(new Failure('format', 'a', 'b', 'c', 'd', { mends }).message).toBe(
+      `a: found b; expected c; d, or ${words}`,
+    );
+  }
+});
+
+test('what can be chosen among is named', () => {
+  const words = (name: MendName) => mendWords({ name, values: VALUES[name] ?? [] });
+  expect(words('coordinates')).toContain('LPS or RAS');
+  expect(words('unit')).toContain('cm or dm');
+});
+
+test('no text of the page names an argument of Python, and none is read for words', () => {
+  const folder = join(import.meta.dirname, '../src');
+  const files = readdirSync(folder, { recursive: true, encoding: 'utf8' });
+  const sources = files.filter((name) => /\.tsx?$/.test(name) && !name.startsWith('core/pkg'));
+  expect(sources.length).toBeGreaterThan(20);
+  for (const name of sources) {
+    const text = readFileSync(join(folder, name), 'utf8');
+    expect(text, name).not.toMatch(/=True/);
+    expect(text, name).not.toMatch(
+      /\b(found|expected|subject|advice|mending|message|mend)\s*\.(includes|startsWith|endsWith|match|indexOf|search)\(/,
+    );
+  }
+});
