@@ -187,6 +187,7 @@ def test_before_the_header_the_error_is_told_in_parts(page):
         answer = client.ask("data/volume")
     assert answer.status == 422
     assert answer.json == {
+        "kind": "format",
         "subject": "made.nrrd",
         "found": "7 bytes",
         "expected": "120 bytes",

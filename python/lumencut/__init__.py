@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from lumencut.mask_tracing import trace_mask
     from lumencut.measurements import Measurements
     from lumencut.measuring import CrossSection, cross_section, measure
+    from lumencut.mends import Mend
     from lumencut.picking import brightest
     from lumencut.planar_reformation import cpr
     from lumencut.profile import Profile
@@ -96,6 +97,7 @@ _HOME = {
     "mask_tracing": ("trace_mask",),
     "measurements": ("Measurements",),
     "measuring": ("CrossSection", "cross_section", "measure"),
+    "mends": ("Mend",),
     "picking": ("brightest",),
     "planar_reformation": ("cpr",),
     "profile": ("Profile",),
@@ -139,6 +141,7 @@ __all__ = [
     "LumencutError",
     "Measurements",
     "MeasuringError",
+    "Mend",
     "MissingPackageError",
     "Opacity",
     "Profile",

@@ -49,6 +49,18 @@ def as_argument(option: Option) -> str:
     }[option.form]
 
 
+#: What the help of the command line calls the values of options.
+_VALUES = {"series": "NUMBER|UID", "phase": "VALUE"}
+
+
+def as_option(option: Option) -> str:
+    """Write an option as one of the command line."""
+    name = f"--{option.name.replace('_', '-')}"
+    if option.form == "quoted":
+        return f"{name} {_VALUES[option.name]}"
+    return f"{name} {option.value}" if isinstance(option.value, str) else name
+
+
 @dataclass(frozen=True)
 class Mend:
     """A step that mends an error; as a text it is worded for Python.

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from lumencut._checks import number, numbers
 from lumencut.errors import CameraError
+from lumencut.mends import told
 from lumencut.planar_reformation import check_vessel, cpr_of, one_angle
 from lumencut.reformation import Reformation
 from lumencut.renderer import Renderer
@@ -133,7 +134,7 @@ def straightened_volume(
     columns, sections = surface.size
     if columns * columns * sections > _MOST_VOXELS:
         found = f"{columns} × {columns} × {sections} voxels"
-        mend = "a larger pixel_spacing or a smaller width makes fewer"
+        mend = told("", [("fewer_pixels", ())])
         raise CameraError("size of the straightened volume", found, f"at most {_MOST_VOXELS}", mend)
     step = surface.pixel_spacing
     side = (np.arange(columns) - columns // 2) * step

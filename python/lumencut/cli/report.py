@@ -15,14 +15,12 @@ import click
 
 from lumencut.cli.signals import EndedError, ended_by_signals
 from lumencut.errors import DeviceWarning, LumencutError, SpaceWarning
-from lumencut.mends import Option, Told, written
+from lumencut.mends import Told, as_option, written
 
 #: Exit codes beside 0 and click's 2 for wrong usage.
 FAILED, INTERRUPTED = 1, 130
 
 _VERBOSE = "lumencut.verbose"
-#: What the help calls the value of an option.
-_VALUES = {"series": "NUMBER|UID", "phase": "VALUE"}
 _WITH_OPTIONS = (Told, LumencutError)
 
 #: How bars are drawn whose steps are no things to count.
@@ -123,14 +121,6 @@ def one_line(text: object) -> str:
     # Names of files may hold anything, what steers a terminal too.
     words = written(text, as_option).split()
     return "".join(letter if letter.isprintable() else "�" for letter in " ".join(words))
-
-
-def as_option(option: Option) -> str:
-    """Write what is an argument of Python as an option."""
-    name = f"--{option.name.replace('_', '-')}"
-    if option.form == "quoted":
-        return f"{name} {_VALUES[option.name]}"
-    return f"{name} {option.value}" if isinstance(option.value, str) else name
 
 
 def _show_warning(

@@ -21,6 +21,7 @@ from starlette.responses import (
 from starlette.types import Receive, Scope, Send
 
 from lumencut.errors import LumencutError
+from lumencut.mends import as_option, written
 from lumencut.viewer import volume_stream
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.guard import Place, has_body
@@ -89,7 +90,7 @@ class Application:
         if name == "data/centerlines" and self._scene.has_centerlines:
             return await _centerlines(self._scene)
         if name == "data/problem" and self._scene.problem is not None:
-            return PlainTextResponse(str(self._scene.problem))
+            return PlainTextResponse(self._scene.problem.written(as_option))
         return _refusal(404)
 
 
@@ -99,8 +100,9 @@ def _refusal(status: int, headers: dict[str, str] | None = None) -> Response:
 
 
 def _unreadable(error: LumencutError) -> Response:
-    told = {"subject": error.subject, "found": error.found, "expected": error.expected, "mend": error.mend}
-    return JSONResponse(told, 422)
+    """The error as the page reads it; what mends it are options of the command that serves."""
+    told = {"kind": "format", "subject": error.subject, "found": error.found, "expected": error.expected}
+    return JSONResponse({**told, "mend": written(error.mend, as_option)}, 422)
 
 
 async def _volume(scene: ArrivingScene, *, is_head: bool) -> Response:

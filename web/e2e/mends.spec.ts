@@ -1,0 +1,45 @@
+/** DICOM series that are refused, and the buttons that mend them: in the words of the page, never in those of Python. */
+import { expect, test } from '@playwright/test';
+import { series } from './dicom';
+import { Viewer } from './page';
+
+let viewer: Viewer;
+
+test.beforeEach(async ({ browser }) => {
+  viewer = await Viewer.open(browser, '?device=cpu&test=1');
+});
+test.afterEach(async () => {
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+async function choose(files: ReturnType<typeof series>): Promise<void> {
+  await viewer.page.locator('input[type=file]').first().setInputFiles(files);
+}
+
+/** Presses the button of a refusal that says these words, and waits for the scan; gives its size. */
+async function mended(words: RegExp, button: string): Promise<readonly number[] | undefined> {
+  await expect(viewer.problem).toContainText(words);
+  await expect(viewer.problem).not.toContainText(/=True|`\w+`/);
+  await viewer.problem.getByRole('button', { name: button, exact: true }).click();
+  await expect(viewer.problem).toBeHidden();
+  await viewer.rest();
+  return (await viewer.report()).volume?.size;
+}
+
+test('missing slices are interpolated', async () => {
+  await choose(series([0, 2, 4, 8, 10, 12]));
+  const words = /Add the missing files, or interpolate the missing slices\./;
+  expect(await mended(words, 'Interpolate the missing slices')).toEqual([16, 16, 7]);
+});
+
+test('uneven slices are put on a regular grid', async () => {
+  await choose(series([0, 2, 4, 7, 10, 13]));
+  const words = /Put the slices on a regular grid\./;
+  expect(await mended(words, 'Put the slices on a regular grid')).toEqual([16, 16, 14]);
+});
+
+test('one of several phases is read', async () => {
+  await choose(series([0, 2, 4, 6], 2));
+  expect(await mended(/Choose one of the phases\./, 'Read the phase 400')).toEqual([16, 16, 4]);
+});
