@@ -41,7 +41,7 @@ def milliseconds(work: Callable[[], object]) -> float:
 
 
 def straightened(volume: Volume, vessel: Vessel, columns: int, rows: int) -> Reformation:
-    """A straightened CPR of so many columns and rows, within a pixel."""
+    """A straightened CPR with this number of columns and rows, within a pixel."""
     length = vessel.length
     spacing = length / (rows - 0.5)
     return cpr(volume, vessel, "straightened", (columns - 0.5) * spacing, spacing, settings=SETTINGS)

@@ -42,7 +42,7 @@ COLUMNS = (
     *("OV", "OF", "OT", "AI of voxel (mm)", "false length"),
 )
 RUNS = 3
-"""The median of so many runs is told."""
+"""The number of runs whose median is told."""
 
 
 def memory(name: str) -> float:

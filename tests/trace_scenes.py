@@ -68,7 +68,7 @@ class Scene:
         self.values += share * (value - self.values)
 
     def shell(self, line: Floats, radius: float, thickness: float, value: float, every: float) -> None:
-        """Paint rings of a stent around a line, one each so many mm."""
+        """Paint rings of a stent around a line, at an even distance (mm)."""
         distance, nearest = self.distance(line, np.full(len(line), radius))
         along = np.r_[0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))][nearest.astype(int)]
         # No caps over the ends.
@@ -102,7 +102,7 @@ def arc(length: float, step: float = 0.2, bend: float = 60.0) -> Floats:
 
 
 def narrowed(line: Floats, radius: float, percent: float, at: float = 0.5, length: float = 12.0) -> Floats:
-    """Radii of a vessel with a stenosis whose diameter is reduced by so many percent."""
+    """Radii of a vessel with a stenosis whose diameter is reduced by a percentage."""
     along = lengths(line)
     away = np.abs(along - at * along[-1]) / (length / 2)
     shape = np.where(away < 1, 0.5 + 0.5 * np.cos(np.pi * np.minimum(away, 1)), 0)
@@ -127,7 +127,7 @@ def room(line: Floats, spacing: float, margin: float = 12.0) -> tuple[int, int, 
 
 
 def beside(line: Floats, distance: float, angle: float, first: float, last: float) -> Floats:
-    """The part of a line from `first` to `last` (mm), moved so many mm across it at an angle."""
+    """The part of a line from `first` to `last` (mm), moved across it by a length (mm) at an angle."""
     ahead = np.gradient(line, axis=0)
     ahead /= np.linalg.norm(ahead, axis=1)[:, None]
     u = np.cross(ahead, [0.3, 0.9, 0.1])

@@ -26,7 +26,7 @@ _FREE_START = 5.0
 #: From the last point that is at least so wide to its start a reference is clinically relevant (mm).
 _RELEVANT_RADIUS = 0.75
 
-#: The disc at the start of the reference is so many times as wide as the vessel there.
+#: The disc at the start of the reference is wider than the vessel there by this factor.
 _DISC = 2.0
 
 _Points = npt.NDArray[np.float64]

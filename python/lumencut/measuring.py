@@ -64,7 +64,7 @@ def measure(
     MeasuringError
         For a vessel outside the volume, or without a lumen around it.
     SettingsError
-        For a step or a width of the point spread that is none.
+        For an invalid step or width of the point spread.
     VesselTreeError
         For another kind of vessel or tree, or a vessel without length.
     VolumeError

@@ -38,7 +38,7 @@ def view_name(camera: Camera) -> str:
     which a C-arm sees the patient so: how far the viewer stands to the left (LAO) or right (RAO) of the
     patient's front, and how far towards the head (CRA) or the feet (CAU). These are the positioner angles of
     DICOM, in whole degrees; LAO and RAO go up to 180 degrees, at the patient's back. Where the head, or the
-    front in views along the body, is not on top, the view is turned in its plane, by so many degrees
+    front in views along the body, is not on top, the view is turned in its plane, by that many degrees
     counterclockwise.
     """
     from lumencut.camera import VIEWS

@@ -94,7 +94,7 @@ def cpr(
         For vectors, an angle, a width or a pixel spacing that are none, a width beyond the diagonal of the
         volume, an image of too many pixels, or a vessel that lies in one row of it.
     SettingsError
-        For another mode or device, a smoothing out of range, or a slab that is none or not thicker than 0.
+        For another mode or device, a smoothing out of range, or a slab that is invalid or not thicker than 0.
     VolumeError
         For an image that is no volume.
     """

@@ -147,7 +147,7 @@ def _recipe(content: dict[str, Any]) -> Recipe:
         raise TypeError("a flag that is neither true nor false")
     vessels = content["vessels"]
     if not isinstance(vessels, int) or isinstance(vessels, bool) or vessels < 0:
-        raise TypeError("a number of vessels that is none")
+        raise TypeError("an invalid number of vessels")
     return Recipe(_camera(content["camera"]), _settings(content["settings"]), **flags, vessels=vessels)
 
 

@@ -19,7 +19,7 @@ from lumencut.window import Window
 #: Contours of sections that count, and of others.
 _COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
 
-#: Contours are drawn so many times as large and made smaller: their edges are smooth.
+#: Contours are drawn larger by this factor and made smaller: their edges are smooth.
 _FINER = 3
 
 #: A picture is this many times as wide as the lumen, and within these (mm).

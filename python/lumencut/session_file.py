@@ -67,7 +67,7 @@ def read_session(path: str | Path) -> SessionFile:
     Raises
     ------
     FormatError
-        For a file that is none, is damaged, or shows what a picture cannot be rendered like.
+        For a file that is no session, is damaged, or shows what a picture cannot be rendered like.
     FileError
         For a file that cannot be read.
     """

@@ -129,7 +129,7 @@ class VesselTree(Value):
         Raises
         ------
         SettingsError
-            For a step or a width of the point spread that is none.
+            For an invalid step or width of the point spread.
         VolumeError
             For what is no volume.
         KeyboardInterrupt

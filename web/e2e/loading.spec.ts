@@ -106,7 +106,7 @@ test.describe('streams', () => {
     ['is empty', Buffer.alloc(0), /Found (another|an empty) file; expected /],
     ['has voxels of no known type', anotherType(), /type of the voxels.*Found complex64; expected uint8/],
     [
-      'has a header that is none',
+      'has an invalid header',
       header({}, 'LCVOLUME', '{"size":[1,'),
       /header of the volumeFound a text that is no JSON; expected size, dtype/,
     ],
@@ -139,7 +139,7 @@ test.describe('streams', () => {
     });
   }
 
-  test('a file of centerlines that is none is refused in words', async () => {
+  test('an invalid file of centerlines is refused in words', async () => {
     await serve(viewer.page, WHOLE, 'nothing of the kind');
     await viewer.page.goto(`./${ADDRESSES}`);
     await expect(viewer.problem).toHaveText(/Found .*; expected .*/);
@@ -187,7 +187,7 @@ function anotherType(): Buffer {
   return Buffer.concat([header({ ...VOLUME, dtype: 'complex64' }), voxels(VOLUME)]);
 }
 
-/** Opens the small phantom so many times, waits for its view each time, and closes it. */
+/** Opens the small phantom several times, waits for its view each time, and closes it. */
 function openAndClose(page: Page, times: number): Promise<void> {
   return page.evaluate(async (count) => {
     const until = async <T>(found: () => T | null | undefined | false): Promise<T> => {

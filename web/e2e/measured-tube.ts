@@ -54,7 +54,7 @@ export class MeasuredTube {
     return [box.x + box.width / 2, box.y + box.height / 2];
   }
 
-  /** Drags a handle by so many pixels. */
+  /** Drags a handle by a number of pixels. */
   async dragBy(of: Locator, [dx, dy]: readonly [number, number]): Promise<void> {
     const { mouse } = this.viewer.page;
     const [x, y] = await this.middleOf(of);
@@ -65,7 +65,7 @@ export class MeasuredTube {
     await mouse.up();
   }
 
-  /** Pixels of the chart for so many mm along the vessel of 60 mm. */
+  /** Pixels of the chart for a length (mm) along the vessel of 60 mm. */
   async pixels(mm: number): Promise<number> {
     const [from, to] = await Promise.all([this.middleOf(this.tick('0')), this.middleOf(this.tick('60'))]);
     return ((to[0] - from[0]) * mm) / 60;

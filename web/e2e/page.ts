@@ -138,7 +138,7 @@ export class Viewer {
     ];
   }
 
-  /** Drags from a place by so many pixels, in steps, and lets go. */
+  /** Drags from a place by a number of pixels, in steps, and lets go. */
   async drag(from: Pair, [dx, dy]: Pair, options: DragOptions = {}): Promise<void> {
     const { mouse, keyboard } = this.page;
     const [x, y] = await this.place(from, options.pane);

@@ -80,7 +80,7 @@ export async function clickAt(viewer: Viewer, at: Pair, pane: PaneName = 'corona
   await viewer.click(await pixelAt(viewer, at, pane), pane);
 }
 
-/** Traces the tube at `x` between two heights; the list then has so many vessels. */
+/** Traces the tube at `x` between two heights; the list then has this number of vessels. */
 export async function traceTube(viewer: Viewer, x: number, [from, to]: Pair, count: number): Promise<void> {
   await clickAt(viewer, [x, from]);
   await expectBegun(viewer);

@@ -6,7 +6,7 @@ import { NARROWED, openScan, STRAIGHT, traceTube, tubes } from './scans';
 
 const SIZE = { width: 1200, height: 760 };
 const SCAN = tubes('tubes.nrrd');
-/** At least so many steps are taken. */
+/** The least number of steps that are taken. */
 const STEPS = 30;
 
 let viewer: Viewer;

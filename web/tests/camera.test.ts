@@ -95,7 +95,7 @@ test('axes that are not quite at right angles come back to them', () => {
 });
 
 describe('panning and zooming', () => {
-  test('a pan moves by exactly so many mm', () => {
+  test('a pan moves by exactly its length in mm', () => {
     const after = panned(CAMERA, [10, -6]);
     // From the front the patient's left is on the right: 10 pixels of 0.5 mm to the right, 6 upwards.
     expectNear(subtract(after.center, CAMERA.center), [-5, 0, -3]);

@@ -20,7 +20,7 @@ pub trait Named: Copy + PartialEq + 'static {
     /// The value that is called `name`; `subject` is what it is chosen for.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a name that is none of these.
+    /// [`ErrorKind::Settings`] for any other name.
     fn named(subject: &str, name: &str) -> Result<Self> {
         if let Some((_, value)) = Self::NAMES.iter().find(|(known, _)| *known == name) {
             return Ok(*value);

@@ -25,7 +25,7 @@ impl Progress {
         set(&self.whole, 0);
     }
 
-    /// A view of so many pixels begins, whose stages have these costs for each pixel.
+    /// A view of this number of pixels begins, whose stages have these costs for each pixel.
     pub fn begin_view(&self, costs: impl Iterator<Item = usize>, pixels: usize) {
         for number in [&self.ended, &self.running, &self.begun] {
             set(number, 0);
@@ -41,7 +41,7 @@ impl Progress {
         set(&self.running, cost);
     }
 
-    /// The stage has begun so many pixels more.
+    /// The stage has begun this number of further pixels.
     pub fn begin_pixels(&self, count: usize) {
         self.begun.fetch_add(count as u64, Ordering::Relaxed);
     }

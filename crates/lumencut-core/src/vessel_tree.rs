@@ -20,7 +20,7 @@ impl Vessel {
     /// A vessel from at least two finite points and, where given, one finite radius ≥ 0 per point.
     ///
     /// # Errors
-    /// [`ErrorKind::VesselTree`] where a count or a value is none of these.
+    /// [`ErrorKind::VesselTree`] where a count or a value is another.
     pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::VesselTree, subject, found, expected))

@@ -1,4 +1,4 @@
-//! Scenes that nobody means but somebody loads: no panic, no depth that is none, the same bits in every way of computing.
+//! Scenes that nobody means but somebody loads: no panic, no invalid depth, the same bits in every way of computing.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::TAU;

@@ -120,7 +120,7 @@ pub fn kind(file: &File) -> &str {
     }
 }
 
-/// An attribute whose value is none; it may be any text, a patient's name too, and is not told.
+/// An attribute whose value is invalid; it may be any text, a patient's name too, and is not told.
 fn damaged(keyword: Keyword, expected: &str) -> Error {
     Error::new(format!("damaged values in {}", keyword.name()), expected)
 }

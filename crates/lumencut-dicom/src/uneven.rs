@@ -140,7 +140,7 @@ impl Uneven<'_, '_> {
     }
 }
 
-/// The place of the first of the largest numbers; one that is none (NaN) is larger than all.
+/// The place of the first of the largest numbers; NaN is larger than all.
 fn largest(numbers: &[f64]) -> usize {
     let mut largest = 0;
     for (n, number) in numbers.iter().enumerate() {

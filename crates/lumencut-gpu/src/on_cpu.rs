@@ -17,7 +17,7 @@ impl OnCpu {
     /// The stages of these names.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a name that is none of [`on_either`].
+    /// [`ErrorKind::Settings`] for a name that is not in [`on_either`].
     pub fn named(names: &[String]) -> Result<Self> {
         let stages = names.iter().map(|name| {
             on_either().find(|stage| stage.name() == name.as_str()).ok_or_else(|| {

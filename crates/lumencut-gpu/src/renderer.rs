@@ -78,7 +78,7 @@ impl GpuRenderer {
     /// Lets the CPU do some stages from now on, each with what the GPU made before it.
     ///
     /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is none of [`crate::stages::on_either`].
+    /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is not in [`crate::stages::on_either`].
     #[cfg(not(target_arch = "wasm32"))]
     pub fn force_to_cpu(&mut self, names: &[String]) -> Result<()> {
         self.on_cpu = OnCpu::named(names)?;

@@ -79,7 +79,7 @@ pub fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Ve
 /// same.
 ///
 /// # Errors
-/// Naming `subject` where it is none.
+/// Naming `subject` where it is invalid.
 pub fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
     let number = match kind {
         NumberType::F32 => word.parse::<f32>().map(f64::from),

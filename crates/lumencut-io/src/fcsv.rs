@@ -13,7 +13,7 @@ const UNPLACED: [&str; 3] = ["0", "1", "3"];
 /// The points of a fiducial list as one line, in mm by definition of the format.
 ///
 /// # Errors
-/// Naming the line of the file where a row is none, and for coordinates in voxels.
+/// Naming the line of the file where a row is invalid, and for coordinates in voxels.
 pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("3D Slicer fiducials");
     out.unit = Some(Unit::Millimetre);

@@ -11,7 +11,7 @@ use crate::meta_object::{MetaObject, one_of};
 use crate::unit::Unit;
 use crate::vtk_cursor::Cursor;
 
-/// Objects above each other, beyond which a scene is none.
+/// How deep objects may be nested; deeper scenes are refused.
 const MOST_PARENTS: usize = 64;
 
 /// The tubes of a `.tre` file, one line each, in world space: LPS and mm by definition of the format.

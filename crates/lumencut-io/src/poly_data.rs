@@ -36,7 +36,7 @@ pub struct PolyData {
 
 /// The string array of cells that names them.
 pub const NAMES: &str = "Name";
-/// The array of cells that is 0 where the name, which is empty there, is none.
+/// The array of cells that is 0 where a cell has no name; the name is empty there.
 pub const HAS_NAME: &str = "HasName";
 /// The array of cells that is 0 where the radii, which are 0 there, are none.
 pub const HAS_RADIUS: &str = "HasRadius";
@@ -49,7 +49,7 @@ pub fn wanted(name: &str) -> bool {
     name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name) || names_diameter(name)
 }
 
-/// Whether a name holds the word radius, and is not that of a curvature; a gradient is none.
+/// Whether a name holds the word radius, and names neither a curvature nor a gradient.
 pub fn names_radius(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")

@@ -217,7 +217,7 @@ pub fn is_session(content: &[u8]) -> bool {
 /// Reads the content of the session file `name`.
 ///
 /// # Errors
-/// For a file that is none, that another version wrote, or whose parts do not go together.
+/// For a file that is no session, that another version wrote, or whose parts do not go together.
 pub fn read_session(content: &[u8], name: &str) -> Result<SessionFile> {
     read_unnamed(content, name).map_err(|error| {
         // What reads the curves names the file already.

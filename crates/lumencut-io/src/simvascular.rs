@@ -17,7 +17,7 @@ const EXPECTED: &str = "a SimVascular path file";
 /// No file states its unit; SimVascular's models usually are in cm, whatever their other files say.
 ///
 /// # Errors
-/// Where the XML is damaged or cut off, a point is none, or there is no path.
+/// Where the XML is damaged or cut off, a point is invalid, or there is no path.
 pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader::from_str(&text);

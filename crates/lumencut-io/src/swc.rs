@@ -12,7 +12,7 @@ const COLUMNS: &str = "7 numbers: id type x y z radius parent";
 /// their end points to the last bit. The types of nodes are not used.
 ///
 /// # Errors
-/// Naming the line of the file where a node is none, repeats an id, has a parent that is not there or leads
+/// Naming the line of the file where a node is invalid, repeats an id, has a parent that is not there or leads
 /// back to itself.
 pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let nodes =

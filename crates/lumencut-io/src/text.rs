@@ -53,7 +53,7 @@ fn unquoted(field: &str) -> &str {
 /// The finite number that `field` writes.
 ///
 /// # Errors
-/// Naming the line where it is none.
+/// Naming the line where it is invalid.
 pub fn number(line: usize, field: &str) -> Result<f64> {
     let number = field.parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| Error::new(format!("line {line}"), excerpt(field), "a finite number"))

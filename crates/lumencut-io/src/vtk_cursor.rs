@@ -79,7 +79,7 @@ impl<'a> Cursor<'a> {
     /// The next word as a count.
     ///
     /// # Errors
-    /// Naming `subject` where it is none.
+    /// Naming `subject` where it is invalid.
     pub fn count(&mut self, subject: &str) -> Result<usize> {
         let word = self.word(subject)?;
         word.parse().map_err(|_| Error::new(subject, excerpt(&word), "a whole number from 0"))

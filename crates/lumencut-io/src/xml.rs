@@ -25,7 +25,7 @@ impl Attributes {
     }
 }
 
-/// Elements inside each other, beyond which a file is none of those that are read; they nest 6 deep.
+/// How deep elements may be nested; deeper files are refused. Those that are read nest 6 deep.
 const DEEPEST: usize = 32;
 
 /// The attributes of `element`; no entity but the five of XML itself is known.

@@ -20,7 +20,7 @@ static POOL: Mutex<Option<Made>> = Mutex::new(None);
 /// How many threads are wanted; 0 stands for as many as the processor runs at once.
 static WANTED: AtomicUsize = AtomicUsize::new(0);
 
-/// From now on so many threads compute; 0 stands for as many as the processor runs at once.
+/// From now on this number of threads computes; 0 stands for as many as the processor runs at once.
 #[pyfunction]
 pub fn set_threads(count: usize) {
     WANTED.store(count, Ordering::Relaxed);

@@ -65,7 +65,7 @@ pub fn levels<'py>(
     levels.iter().map(|level| level.vessels().iter().map(|v| arrays(py, v)).collect()).collect()
 }
 
-/// The points of each vessel, smoothed by a Gaussian of so many radii.
+/// The points of each vessel, smoothed by a Gaussian whose standard deviation is given in radii.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn smoothed<'py>(

@@ -19,7 +19,7 @@ impl Tolerance {
         (a - b).abs() <= self.apart
     }
 
-    /// Whether so many of `all` numbers may lie further apart.
+    /// Whether this count of `all` numbers may lie further apart.
     pub fn allows(self, further: usize, all: usize) -> bool {
         further as f64 <= self.share * all as f64
     }

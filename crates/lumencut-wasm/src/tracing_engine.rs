@@ -93,7 +93,7 @@ impl Engine {
     /// The lines of the mask that was read, and notes, as JSON; `listener` gets the share that is done. The mask is forgotten.
     ///
     /// # Errors
-    /// `volume` for a mask that is none or lies elsewhere than the volume, `interrupted` once the page says stop.
+    /// `volume` for an invalid mask, or one that lies elsewhere than the volume, `interrupted` once the page says stop.
     pub fn trace_mask(&mut self, listener: Function) -> Answer<String> {
         told(watched(listener, |watch| self.study.trace_mask(watch)))
     }

@@ -29,7 +29,7 @@ pub(crate) struct Mean {
 }
 
 impl Mean {
-    /// The mean of no pictures yet, each of so many pixels.
+    /// The mean of no pictures yet, each with this number of pixels.
     pub fn of(pixels: usize) -> Self {
         Self { sums: vec![[0; 4]; pixels], pictures: 0 }
     }

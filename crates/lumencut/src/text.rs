@@ -28,7 +28,7 @@ pub fn rounded(number: f64, digits: usize) -> String {
     without_zeros(&format!("{number:.decimals$}")).to_owned()
 }
 
-/// A number with so many digits behind the point, such as `12.30`.
+/// A number with a given count of digits behind the point, such as `12.30`.
 pub fn fixed(number: f64, decimals: usize) -> String {
     if number.is_finite() { format!("{number:.decimals$}") } else { special(number) }
 }

@@ -95,7 +95,7 @@ impl Axis {
 /// The camera moved and magnified so that all points just fit into its image; its direction, up and size are kept.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for no points, or a view of them that is none.
+/// [`ErrorKind::Camera`] for no points, or an invalid view of them.
 pub fn fitted(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
     let camera = centered(camera, points)?.with_axes(camera.direction(), camera.right(), camera.up())?;
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

@@ -175,7 +175,7 @@ pub fn of_mip(volume: &Volume) -> Result<Window> {
     alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_WIDEST))
 }
 
-/// A window of a volume alone that `wider` makes so many times as wide, from its populations, black and width.
+/// A window of a volume alone that is widened by the factor `wider`, from its populations, black and width.
 fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Result<Window> {
     let Some(found) = Populations::of(&mut Looked::at(volume)) else {
         return Ok(OF_NOTHING);

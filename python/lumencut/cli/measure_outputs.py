@@ -23,7 +23,7 @@ _ENDINGS = {
     "report": (".html", ".htm"),
 }
 
-#: Sections of a sheet: at most so many of a vessel, and so many in all unless there are more vessels.
+#: Sections of a sheet: the most of a vessel, and the most in all unless there are more vessels.
 _SECTIONS, _IN_ALL, _LEAST = 20, 240, 4
 
 #: The most vessels of a plot: each takes 4 inches of its height.

@@ -52,7 +52,7 @@ def mask_options(command: _Command) -> _Command:
             default=2.0,
             show_default=True,
             metavar="RADII",
-            help="Leave out branches shorter than so many radii of their parent.",
+            help="Leave out branches shorter than this number of radii of their parent.",
         ),
     )
     return added(parts, command)

@@ -25,7 +25,7 @@ export function trackballed(camera: Camera, pivot: Vector, [x, y]: Pair): Camera
   return turnedAbout(camera, pivot, axis, Math.hypot(x, y) * perPixel);
 }
 
-/** The scene follows a drag of so many pixels. */
+/** The scene follows a drag by a number of pixels. */
 export function panned(camera: Camera, [x, y]: Pair): Camera {
   const { pixel_spacing: side } = camera;
   const shift = add(scale(rightOf(camera), -x * side), scale(camera.up, y * side));
@@ -50,7 +50,7 @@ export function resized(camera: Camera, size: Pair): Camera {
   return { ...camera, size, pixel_spacing: (camera.pixel_spacing * sides(camera.size)) / sides(size) };
 }
 
-/** The same view with so many times the pixels. */
+/** The same view with more or fewer pixels, by a factor. */
 export function sampled(camera: Camera, factor: number): Camera {
   const size = camera.size.map((count) => Math.max(Math.round(count * factor), 1)) as [number, number];
   return { ...camera, size, pixel_spacing: (camera.pixel_spacing * camera.size[1]) / size[1] };

@@ -8,7 +8,7 @@ import { document_ } from './history';
 
 /** What a vessel has for a line until it is traced. */
 const UNTRACED = -1;
-/** A vessel has at least so many clicks. */
+/** The least number of clicks of a vessel. */
 const FEWEST = 2;
 
 /**

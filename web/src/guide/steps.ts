@@ -17,7 +17,7 @@ export interface GuideStep {
   readonly isDone: () => boolean;
 }
 
-/** A turn of so much counts as one (cosine of 20°). */
+/** The least turn that counts as one (cosine of 20°). */
 const TURNED = Math.cos(Math.PI / 9);
 
 /** The step that is under way, counted from 0; null where there is no guided try. */

@@ -29,7 +29,7 @@ const TRUSTED = 8;
 const MEMORY = 2 ** 32;
 const LONGEST_WORD = 400;
 
-/** Voxels of which so many are to be kept. */
+/** Voxels, and how many of them are to be kept. */
 interface Kept extends Place {
   readonly share: number;
 }

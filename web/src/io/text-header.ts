@@ -20,7 +20,7 @@ const ODD_NUMBERS: Readonly<Record<string, number>> = {
   '-inf': Number.NEGATIVE_INFINITY,
 };
 
-/** The number that a word is, null where it is none. */
+/** The number that a word stands for, null where it is no number. */
 export function numberOf(word: string): number | null {
   return NUMBER.test(word) ? Number(word) : (ODD_NUMBERS[word.toLowerCase()] ?? null);
 }

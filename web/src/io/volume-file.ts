@@ -63,7 +63,7 @@ export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<
   }
 }
 
-/** JSON has no number that is none: without this it would become 0. */
+/** JSON has no NaN: without this it would become 0. */
 function requireNumbers(file: VolumeFile): void {
   if (!file.worldFromIndex.flat().every(Number.isFinite)) {
     const found = 'world_from_index with numbers that are not finite';

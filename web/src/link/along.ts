@@ -31,5 +31,5 @@ export function moveTo(place: number): void {
   });
 }
 
-/** Moves it by so many mm. */
+/** Moves it by a length (mm). */
 export const moveAlong = (by: number): void => moveTo(pickedPlace.value + by);

@@ -10,7 +10,7 @@ import { PlaceHandles } from './PlaceHandles';
 import { RulerLayer } from './RulerLayer';
 import { centerAt, seenNearest } from './sections';
 
-/** A point lies in a slice within so many mm of it. */
+/** How near to a slice a point lies in it (mm). */
 const IN_SLICE = 1;
 
 /** Places on the picked vessel, which are dragged along it, and rulers. */

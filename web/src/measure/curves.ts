@@ -75,7 +75,7 @@ function pointOf(x: Axis, y: Axis, at = 0, value: number | null = 0): string {
   return `${pixelAt(x, at).toFixed(2)} ${pixelAt(y, value ?? 0).toFixed(2)}`;
 }
 
-/** The diameters with so many standard deviations less and more. */
+/** The diameters less and more a number of standard deviations. */
 export function spreadOf(profile: Profile): readonly [(number | null)[], (number | null)[]] {
   const widths = counted(profile, profile.diameter);
   const by = (sign: number) =>

@@ -34,7 +34,7 @@ export interface SectionNumbers {
   readonly flags: readonly string[];
 }
 
-/** The side of pictures of sections: so many times the lumen, within these (mm); that of a vessel that is not measured. */
+/** The side of pictures of sections: a multiple of the lumen, within these (mm); that of a vessel that is not measured. */
 const ROOM = 2.5;
 const SIZES: Pair = [12, 120];
 export const UNKNOWN_SIDE = 30;

@@ -70,5 +70,5 @@ export function sectionWords(section: SectionNumbers): string {
   return `${parts.join(' ')}${words ? ` · ${words}` : ''}`;
 }
 
-/** An angle of so many radians in whole degrees. */
+/** An angle (radians) in whole degrees. */
 export const degrees = (radians: number): string => `${Math.round((radians * 180) / Math.PI)}°`;

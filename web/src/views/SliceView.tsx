@@ -156,7 +156,7 @@ function scrollSlices(name: SliceName, steps: number): void {
 
 const moving = new Latest();
 
-/** Moves the cross-hair by so many voxels within a slice; the live path follows it. */
+/** Moves the cross-hair by a number of voxels within a slice; the live path follows it. */
 function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void {
   const hair = store.crossHair.value;
   if (!hair) {

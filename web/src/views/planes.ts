@@ -55,7 +55,7 @@ export function pixelOn({ center, right, down, size, pixel_spacing }: Plane, poi
   ];
 }
 
-/** The look after a drag of so many pixels. */
+/** The look after a drag by a number of pixels. */
 export function pannedLook(look: Look, name: SliceName, [x, y]: Pair): Look {
   const { right, down } = AXES[name];
   const shift = add(scale(right, -x * look.spacing), scale(down, -y * look.spacing));

@@ -16,7 +16,7 @@ export interface Projection {
   depth(point: Vector): number;
   /** The point at a pixel that is as deep as another point. */
   at(pixel: Pair, like: Vector): Vector;
-  /** The way of so many voxels to the right and downwards. */
+  /** The way of a number of voxels to the right and downwards. */
   step(by: Pair): Vector;
 }
 

@@ -130,7 +130,7 @@ pub fn double_reflection(frame: MovingFrame, chord: DVec3, to: DVec3) -> MovingF
     MovingFrame::looking(to, ahead)
 }
 
-/// A vector reflected in the plane across `normal`, of any length; itself where that is none.
+/// A vector reflected in the plane across `normal`, of any length; itself where that has no length.
 fn reflected(vector: DVec3, normal: DVec3) -> DVec3 {
     let square = normal.length_squared();
     if square < SAME_DIRECTION * SAME_DIRECTION {

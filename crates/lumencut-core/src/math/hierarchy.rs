@@ -148,7 +148,7 @@ impl Hierarchy {
         self.enclose();
     }
 
-    /// Makes all radii larger by so much (mm).
+    /// Makes all radii larger by this length (mm).
     pub fn widen(&mut self, by: f32) {
         for bundle in &mut self.bundles {
             for s in 0..FAN {

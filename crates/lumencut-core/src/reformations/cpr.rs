@@ -73,7 +73,7 @@ impl Cpr {
     /// columns lie no farther apart than `width` mm; by default the image shows the vessel and 25 mm on each side of it.
     ///
     /// # Errors
-    /// [`ErrorKind::Camera`] for a view, a width or a spacing that is none, for too many pixels, and where the whole vessel
+    /// [`ErrorKind::Camera`] for an invalid view, width or spacing, for too many pixels, and where the whole vessel
     /// lies in one row.
     pub fn new(
         path: Path,

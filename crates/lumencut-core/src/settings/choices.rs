@@ -17,7 +17,7 @@ impl Choices {
     /// Chooses the value of a setting by its name in the table.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for an unknown setting, a value of another kind or a name that is none of the setting's.
+    /// [`ErrorKind::Settings`] for an unknown setting, a value of another kind, or a name that the setting does not have.
     pub fn set(&mut self, name: &str, value: Value) -> Result<()> {
         if ContextChoices::ROWS.iter().any(|setting| setting.name == name) {
             self.context.set(name, value)

@@ -13,7 +13,7 @@ pub enum Kind {
     Number,
     /// A whole number.
     Count,
-    /// A colour of so many channels, 0 to 255: red, green, blue and, fourth, opacity.
+    /// A colour with this number of channels, 0 to 255: red, green, blue and, fourth, opacity.
     Color(usize),
     /// One of some names.
     Choice,

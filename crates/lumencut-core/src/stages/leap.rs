@@ -118,7 +118,7 @@ impl Surface<'_> {
     }
 }
 
-/// Sixteen entries of a row from column `i` on, where it has so many.
+/// Sixteen entries of a row from column `i` on; fewer where the row ends before.
 #[inline(always)]
 fn whole<T>(row: &[T], i: usize) -> Option<&[T; FAN]> {
     row.get(i..).and_then(|rest| rest.first_chunk())

@@ -43,7 +43,7 @@ impl Work<'_> {
         ROWS * self.size[0]
     }
 
-    /// Begins so many pixels, unless the caller asks to stop.
+    /// Begins this number of pixels, unless the caller asks to stop.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Interrupted`].

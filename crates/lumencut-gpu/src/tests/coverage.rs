@@ -114,7 +114,7 @@ fn depth_range(tree: &VesselTree, camera: &Camera) -> [f64; 2] {
     depths.fold([f64::MAX, f64::MIN], |[low, high], depth| [low.min(depth), high.max(depth)])
 }
 
-/// The pixels whose depth lies outside the range of the tree, or whose vessel is none of so many.
+/// The pixels whose depth lies outside the range of the tree, or whose vessel is not one of the tree's.
 fn uncovered(depth: &[f32], vessel: &[i32], [low, high]: [f64; 2], vessels: usize) -> Vec<usize> {
     let range = low - ROUNDING..=high + ROUNDING;
     let is_covered =

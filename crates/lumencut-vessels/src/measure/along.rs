@@ -7,7 +7,7 @@
 use super::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;
 
-/// The second derivative is that of the parabola that fits the areas so far around (mm), of at least so many sections.
+/// The second derivative is that of the parabola that fits the areas within this distance (mm), of at least this number of sections.
 const AROUND: (f64, usize) = (2.0, 5);
 
 /// An area changes by this share at most.

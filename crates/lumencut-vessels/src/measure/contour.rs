@@ -8,7 +8,7 @@ use super::rays::{RAYS, Ray, direction};
 use lumencut_core::math::lanes::FAN;
 use lumencut_core::math::statistics::median;
 
-/// A ray tells the wall where it is off the ellipse by no more than this share of the way there, or so many mm.
+/// A ray tells the wall where it is off the ellipse by no more than this share of the way there, or by this length (mm).
 const FARTHEST: (f64, f64) = (0.5, 0.5);
 
 /// The wall at each ray (mm from the centre of the ellipse): where the volume crosses a level along a ray, less what the blurred

@@ -14,7 +14,7 @@ use lumencut_core::math::lanes::FAN;
 /// The parameters of an ellipse: its centre, the mean of its semi-axes, and what makes it longer one way than the other.
 pub const SHAPE: usize = 5;
 
-/// Nodes along the boundary lie so many standard deviations of the blur apart, at most: what the rule leaves out is then
+/// The largest distance of nodes along the boundary, in standard deviations of the blur: what the rule leaves out is then
 /// below a thousandth of a percent.
 const NODE_DISTANCE: f64 = 1.3;
 
@@ -75,7 +75,7 @@ impl Ellipse {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
 
-    /// The same ellipse, so many times as wide.
+    /// The same ellipse, made wider by a factor.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
         Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }

@@ -11,13 +11,13 @@ const PARAMETERS: usize = SHAPE + 2;
 const LUMEN: usize = SHAPE;
 const BACKGROUND: usize = SHAPE + 1;
 
-/// Samples that miss by more than so many standard deviations do not count (Tukey's weights).
+/// Samples that miss by more than this number of standard deviations do not count (Tukey's weights).
 const TUKEY: f64 = 5.0;
 
 /// Steps before and after samples are weighed by how much they miss.
 const STEPS: [usize; 2] = [12, 8];
 
-/// Weights fall evenly with the distance from the plane: by so much the noise of the weighted mean is less than weights say.
+/// Weights fall evenly with the distance from the plane: the noise of the weighted mean is smaller than the weights say by this factor.
 const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
 /// What is known beforehand: means and standard deviations.
@@ -35,7 +35,7 @@ pub struct Expected {
     pub is_guessed: bool,
 }
 
-/// The centre stays within so many radii of where it began, and the size within these shares of that.
+/// The centre stays within this number of radii of where it began, and the size within these shares of that.
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 
 /// A fitted section.

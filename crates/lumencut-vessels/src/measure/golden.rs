@@ -2,7 +2,7 @@
 
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Where the function is least between two places, after so many rounds, each of which leaves 0.62 of the range.
+/// Where the function is least between two places, after a number of rounds, each of which leaves 0.62 of the range.
 ///
 /// # Errors
 /// What the function fails with.

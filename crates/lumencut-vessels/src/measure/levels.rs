@@ -14,7 +14,7 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A section tells the level where the standard deviation is at most this, as a share; so many of them must.
+/// A section tells the level where the standard deviation is at most this, as a share; at least this number of sections must.
 const TELLS: (f64, usize) = (0.05, 3);
 
 /// The most sections that tell the level together.

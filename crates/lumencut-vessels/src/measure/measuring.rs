@@ -31,7 +31,7 @@ pub const STEP: f64 = 0.5;
 
 const FWHM: Limits = Limits::new(0.0, 20.0, "mm");
 
-/// Without any other knowledge the point spread is so many sides of a voxel wide.
+/// Without any other knowledge the point spread is assumed to be this wide (sides of a voxel).
 const DEFAULT_FWHM: f64 = 1.2;
 
 /// How far from its vessel a lumen is looked for (mm), at least.
@@ -40,7 +40,7 @@ const SEARCH: f64 = 3.0;
 /// The widest lumen (mm from its middle to its wall).
 const WIDEST: f64 = 45.0;
 
-/// At most so many vessels of a tree, the widest ones, are asked for the point spread.
+/// The point spread is estimated from at most this number of vessels of a tree, the widest ones.
 const MOST_ASKED: usize = 8;
 
 /// How a vessel is measured.
@@ -59,7 +59,7 @@ pub struct MeasureRequest<'a> {
 ///
 /// # Errors
 /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for a step or a width of
-/// the point spread that is none, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
+/// the point spread that is invalid, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
 pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Result<Profile> {
     check(request.fwhm)?;
     let voxels = Voxels::new(volume);
@@ -109,7 +109,7 @@ fn point_spread(voxels: &Voxels, looked: &Looked, request: &MeasureRequest) -> R
 /// same for all that is measured along the tree, its vessels and paths through several of them.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] for a width that is none, [`ErrorKind::Interrupted`].
+/// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
 pub fn point_spread_of(volume: &Volume, request: &MeasureRequest) -> Result<(f64, Source)> {
     check(request.fwhm)?;
     match request.fwhm {

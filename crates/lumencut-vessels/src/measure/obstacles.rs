@@ -14,14 +14,14 @@ const BRIGHT_MARGIN: f64 = 0.8;
 /// Calcium belongs to the wall, and a neighbour is beside it, up to this distance (mm).
 const BESIDE: f64 = 1.5;
 
-/// So many rays must meet something for it to be there, and so many of them all around for a stent.
+/// The number of rays that must meet something for it to be there, and the number all around for a stent.
 const LEAST_RAYS: usize = 3;
 const ALL_AROUND: usize = RAYS * 3 / 5;
 
 /// Above this share there is metal: four times the contrast of the lumen above its level.
 const METAL_SHARE: f64 = 5.0;
 
-/// Lumen goes on sideways where rays stay in it so many times as far as others.
+/// Lumen goes on sideways where rays stay in it farther than others by this factor.
 const OPEN: f64 = 1.6;
 
 /// How far from the centre voxels count in each direction.

@@ -12,20 +12,20 @@ use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// At most so many sections tell the point spread, and at least so many.
+/// The point spread is estimated from at most this number of sections, and from at least that one.
 const SECTIONS: (usize, usize) = (16, 3);
 
-/// A section tells the point spread from so many times its width on.
+/// The point spread is estimated from sections that are at least this number of times as wide as it.
 const WIDE: f64 = 3.0;
 
-/// It must be free of other things in this share of all directions, miss at most so many times what others do, and its longer
-/// axis be at most so many times the shorter one.
+/// Such a section is free of other things in this share of all directions, its fit misses at most by this factor more than
+/// those of others, and its longer axis is at most this number of times the shorter one.
 const FREE: f64 = 0.95;
 const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
-/// What is looked for: from so many of the smallest sides of a voxel to so many of its largest ones, and at most this share
-/// of the width of a section.
+/// The range of widths that are tried: from this number of the smallest sides of a voxel to that of its largest ones, and
+/// at most this share of the width of a section.
 const RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 

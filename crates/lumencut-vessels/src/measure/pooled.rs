@@ -6,13 +6,13 @@
 /// How far along the vessel levels count (mm): by 1/e less with each.
 const DISTANCE: f64 = 25.0;
 
-/// Levels are trusted no better than that, as a share; and so much they differ at most from what is pooled.
+/// The least uncertainty of a level, as a share, and the largest difference from the pooled level.
 const DEVIATION: [f64; 2] = [0.01, 0.08];
 
 /// A level as far off as that is wrong, as a share.
 const WRONG: f64 = 0.3;
 
-/// At most so many sections tell.
+/// The largest number of sections that are pooled.
 const MOST: usize = 500;
 
 /// A level and its standard deviation, as shares.

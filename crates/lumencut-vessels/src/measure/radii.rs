@@ -31,7 +31,7 @@ pub struct Radii {
 /// The measured radii of all vessels of a tree. Where the point spread is not given, the widest vessels tell it for all.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] for a step or a point spread that is none, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
+/// [`ErrorKind::Settings`] for an invalid step or point spread, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
 /// keeps its radii.
 pub fn measured_radii(
     volume: &Volume,

@@ -11,7 +11,7 @@ use crate::voxels::Voxels;
 /// The rays of a section, each the point of a contour.
 pub const RAYS: usize = 64;
 
-/// Samples along a ray lie so many of the smallest sides of a voxel apart.
+/// The distance of samples along a ray, in smallest sides of a voxel.
 const SAMPLE: f64 = 0.4;
 
 /// What a ray meets.
@@ -45,7 +45,7 @@ pub struct Look {
     pub levels: [f64; 2],
     /// Above this share there is no lumen.
     pub bright: f64,
-    /// By so much values rise again where a neighbour begins, as a share.
+    /// By which share values rise again where a neighbour begins.
     pub rise: f64,
     /// How far an edge is looked for (mm).
     pub reach: f64,
@@ -134,7 +134,7 @@ impl Rays<'_, '_> {
 
 /// From where to where a ray is above a level (mm), from one of its samples on.
 fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
-    /// It is followed so many samples far.
+    /// The number of samples that it is followed.
     const FAR: usize = 24;
     let mut crossing = |from: usize, rises: bool| {
         let is_beyond = |value: f64| (value > level) == rises;

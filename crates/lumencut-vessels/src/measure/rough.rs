@@ -11,7 +11,7 @@ use lumencut_core::math::statistics::median;
 /// The lumen must be this much of what the whole vessel's is, as a share.
 const LEAST_LUMEN: f64 = 0.25;
 
-/// A ray counts up to so many times the median of all rays, as where a branch leaves the vessel.
+/// A ray counts up to this multiple of the median of all rays: where a branch leaves the vessel it would go on.
 const LONGEST_RAY: f64 = 1.6;
 
 /// How often the middle is looked for anew.

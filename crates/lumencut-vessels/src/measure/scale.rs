@@ -10,7 +10,7 @@ use lumencut_core::math::statistics::median;
 /// Directions that are looked into at each place.
 const DIRECTIONS: usize = 16;
 
-/// At most so many places are looked at.
+/// The largest number of places that are looked at.
 const MOST_PLACES: usize = 150;
 
 /// How far around a vessel whose radius is not known (mm).

@@ -18,13 +18,13 @@ use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// What is brighter than lumen by this share of the contrast, and by so many times the noise, is none.
+/// What is brighter than lumen by this share of the contrast, and by this multiple of the noise, is not lumen.
 pub const BRIGHT: (f64, f64) = (0.35, 5.0);
 
-/// Values rise by this share of the contrast, and by so many times the noise, where a neighbour begins.
+/// Values rise by this share of the contrast, and by this multiple of the noise, where a neighbour begins.
 const RISE: (f64, f64) = (0.2, 4.0);
 
-/// Voxels count as far beyond the wall as so many widths of the blur.
+/// How far beyond the wall voxels count, in widths of the blur.
 const BEYOND: f64 = 1.5;
 
 /// How far beyond the wall rays are followed (mm, and widths of the blur).
@@ -34,7 +34,7 @@ const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
 /// by less.
 const STRETCH: (f64, f64) = (0.4, 0.06);
 
-/// Diameters below so many times the point spread are at the limit.
+/// Diameters below this multiple of the point spread are at the limit.
 pub const LIMIT: f64 = 1.5;
 
 /// Walls that lie off the ellipse by this share are irregular.
@@ -43,13 +43,13 @@ const ROUGH_WALL: f64 = 0.12;
 /// The wall must be free in this share of all directions, or else it is not fitted.
 const LEAST_FREE: f64 = 0.35;
 
-/// Below so many times the noise there is no contrast.
+/// Below this multiple of the noise there is no contrast.
 pub const LEAST_CONTRAST: f64 = 2.0;
 
 /// Where the blur is not taken into account diameters are unsure by this share of its width.
 const UNSURE: f64 = 0.5;
 
-/// The level of a lumen is seen within this share of its radius, where the blur leaves so much of its peak.
+/// The level of a lumen is seen within this share of its radius, where the blur leaves this share of its peak.
 const MIDDLE: f64 = 1.0 / 3.0;
 const LEAST_PEAK: f64 = 0.95;
 
@@ -103,7 +103,7 @@ impl Section {
         Self { fit: None, contour: Vec::new(), flags: NO_EDGE }
     }
 
-    /// Makes the lumen so many times as wide.
+    /// Makes the lumen wider by a factor.
     pub fn scale(&mut self, by: f64) {
         let middle = self.contour.iter().sum::<DVec3>() / self.contour.len().max(1) as f64;
         for point in &mut self.contour {

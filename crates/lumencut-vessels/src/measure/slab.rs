@@ -113,7 +113,7 @@ fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     (low <= high).then_some((low as i32, high as i32))
 }
 
-/// About so many of the samples, picked without any pattern, the same ones each time.
+/// About this number of samples, picked without any pattern, the same ones each time.
 fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     if samples.len() <= most {
         return samples;

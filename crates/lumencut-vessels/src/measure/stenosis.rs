@@ -228,7 +228,7 @@ fn measuring(subject: &str, found: String, expected: &str) -> Error {
 }
 
 fn near_occlusion(found: String, share: f64, of: &str) -> Error {
-    let expected = format!("a reference above {share} of {of}: behind a near-occlusion there is none");
+    let expected = format!("a reference above {share} of {of}: behind a near-occlusion no place is normal");
     measuring("reference of the stenosis", found, &expected).mend("state the diameter in mm alone")
 }
 

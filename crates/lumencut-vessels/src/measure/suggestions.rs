@@ -8,7 +8,7 @@ use super::profile::Profile;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::{median, quantile};
 
-/// Walls are parallel where diameters within so many mm to both sides differ by no more than this share.
+/// Walls are parallel where diameters within this distance (mm) to both sides differ by no more than this share.
 const PARALLEL: (f64, f64) = (2.5, 0.06);
 
 /// References are looked for from so far on to so far from a place (mm).

@@ -70,7 +70,7 @@ impl Content {
     /// What the renderers show.
     ///
     /// # Errors
-    /// `volume` for a grid that is none.
+    /// `volume` for an invalid grid.
     pub fn scene(&self) -> Result<Scene<'_>> {
         let volume = self.held.as_ref().map(HeldVolume::shared).transpose()?;
         Ok(Scene { volume, tree: self.tree().cloned() })

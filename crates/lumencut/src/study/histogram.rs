@@ -18,7 +18,7 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// That of the voxels, of which every so many-th is looked at where they are many; what is no number does not count.
+    /// That of the voxels, of which only a part is looked at where they are many; NaN does not count.
     pub fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
         let values = || {
             let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MOST).max(1));

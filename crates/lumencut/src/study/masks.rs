@@ -39,7 +39,7 @@ impl Study {
     /// Makes room for a mask; its voxels follow as bytes.
     ///
     /// # Errors
-    /// `volume` where no scan is open that it could belong to, where there is no memory for it, and for a grid that is none.
+    /// `volume` where no scan is open that it could belong to, where there is no memory for it, and for an invalid grid.
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
         self.content.held.as_ref().ok_or_else(no_volume)?;
@@ -63,7 +63,7 @@ impl Study {
     /// The lines of the mask, refined by the values of the volume. The mask is forgotten, whatever comes of it.
     ///
     /// # Errors
-    /// `volume` for a mask that is none or lies elsewhere than the volume, `interrupted`.
+    /// `volume` for an invalid mask, or one that lies elsewhere than the volume, `interrupted`.
     pub fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
         let mask = self.mask.take().ok_or_else(no_mask)?;
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;

@@ -12,7 +12,7 @@ impl Study {
     /// Makes room for a volume and puts it in the place of all that is open; its voxels follow as bytes.
     ///
     /// # Errors
-    /// `settings` for a header that is none, `volume` for more voxels than there is memory for and for a grid that is none.
+    /// `settings` for an invalid header, `volume` for more voxels than there is memory for and for an invalid grid.
     pub fn begin_volume(&mut self, header: &str) -> Result<()> {
         let header = VolumeHeader::read(header)?;
         self.close();

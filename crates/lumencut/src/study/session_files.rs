@@ -28,7 +28,7 @@ pub struct SessionContent {
 /// The bytes of a session file.
 ///
 /// # Errors
-/// `settings` for a content that is none, `vessel tree` for lines that there are not, `format` for parts that do not go together.
+/// `settings` for an invalid content, `vessel tree` for lines that do not exist, `format` for parts that do not go together.
 pub fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>> {
     let SessionContent { lines: named, doubtful_lines, session } = content;
     let session = session_of(session, (named.len(), doubtful_lines.len()))?;

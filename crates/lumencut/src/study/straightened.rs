@@ -60,7 +60,7 @@ impl Laid {
     /// The layout that is asked for; that of `before` turned, where it is of the same vessel.
     ///
     /// # Errors
-    /// `camera` for an angle, a width or a spacing that is none.
+    /// `camera` for an invalid angle, width or spacing.
     pub fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
         let same = |laid: &&Self| {
             CprMessage { angle: message.angle, feature: message.feature, ..laid.message } == message

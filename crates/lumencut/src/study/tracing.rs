@@ -120,7 +120,7 @@ impl Study {
     /// All branches that a seed reaches, down to a radius (mm); the doubtful ones last.
     ///
     /// # Errors
-    /// `tracing` as [`seed::trace_from`], `settings` for a radius that is none, `volume` where none is open,
+    /// `tracing` as [`seed::trace_from`], `settings` for an invalid radius, `volume` where none is open,
     /// `interrupted`.
     pub fn trace_from(
         &mut self,
@@ -177,7 +177,7 @@ impl Study {
     /// Takes over a line.
     ///
     /// # Errors
-    /// `vessel tree` for what is none.
+    /// `vessel tree` for an invalid tree.
     pub fn add_line(&mut self, content: LineContent) -> Result<usize> {
         self.lines.add(content.into())
     }
@@ -218,7 +218,7 @@ impl Study {
     /// Puts the vessels of a tree into the table of lines, and shows them.
     ///
     /// # Errors
-    /// `vessel tree` for what is none.
+    /// `vessel tree` for an invalid tree.
     pub(crate) fn show_tree(&mut self, tree: VesselTree, names: Vec<String>) -> Result<()> {
         let lines = tree.vessels().iter().map(|vessel| self.lines.add(vessel.into()));
         let lines = lines.collect::<Result<_>>()?;

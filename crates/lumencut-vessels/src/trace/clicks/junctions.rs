@@ -9,7 +9,7 @@ use crate::trace::lumen::refine::STEP;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least so much (mm).
+/// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least this length (mm).
 const END_TO_END: f64 = 0.7;
 const NEAREST_END: f64 = 1.0;
 
@@ -19,7 +19,7 @@ const ENDS: f64 = 0.3;
 /// How much of a line tells in which direction it has left a vessel (mm).
 const LEAVING: f64 = 4.0;
 
-/// A line leaves a vessel at once where it runs less than so many radii within it.
+/// A line leaves a vessel at once where it runs less than this number of radii within it.
 const AT_ONCE: f64 = 2.5;
 
 /// A junction: the point of an earlier vessel, its radius there, and the first point of the line that is kept.
@@ -96,7 +96,7 @@ fn place_of((vessel, n): (&Centerline, usize)) -> DVec3 {
 }
 
 impl Centerline {
-    /// Whether a place lies within the lumen; beyond the ends there is none.
+    /// Whether a place lies within the lumen; beyond the ends there is no lumen.
     fn holds(&self, place: DVec3) -> bool {
         let points = &self.points;
         let near = nearest_point(points, place);

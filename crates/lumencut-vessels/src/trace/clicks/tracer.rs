@@ -238,7 +238,7 @@ impl Search<'_, '_> {
         found
     }
 
-    /// The way through what is no lumen, where a bridge was asked for; else the error that says where there is none.
+    /// The way through what is no lumen, where a bridge was asked for; else the error that says where there is no lumen.
     fn bridge(&self, region: &Region, between: [DVec3; 2], ends: Ends) -> Result<Way> {
         let model = region.model;
         let stoppers = self.clicks.stoppers.clone();

@@ -26,7 +26,7 @@ impl Way {
         let line = Line::new(voxels, &region.model, &points);
         let mut gaps = line.gaps(&weak);
         for gap in &mut gaps {
-            // A way around a stopper through tissue is none.
+            // A way around a stopper through tissue does not count.
             gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
         }
         Self { points, gaps }

@@ -18,7 +18,7 @@ const FAT: f64 = -20.0;
 const SOFT_TISSUE: f64 = 100.0;
 const BONE: f64 = 900.0;
 
-/// The contrast of one click may be so many times that of another one as contrast medium fades.
+/// By which factor the contrast of one click may exceed that of another one, as contrast medium fades.
 const MOST_TIMES: f64 = 3.5;
 
 /// The lumen of a model has at least this part of the contrast that the clicks have as a rule.

@@ -12,7 +12,7 @@ use crate::trace::skeleton::mask_vessels::MaskVessel;
 /// A vessel whose mean confidence is below this is doubtful.
 const DOUBTFUL: f64 = 0.3;
 
-/// A vessel between two others is hardly seen where it lies within their lumens: up to so many of its largest radii, and so
+/// A vessel between two others is hardly seen where it lies within their lumens: up to this number of its largest radii, and so
 /// much (mm).
 const WITHIN: f64 = 2.5;
 const WITHIN_LENGTH: f64 = 3.0;

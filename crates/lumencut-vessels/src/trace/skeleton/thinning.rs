@@ -10,7 +10,7 @@ use crate::trace::skeleton::simple_point::Neighbourhood;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Voxels whose distances differ by less than so many sides of a voxel go in the same turns.
+/// Voxels whose distances differ by less than this number of sides of a voxel go in the same turns.
 const TURN: f64 = 0.5;
 
 /// Thins the lumen of a grid to lines of voxels with the same topology; returns their cells, rising. `lumen` lists the

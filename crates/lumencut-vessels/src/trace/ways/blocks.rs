@@ -29,7 +29,7 @@ struct Kept<T> {
 }
 
 impl<T> Blocks<T> {
-    /// No block yet of a volume with so many voxels along (i, j, k).
+    /// No block yet, of a volume with this number of voxels along (i, j, k).
     pub fn new(size: [usize; 3]) -> Self {
         let count = size.map(|n| n.div_ceil(SIDE));
         Self { count, numbers: vec![NO_BLOCK; count.iter().product()], kept: Vec::new() }

@@ -55,7 +55,7 @@ pub struct Reach {
     /// The largest number of voxels.
     pub most_voxels: usize,
     /// How many times the straight distance to the target counts for where the front grows first: with 1 it comes by the
-    /// cheapest way; with more it comes sooner, by a way that may be so many times as dear.
+    /// cheapest way; with more it comes sooner, by a way whose cost may be larger by that factor.
     pub pull: f32,
 }
 

@@ -34,7 +34,7 @@ fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> Json {
     json!({"vessels": vessels, "stoppers": [], "bridge": false, "beside": beside})
 }
 
-/// Two clicks on a vessel of the phantom, so many points from its ends.
+/// Two clicks on a vessel of the phantom, a number of points from its ends.
 fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
     let points = study.content.tree().expect("a tree").tree().vessels()[vessel].points().to_vec();
     vec![points[from_ends].to_array(), points[points.len() - 1 - from_ends].to_array()]
