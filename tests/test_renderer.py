@@ -236,7 +236,7 @@ def test_the_window_from_the_data_shows_tissue_lumen_and_calcifications_apart(na
     made = getattr(phantom, name)(**({} if name in ("straight_tube", "trefoil") else {"scale": 0.5}))
     window = Window.from_data(made.volume, made.tree)
     assert grey(60, window) < 85
-    assert 128 <= grey(LUMEN, window) < 170
+    assert 0.60 * 255 - 0.5 <= grey(LUMEN, window) <= 0.72 * 255 + 0.5
     assert grey(CALCIFIED, window) > 240
 
 

@@ -1,7 +1,8 @@
 //! Fiducial lists of 3D Slicer (`.fcsv`).
 
-use crate::centerlines::{Centerlines, Line, Space};
+use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};
+use crate::space::Space;
 use crate::text::{self, Separator};
 use crate::unit::Unit;
 

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::centerlines::{Centerlines, Line, Space};
+use crate::centerlines::{Centerlines, Line};
 use crate::data_array::{ByteOrder, NumberType, number_of_word};
 use crate::error::{Error, Result, excerpt};
 use crate::meta_object::{MetaObject, one_of};
+use crate::space::Space;
 use crate::unit::Unit;
 use crate::vtk_cursor::Cursor;
 

@@ -40,6 +40,7 @@ mod poly_data;
 mod rotterdam;
 pub mod session_file;
 mod simvascular;
+mod space;
 mod swc;
 mod table;
 mod table_columns;
@@ -56,9 +57,10 @@ mod xz;
 #[cfg(test)]
 mod tests;
 
-pub use centerlines::{Centerlines, Line, Space};
+pub use centerlines::{Centerlines, Line};
 pub use error::{Error, Result};
 pub use mend::Mend;
+pub use space::Space;
 pub use unit::Unit;
 pub use write::{write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
 

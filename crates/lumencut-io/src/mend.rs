@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::centerlines::Space;
+use crate::space::Space;
 use crate::unit::Unit;
 
 /// A step that mends an [`Error`](crate::Error). Each host words it in its own way: as arguments of Python, as options of the

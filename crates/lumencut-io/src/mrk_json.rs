@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use crate::centerlines::{Centerlines, JOINED_MARK, Line, Space};
+use crate::centerlines::{Centerlines, JOINED_MARK, Line};
 use crate::error::{Error, Result, excerpt};
 use crate::json::Json;
+use crate::space::Space;
 use crate::unit::Unit;
 
 /// Types of other markups that a message names, and then only counts.

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use crate::centerlines::{Centerlines, Line, Space};
+use crate::centerlines::{Centerlines, Line};
 use crate::data_array;
 use crate::error::{Error, Result};
+use crate::space::Space;
 
 /// One array of point, cell or field data.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,8 +1,8 @@
 //! Which column of a table holds what: from its header, or from the number of its columns.
 
-use crate::centerlines::Space;
 use crate::error::{Error, Result, excerpt};
 use crate::poly_data::names_radius;
+use crate::space::Space;
 use crate::unit::Unit;
 
 /// The columns that a line is made of.

@@ -141,7 +141,8 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
 
     #[inline]
     fn at(&self, index: DVec3) -> f32 {
-        self.grid.trilinear(self.voxels, index)
+        // The same scan in another type of voxels is traced and measured alike.
+        self.grid.trilinear_single(self.voxels, index)
     }
 
     fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {

@@ -88,6 +88,18 @@ impl Grid {
     /// the outermost voxels' within that half voxel.
     #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
+        self.interpolated(voxels, p, Voxel::real)
+    }
+
+    /// [`Grid::trilinear`] in single precision, whatever the type of the voxels: the same numbers in voxels of two types give
+    /// the same values to the bit.
+    #[inline]
+    pub fn trilinear_single<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
+        self.interpolated(voxels, p, |voxel| voxel.real().to_f32())
+    }
+
+    #[inline]
+    fn interpolated<T: Voxel, R: Real>(&self, voxels: &[T], p: DVec3, number: impl Fn(T) -> R) -> f32 {
         let (mut offset, mut weights) = (0, [0.0; 3]);
         for a in 0..3 {
             // What is no number lies nowhere.
@@ -101,8 +113,8 @@ impl Grid {
         }
         let [si, sj, sk] = self.step;
         let steps = [0, sj, sk, sj + sk];
-        let ends = |r: usize| [0, si].map(|step| voxels[offset + steps[r] + step].real());
-        interpolate(ends, weights.map(T::Real::from_weight)).to_f32()
+        let ends = |r: usize| [0, si].map(|step| number(voxels[offset + steps[r] + step]));
+        interpolate(ends, weights.map(R::from_weight)).to_f32()
     }
 
     /// [`Grid::trilinear`] at N times sixteen indices, given axis by axis.
