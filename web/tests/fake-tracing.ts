@@ -30,7 +30,8 @@ export class FakeTracing implements Tracing {
     await this.gate;
     const below = request.vessels.flat().find((point) => point[2] < FLOOR);
     if (below && !request.bridge) {
-      throw new Failure('tracing', 'the way', 'no lumen', 'a vessel', 'add a point, or ask for a bridge', {
+      throw new Failure('tracing', 'the way', 'no lumen', 'a vessel', 'add a point', {
+        mends: [{ name: 'bridge', values: [] }],
         place: below,
         value: 35,
       });

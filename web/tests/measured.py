@@ -39,7 +39,6 @@ def numbers(profile: Profile) -> dict[str, Any]:
             for _, _, word, meaning, _, screen in _lumencut.MEASURING_FLAGS
         ],
         "center": profile.center.tolist(),
-        "normal": profile.normal.tolist(),
         "fwhm": profile.fwhm,
         "fwhm_source": profile.fwhm_source,
         "narrowest": None if narrowest is None else {"at": narrowest[0], "diameter": narrowest[1]},

@@ -1,6 +1,7 @@
 /** Asks the engine what the marks measure, whenever they or the vessel change. */
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
+import { Failure } from '../core/failure';
 import type { Profile } from '../core/measuring';
 import type { LineId } from '../core/messages';
 import { engine } from '../core/shared';
@@ -45,9 +46,9 @@ export function useMeasuring(): void {
     }
     if (vessel && profile && marks) {
       latest.current.run(async () => {
-        const found = await asked(vessel.line, profile, marks);
+        const found = await asked(vessel.line, profile, marks).catch(unlessGone);
         // What another vessel is called by now is not overwritten.
-        if (currentVessel.value?.line === vessel.line) {
+        if (found && currentVessel.value?.line === vessel.line) {
           answers.value = found;
         }
       });
@@ -69,6 +70,14 @@ function arrive(): void {
       }
     });
   }
+}
+
+/** Nothing of a line that an edit has replaced meanwhile; the marks of the new one are asked for once the page knows of it. */
+function unlessGone(error: unknown): null {
+  if (Failure.of(error).kind === 'vessel tree') {
+    return null;
+  }
+  throw error;
 }
 
 /** All that the engine says of marks. */
