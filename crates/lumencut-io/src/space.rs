@@ -1,0 +1,24 @@
+//! Patient spaces that files state.
+
+/// The patient space of a file's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Space {
+    /// x to the left, y to the back, z to the head.
+    Lps,
+    /// x to the right, y to the front, z to the head.
+    Ras,
+}
+
+impl Space {
+    /// Every space.
+    pub const ALL: [Self; 2] = [Self::Lps, Self::Ras];
+
+    /// The short name: `lps` or `ras`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lps => "lps",
+            Self::Ras => "ras",
+        }
+    }
+}
