@@ -41,7 +41,7 @@ impl Study {
     /// Opens a volume and its vessels, with a name for each, in the place of all that is open.
     ///
     /// # Errors
-    /// Those of [`Study::show_tree`].
+    /// `vessel tree` for an invalid tree.
     pub fn open(&mut self, held: HeldVolume, tree: VesselTree, names: Vec<String>) -> Result<()> {
         self.close();
         self.content.held = Some(held);
