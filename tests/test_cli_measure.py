@@ -108,6 +108,29 @@ def test_a_marked_stenosis_with_all_outputs(files, tmp_path):
     assert "Doe^John" not in page.source
 
 
+@pytest.mark.parametrize("words", [["--reference", "10,50"], ["--reference", "10", "--reference", "50"]])
+def test_two_references_are_joined_by_a_comma_or_given_one_by_one(files, tmp_path, words):
+    result = run(*files, "-o", tmp_path / "p.json", "--at", 30, *words)
+    assert result.exit_code == 0
+    read = json.loads((tmp_path / "p.json").read_text("utf-8"))
+    assert read["settings"]["reference_mm"] == [10, 50]
+    references = read["vessels"][0]["stenosis"]["references"]
+    assert [spot["arc_length_mm"] for spot in references] == [10, 50]
+
+
+def test_beside_one_reference_another_one_is_offered_and_not_graded_with(files, tmp_path):
+    report = tmp_path / "report.html"
+    result = run(
+        *(*files, "-o", tmp_path / "p.json", "--report", report, "--at", 30, "--reference", 50),
+    )
+    assert result.exit_code == 0
+    graded = json.loads((tmp_path / "p.json").read_text("utf-8"))["vessels"][0]["stenosis"]
+    assert [spot["arc_length_mm"] for spot in graded["references"]] == [50]
+    _, offered = report.read_text("utf-8").split("<h2>Suggestions, not looked at</h2>")
+    assert "reference before (suggestion)</td>" in offered
+    assert "narrowest place" not in offered
+
+
 def test_ecst_states_the_original_diameter(files, tmp_path):
     result = run(*files, "-o", tmp_path / "p.json", "--at", 30, "--method", "ecst", "--original", 8)
     assert result.exit_code == 0
@@ -141,6 +164,11 @@ def test_the_point_spread_is_the_given_one(files, tmp_path):
         (["--at", "30", "--reference", "40,50"], 1, "one place before it and one after it"),
         (["--at", "10", "--reference", "30"], 1, "not below that of the stenosis"),
         (["--at", "30", "--reference", "1,2,3"], 2, "not of the form MM[,MM]"),
+        (
+            ["--at", "30", "--reference", "1,2", "--reference", "3"],
+            2,
+            "found 3 places (1, 2, 3); give one or two, such as --reference 12.5 or --reference 3,40",
+        ),
         (["--at", "30", "--reference", "x"], 2, "not of the form MM[,MM]"),
         (["--reference", "50"], 2, "--reference without --at does nothing"),
         (["--method", "area"], 2, "--method without --at does nothing"),

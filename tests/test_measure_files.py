@@ -139,8 +139,15 @@ def test_places_that_nobody_named_are_suggestions(profile):
     assert [mark.name for mark in suggested] == ["narrowest place", "reference", "reference"]
     assert all(mark.is_suggestion and "(suggestion)" in str(mark) for mark in suggested)
     named = marks(profile, 30.0, (50.0,))
-    assert [(mark.name, mark.arc_length) for mark in named] == [("marked place", 30.0), ("reference", 50.0)]
-    assert not any(mark.is_suggestion for mark in named)
+    place, offered, reference = named
+    assert [(mark.name, mark.arc_length) for mark in (place, reference)] == [
+        ("marked place", 30.0),
+        ("reference", 50.0),
+    ]
+    # Before the place no reference is marked: one is offered there.
+    assert [mark.is_suggestion for mark in named] == [False, True, False]
+    assert (offered.name, offered.arc_length) == ("reference", suggested[1].arc_length)
+    assert len(marks(profile, 30.0, (10.0, 50.0))) == 3
     assert named[0].diameter == profile.diameter_at(30.0)[0]
 
 

@@ -17,6 +17,7 @@ import {
 } from '../src/measure/marks';
 import { centerAt, seenNearest, snapped } from '../src/measure/sections';
 import { marksOf, withMarks } from '../src/measure/vessels';
+import { placeName } from '../src/measure/words';
 import { madeProfile, marks } from './measured';
 
 const profile = madeProfile();
@@ -45,13 +46,22 @@ describe('places', () => {
   });
 
   test('a reference stands on its side of the stenosis, and the other side is still suggested', () => {
-    expect(short(found(marks({ at: 30, references: [40] })))).toEqual([
+    expect(short(found(marks({ at: 30, references: [40] }), [{ at: 15, diameter: 8 }, null]))).toEqual([
       'place 0 30',
       'reference 0 15?',
       'reference 1 40',
     ]);
     expect(referenceSlots(marks({ references: [12] }), 30)).toEqual([12, null]);
     expect(referenceSlots(marks({ references: [50, 40] }), 30)).toEqual([40, 50]);
+  });
+
+  test('two references on one side are both called by that side', () => {
+    const names = (references: number[]) =>
+      found(marks({ at: 30, references }))
+        .filter(({ kind }) => kind === 'reference')
+        .map(placeName);
+    expect(names([35, 50])).toEqual(['reference after', 'reference after']);
+    expect(names([10, 50])).toEqual(['reference before', 'reference after']);
   });
 
   test('with two references nothing more is suggested', () => {

@@ -71,7 +71,7 @@ async function answers(
   const { stenosis: graded } = await host.grade(line, { ...NO_MARKS, at, references, method: 'area' });
   const section = await host.section(line, at);
   const stretch = await host.stretch(line, references);
-  const spots = await host.suggestedReferences(line, at);
+  const spots = await host.offeredReferences(line, { ...NO_MARKS, at });
   const { diameter, uncertainty } = await host.diameterAt(line, at);
   return {
     at: graded?.at,

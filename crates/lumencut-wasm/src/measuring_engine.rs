@@ -56,12 +56,15 @@ impl Engine {
         told(doubts)
     }
 
-    /// Places before and after an arc length (mm) to compare it with, as JSON.
+    /// The references that are offered beside what was marked on a line, before and after the stenosis, as JSON.
     ///
     /// # Errors
     /// See the module.
-    pub fn suggested_references(&mut self, line: usize, at: f64) -> Answer<String> {
-        let spots = self.measured(line).and_then(|profile| Ok(profile.suggested_references(at)?));
+    pub fn offered_references(&mut self, line: usize, marks: &str) -> Answer<String> {
+        let spots =
+            read::<MarksMessage>("marks", marks).and_then(|marks| marks.marked()).and_then(|marked| {
+                self.measured(line).and_then(|profile| Ok(marked.offered_references(profile)?))
+            });
         told(spots.map(|spots| spots.map(|spot| spot.map(SpotMessage::from))))
     }
 

@@ -31,6 +31,9 @@ mod samples;
 pub mod scale_bar;
 pub mod study;
 mod text;
+#[cfg(test)]
+#[path = "tests/tube.rs"]
+mod tube;
 pub mod turn;
 pub mod views;
 pub mod window_presets;

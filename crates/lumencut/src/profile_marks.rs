@@ -4,6 +4,7 @@ use lumencut_core::error::Result;
 use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
+use lumencut_vessels::measure::suggestions::Spot;
 
 use crate::measure_words::{of_doubts, of_stenosis};
 
@@ -118,6 +119,14 @@ impl Marked {
         }
     }
 
+    /// The references that are offered beside what was marked; see [`offered_references`].
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
+    pub fn offered_references(&self, profile: &Profile) -> Result<[Option<Spot>; 2]> {
+        offered_references(profile, self.at, &self.compared.reference)
+    }
+
     /// The places to look at, as [`marks`] has them, without those where nothing was measured.
     pub fn places(&self, profile: &Profile) -> Vec<Mark> {
         let is_measured = |place: &f64| profile.diameter_at(*place).is_ok();
@@ -152,7 +161,8 @@ pub struct Mark {
     pub is_suggestion: bool,
 }
 
-/// The places to look at: those that a reader named, and suggestions for what was not named.
+/// The places to look at: those that a reader named, and suggestions for what was not named. They are rising, but for the
+/// place of a stenosis, which is the first.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured.
@@ -161,22 +171,40 @@ pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<V
     let mark = |name, at, is_suggestion| {
         profile.diameter_at(at).map(|(diameter, _)| Mark { name, at, diameter, is_suggestion })
     };
-    let mut found = Vec::new();
-    match at {
-        Some(at) => found.push(mark("marked place", at, false)?),
-        None => {
-            if let Some(spot) = profile.narrowest() {
-                found.push(mark("narrowest place", spot.at, true)?);
-            }
-        }
-    }
-    for place in references {
-        found.push(mark("reference", *place, false)?);
-    }
-    if let (Some(first), true) = (found.first().map(|first| first.at), references.is_empty()) {
-        for spot in profile.suggested_references(first)?.into_iter().flatten() {
-            found.push(mark("reference", spot.at, true)?);
-        }
-    }
-    Ok(found)
+    let main = main_place(profile, at).map(|main| mark("marked place", main, false)).transpose()?;
+    let main = main.map(|found| match at {
+        Some(_) => found,
+        None => Mark { name: "narrowest place", is_suggestion: true, ..found },
+    });
+    let named = references.iter().map(|place| mark("reference", *place, false));
+    let offered = offered_references(profile, at, references)?;
+    let offered = offered.into_iter().flatten().map(|spot| mark("reference", spot.at, true));
+    let mut beside = named.chain(offered).collect::<Result<Vec<_>>>()?;
+    beside.sort_by(|a, b| a.at.total_cmp(&b.at));
+    Ok(main.into_iter().chain(beside).collect())
 }
+
+/// The references that are offered before and after the place of a stenosis, or the narrowest place where none is marked: one on
+/// each side on which a reader marked none, and none once two are marked. Nothing is graded with them before a reader takes them.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
+pub fn offered_references(
+    profile: &Profile,
+    at: Option<f64>,
+    references: &[f64],
+) -> Result<[Option<Spot>; 2]> {
+    let Some(main) = main_place(profile, at).filter(|_| references.len() < 2) else { return Ok([None; 2]) };
+    let [before, after] = profile.suggested_references(main)?;
+    let is_free = |is_before: bool| !references.iter().any(|place| (*place < main) == is_before);
+    Ok([before.filter(|_| is_free(true)), after.filter(|_| is_free(false))])
+}
+
+/// The place of a stenosis: the marked one, or the narrowest one.
+fn main_place(profile: &Profile, at: Option<f64>) -> Option<f64> {
+    at.or_else(|| profile.narrowest().map(|spot| spot.at))
+}
+
+#[cfg(test)]
+#[path = "tests/profile_marks.rs"]
+mod tests;

@@ -11,7 +11,7 @@ import click
 from lumencut.cli import options
 from lumencut.cli.measure_outputs import check_outputs, write_outputs
 from lumencut.cli.mistakes import check_files, check_reading
-from lumencut.cli.parameters import PLACES
+from lumencut.cli.parameters import PLACES, joined_places
 from lumencut.cli.report import bar, say, verbose_option, warn
 from lumencut.cli.scene import read_files, scene_from
 from lumencut.cli.vessels import named_vessels, path_option
@@ -66,8 +66,10 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     "--reference",
     type=PLACES,
     metavar=PLACES.name,
+    multiple=True,
+    callback=joined_places,
     help="The place of the normal vessel (mm of arc length), for NASCET beyond the stenosis; or one on each "
-    "side.",
+    "side, joined by a comma or as a second --reference.",
 )
 @click.option(
     "--method",

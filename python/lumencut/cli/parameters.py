@@ -59,6 +59,24 @@ class Places(_Type):
         return places
 
 
+def joined_places(
+    ctx: click.Context, param: click.Parameter, given: tuple[tuple[float, ...], ...]
+) -> tuple[float, ...] | None:
+    """Return the places of all times that an option was given; None where it was not.
+
+    Raises
+    ------
+    click.BadParameter
+        For more than two places.
+    """
+    places = tuple(place for one in given for place in one)
+    if len(places) > 2:
+        found = ", ".join(f"{place:g}" for place in places)
+        mend = f"give one or two, such as {param.opts[0]} 12.5 or {param.opts[0]} 3,40"
+        raise click.BadParameter(f"found {len(places)} places ({found}); {mend}", ctx, param)
+    return places or None
+
+
 class WindowOption(Parts):
     """A window as its width and level, in this order, or by its name."""
 

@@ -39,8 +39,11 @@ export class MeasuringClient implements Measuring {
     return this.first(this.host.doubts(line, compared));
   }
 
-  suggestedReferences(line: number, at: number): ReturnType<Measuring['suggestedReferences']> {
-    return this.first(this.host.suggestedReferences(line, at));
+  offeredReferences(
+    line: number,
+    marks: MeasuredVessel['marks'],
+  ): ReturnType<Measuring['offeredReferences']> {
+    return this.first(this.host.offeredReferences(line, marks));
   }
 
   diameterAt(line: number, at: number): ReturnType<Measuring['diameterAt']> {

@@ -173,8 +173,8 @@ export interface Measuring {
   grade(line: LineId, marks: Marks): Promise<Grade>;
   /** What would make a percentage from these places doubtful, a sentence each. */
   doubts(line: LineId, compared: Compared): Promise<readonly string[]>;
-  /** Places before and after an arc length that it could be compared with. */
-  suggestedReferences(line: LineId, at: number): Promise<readonly [Spot | null, Spot | null]>;
+  /** The references that are offered before and after the stenosis, on sides where none is marked. */
+  offeredReferences(line: LineId, marks: Marks): Promise<readonly [Spot | null, Spot | null]>;
   /** The diameter at a place and its standard deviation. */
   diameterAt(
     line: LineId,

@@ -83,7 +83,7 @@ function unlessGone(error: unknown): null {
 /** All that the engine says of marks. */
 export async function asked(line: LineId, profile: Profile, marks: VesselMarks): Promise<Answers> {
   const [suggested, { stenosis, not_graded }, stretches] = await Promise.all([
-    suggestedFor(line, profile, marks),
+    offeredBeside(line, marks),
     engine.measuring.grade(line, marks),
     stretchesOf(line, marks),
   ]);
@@ -96,10 +96,9 @@ export async function asked(line: LineId, profile: Profile, marks: VesselMarks):
   return { suggested, stenosis, notGraded: not_graded, doubts, ...stretches };
 }
 
-async function suggestedFor(line: LineId, profile: Profile, marks: VesselMarks): Promise<Suggested> {
-  const main = mainPlace(profile, marks);
+async function offeredBeside(line: LineId, marks: VesselMarks): Promise<Suggested> {
   try {
-    return main ? await engine.measuring.suggestedReferences(line, main.at) : NOTHING_SUGGESTED;
+    return await engine.measuring.offeredReferences(line, marks);
   } catch {
     // A place where nothing was measured has no suggestions: grading says why.
     return NOTHING_SUGGESTED;

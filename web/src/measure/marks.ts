@@ -13,6 +13,8 @@ export interface Place {
   readonly at: number;
   /** Offered by Lumencut, and no mark of a reader yet. */
   readonly isSuggestion: boolean;
+  /** Of a reference: whether it lies before the stenosis, also where both lie on one side. */
+  readonly isBefore?: boolean;
 }
 
 export type Suggested = readonly [Spot | null, Spot | null];
@@ -33,7 +35,7 @@ export function referenceSlots({ references }: VesselMarks, main: number): [numb
   return second !== undefined ? [first, second] : first < main ? [first, null] : [null, first];
 }
 
-/** All places of a vessel, marked or suggested. */
+/** All places of a vessel: those that are marked, and those that the engine offers beside them. */
 export function placesOf(profile: Profile, marks: VesselMarks, suggested: Suggested): Place[] {
   const main = mainPlace(profile, marks);
   const references = main ? shownReferences(marks, main.at, suggested) : [];
@@ -58,9 +60,10 @@ function shownReferences(marks: VesselMarks, main: number, suggested: Suggested)
     const slot = n as 0 | 1;
     const offered = suggested[slot]?.at ?? null;
     if (at !== null) {
-      places.push({ kind: 'reference', slot, at, isSuggestion: false });
-    } else if (offered !== null && marks.references.length < 2) {
-      places.push({ kind: 'reference', slot, at: offered, isSuggestion: true });
+      places.push({ kind: 'reference', slot, at, isSuggestion: false, isBefore: at < main });
+    } else if (offered !== null) {
+      // What is marked meanwhile takes the place of an offer of before.
+      places.push({ kind: 'reference', slot, at: offered, isSuggestion: true, isBefore: offered < main });
     }
   });
   return places;

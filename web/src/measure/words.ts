@@ -44,11 +44,11 @@ export const notGradedWords = ({ notGraded }: { readonly notGraded: string | nul
   notGraded === null ? 'Grading…' : `No percentage: ${told(notGraded)}`;
 
 /** How a place is called. */
-export function placeName({ kind, slot, isSuggestion }: Place): string {
+export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string {
   const end = slot === 0 ? 'start' : 'end';
   const names = {
     place: isSuggestion ? 'narrowest place' : 'marked place',
-    reference: slot === 0 ? 'reference before' : 'reference after',
+    reference: (isBefore ?? slot === 0) ? 'reference before' : 'reference after',
     stretch: `${end} of the stretch`,
     secondStretch: `${end} of the second stretch`,
   };

@@ -36,8 +36,8 @@ export class MeasuringHost {
     return this.run((engine) => JSON.parse(engine.doubts(line, JSON.stringify(compared))));
   }
 
-  suggestedReferences(line: LineId, at: number): Promise<readonly [Spot | null, Spot | null]> {
-    return this.run((engine) => JSON.parse(engine.suggested_references(line, at)));
+  offeredReferences(line: LineId, marks: Marks): Promise<readonly [Spot | null, Spot | null]> {
+    return this.run((engine) => JSON.parse(engine.offered_references(line, JSON.stringify(marks))));
   }
 
   diameterAt(line: LineId, at: number): Promise<{ diameter: number; uncertainty: number | null }> {

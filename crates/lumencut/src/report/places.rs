@@ -65,7 +65,7 @@ pub fn places(marks: &[ReportMark]) -> Vec<Place> {
     let named = |mark: &ReportMark| {
         let is_reference = mark.name == REFERENCE;
         let side = match main {
-            Some(main) if is_reference => [" before", " after"][usize::from(mark.at > main)],
+            Some(main) if is_reference => [" before", " after"][usize::from(mark.at >= main)],
             _ => "",
         };
         let offered = if mark.is_suggestion { " (suggestion)" } else { "" };

@@ -1,0 +1,41 @@
+use super::*;
+use crate::tube::tube;
+
+/// The marks as `name at`, with a question mark behind what is offered.
+fn told(at: Option<f64>, references: &[f64]) -> Vec<String> {
+    let found = marks(&tube(), at, references).expect("places on it");
+    let word = |mark: &Mark| {
+        let offered = if mark.is_suggestion { "?" } else { "" };
+        format!("{} {}{offered}", mark.name, mark.at)
+    };
+    found.iter().map(word).collect()
+}
+
+#[test]
+fn where_nothing_is_marked_all_places_are_offered() {
+    assert_eq!(told(None, &[]), ["narrowest place 26.5?", "reference 23.5?", "reference 36?"]);
+}
+
+#[test]
+fn beside_one_reference_another_one_is_offered_on_the_other_side() {
+    assert_eq!(told(Some(30.0), &[40.0]), ["marked place 30", "reference 24?", "reference 40"]);
+    assert_eq!(told(Some(30.0), &[12.0]), ["marked place 30", "reference 12", "reference 36?"]);
+    assert_eq!(told(None, &[45.0]), ["narrowest place 26.5?", "reference 22.5?", "reference 45"]);
+}
+
+#[test]
+fn beside_two_references_none_is_offered() {
+    assert_eq!(told(Some(30.0), &[12.0, 45.0]), ["marked place 30", "reference 12", "reference 45"]);
+    assert_eq!(told(Some(20.0), &[40.0, 45.0]), ["marked place 20", "reference 40", "reference 45"]);
+}
+
+#[test]
+fn an_offered_reference_is_never_graded_with() {
+    let compared = Compared { reference: vec![40.0], ..Compared::default() };
+    let marked = Marked { at: Some(30.0), method: Method::Nascet, compared, group: None };
+    let grade = marked.grade(&tube()).expect("a marked place");
+    let places: Vec<f64> =
+        grade.stenosis().expect("a percentage").references.iter().map(|[at, _]| *at).collect();
+    assert_eq!(places, [40.0]);
+    assert_eq!(marked.places(&tube()).iter().filter(|mark| mark.is_suggestion).count(), 1);
+}

@@ -1,0 +1,37 @@
+//! A made profile that tests measure on.
+
+use glam::DVec3;
+use lumencut_vessels::measure::flags::{BRANCH, CALCIUM};
+use lumencut_vessels::measure::profile::{Profile, Source};
+
+/// A tube of 60 mm, 8 mm wide and 4 mm around its middle, with calcium at 20 mm and a branch over its last 10 mm.
+pub fn tube() -> Profile {
+    let at: Vec<f64> = (0..=120).map(|n| f64::from(n) / 2.0).collect();
+    let numbers = |of: &dyn Fn(f64) -> f64| at.iter().map(|at| of(*at)).collect::<Vec<_>>();
+    let diameter = |at: f64| if (at - 30.0).abs() < 4.0 { 4.0 } else { 8.0 };
+    let flags = |at: f64| match at {
+        at if at > 50.0 => BRANCH,
+        20.0 => CALCIUM,
+        _ => 0,
+    };
+    let count = at.len();
+    Profile {
+        diameter_min: numbers(&|at| 0.9 * diameter(at)),
+        diameter_max: numbers(&|at| 1.1 * diameter(at)),
+        area: numbers(&|at| std::f64::consts::PI * diameter(at).powi(2) / 4.0),
+        uncertainty: vec![0.1; count],
+        flags: at.iter().map(|at| flags(*at)).collect(),
+        center: at.iter().map(|at| DVec3::Z * *at).collect(),
+        normal: vec![DVec3::Z; count],
+        axes: vec![[DVec3::X, DVec3::Y]; count],
+        contour: vec![Vec::new(); count],
+        half_axes: vec![[DVec3::X; 2]; count],
+        inscribed_radius: vec![4.0; count],
+        levels: vec![[300.0, 50.0]; count],
+        noise: 10.0,
+        fwhm: 1.2,
+        fwhm_source: Source::Given,
+        on_vessel: at.iter().map(|at| DVec3::Z * *at).collect(),
+        arc_length: at,
+    }
+}
