@@ -31,7 +31,7 @@ SCRIPTS = tuple(
     f"scripts/{name}.py"
     for name in (
         *("build_backend", "check", "frames", "fuzz", "licences", "notices", "page", "render_phantom"),
-        *("settings", "toolchain", "wheel", "window_table"),
+        *("settings", "source_files", "toolchain", "wheel", "window_table"),
     )
 )
 TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")

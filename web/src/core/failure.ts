@@ -1,3 +1,4 @@
+/** Errors as the page has them: typed, with what was found, what was expected and what mends it. */
 import { type Mend, type MendName, mendWords } from './mends';
 import type { Vector } from './messages';
 
