@@ -16,7 +16,7 @@ import { acceptCandidate, endVessel, enter, leave, removeLast, setPoint } from '
 import { beginStudy } from '../src/edit/shown';
 import { active, tool } from '../src/edit/tool';
 import * as store from '../src/state/store';
-import { FakeTracing, FLOOR, reportOf } from './fake-tracing';
+import { documentOf, FakeTracing, FLOOR } from './fake-tracing';
 
 const A: Vector = [0, 0, 0];
 const B: Vector = [10, 0, 0];
@@ -29,7 +29,7 @@ const clicks = () => document_.value.vessels.map((vessel) => vessel.clicks);
 
 beforeEach(() => {
   tracing = new FakeTracing();
-  beginStudy(reportOf([]));
+  beginStudy(documentOf());
   tool.value = 'trace';
   endVessel();
   end = followPointer(tracing);

@@ -1,19 +1,21 @@
 /** An engine in the place of the worker's, whose vessels are straight between clicks, and which notes what it is asked. */
+import type { DocumentVessel, Edit, Edited, EditRequest, VesselDocument } from '../src/core/edits';
 import { Failure } from '../src/core/failure';
 import type { Report, Vector } from '../src/core/messages';
-import type { LineContent, NamedLine, TraceRequest, Tracing } from '../src/core/tracing';
+import type { LineContent, NamedLine, Tracing } from '../src/core/tracing';
 
 /** Where the fake has no lumen: below this z (mm). */
 export const FLOOR = -50;
 
 export class FakeTracing implements Tracing {
   readonly lines: LineContent[] = [];
-  readonly traces: TraceRequest[] = [];
+  readonly edits: EditRequest[] = [];
   readonly shown: (readonly NamedLine[])[] = [];
-  /** What a seed finds: why each branch is doubtful, or null. */
-  branches: readonly (string | null)[] = [];
-  /** Traces and trees wait for this. */
+  /** What was odd about each edit. */
+  notes: readonly string[] = [];
+  /** Edits and trees wait for this. */
   gate: Promise<void> = Promise.resolve();
+  private lastId = 100;
 
   async add(content: LineContent): Promise<number> {
     this.lines.push(content);
@@ -25,18 +27,67 @@ export class FakeTracing implements Tracing {
     return this.lines.length - 1;
   }
 
-  async trace(request: TraceRequest): Promise<readonly number[]> {
-    this.traces.push(request);
+  async beginDocument(): Promise<VesselDocument> {
+    return NOTHING;
+  }
+
+  /** The least that the page relies on: clicks come and go, straight lines follow, and a click below the floor needs a bridge. */
+  async edit(request: EditRequest): Promise<Edited> {
+    this.edits.push(request);
     await this.gate;
-    const below = request.vessels.flat().find((point) => point[2] < FLOOR);
-    if (below && !request.bridge) {
+    const { document, edit, bridging } = request;
+    const changed = this.changed(document, edit);
+    const after = { ...document, ...changed, bridge: changed.bridge ?? (document.bridge || bridging) };
+    const below = after.vessels.flatMap((vessel) => vessel.clicks ?? []).find((point) => point[2] < FLOOR);
+    if (below && !after.bridge) {
       throw new Failure('tracing', 'the way', 'no lumen', 'a vessel', 'add a point', {
         mends: [{ name: 'bridge', values: [] }],
         place: below,
         value: 35,
       });
     }
-    return request.vessels.map((clicks) => this.straight(clicks));
+    const before = document.vessels.map((vessel) => vessel.id);
+    const ids = after.vessels.map((vessel) => vessel.id);
+    return {
+      document: structuredClone(after),
+      words: bridging ? `${edit.kind} and bridge` : edit.kind,
+      added: ids.filter((id) => !before.includes(id)),
+      without_marks: before.filter((id) => !ids.includes(id)),
+      notes: this.notes,
+    };
+  }
+
+  private changed({ vessels, stoppers }: VesselDocument, edit: Edit): Partial<VesselDocument> {
+    const clicked = (id: number, how: (clicks: readonly Vector[]) => readonly Vector[]) => ({
+      vessels: vessels.map((vessel) =>
+        vessel.id === id ? this.traced(vessel, how(vessel.clicks ?? [])) : vessel,
+      ),
+    });
+    switch (edit.kind) {
+      case 'begin_vessel':
+        this.lastId += 1;
+        return { vessels: [...vessels, this.traced(vesselOf(this.lastId), edit.clicks)] };
+      case 'add_click':
+        return clicked(edit.id, (clicks) => [...clicks, edit.point]);
+      case 'remove_click':
+        return clicked(edit.id, (clicks) => clicks.toSpliced(edit.number, 1)).vessels.some(
+          (vessel) => vessel.clicks?.length === 1,
+        )
+          ? { vessels: vessels.filter((vessel) => vessel.id !== edit.id) }
+          : clicked(edit.id, (clicks) => clicks.toSpliced(edit.number, 1));
+      case 'add_stopper':
+        return { stoppers: [...stoppers, { center: edit.center, radius: 3 }] };
+      case 'set_bridge':
+        return { bridge: edit.bridge };
+      case 'remove':
+        return { vessels: vessels.filter((vessel) => !edit.ids.includes(vessel.id)) };
+      default:
+        return {};
+    }
+  }
+
+  private traced(vessel: DocumentVessel, clicks: readonly Vector[]): DocumentVessel {
+    return { ...vessel, clicks, line: this.straight(clicks) };
   }
 
   async checkClick(click: Vector): Promise<void> {
@@ -52,26 +103,6 @@ export class FakeTracing implements Tracing {
 
   async brightest(): ReturnType<Tracing['brightest']> {
     return { point: [0, 0, 0], value: 1, vessel: null, arc_length: null };
-  }
-
-  async traceFrom(seed: Vector): ReturnType<Tracing['traceFrom']> {
-    await this.gate;
-    return this.branches.map((doubt, n) => ({ line: this.straight([seed, [n, 9, 9]]), doubt }));
-  }
-
-  async traceMask(): ReturnType<Tracing['traceMask']> {
-    const lines = ['aorta', ''].map((name) => ({ line: this.straight([[0, 0, 0]]), name }));
-    return { lines, notes: ['the mask has holes'] };
-  }
-
-  async cut(line: number, at: number): Promise<readonly [number, number]> {
-    const points = this.lines[line]?.points ?? [];
-    const middle: Vector = [at, 0, 0];
-    return [this.straight([...points.slice(0, 1), middle]), this.straight([middle, ...points.slice(-1)])];
-  }
-
-  async join(first: number, second: number): Promise<number> {
-    return this.straight([...(this.lines[first]?.points ?? []), ...(this.lines[second]?.points ?? [])]);
   }
 
   async line(line: number): Promise<LineContent> {
@@ -94,4 +125,22 @@ export function reportOf(lines: readonly NamedLine[]): Report {
   const volume = { size: [1, 1, 1], world_from_index: [], corners: [], smallest_side: 1 } as const;
   const vessels = lines.map(({ line, name }) => ({ line, name, length: 10, has_radius: true }));
   return { volume, vessels, windows: null };
+}
+
+const NOTHING: VesselDocument = { vessels: [], stoppers: [], bridge: false };
+
+function vesselOf(id: number): DocumentVessel {
+  return { id, line: id, name: `n${id}`, color: '#ffffff', isHidden: false, clicks: null, doubt: null };
+}
+
+/** A document with vessels that have these lines; their ids are those of their places, from 1. */
+export function documentOf(...lines: readonly number[]): VesselDocument {
+  return { ...NOTHING, vessels: lines.map((line, n) => ({ ...vesselOf(n + 1), line, name: `n${line}` })) };
+}
+
+/** A document with one more vessel for each line. */
+export function withLines<T extends VesselDocument>(document: T, ...lines: readonly number[]): T {
+  const first = Math.max(0, ...document.vessels.map((vessel) => vessel.id)) + 1;
+  const added = lines.map((line, n) => ({ ...vesselOf(first + n), line, name: '' }));
+  return { ...document, vessels: [...document.vessels, ...added] };
 }

@@ -1,15 +1,11 @@
 /** What was not saved is not lost unasked. */
 import { beforeEach, expect, test } from 'vitest';
-import { withVessels } from '../src/edit/changes';
 import { EMPTY } from '../src/edit/document';
 import { begin, change, document_, markSaved, undo } from '../src/edit/history';
 import { leave, leaving, lossWords } from '../src/state/leaving';
+import { withLines } from './fake-tracing';
 
-const more = (...lines: number[]) =>
-  withVessels(
-    document_.value,
-    lines.map((line) => ({ line })),
-  );
+const more = (...lines: number[]) => withLines(document_.value, ...lines);
 let gone = 0;
 const go = async () => {
   gone += 1;

@@ -1,32 +1,24 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
-import { withVessels } from '../src/edit/changes';
 import { change, document_, redo, undo } from '../src/edit/history';
 import { contents, followLines, forgetLines, lengthOf } from '../src/edit/lines';
 import { beginStudy, followDocument, pickedId, successor, tree } from '../src/edit/shown';
 import { active } from '../src/edit/tool';
 import { hide, remove } from '../src/edit/vessels';
 import * as store from '../src/state/store';
-import { FakeTracing, reportOf } from './fake-tracing';
+import { documentOf, FakeTracing, reportOf, withLines } from './fake-tracing';
 
 let tracing: FakeTracing;
 let end: () => void;
 
 const shownLines = () => tracing.shown.map((lines) => lines.map(({ line }) => line));
-const add = (...lines: number[]) =>
-  change(
-    'add',
-    withVessels(
-      document_.value,
-      lines.map((line) => ({ line })),
-    ),
-  );
+const add = (...lines: number[]) => change('add', withLines(document_.value, ...lines));
 
 /** All work that is under way is done. */
 const idle = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 function open(...lines: number[]): void {
   store.report.value = reportOf(lines.map((line) => ({ line, name: `n${line}` })));
-  beginStudy(store.report.value);
+  beginStudy(documentOf(...lines));
   store.pickedVessel.value = lines.length > 0 ? 0 : null;
 }
 
@@ -99,7 +91,7 @@ test('a tree of a study that was closed is not taken', async () => {
   });
   add(2);
   store.report.value = reportOf([{ line: 9, name: 'other' }]);
-  beginStudy(store.report.value);
+  beginStudy(documentOf(9));
   go();
   await idle();
   expect(store.report.value.vessels).toHaveLength(1);
@@ -111,7 +103,7 @@ describe('the vessel that is picked', () => {
     open(1, 2, 3);
     store.pickedVessel.value = 2;
     store.pickedPlace.value = 7;
-    await remove([1]);
+    await remove(tracing, [1]);
     await idle();
     expect(store.pickedVessel.value).toBe(1);
     expect(pickedId()).toBe(3);
@@ -130,7 +122,7 @@ describe('the vessel that is picked', () => {
   test('is none where all go, and the cross-hair is on none', async () => {
     open(1);
     store.crossHair.value = { point: [1, 2, 3], value: 4, vessel: 0, arcLength: 5 };
-    await remove([1]);
+    await remove(tracing, [1]);
     await idle();
     expect(store.pickedVessel.value).toBeNull();
     expect(store.crossHair.value).toMatchObject({ point: [1, 2, 3], vessel: null, arcLength: null });

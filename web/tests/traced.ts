@@ -1,5 +1,6 @@
 /** The engine itself, as the page's worker has it, with the room that traces. */
 import { readFileSync } from 'node:fs';
+import type { Edit, Edited, VesselDocument } from '../src/core/edits';
 import { Failure } from '../src/core/failure';
 import type { Progress, Report, Vector } from '../src/core/messages';
 import { Engine, initSync } from '../src/core/pkg/lumencut.js';
@@ -40,6 +41,16 @@ export async function opened(phantom: string, scale = 1): Promise<Opened> {
   };
   return { engine, tracing, report, cancel };
 }
+
+/** A document without vessels. */
+export const EMPTY: VesselDocument = { vessels: [], stoppers: [], bridge: false };
+
+/** What comes of an edit of a document. */
+export const edited = (tracing: TracingHost, edit: Edit, document = EMPTY): Promise<Edited> =>
+  tracing.edit({ document, edit, bridging: false }, unheard, null);
+
+/** The line of a vessel after an edit. */
+export const lineOf = ({ document }: Edited, n = 0): number => document.vessels[n]?.line ?? -1;
 
 /** Nobody listens. */
 export const unheard = (_: Progress): void => {};

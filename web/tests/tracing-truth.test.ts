@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 import { describe, expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
 import type { CenterlineKind, LineContent } from '../src/core/tracing';
-import { opened, unheard } from './traced';
+import { EMPTY, edited, lineOf, opened, unheard } from './traced';
 
 interface Truth {
   readonly phantom: string;
@@ -55,16 +55,21 @@ const LAST_BITS = 1e-9;
 /** Where voxels go by their distance to the wall, a last bit tells which of two equal ones goes first (mm). */
 const SHOWN = 1e-3;
 
+const ADD_MASK = { document: EMPTY, edit: { kind: 'add_mask' }, bridging: false } as const;
+
 const every = everyTruth();
 
 describe.skipIf(every.length === 0)('as Python', () => {
   test.each(every)('traces $phantom', async ({ phantom, clicks, lines, files }) => {
     const { tracing } = await opened(phantom);
-    const request = { vessels: clicks, stoppers: [], bridge: false, beside: [] };
-    const traced = await tracing.trace(request, unheard);
-    expect(traced.length).toBe(lines.length);
+    // All vessels but the last were clicked before; it is begun, and all are traced together.
+    const vessel = { line: 0, name: '', color: '', isHidden: false, doubt: null };
+    const vessels = clicks.slice(0, -1).map((own, n) => ({ ...vessel, id: n + 1, clicks: own }));
+    const begin = { kind: 'begin_vessel', clicks: clicks.at(-1) ?? [] } as const;
+    const traced = await edited(tracing, begin, { ...EMPTY, vessels });
+    expect(traced.document.vessels.length).toBe(lines.length);
     for (const [n, truth] of lines.entries()) {
-      const found = await tracing.line(traced[n] ?? -1);
+      const found = await tracing.line(lineOf(traced, n));
       expect(apart(found, truth)).toBeLessThan(LAST_BITS);
       expect(found.bridged).toEqual(truth.bridged);
     }
@@ -78,21 +83,21 @@ describe.skipIf(every.length === 0)('as Python', () => {
 
   test.each(every)('finds the branches of $phantom', async ({ phantom, clicks, branches }) => {
     const { tracing } = await opened(phantom);
-    const found = await tracing.traceFrom(clicks[0]?.[0] ?? [0, 0, 0], null, unheard);
-    expect(found.length).toBe(branches.length);
+    const found = await edited(tracing, { kind: 'add_branches', seed: clicks[0]?.[0] ?? [0, 0, 0] });
+    expect(found.added.length).toBe(branches.length);
     for (const [n, truth] of branches.entries()) {
-      expect(apart(await tracing.line(found[n]?.line ?? -1), truth)).toBeLessThan(SHOWN);
+      expect(apart(await tracing.line(lineOf(found, n)), truth)).toBeLessThan(SHOWN);
     }
   });
 
   test.each(every)('traces a mask of $phantom', async ({ phantom, mask, masked, notes }) => {
     const { tracing } = await opened(phantom);
     const file = new File([readFileSync(mask)], 'mask.nii.gz');
-    const found = await tracing.traceMask([{ path: 'mask.nii.gz', file }], unheard);
+    const found = await tracing.edit(ADD_MASK, unheard, [{ path: 'mask.nii.gz', file }]);
     expect(found.notes).toEqual(notes);
-    expect(found.lines.map(({ name }) => name)).toEqual(masked.map(() => ''));
+    expect(found.document.vessels.map(({ name }) => name)).toEqual(masked.map((_, n) => `Mask ${n + 1}`));
     for (const [n, truth] of masked.entries()) {
-      expect(apart(await tracing.line(found.lines[n]?.line ?? -1), truth)).toBeLessThan(SHOWN);
+      expect(apart(await tracing.line(lineOf(found, n)), truth)).toBeLessThan(SHOWN);
     }
   });
 });

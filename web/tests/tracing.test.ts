@@ -1,22 +1,22 @@
 import { expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import { distance, opened, refusal, unheard } from './traced';
+import { distance, EMPTY, edited, lineOf, opened, refusal, unheard } from './traced';
 
 test('a vessel between two clicks follows the one that is there', async () => {
   const { tracing, report } = await opened('y_junction');
   const [trunk] = report().vessels ?? [];
   const truth = await tracing.line(trunk?.line ?? -1);
   const ends = [truth.points[4], truth.points.at(-5)] as Vector[];
-  const request = { vessels: [ends], stoppers: [], bridge: false, beside: [] };
-  const [line] = await tracing.trace(request, unheard);
-  const { points, radius, confidence, bridged } = await tracing.line(line ?? -1);
+  const begin = { kind: 'begin_vessel', clicks: ends } as const;
+  const begun = await edited(tracing, begin);
+  const { points, radius, confidence, bridged } = await tracing.line(lineOf(begun));
   const away = points.map((point) => Math.min(...truth.points.map((known) => distance(known, point))));
   expect(Math.max(...away)).toBeLessThan(0.5);
   expect([radius?.length, confidence?.length, bridged?.length]).toEqual(
     points.map(() => points.length).slice(0, 3),
   );
   // The same clicks once more give the same line.
-  expect(await tracing.trace(request, unheard)).toEqual([line]);
+  expect(lineOf(await edited(tracing, begin))).toBe(lineOf(begun));
   const way = await tracing.path({
     from: ends[0] as Vector,
     to: ends[1] as Vector,
@@ -33,9 +33,8 @@ test('a click into no lumen is refused with its place and the value there', asyn
   const truth = await tracing.line(report().vessels?.[0]?.line ?? -1);
   const inside = truth.points[4] as Vector;
   const air = (corner ?? inside).map((c, a) => 0.9 * c + 0.1 * (inside[a] ?? 0)) as unknown as Vector;
-  const request = { vessels: [[inside, air]], stoppers: [], bridge: false, beside: [] };
-  const failure = await refusal(tracing.trace(request, unheard));
-  expect(failure.kind).toBe('tracing');
+  const failure = await refusal(edited(tracing, { kind: 'begin_vessel', clicks: [inside, air] }));
+  expect([failure.kind, failure.subject]).toEqual(['tracing', 'this point']);
   expect(distance(failure.place ?? [0, 0, 0], air)).toBeLessThan(1e-9);
   expect(failure.value).not.toBeNull();
   expect(await tracing.path({ from: inside, to: air, stoppers: [], bridge: false })).toBeNull();
@@ -45,35 +44,50 @@ test('a stop is heard by tracing that has not begun, and not by what is asked fo
   const { tracing, report, cancel } = await opened('y_junction');
   const { points } = await tracing.line(report().vessels?.[0]?.line ?? -1);
   const ends = [points[4], points.at(-5)] as Vector[];
-  const request = { vessels: [ends], stoppers: [], bridge: false, beside: [] };
-  const stopped = refusal(tracing.trace(request, unheard));
+  const begin = { kind: 'begin_vessel', clicks: ends } as const;
+  const stopped = refusal(edited(tracing, begin));
   cancel();
   expect((await stopped).kind).toBe('interrupted');
-  expect(await tracing.trace(request, unheard)).toHaveLength(1);
+  expect((await edited(tracing, begin)).added).toHaveLength(1);
 });
 
 test('what is shown can be cut, joined and shown again', async () => {
-  const { tracing, report } = await opened('stenosis');
-  const line = report().vessels?.[0]?.line ?? -1;
-  const [first, second] = await tracing.cut(line, 20);
-  const named = [first, second].map((part, n) => ({ line: part, name: `part ${n}` }));
+  const { tracing } = await opened('stenosis');
+  const whole = await tracing.beginDocument();
+  expect(whole.vessels).toMatchObject([
+    { id: 1, color: '#f0e442', isHidden: false, clicks: null, doubt: null },
+  ]);
+  const cut = await edited(tracing, { kind: 'cut', id: 1, at: 20 }, whole);
+  expect([cut.words, cut.added, cut.without_marks]).toEqual(['cut a vessel', [2], [1]]);
+  const named = cut.document.vessels.map(({ line }, n) => ({ line, name: `part ${n}` }));
   const shown = await tracing.show(named);
   expect(shown.vessels?.map(({ name, length }) => [name, Math.round(length)])).toEqual([
     ['part 0', 20],
     ['part 1', 40],
   ]);
-  const joined = await tracing.join(second, first);
-  const { points } = await tracing.line(joined);
-  expect(points).toEqual((await tracing.line(line)).points);
+  const joined = await edited(tracing, { kind: 'join', id: 2, other: 1 }, cut.document);
+  const { points } = await tracing.line(lineOf(joined));
+  expect(points).toEqual((await tracing.line(whole.vessels[0]?.line ?? -1)).points);
   expect((await tracing.show([])).vessels).toBeNull();
-  expect((await refusal(tracing.cut(line, 99))).kind).toBe('vessel tree');
+  const far = await refusal(edited(tracing, { kind: 'cut', id: 1, at: 99 }, whole));
+  expect(far.kind).toBe('vessel tree');
+});
+
+test('a document comes back from the engine with the numbers that it had, to the last bit', async () => {
+  const { tracing } = await opened('stenosis');
+  const odd: Vector = [0.1 + 0.2, 1 / 3, -1e-17];
+  const { vessels, ...rest } = await tracing.beginDocument();
+  const document = { ...rest, vessels: vessels.map((vessel) => ({ ...vessel, clicks: [odd, odd] })) };
+  const same = await edited(tracing, { kind: 'accept', ids: [1] }, document);
+  expect(JSON.stringify(same.document.vessels)).toBe(JSON.stringify(document.vessels));
 });
 
 test('files that are no mask are refused, and the scan stays', async () => {
   const { tracing, report } = await opened('stenosis');
   const before = report();
   const table = new File(['x,y,z\n0,0,0\n1,0,0\n'], 'line.csv');
-  const failure = await refusal(tracing.traceMask([{ path: 'line.csv', file: table }], unheard));
+  const request = { document: EMPTY, edit: { kind: 'add_mask' }, bridging: false } as const;
+  const failure = await refusal(tracing.edit(request, unheard, [{ path: 'line.csv', file: table }]));
   expect([failure.found, failure.expected]).toEqual(['centerlines', 'a mask of vessels']);
   expect(report()).toEqual(before);
 });

@@ -12,13 +12,21 @@ const PATIENCE: f64 = 40.0;
 
 #[wasm_bindgen]
 impl Engine {
-    /// The numbers of the lines of vessels that are clicked, as JSON; `listener` gets the share that is done.
+    /// The document that the study begins with, as JSON.
     ///
     /// # Errors
-    /// `tracing` for clicks in no lumen and where there is none between them, `interrupted` once the page says stop.
-    pub fn trace(&mut self, request: &str, listener: Function) -> Answer<String> {
-        let request = read("request to trace", request);
-        told(request.and_then(|request| watched(listener, |watch| self.study.trace(&request, watch))))
+    /// None beside those of JSON.
+    pub fn begin_document(&mut self) -> Answer<String> {
+        told(Ok(self.study.begin_document()))
+    }
+
+    /// What comes of an edit of a document, as JSON; `listener` gets the share that is done.
+    ///
+    /// # Errors
+    /// Those of the edit, `interrupted` once the page says stop.
+    pub fn edit(&mut self, message: &str, listener: Function) -> Answer<String> {
+        let message = read("edit", message);
+        told(message.and_then(|message| watched(listener, |watch| self.study.edit(&message, watch))))
     }
 
     /// Refuses a place, given as JSON, that no vessel can begin at.
@@ -52,21 +60,6 @@ impl Engine {
         told(view.and_then(|view| self.study.brightest(&view, [column, row])))
     }
 
-    /// The branches that a seed reaches, as JSON; `listener` gets the share that is done.
-    ///
-    /// # Errors
-    /// `tracing` for a seed in no vessel, `interrupted` once the page says stop.
-    pub fn trace_from(
-        &mut self,
-        seed: &str,
-        smallest_radius: Option<f64>,
-        listener: Function,
-    ) -> Answer<String> {
-        let traced = read("seed", seed)
-            .and_then(|seed| watched(listener, |watch| self.study.trace_from(seed, smallest_radius, watch)));
-        told(traced)
-    }
-
     /// Makes room for a mask; `header` is the JSON before its voxels.
     ///
     /// # Errors
@@ -88,30 +81,6 @@ impl Engine {
     /// Forgets the mask that was read.
     pub fn end_mask(&mut self) {
         self.study.end_mask();
-    }
-
-    /// The lines of the mask that was read, and notes, as JSON; `listener` gets the share that is done. The mask is forgotten.
-    ///
-    /// # Errors
-    /// `volume` for an invalid mask, or one that lies elsewhere than the volume, `interrupted` once the page says stop.
-    pub fn trace_mask(&mut self, listener: Function) -> Answer<String> {
-        told(watched(listener, |watch| self.study.trace_mask(watch)))
-    }
-
-    /// The numbers of both parts of a line that is cut at an arc length (mm), as JSON.
-    ///
-    /// # Errors
-    /// `vessel tree` for a place that is not between its ends.
-    pub fn cut(&mut self, line: usize, at: f64) -> Answer<String> {
-        told(self.study.cut(line, at))
-    }
-
-    /// The number of the line that two are joined to.
-    ///
-    /// # Errors
-    /// `vessel tree` for ends that are far apart.
-    pub fn join(&mut self, first: usize, second: usize) -> Answer<usize> {
-        answer(self.study.join(first, second))
     }
 
     /// The content of a line, as JSON.

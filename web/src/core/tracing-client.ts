@@ -1,17 +1,9 @@
 /** Tracing and editing as the page uses them: calls to the worker. */
 import { proxy, type Remote } from 'comlink';
 import type { TracingHost } from '../worker/tracing-host';
+import type { Edited, EditRequest, VesselDocument } from './edits';
 import type { GivenFile, LineId, Pick, Progress, Report, Vector, View } from './messages';
-import type {
-  CenterlineKind,
-  LineContent,
-  MaskLines,
-  NamedLine,
-  PathRequest,
-  SeedBranch,
-  TraceRequest,
-  Tracing,
-} from './tracing';
+import type { CenterlineKind, LineContent, NamedLine, PathRequest, Tracing } from './tracing';
 
 type Told = (progress: Progress) => void;
 
@@ -22,8 +14,12 @@ export class TracingClient implements Tracing {
     private readonly first: <T>(answer: Promise<T>) => Promise<T>,
   ) {}
 
-  trace(request: TraceRequest, told: Told): Promise<readonly LineId[]> {
-    return this.first(this.host.trace(request, proxy(told)));
+  beginDocument(): Promise<VesselDocument> {
+    return this.first(this.host.beginDocument());
+  }
+
+  edit(request: EditRequest, told: Told, mask: readonly GivenFile[] | null): Promise<Edited> {
+    return this.first(this.host.edit(request, proxy(told), mask));
   }
 
   checkClick(click: Vector): Promise<void> {
@@ -36,22 +32,6 @@ export class TracingClient implements Tracing {
 
   brightest(view: View, [column, row]: readonly [number, number]): Promise<Pick> {
     return this.first(this.host.brightest(view, column, row));
-  }
-
-  traceFrom(seed: Vector, smallestRadius: number | null, told: Told): Promise<readonly SeedBranch[]> {
-    return this.first(this.host.traceFrom(seed, smallestRadius, proxy(told)));
-  }
-
-  traceMask(files: readonly GivenFile[], told: Told): Promise<MaskLines> {
-    return this.first(this.host.traceMask(files, proxy(told)));
-  }
-
-  cut(line: LineId, arcLength: number): Promise<readonly [LineId, LineId]> {
-    return this.first(this.host.cut(line, arcLength));
-  }
-
-  join(first: LineId, second: LineId): Promise<LineId> {
-    return this.first(this.host.join(first, second));
   }
 
   line(line: LineId): Promise<LineContent> {

@@ -2,42 +2,24 @@
 import type { GivenFile, Vector } from '../core/messages';
 import type { Tracing } from '../core/tracing';
 import { notes } from '../state/store';
-import { changed, freshName, vesselOf, without, withVessel } from './changes';
-import { commitPlain, inTurn } from './committing';
-import type { Document } from './document';
+import { commit, isDone } from './committing';
 
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
-export function addBranches(tracing: Tracing, seed: Vector): Promise<boolean> {
-  return inTurn('add all branches from here', async (_, told) => {
-    const branches = await tracing.traceFrom(seed, null, told);
-    const add = (document: Document, { line, doubt }: (typeof branches)[number]) =>
-      withVessel(document, { line, doubt, name: freshName(document, 'Branch') });
-    return (now) => branches.reduce(add, now);
-  });
-}
+export const addBranches = (tracing: Tracing, seed: Vector): Promise<boolean> =>
+  isDone(commit(tracing, { kind: 'add_branches', seed }));
 
 /** Accepts branches that are doubtful. */
-export function accept(ids: readonly number[]): Promise<boolean> {
-  const words = ids.length === 1 ? 'accept a branch' : 'accept branches';
-  return commitPlain(words, (document) =>
-    ids.reduce((now, id) => changed(now, id, { doubt: null }), document),
-  );
-}
+export const accept = (tracing: Tracing, ids: readonly number[]): Promise<boolean> =>
+  isDone(commit(tracing, { kind: 'accept', ids }));
 
 /** Leaves branches out that are doubtful. */
-export function leaveOut(ids: readonly number[]): Promise<boolean> {
-  const words = ids.length === 1 ? 'leave a branch out' : 'leave branches out';
-  const isDoubtful = (document: Document) => (id: number) => Boolean(vesselOf(document, id)?.doubt);
-  return commitPlain(words, (document) => without(document, ids.filter(isDoubtful(document))));
-}
+export const leaveOut = (tracing: Tracing, ids: readonly number[]): Promise<boolean> =>
+  isDone(commit(tracing, { kind: 'leave_out', ids }));
 
 /** Adds the vessels of a mask; what was odd about it is told among the notes. */
-export function addMask(tracing: Tracing, files: readonly GivenFile[]): Promise<boolean> {
-  return inTurn('add the vessels of a mask', async (_, told) => {
-    const mask = await tracing.traceMask(files, told);
-    notes.value = [...new Set([...notes.value, ...mask.notes])];
-    const add = (document: Document, { line, name }: (typeof mask.lines)[number]) =>
-      withVessel(document, { line, name: name || freshName(document, 'Mask') });
-    return (now) => mask.lines.reduce(add, now);
-  });
+export async function addMask(tracing: Tracing, mask: readonly GivenFile[]): Promise<boolean> {
+  const then = (edited: { readonly notes: readonly string[] }) => {
+    notes.value = [...new Set([...notes.value, ...edited.notes])];
+  };
+  return isDone(commit(tracing, { kind: 'add_mask' }, { mask, then }));
 }

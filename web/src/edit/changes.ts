@@ -1,45 +1,6 @@
-/** Edits that need no engine: each of them gives another document. */
-import type { LineId, Vector, VesselReport } from '../core/messages';
-import type { Stopper } from '../core/tracing';
-import { type Document, type DocumentVessel, EMPTY } from './document';
-import { nextColor } from './palette';
-
-let lastId = 0;
-
-/** An id that no vessel of the study had before. */
-export function freshId(document: Document): number {
-  lastId = Math.max(lastId, ...document.vessels.map((vessel) => vessel.id)) + 1;
-  return lastId;
-}
-
-/** What is known of a vessel that comes to a document. */
-export type NewVessel = Pick<DocumentVessel, 'line'> & Partial<DocumentVessel>;
-
-/** The document with one more vessel at its end, in the next colour. */
-export function withVessel(document: Document, given: NewVessel): Document {
-  const vessel: DocumentVessel = {
-    id: given.id ?? freshId(document),
-    name: '',
-    color: nextColor(document.vessels),
-    isHidden: false,
-    clicks: null,
-    doubt: null,
-    ...given,
-  };
-  return { ...document, vessels: [...document.vessels, vessel] };
-}
-
-export const withVessels = (document: Document, given: readonly NewVessel[]): Document =>
-  given.reduce(withVessel, document);
-
-/** The document that a study begins with. */
-export function documentOf(vessels: readonly VesselReport[]): Document {
-  lastId = 0;
-  return withVessels(
-    EMPTY,
-    vessels.map(({ line, name }) => ({ line, name })),
-  );
-}
+/** What the page reads of a document, and how it takes over what the engine made of it. */
+import type { DocumentVessel, Edited } from '../core/edits';
+import type { Document } from './document';
 
 export const vesselOf = (document: Document, id: number | null): DocumentVessel | null =>
   document.vessels.find((vessel) => vessel.id === id) ?? null;
@@ -54,37 +15,30 @@ export function changed(document: Document, id: number, to: Partial<DocumentVess
     : document;
 }
 
-/** The document without some vessels and what was marked on them. */
-export function without(document: Document, ids: readonly number[]): Document {
-  const marks = Object.entries(document.marks).filter(([id]) => !ids.includes(Number(id)));
-  return {
-    ...document,
-    vessels: document.vessels.filter((vessel) => !ids.includes(vessel.id)),
-    marks: Object.fromEntries(marks),
-  };
-}
-
-/** The document with other vessels in the place of one, which loses its marks: their places lie elsewhere. */
-export function replaced(document: Document, id: number, by: readonly NewVessel[]): Document {
-  const at = document.vessels.findIndex((vessel) => vessel.id === id);
-  const rest = without(document, [id]);
-  const grown = withVessels(rest, by);
-  const [kept, added] = [rest.vessels, grown.vessels.slice(rest.vessels.length)];
-  return { ...rest, vessels: [...kept.slice(0, at), ...added, ...kept.slice(at)] };
-}
-
-/** What the list and the files call a vessel. */
-export const nameOf = ({ name, id }: DocumentVessel): string => name || `vessel ${id}`;
-
-/** A name that no vessel has: `Vessel 3`. */
-export function freshName(document: Document, kind: string): string {
-  const taken = new Set(document.vessels.map((vessel) => vessel.name));
-  for (let n = 1; ; n++) {
-    if (!taken.has(`${kind} ${n}`)) {
-      return `${kind} ${n}`;
-    }
+/** The document after an edit. What the edit left as it was is the same object, and so is a document that it left as it was. */
+export function afterEdit(now: Document, { document, without_marks: lost }: Edited): Document {
+  const vessels = kept(now.vessels, document.vessels);
+  const stoppers = kept(now.stoppers, document.stoppers);
+  const isSame =
+    vessels === now.vessels &&
+    stoppers === now.stoppers &&
+    document.bridge === now.bridge &&
+    lost.length === 0;
+  if (isSame) {
+    return now;
   }
+  const marks = Object.entries(now.marks).filter(([id]) => !lost.includes(Number(id)));
+  return { ...now, vessels, stoppers, bridge: document.bridge, marks: Object.fromEntries(marks) };
 }
+
+function kept<T>(before: readonly T[], after: readonly T[]): readonly T[] {
+  const known = new Map(before.map((one) => [JSON.stringify(one), one]));
+  const all = after.map((one) => known.get(JSON.stringify(one)) ?? one);
+  return all.length === before.length && all.every((one, n) => one === before[n]) ? before : all;
+}
+
+/** What the list calls a vessel. */
+export const nameOf = ({ name, id }: DocumentVessel): string => name || `vessel ${id}`;
 
 /** The vessels of the tree that is shown, in their order. */
 export const shownVessels = (document: Document): readonly DocumentVessel[] =>
@@ -92,24 +46,3 @@ export const shownVessels = (document: Document): readonly DocumentVessel[] =>
 
 export const doubtful = (document: Document): readonly DocumentVessel[] =>
   document.vessels.filter((vessel) => vessel.doubt !== null);
-
-/** Whether a vessel was clicked: its line is traced anew when one of its clicks changes. */
-export const isClicked = (
-  vessel: DocumentVessel,
-): vessel is DocumentVessel & { readonly clicks: readonly Vector[] } => vessel.clicks !== null;
-
-/** The document with lines for some of its vessels, by their ids. */
-export function withLines(document: Document, lines: ReadonlyMap<number, LineId>): Document {
-  const vessels = document.vessels.map((vessel) => {
-    const line = lines.get(vessel.id);
-    return line === undefined || line === vessel.line ? vessel : { ...vessel, line };
-  });
-  return { ...document, vessels };
-}
-
-/** The document with another stopper in the place of one, or with one more at the end; none removes it. */
-export function withStopper(document: Document, number: number, stopper: Stopper | null): Document {
-  const stoppers = [...document.stoppers];
-  stoppers.splice(number, 1, ...(stopper ? [stopper] : []));
-  return { ...document, stoppers };
-}

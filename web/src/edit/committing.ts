@@ -3,17 +3,15 @@
  * can be stopped; where one is refused, those that wait behind it are dropped, since they were meant for what it would have made.
  */
 import { signal } from '@preact/signals';
+import type { Edit, Edited } from '../core/edits';
 import { Failure } from '../core/failure';
-import type { LineId, Progress } from '../core/messages';
+import type { GivenFile, Progress } from '../core/messages';
 import type { Tracing } from '../core/tracing';
 import { placeCrossHair } from '../link/cross-hair';
 import { problem, progress } from '../state/store';
-import { isClicked, withLines } from './changes';
+import { afterEdit } from './changes';
 import type { Document } from './document';
 import { change, document_ } from './history';
-import { inNames } from './naming';
-
-export type Edit = (document: Document) => Document;
 
 /** An edit that was refused; it can be tried again with gaps bridged where that may help. */
 export interface Refusal {
@@ -38,16 +36,22 @@ export function dropEdits(): void {
   refusal.value = null;
 }
 
-/** What an edit does: the change that it makes in the end, of the document as it is then. */
-export type Work = (document: Document, told: (progress: Progress) => void) => Promise<Edit> | Edit;
+/** Does work when all before it is done: it gives the words of a step and the document after it, of which it makes a step. */
+type Work<T> = (told: (progress: Progress) => void) => Promise<Step<T>> | Step<T>;
 
-/** Does an edit when all before it are done. Says whether it was done. */
-export function inTurn(words: string, work: Work, bridge: (() => void) | null = null): Promise<boolean> {
+interface Step<T> {
+  readonly words: string;
+  readonly after: Document;
+  readonly result: T;
+}
+
+/** Gives what came of the work; null where it was not done. */
+function inTurn<T>(work: Work<T>, bridge: (() => void) | null): Promise<T | null> {
   const own = generation;
   waiting.value += 1;
   const turn = async () => {
     try {
-      return own === generation && (await doEdit(words, work, own, bridge));
+      return own === generation ? await doEdit(work, own, bridge) : null;
     } finally {
       waiting.value -= 1;
       progress.value = isOurs(progress.value) ? null : progress.value;
@@ -58,20 +62,20 @@ export function inTurn(words: string, work: Work, bridge: (() => void) | null = 
   return done;
 }
 
-async function doEdit(words: string, work: Work, own: number, bridge: (() => void) | null): Promise<boolean> {
+async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null): Promise<T | null> {
   forgetRefusal();
   try {
-    const edit = await work(document_.value, teller(own));
+    const { words, after, result } = await work(teller(own));
     if (own !== generation) {
-      return false;
+      return null;
     }
-    change(words, edit(document_.value));
-    return true;
+    change(words, after);
+    return result;
   } catch (error) {
     if (own === generation) {
       refuse(Failure.of(error), bridge);
     }
-    return false;
+    return null;
   }
 }
 
@@ -116,53 +120,51 @@ function teller(own: number): (told: Progress) => void {
   };
 }
 
-/** An edit that needs no tracing. */
-export const commitPlain = (words: string, edit: Edit): Promise<boolean> => inTurn(words, () => edit);
+/** A change of the page's own, of the document as it is in its turn. */
+export function commitPlain(words: string, edit: (document: Document) => Document): Promise<boolean> {
+  return isDone(inTurn(() => ({ words, after: edit(document_.value), result: words }), null));
+}
+
+/** What comes with an edit. */
+interface Beside {
+  /** The files of a mask that is added. */
+  readonly mask?: readonly GivenFile[];
+  /** Hears what came of it, also where that needed a bridge first. */
+  readonly then?: (edited: Edited) => void;
+  readonly bridging?: boolean;
+}
 
 /**
- * An edit of clicks, stoppers or bridges: all vessels that were clicked are traced again, beside the others. `then` is called
- * once it is done, also where that needed a bridge first.
+ * An edit of vessels, which the engine makes of the document as it is in its turn; gives what came of it, null where it was not
+ * done. What the page changes meanwhile, such as marks, stays.
  */
-export function commit(
-  tracing: Tracing,
-  words: string,
-  edit: Edit,
-  then: () => void = () => undefined,
-): Promise<boolean> {
-  const work: Work = async (document, told) => {
-    const lines = await traced(tracing, edit(document), told);
-    return (now) => withLines(edit(now), lines);
+export async function commit(tracing: Tracing, edit: Edit, beside: Beside = {}): Promise<Edited | null> {
+  const { mask = null, then, bridging = false } = beside;
+  const work: Work<Edited> = async (told) => {
+    const ask = ({ vessels, stoppers, bridge }: Document) =>
+      tracing.edit({ document: { vessels, stoppers, bridge }, edit, bridging }, told, mask);
+    const edited = await latest(ask);
+    return { words: edited.words, after: afterEdit(document_.value, edited), result: edited };
   };
-  const bridged: Edit = (document) => ({ ...edit(document), bridge: true });
-  const again = () => void commit(tracing, `${words} and bridge gaps`, bridged, then);
-  const done = inTurn(words, work, document_.value.bridge ? null : again);
-  return done.then((isDone) => {
-    if (isDone) {
-      then();
-    }
-    return isDone;
-  });
+  const again = () => void commit(tracing, edit, { ...beside, bridging: true });
+  const edited = await inTurn(work, again);
+  if (edited) {
+    then?.(edited);
+  }
+  return edited;
 }
 
-/** The lines of all vessels that were clicked, by the ids of the vessels. */
-async function traced(
-  tracing: Tracing,
-  document: Document,
-  told: (progress: Progress) => void,
-): Promise<ReadonlyMap<number, LineId>> {
-  const clicked = document.vessels.filter(isClicked);
-  if (clicked.length === 0) {
-    return new Map();
+/** What comes of an edit of the vessels that there are when it comes: it is asked for again after a redo meanwhile. */
+async function latest(ask: (document: Document) => Promise<Edited>): Promise<Edited> {
+  for (;;) {
+    const before = document_.value;
+    const edited = await ask(before);
+    const now = document_.value;
+    if (now.vessels === before.vessels && now.stoppers === before.stoppers && now.bridge === before.bridge) {
+      return edited;
+    }
   }
-  const beside = document.vessels.filter((vessel) => !isClicked(vessel) && vessel.doubt === null);
-  const request = {
-    vessels: clicked.map((vessel) => vessel.clicks),
-    stoppers: document.stoppers,
-    bridge: document.bridge,
-    beside: beside.map((vessel) => vessel.line),
-  };
-  const lines = await tracing.trace(request, told).catch((error: unknown) => {
-    throw inNames(Failure.of(error), clicked, document_.value);
-  });
-  return new Map(clicked.map((vessel, n) => [vessel.id, lines[n] ?? vessel.line]));
 }
+
+/** Whether an edit was done. */
+export const isDone = (edit: Promise<unknown>): Promise<boolean> => edit.then((result) => result !== null);

@@ -1,23 +1,7 @@
 /** What the user made of a scan: vessels, stoppers and marks. It is never changed in place; `history.ts` keeps what was before. */
+import type { VesselDocument } from '../core/edits';
 import type { Marks } from '../core/measuring';
-import type { LineId, Pair, Vector } from '../core/messages';
-import type { Stopper } from '../core/tracing';
-
-/** A vessel that the user sees in the list. */
-export interface DocumentVessel {
-  /** Stays the same through edits; never given twice in a study. */
-  readonly id: number;
-  /** The line that the engine holds. */
-  readonly line: LineId;
-  readonly name: string;
-  /** `#rrggbb` */
-  readonly color: string;
-  readonly isHidden: boolean;
-  /** Where it was clicked, in order along it; null where it came from a file, a mask, a seed, or was cut or joined. */
-  readonly clicks: readonly Vector[] | null;
-  /** Why a branch from a seed is doubtful: it is shown apart until it is accepted. Null where it is not. */
-  readonly doubt: string | null;
-}
+import type { Pair, Vector } from '../core/messages';
 
 /** A straight distance between two points. */
 export interface Ruler {
@@ -33,11 +17,7 @@ export interface VesselMarks extends Marks {
   readonly secondStretch: Pair | null;
 }
 
-export interface Document {
-  readonly vessels: readonly DocumentVessel[];
-  readonly stoppers: readonly Stopper[];
-  /** Whether vessels go on where no lumen is seen. */
-  readonly bridge: boolean;
+export interface Document extends VesselDocument {
   /** By the id of the vessel. */
   readonly marks: Readonly<Record<number, VesselMarks>>;
   readonly rulers: readonly Ruler[];

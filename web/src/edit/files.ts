@@ -1,8 +1,7 @@
 /** The document's vessels as files of centerlines, and centerlines that come to a document. */
-import type { VesselReport } from '../core/messages';
-import type { CenterlineKind, Tracing } from '../core/tracing';
-import { nameOf, withVessels } from './changes';
-import { commitPlain } from './committing';
+import type { CenterlineKind, NamedLine, Tracing } from '../core/tracing';
+import { nameOf } from './changes';
+import { commit, isDone } from './committing';
 import { document_ } from './history';
 
 /** All vessels that are not doubtful as a file, also those that are hidden. */
@@ -13,10 +12,7 @@ export async function centerlineFile(tracing: Tracing, kind: CenterlineKind): Pr
 }
 
 /** Adds vessels that were read from files. */
-export const addLoaded = (vessels: readonly VesselReport[]): Promise<boolean> =>
-  commitPlain('open centerlines', (document) =>
-    withVessels(
-      document,
-      vessels.map(({ line, name }) => ({ line, name })),
-    ),
-  );
+export function addLoaded(tracing: Tracing, vessels: readonly NamedLine[]): Promise<boolean> {
+  const lines = vessels.map(({ line, name }) => ({ line, name }));
+  return isDone(commit(tracing, { kind: 'add_lines', lines }));
+}

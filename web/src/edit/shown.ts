@@ -1,12 +1,13 @@
 /** The tree that is shown follows the document: the visible vessels, without the doubtful ones, whenever they change. */
 import { batch, effect, signal } from '@preact/signals';
+import type { DocumentVessel, VesselDocument } from '../core/edits';
 import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
 import type { Tracing } from '../core/tracing';
 import * as store from '../state/store';
-import { documentOf, shownVessels } from './changes';
+import { shownVessels } from './changes';
 import { dropEdits } from './committing';
-import { type Document, type DocumentVessel, EMPTY } from './document';
+import { type Document, EMPTY } from './document';
 import { begin, document_ } from './history';
 import { active } from './tool';
 
@@ -22,10 +23,10 @@ const textOf = (vessels: readonly { line: number; name: string }[]): string =>
 
 let shownText = textOf([]);
 
-/** Another study, or none: the document begins with its vessels, and nothing can be undone. */
-export function beginStudy(report: Report | null): void {
+/** Another study, or none: the document begins with its vessels, which are shown already, and nothing can be undone. */
+export function beginStudy(vessels: VesselDocument | null): void {
   dropEdits();
-  const document = report ? documentOf(report.vessels ?? []) : EMPTY;
+  const document = { ...EMPTY, ...vessels };
   batch(() => {
     active.value = null;
     tree.value = document.vessels;

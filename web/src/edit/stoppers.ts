@@ -1,29 +1,16 @@
 /** Balls that no vessel may pass. */
 import type { Vector } from '../core/messages';
 import type { Tracing } from '../core/tracing';
-import { withStopper } from './changes';
-import { commit } from './committing';
+import { commit, isDone } from './committing';
 
 /** What a stopper is for. */
 export const STOPPER = 'A ball that no vessel may pass: set it where the line takes a wrong way';
 
-/** The radius of a stopper (mm), as in Python. */
-export const STOPPER_RADIUS = 3;
+export const addStopper = (tracing: Tracing, center: Vector): Promise<boolean> =>
+  isDone(commit(tracing, { kind: 'add_stopper', center }));
 
-export function addStopper(tracing: Tracing, center: Vector): Promise<boolean> {
-  const stopper = { center, radius: STOPPER_RADIUS };
-  return commit(tracing, 'add a stopper', (document) =>
-    withStopper(document, document.stoppers.length, stopper),
-  );
-}
+export const moveStopper = (tracing: Tracing, number: number, center: Vector): Promise<boolean> =>
+  isDone(commit(tracing, { kind: 'move_stopper', number, center }));
 
-export function moveStopper(tracing: Tracing, number: number, center: Vector): Promise<boolean> {
-  return commit(tracing, 'move a stopper', (document) => {
-    const stopper = document.stoppers[number];
-    return stopper ? withStopper(document, number, { ...stopper, center }) : document;
-  });
-}
-
-export function removeStopper(tracing: Tracing, number: number): Promise<boolean> {
-  return commit(tracing, 'remove a stopper', (document) => withStopper(document, number, null));
-}
+export const removeStopper = (tracing: Tracing, number: number): Promise<boolean> =>
+  isDone(commit(tracing, { kind: 'remove_stopper', number }));

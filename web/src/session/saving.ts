@@ -1,11 +1,12 @@
 /** Saving the session, and going on with a saved one. */
 import { batch, effect, untracked } from '@preact/signals';
+import type { DocumentVessel } from '../core/edits';
 import { Failure } from '../core/failure';
 import type { GivenFile, Method } from '../core/messages';
 import type { SavedView } from '../core/session-file';
 import { engine } from '../core/shared';
 import { shownVessels } from '../edit/changes';
-import type { Document, DocumentVessel } from '../edit/document';
+import type { Document } from '../edit/document';
 import { document_ } from '../edit/history';
 import { beginDocument, pickedId, tree } from '../edit/shown';
 import { giveFwhm, givenFwhm } from '../measure/profiles';

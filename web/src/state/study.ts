@@ -100,6 +100,7 @@ async function showStudy(
   const camera = await engine.fitted('anterior', size);
   const histogram = report.volume ? await engine.histogram(128) : null;
   const hair = await firstPlace(engine, report);
+  const vessels = await engine.tracing.beginDocument();
   layDown();
   batch(() => {
     forget();
@@ -113,7 +114,7 @@ async function showStudy(
     store.crossHair.value = hair;
     store.pickedVessel.value = hair?.vessel ?? null;
     store.pickedPlace.value = hair?.arcLength ?? 0;
-    beginStudy(report);
+    beginStudy(vessels);
   });
 }
 
@@ -124,7 +125,7 @@ const hasEdits = (): boolean =>
 /** Centerlines come to the vessels that there are, as a step that can be undone; the views show the longest of them. */
 async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {
   const loaded = report.vessels ?? [];
-  await addLoaded(loaded);
+  await addLoaded(engine.tracing, loaded);
   await showAgain(engine.tracing);
   store.notes.value = notes;
   const line = loaded[longest(report)]?.line;

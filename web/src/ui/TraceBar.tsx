@@ -110,9 +110,9 @@ function hintWords(): string {
 }
 
 function Doubt({ id, words }: { readonly id: number; readonly words: string }) {
-  const answer = (work: (ids: readonly number[]) => Promise<boolean>) => () => {
+  const answer = (work: typeof accept) => () => {
     chosenDoubt.value = null;
-    void work([id]);
+    void work(engine.tracing, [id]);
   };
   return (
     <div class="trace-bar over" role="status">

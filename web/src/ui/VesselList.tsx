@@ -1,9 +1,10 @@
 /** The list of vessels: their names, colours and lengths, and what can be done with all of them. */
+
+import type { DocumentVessel } from '../core/edits';
 import { engine } from '../core/shared';
 import { accept, leaveOut } from '../edit/branches';
 import { doubtful, nameOf } from '../edit/changes';
 import { setBridge } from '../edit/clicks';
-import type { DocumentVessel } from '../edit/document';
 import { document_, redo, redoWords, undoWords } from '../edit/history';
 import { lengthOf } from '../edit/lines';
 import { isListOpen, isTracing, toggleTool } from '../edit/mode';
@@ -32,7 +33,15 @@ export function VesselList() {
       </ul>
       {vessels.length > 1 && (
         <div class="buttons">
-          <button type="button" onClick={() => void remove(vessels.map((vessel) => vessel.id))}>
+          <button
+            type="button"
+            onClick={() =>
+              void remove(
+                engine.tracing,
+                vessels.map((vessel) => vessel.id),
+              )
+            }
+          >
             Delete all
           </button>
         </div>
@@ -115,10 +124,10 @@ function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) 
         </p>
       ))}
       <div class="buttons">
-        <button type="button" onClick={() => void accept(ids)}>
+        <button type="button" onClick={() => void accept(engine.tracing, ids)}>
           Accept all
         </button>
-        <button type="button" onClick={() => void leaveOut(ids)}>
+        <button type="button" onClick={() => void leaveOut(engine.tracing, ids)}>
           Leave all out
         </button>
       </div>
@@ -130,14 +139,14 @@ function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) 
             <button
               type="button"
               aria-label={`Accept ${nameOf(vessel)}`}
-              onClick={() => void accept([vessel.id])}
+              onClick={() => void accept(engine.tracing, [vessel.id])}
             >
               ✓
             </button>
             <button
               type="button"
               aria-label={`Leave ${nameOf(vessel)} out`}
-              onClick={() => void leaveOut([vessel.id])}
+              onClick={() => void leaveOut(engine.tracing, [vessel.id])}
             >
               ✕
             </button>

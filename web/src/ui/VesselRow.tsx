@@ -1,9 +1,9 @@
 /** A vessel of the list; the one that is picked shows what can be done with it. */
 import { batch } from '@preact/signals';
 import { useState } from 'preact/hooks';
+import type { DocumentVessel } from '../core/edits';
 import { engine } from '../core/shared';
 import { nameOf } from '../edit/changes';
-import type { DocumentVessel } from '../edit/document';
 import { document_ } from '../edit/history';
 import { lengthOf } from '../edit/lines';
 import { PALETTE } from '../edit/palette';
@@ -132,7 +132,7 @@ function Means({ vessel }: RowProps) {
           ))}
         </select>
       )}
-      <button type="button" onClick={() => void remove([id])}>
+      <button type="button" onClick={() => void remove(engine.tracing, [id])}>
         Delete
       </button>
     </div>

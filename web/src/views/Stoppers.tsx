@@ -1,7 +1,8 @@
 /** Stoppers over a view: the circles that slices cut out of them, which can be dragged and removed. */
+
+import type { Stopper } from '../core/edits';
 import type { Vector } from '../core/messages';
 import { engine } from '../core/shared';
-import type { Stopper } from '../core/tracing';
 import { add } from '../core/vectors';
 import { draggedStopper } from '../edit/drawing';
 import { document_ } from '../edit/history';

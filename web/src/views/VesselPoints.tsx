@@ -1,10 +1,11 @@
 /** The points of vessels over a view: each can be dragged, moved by keys and removed. */
+
+import type { DocumentVessel } from '../core/edits';
 import type { Vector } from '../core/messages';
 import { engine } from '../core/shared';
 import { add } from '../core/vectors';
 import { nameOf } from '../edit/changes';
 import { moveClick, removeClick } from '../edit/clicks';
-import type { DocumentVessel } from '../edit/document';
 import { dragged, isDrawing } from '../edit/drawing';
 import { document_ } from '../edit/history';
 import { isTracing } from '../edit/mode';

@@ -1,6 +1,7 @@
 /** Lines in space as curves over a view: their paths, and which of them a pixel is on. */
+
+import type { DocumentVessel } from '../core/edits';
 import type { Pair, Vector } from '../core/messages';
-import type { DocumentVessel } from '../edit/document';
 import { document_ } from '../edit/history';
 import { contents } from '../edit/lines';
 import type { Projection } from './projection';
@@ -64,14 +65,4 @@ export function curveAt(projection: Projection, [x, y]: Pair): Hit | null {
     });
   }
   return best;
-}
-
-/** Before which click of a vessel a point of its line lies. */
-export function clickAfter(clicks: readonly Vector[], points: readonly Vector[], number: number): number {
-  const placeOf = (click: Vector) => {
-    const distances = points.map((point) => Math.hypot(...point.map((part, n) => part - (click[n] ?? 0))));
-    return distances.indexOf(Math.min(...distances));
-  };
-  const after = clicks.findIndex((click) => placeOf(click) > number);
-  return after < 0 ? clicks.length - 1 : Math.max(after, 1);
 }

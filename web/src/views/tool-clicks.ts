@@ -1,18 +1,16 @@
 /** Clicks and moves of the pointer in a view, while a tool is in use that sets points. */
 import type { Pair, Vector } from '../core/messages';
 import { engine } from '../core/shared';
-import { giveClicks, insertClick } from '../edit/clicks';
+import { addClickOnLine } from '../edit/clicks';
 import { anchor, candidate, drawn, first, target } from '../edit/drawing';
-import { contents } from '../edit/lines';
 import { chosenDoubt, isTracing } from '../edit/mode';
 import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
-import { pointsAlong } from '../edit/points';
 import { tool } from '../edit/tool';
 import type { Action, Where } from '../input/bindings';
 import { placeCrossHair } from '../link/cross-hair';
 import { recover } from '../state/device';
 import { crossHair, type ViewName } from '../state/store';
-import { clickAfter, curveAt, isAt } from './curves';
+import { curveAt, isAt } from './curves';
 import { Latest } from './latest';
 import type { Projection } from './projection';
 
@@ -107,15 +105,8 @@ function endAt(view: Pointed, at: Pair): void {
 
 function addOnCurve({ projection }: Pointed, at: Pair): void {
   const hit = curveAt(projection, at);
-  const points = hit && contents.value.get(hit.vessel.line)?.points;
-  if (!points || hit.vessel.doubt !== null) {
-    return;
-  }
-  const { id, clicks } = hit.vessel;
-  if (clicks) {
-    void insertClick(engine.tracing, id, clickAfter(clicks, points, hit.number), hit.point);
-  } else {
-    void giveClicks(engine.tracing, id, pointsAlong(points, hit.number));
+  if (hit) {
+    void addClickOnLine(engine.tracing, hit.vessel.id, hit.point);
   }
 }
 

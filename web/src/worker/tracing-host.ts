@@ -1,17 +1,10 @@
 /** What the page asks its worker for to trace and edit centerlines. */
 import { proxyMarker, transfer } from 'comlink';
+import type { Edited, EditRequest, VesselDocument } from '../core/edits';
 import { Failure } from '../core/failure';
 import type { GivenFile, LineId, Pick, Progress, Report, Vector, View } from '../core/messages';
 import { type Engine, loadJudge } from '../core/module';
-import type {
-  CenterlineKind,
-  LineContent,
-  MaskLines,
-  NamedLine,
-  PathRequest,
-  SeedBranch,
-  TraceRequest,
-} from '../core/tracing';
+import type { CenterlineKind, LineContent, NamedLine, PathRequest } from '../core/tracing';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
@@ -34,8 +27,16 @@ export class TracingHost {
 
   constructor(private readonly lent: Lent) {}
 
-  trace(request: TraceRequest, told: Told): Promise<LineId[]> {
-    return this.long('Tracing', told, (engine, heard) => engine.trace(JSON.stringify(request), heard));
+  beginDocument(): Promise<VesselDocument> {
+    return this.asked((engine) => engine.begin_document());
+  }
+
+  edit(request: EditRequest, told: Told, mask: readonly GivenFile[] | null): Promise<Edited> {
+    const signal = this.lent.signal();
+    return this.lent.run(async (engine) => {
+      refuseStopped(signal);
+      return mask ? withMask(engine, request, told, { files: mask, signal }) : edited(engine, request, told);
+    });
   }
 
   checkClick(click: Vector): Promise<void> {
@@ -48,39 +49,6 @@ export class TracingHost {
 
   brightest(view: View, column: number, row: number): Promise<Pick> {
     return this.asked((engine) => engine.brightest(JSON.stringify(view), column, row));
-  }
-
-  traceFrom(seed: Vector, smallestRadius: number | null, told: Told): Promise<SeedBranch[]> {
-    const work = (engine: Engine, heard: Heard) =>
-      engine.trace_from(JSON.stringify(seed), smallestRadius ?? undefined, heard);
-    return this.long('Finding branches', told, work);
-  }
-
-  /** Reads a mask as scans are read, and traces it. */
-  traceMask(files: readonly GivenFile[], told: Told): Promise<MaskLines> {
-    const signal = this.lent.signal();
-    return this.lent.run(async (engine) => {
-      const study = new MaskStudy(engine);
-      try {
-        const sources = files.map(({ path, file }) => new BlobSource(path, file));
-        const { openFiles } = await import('../io/study');
-        const means = { study, loadJudge, steps: new Steps(told, signal) };
-        const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, means);
-        refuseStopped(signal);
-        const made: MaskLines = JSON.parse(engine.trace_mask(hearing('Tracing the mask', told)));
-        return { ...made, notes: [...notes, ...made.notes] };
-      } finally {
-        engine.end_mask();
-      }
-    });
-  }
-
-  cut(line: LineId, arcLength: number): Promise<[LineId, LineId]> {
-    return this.asked((engine) => engine.cut(line, arcLength));
-  }
-
-  join(first: LineId, second: LineId): Promise<LineId> {
-    return this.lent.run((engine) => engine.join(first, second));
   }
 
   line(line: LineId): Promise<LineContent> {
@@ -109,22 +77,45 @@ export class TracingHost {
   private asked<T>(work: (engine: Engine) => string): Promise<T> {
     return this.lent.run((engine) => JSON.parse(work(engine)));
   }
-
-  /** Work that can be stopped, and tells how far it is. */
-  private long<T>(words: string, told: Told, work: (engine: Engine, heard: Heard) => string): Promise<T> {
-    const signal = this.lent.signal();
-    return this.asked((engine) => {
-      refuseStopped(signal);
-      return work(engine, hearing(words, told));
-    });
-  }
 }
 
-/** Hears the share that is done. */
-type Heard = (share: number) => void;
+/** What edits are called that take a while; all others trace. */
+const WORDS: Partial<Record<EditRequest['edit']['kind'], string>> = {
+  add_branches: 'Finding branches',
+  add_mask: 'Tracing the mask',
+};
 
-function hearing(words: string, told: Told): Heard {
-  return (share) => told({ words, done: Math.round(100 * share), total: 100 });
+function edited(engine: Engine, request: EditRequest, told: Told): Edited {
+  const words = WORDS[request.edit.kind] ?? 'Tracing';
+  const heard = (share: number) => told({ words, done: Math.round(100 * share), total: 100 });
+  return JSON.parse(engine.edit(JSON.stringify(request), heard));
+}
+
+/** The files of a mask, and what says stop while they are read. */
+interface Mask {
+  readonly files: readonly GivenFile[];
+  readonly signal: AbortSignal;
+}
+
+/** Reads a mask as scans are read, and has it traced. */
+async function withMask(
+  engine: Engine,
+  request: EditRequest,
+  told: Told,
+  { files, signal }: Mask,
+): Promise<Edited> {
+  const study = new MaskStudy(engine);
+  try {
+    const sources = files.map(({ path, file }) => new BlobSource(path, file));
+    const { openFiles } = await import('../io/study');
+    const means = { study, loadJudge, steps: new Steps(told, signal) };
+    const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, means);
+    refuseStopped(signal);
+    const made = edited(engine, request, told);
+    return { ...made, notes: [...notes, ...made.notes] };
+  } finally {
+    engine.end_mask();
+  }
 }
 
 function refuseStopped(signal: AbortSignal): void {

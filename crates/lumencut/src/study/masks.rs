@@ -13,7 +13,6 @@ use lumencut_vessels::trace::mask::{MaskRequest, TracedMask, trace_mask};
 use lumencut_vessels::trace::skeleton::PARENT_RADII;
 use lumencut_vessels::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_vessels::voxels::Voxels;
-use serde::Serialize;
 
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::VolumeHeader;
@@ -27,8 +26,8 @@ use crate::study::voxels::Stored;
 const MOST_LABELS: usize = 1000;
 
 /// The lines of a mask, and what was odd about it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MaskLines {
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct MaskLines {
     /// The lines, each with the name of its label; empty where the mask has one alone.
     pub lines: Vec<NamedLine>,
     /// One sentence each.
@@ -64,7 +63,7 @@ impl Study {
     ///
     /// # Errors
     /// `volume` for an invalid mask, or one that lies elsewhere than the volume, `interrupted`.
-    pub fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
+    pub(crate) fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
         let mask = self.mask.take().ok_or_else(no_mask)?;
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         check_same_grid(&mask.volume()?, &volume)?;

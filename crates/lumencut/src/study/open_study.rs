@@ -47,6 +47,8 @@ pub struct Study {
     /// What is known of the volume from one tracing to the next, and the lines that it gave last.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
+    /// The largest id that a vessel of the document was given.
+    pub(crate) last_id: u32,
     /// A mask that is read to be traced.
     pub(crate) mask: Option<HeldVolume>,
 }

@@ -30,19 +30,24 @@ pub struct Watch<'a> {
 }
 
 /// A ball that no vessel may pass.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct StopperMessage {
-    center: [f64; 3],
-    radius: f64,
+    /// Its center.
+    pub center: [f64; 3],
+    /// Its radius (mm).
+    pub radius: f64,
 }
 
-/// Vessels that are clicked: at least two points for each.
-#[derive(Clone, Debug, Deserialize)]
-pub struct TraceMessage {
-    vessels: Vec<Vec<[f64; 3]>>,
-    stoppers: Vec<StopperMessage>,
-    bridge: bool,
-    beside: Vec<usize>,
+/// Vessels that are clicked.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct TraceRequest {
+    /// At least two points for each.
+    pub vessels: Vec<Vec<[f64; 3]>>,
+    pub stoppers: Vec<StopperMessage>,
+    /// Whether stretches without lumen are bridged, however long.
+    pub bridge: bool,
+    /// Lines that exist already and do not change: a traced vessel that meets one of them ends at a point of it.
+    pub beside: Vec<usize>,
 }
 
 /// A way to where the pointer is.
@@ -55,8 +60,8 @@ pub struct PathMessage {
 }
 
 /// A branch that a seed reaches.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SeedLine {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SeedLine {
     /// The number of its line.
     pub line: usize,
     /// Why it is doubtful; none where it is not.
@@ -74,13 +79,13 @@ impl Study {
     ///
     /// # Errors
     /// `tracing` as [`lumencut_vessels::trace::clicks::tracer::Tracer::trace`], `volume` where none is open, `interrupted`.
-    pub fn trace(&mut self, message: &TraceMessage, watch: Watch) -> Result<Vec<usize>> {
+    pub(crate) fn trace(&mut self, request: &TraceRequest, watch: Watch) -> Result<Vec<usize>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
-        let beside = message.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
+        let beside = request.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
         let clicks = Clicks {
-            vessels: message.vessels.iter().map(|points| places(points)).collect(),
-            stoppers: message.stoppers.iter().map(Stopper::from).collect(),
-            bridge: message.bridge,
+            vessels: request.vessels.iter().map(|points| places(points)).collect(),
+            stoppers: request.stoppers.iter().map(Stopper::from).collect(),
+            bridge: request.bridge,
             beside: beside.collect::<Result<_>>()?,
         };
         if clicks.vessels.is_empty() {
@@ -117,22 +122,14 @@ impl Study {
         Ok(way.map(|points| points.iter().map(|point| point.to_array()).collect()))
     }
 
-    /// All branches that a seed reaches, down to a radius (mm); the doubtful ones last.
+    /// All branches that a seed reaches, down to the radius of Python; the doubtful ones last.
     ///
     /// # Errors
-    /// `tracing` as [`seed::trace_from`], `settings` for an invalid radius, `volume` where none is open,
+    /// `tracing` as [`seed::trace_from`], `volume` where none is open,
     /// `interrupted`.
-    pub fn trace_from(
-        &mut self,
-        seed: [f64; 3],
-        smallest_radius: Option<f64>,
-        watch: Watch,
-    ) -> Result<Vec<SeedLine>> {
+    pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<SeedLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
-        let smallest_radius = smallest_radius.unwrap_or(seed::SMALLEST_RADIUS);
-        if !(smallest_radius.is_finite() && smallest_radius >= 0.0) {
-            return Err(Failure::of_message("smallest radius", &smallest_radius, "0 or more (mm)"));
-        }
+        let smallest_radius = seed::SMALLEST_RADIUS;
         let Watch { stop, progress } = watch;
         let seed = DVec3::from_array(seed);
         let request = seed::SeedRequest { seed, smallest_radius, stop, progress: Some(progress) };
@@ -148,7 +145,7 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not, and a place that is not between its ends.
-    pub fn cut(&mut self, line: usize, at: f64) -> Result<[usize; 2]> {
+    pub(crate) fn cut(&mut self, line: usize, at: f64) -> Result<[usize; 2]> {
         let [first, second] = cut(&*self.lines.get(line)?, at)?;
         Ok([self.lines.add(first)?, self.lines.add(second)?])
     }
@@ -157,7 +154,7 @@ impl Study {
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not, one that is joined to itself, and ends that are far apart.
-    pub fn join(&mut self, first: usize, second: usize) -> Result<usize> {
+    pub(crate) fn join(&mut self, first: usize, second: usize) -> Result<usize> {
         if first == second {
             let found = "the same line twice";
             let error = Error::new(ErrorKind::VesselTree, "lines to join", found, "two lines");

@@ -1,5 +1,6 @@
 //! What viewers rely on.
 
+mod edits;
 mod lines;
 mod masks;
 mod planes;

@@ -7,7 +7,7 @@ use serde_json::{Value as Json, json};
 
 use super::opened;
 use crate::study::open_study::Study;
-use crate::study::tracing::{PathMessage, TraceMessage, Watch};
+use crate::study::tracing::{PathMessage, TraceRequest, Watch};
 
 /// The header of a grid of 16-bit voxels.
 fn header(size: [usize; 3], world_from_index: DAffine3) -> String {
@@ -16,7 +16,7 @@ fn header(size: [usize; 3], world_from_index: DAffine3) -> String {
 }
 
 /// A phantom that the page does not offer.
-fn holding(phantom: Phantom) -> Study {
+pub fn holding(phantom: Phantom) -> Study {
     let mut study = Study::default();
     study.begin_volume(&header(phantom.size, phantom.world_from_index)).expect("room");
     let bytes: Vec<u8> = phantom.voxels.iter().flat_map(|voxel| voxel.to_le_bytes()).collect();
@@ -25,17 +25,20 @@ fn holding(phantom: Phantom) -> Study {
     study
 }
 
-fn traced(study: &mut Study, message: Json, stop: bool) -> crate::study::failure::Result<Vec<usize>> {
-    let message: TraceMessage = serde_json::from_value(message).expect("a message");
-    study.trace(&message, Watch { stop: &|| stop, progress: &Progress::default() })
+fn traced(
+    study: &mut Study,
+    request: &TraceRequest,
+    stop: bool,
+) -> crate::study::failure::Result<Vec<usize>> {
+    study.trace(request, Watch { stop: &|| stop, progress: &Progress::default() })
 }
 
-fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> Json {
-    json!({"vessels": vessels, "stoppers": [], "bridge": false, "beside": beside})
+fn request(vessels: &[Vec<[f64; 3]>], beside: &[usize]) -> TraceRequest {
+    TraceRequest { vessels: vessels.to_vec(), beside: beside.to_vec(), ..TraceRequest::default() }
 }
 
 /// Two clicks on a vessel of the phantom, a number of points from its ends.
-fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
+pub fn clicks(study: &Study, vessel: usize, from_ends: usize) -> Vec<[f64; 3]> {
     let points = study.content.tree().expect("a tree").tree().vessels()[vessel].points().to_vec();
     vec![points[from_ends].to_array(), points[points.len() - 1 - from_ends].to_array()]
 }
@@ -45,7 +48,7 @@ fn path(study: &mut Study, message: Json, stop: bool) -> Option<Vec<[f64; 3]>> {
     study.path(&message, &|| stop).expect("an open volume")
 }
 
-fn points(study: &Study, line: usize) -> Vec<DVec3> {
+pub fn points(study: &Study, line: usize) -> Vec<DVec3> {
     study.lines.get(line).expect("a line").points.clone()
 }
 
@@ -53,12 +56,12 @@ fn points(study: &Study, line: usize) -> Vec<DVec3> {
 fn a_line_that_is_what_it_was_keeps_its_number() {
     let mut study = opened("y_junction");
     let (first, second) = (clicks(&study, 0, 3), clicks(&study, 1, 3));
-    let lines = traced(&mut study, request(&[first.clone(), second.clone()], &[]), false).expect("lines");
-    let again = traced(&mut study, request(&[first.clone(), second], &[]), false).expect("lines");
+    let lines = traced(&mut study, &request(&[first.clone(), second.clone()], &[]), false).expect("lines");
+    let again = traced(&mut study, &request(&[first.clone(), second], &[]), false).expect("lines");
     assert_eq!(lines, again);
-    let alone = traced(&mut study, request(&[first], &[]), false).expect("a line");
+    let alone = traced(&mut study, &request(&[first], &[]), false).expect("a line");
     assert_eq!(alone, lines[..1]);
-    assert!(traced(&mut study, request(&[], &[]), false).expect("none").is_empty());
+    assert!(traced(&mut study, &request(&[], &[]), false).expect("none").is_empty());
 }
 
 #[test]
@@ -69,10 +72,10 @@ fn a_vessel_ends_at_a_point_of_a_line_beside_it_which_stays() {
     let branch = points(&study, 1);
     let click = |point: DVec3| (point + DVec3::new(0.2, 0.0, 0.1)).to_array();
     let vessel = vec![click(trunk[trunk.len() - 2]), branch[branch.len() - 4].to_array()];
-    let lines = traced(&mut study, request(std::slice::from_ref(&vessel), &[0]), false).expect("a line");
+    let lines = traced(&mut study, &request(std::slice::from_ref(&vessel), &[0]), false).expect("a line");
     assert!(trunk.contains(&points(&study, lines[0])[0]));
     assert_eq!(points(&study, 0), trunk);
-    let loose = traced(&mut study, request(&[vessel], &[]), false).expect("a line");
+    let loose = traced(&mut study, &request(&[vessel], &[]), false).expect("a line");
     assert!(!trunk.contains(&points(&study, loose[0])[0]));
 }
 
@@ -80,7 +83,7 @@ fn a_vessel_ends_at_a_point_of_a_line_beside_it_which_stays() {
 fn a_vessel_within_a_line_beside_it_is_refused() {
     let mut study = opened("stenosis");
     let vessel = clicks(&study, 0, 6);
-    let failure = traced(&mut study, request(&[vessel], &[0]), false).expect_err("the same vessel");
+    let failure = traced(&mut study, &request(&[vessel], &[0]), false).expect_err("the same vessel");
     assert_eq!(failure.kind, "tracing");
     assert!(failure.found.contains("within earlier ones"));
 }
@@ -89,9 +92,9 @@ fn a_vessel_within_a_line_beside_it_is_refused() {
 fn tracing_stops_and_can_begin_again() {
     let mut study = opened("y_junction");
     let vessel = clicks(&study, 0, 3);
-    let failure = traced(&mut study, request(std::slice::from_ref(&vessel), &[]), true).expect_err("a stop");
+    let failure = traced(&mut study, &request(std::slice::from_ref(&vessel), &[]), true).expect_err("a stop");
     assert_eq!(failure.kind, "interrupted");
-    assert_eq!(traced(&mut study, request(&[vessel], &[]), false).expect("a line").len(), 1);
+    assert_eq!(traced(&mut study, &request(&[vessel], &[]), false).expect("a line").len(), 1);
 }
 
 #[test]
@@ -101,7 +104,7 @@ fn a_click_in_no_lumen_is_refused_with_its_place_and_value() {
     let corner = study.content.held.as_ref().expect("a volume").volume().expect("one").corners()[0];
     vessel[1] = corner.lerp(DVec3::from_array(vessel[1]), 0.05).to_array();
     let failure =
-        traced(&mut study, request(std::slice::from_ref(&vessel), &[]), false).expect_err("no lumen");
+        traced(&mut study, &request(std::slice::from_ref(&vessel), &[]), false).expect_err("no lumen");
     let seen = failure.more.seen.as_ref().expect("a place");
     assert_eq!(seen.place, vessel[1]);
     assert!(seen.value < 100.0);
@@ -128,7 +131,7 @@ fn two_vessels_that_do_not_meet_are_refused_at_the_weakest_place() {
     let mut study = holding(lumencut_phantom::crossing().expect("a phantom"));
     let [first, second] = [0, 1].map(|vessel| points(&study, vessel));
     let vessel = vec![first[first.len() / 4].to_array(), second[second.len() / 4].to_array()];
-    let failure = traced(&mut study, request(&[vessel], &[]), false).expect_err("no lumen between");
+    let failure = traced(&mut study, &request(&[vessel], &[]), false).expect_err("no lumen between");
     let seen = failure.more.seen.expect("a place");
     let place = DVec3::from_array(seen.place);
     let away = |line: &[DVec3]| line.iter().map(|point| point.distance(place)).fold(f64::MAX, f64::min);
@@ -182,7 +185,7 @@ fn a_seed_finds_all_branches() {
     let mut study = opened("y_junction");
     let seed = clicks(&study, 0, 10)[0];
     let watch = Watch { stop: &|| false, progress: &Progress::default() };
-    let branches = study.trace_from(seed, None, watch).expect("branches");
+    let branches = study.trace_from(seed, watch).expect("branches");
     assert!(branches.len() >= 2 && branches.iter().all(|branch| branch.doubt.is_none()));
     let found: Vec<DVec3> = branches.iter().flat_map(|branch| points(&study, branch.line)).collect();
     for vessel in 0..3 {
@@ -190,7 +193,6 @@ fn a_seed_finds_all_branches() {
         let middle = middle[middle.len() / 2];
         assert!(found.iter().any(|point| point.distance(middle) < 0.6));
     }
-    assert_eq!(study.trace_from(seed, Some(f64::NAN), watch).expect_err("no radius").kind, "settings");
     let stopped = Watch { stop: &|| true, ..watch };
-    assert_eq!(study.trace_from(seed, None, stopped).expect_err("a stop").kind, "interrupted");
+    assert_eq!(study.trace_from(seed, stopped).expect_err("a stop").kind, "interrupted");
 }

@@ -1,0 +1,152 @@
+//! Edits of vessels: which of them are traced again, and beside which.
+
+use glam::DVec3;
+
+use crate::study::document::{Document, DocumentVessel, Place};
+use crate::study::draft::Draft;
+use crate::study::edits::{Edit, EditMessage, Edited};
+use crate::study::failure::Result;
+use crate::study::open_study::Study;
+use crate::study::points_along::{click_after, nearest_point, points_along};
+use crate::study::tracing::{TraceRequest, Watch};
+
+impl Study {
+    /// The document that the study begins with: the vessels that were opened, counted from 1.
+    pub fn begin_document(&mut self) -> Document {
+        let mut draft = Draft::default();
+        if let Some(named) = &self.content.named {
+            for (line, name) in named.lines.iter().zip(&named.names) {
+                draft.add(*line, name.clone());
+            }
+        }
+        self.last_id = draft.last_id;
+        draft.document
+    }
+
+    /// The document after an edit. After one of clicks, stoppers or bridges all vessels that were clicked are traced again, beside
+    /// the others that are not doubtful.
+    ///
+    /// # Errors
+    /// Those of tracing, with the names of the vessels, of cutting and joining, of seeds and masks; `interrupted`. Where
+    /// the error is mended by `bridge`, the same edit with [`EditMessage::bridging`] may succeed.
+    pub fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
+        let mut draft = Draft::of(message.document.clone(), self.last_id);
+        let mut notes = Vec::new();
+        let is_traced = match &message.edit {
+            Edit::AddBranches { seed } => self.add_branches(&mut draft, *seed, watch).map(|()| false),
+            Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
+            Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
+            Edit::Join { id, other } => self.join_vessels(&mut draft, *id, *other).map(|()| false),
+            Edit::AddClickOnLine { id, point } => {
+                self.add_click_on_line(&mut draft, *id, *point).map(|()| true)
+            }
+            other => Ok(changed(&mut draft, other)),
+        }?;
+        draft.document.bridge |= message.bridging;
+        if (is_traced || message.bridging) && draft.document != message.document {
+            self.trace_clicked(&mut draft, watch)?;
+        }
+        self.last_id = draft.last_id;
+        let Draft { document, added, without_marks, .. } = draft;
+        Ok(Edited { document, words: message.words(), added, without_marks, notes })
+    }
+
+    /// Traces all vessels that were clicked.
+    fn trace_clicked(&mut self, draft: &mut Draft, watch: Watch) -> Result<()> {
+        let Document { vessels, stoppers, bridge } = &draft.document;
+        let request = TraceRequest {
+            vessels: draft.clicked().map(|(_, clicks)| clicks.clone()).collect(),
+            stoppers: stoppers.clone(),
+            bridge: *bridge,
+            beside: vessels.iter().filter(|vessel| is_beside(vessel)).map(|vessel| vessel.line).collect(),
+        };
+        if request.vessels.is_empty() {
+            return Ok(());
+        }
+        let lines = self.trace(&request, watch).map_err(|failure| draft.in_names(failure))?;
+        let clicked = draft.document.vessels.iter_mut().filter(|vessel| vessel.clicks.is_some());
+        for (vessel, line) in clicked.zip(lines) {
+            vessel.line = line;
+        }
+        Ok(())
+    }
+
+    fn add_branches(&mut self, draft: &mut Draft, seed: Place, watch: Watch) -> Result<()> {
+        for branch in self.trace_from(seed, watch)? {
+            draft.add_named(branch.line, "", "Branch").doubt = branch.doubt.map(str::to_owned);
+        }
+        Ok(())
+    }
+
+    fn add_mask(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {
+        let mask = self.trace_mask(watch)?;
+        *notes = mask.notes;
+        for named in mask.lines {
+            draft.add_named(named.line, &named.name, "Mask");
+        }
+        Ok(())
+    }
+
+    fn cut_vessel(&mut self, draft: &mut Draft, id: u32, at: f64) -> Result<()> {
+        if let Some(vessel) = draft.document.vessel(id) {
+            let parts = self.cut(vessel.line, at)?;
+            draft.part(id, parts);
+        }
+        Ok(())
+    }
+
+    fn join_vessels(&mut self, draft: &mut Draft, id: u32, other: u32) -> Result<()> {
+        let both = draft.document.vessel(id).zip(draft.document.vessel(other));
+        if let Some((first, second)) = both.filter(|_| id != other) {
+            let line = self.join(first.line, second.line)?;
+            draft.replace(id, line);
+            draft.remove(&[other]);
+        }
+        Ok(())
+    }
+
+    fn add_click_on_line(&mut self, draft: &mut Draft, id: u32, point: Place) -> Result<()> {
+        let Some(vessel) = draft.document.vessel(id).filter(|vessel| vessel.doubt.is_none()) else {
+            return Ok(());
+        };
+        let line = self.lines.get(vessel.line)?;
+        let number = nearest_point(&line.points, DVec3::from_array(point));
+        if let Some(clicks) = &vessel.clicks {
+            let clicks: Vec<DVec3> = clicks.iter().copied().map(DVec3::from_array).collect();
+            draft.insert_click(id, Some(click_after(&clicks, &line.points, number)), point);
+        } else {
+            let chosen = points_along(&line.points, number).into_iter();
+            draft.give_clicks(id, chosen.map(|n| line.points[n].to_array()).collect());
+        }
+        Ok(())
+    }
+}
+
+/// Whether a vessel is met by those that are traced between clicks.
+fn is_beside(vessel: &DocumentVessel) -> bool {
+    vessel.clicks.is_none() && vessel.doubt.is_none()
+}
+
+/// Makes an edit that needs nothing but the document; says whether the vessels that were clicked are traced again.
+fn changed(draft: &mut Draft, edit: &Edit) -> bool {
+    match edit {
+        Edit::BeginVessel { clicks } => draft.begin(clicks),
+        Edit::AddClick { id, point } => draft.insert_click(*id, None, *point),
+        Edit::MoveClick { id, number, point } => draft.move_click(*id, *number, *point),
+        Edit::RemoveClick { id, number } => return draft.remove_click(*id, *number),
+        Edit::SetBridge { bridge } => draft.document.bridge = *bridge,
+        Edit::AddStopper { .. } | Edit::MoveStopper { .. } | Edit::RemoveStopper { .. } => {
+            draft.change_stoppers(edit);
+        }
+        Edit::Remove { ids } => draft.remove(ids),
+        Edit::Accept { ids } => draft.accept(ids),
+        Edit::LeaveOut { ids } => draft.leave_out(ids),
+        Edit::AddLines { lines } => {
+            for named in lines {
+                draft.add(named.line, named.name.clone());
+            }
+        }
+        _ => {}
+    }
+    edit.is_of_clicks()
+}
