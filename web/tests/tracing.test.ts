@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
+import { nextColor, PALETTE } from '../src/edit/palette';
 import { distance, EMPTY, edited, lineOf, opened, refusal, unheard } from './traced';
 
 test('a vessel between two clicks follows the one that is there', async () => {
@@ -71,6 +72,19 @@ test('what is shown can be cut, joined and shown again', async () => {
   expect((await tracing.show([])).vessels).toBeNull();
   const far = await refusal(edited(tracing, { kind: 'cut', id: 1, at: 99 }, whole));
   expect(far.kind).toBe('vessel tree');
+});
+
+test('the colour of a vessel that is drawn is the one that the engine gives it', async () => {
+  const { tracing } = await opened('stenosis');
+  const { vessels } = await tracing.beginDocument();
+  const lines = Array.from({ length: 2 * PALETTE.length }, () => ({
+    line: vessels[0]?.line ?? -1,
+    name: '',
+  }));
+  const { document } = await edited(tracing, { kind: 'add_lines', lines });
+  for (const [n, vessel] of document.vessels.entries()) {
+    expect(vessel.color).toBe(nextColor(document.vessels.slice(0, n)));
+  }
 });
 
 test('a document comes back from the engine with the numbers that it had, to the last bit', async () => {
