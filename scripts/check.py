@@ -1,5 +1,7 @@
 """Every check of the repository, cheapest first; it stops at the first red one.
 
+Checks are in lanes that run beside each other: the page is compiled while Rust is checked, for neither
+keeps both cores busy.
 The last line is ``N passed, N failed``: the tests of Rust and Python together, and a red
 check that is no test counts as one that failed.
 Needs nothing but Python itself; the environment is the first check.
@@ -13,6 +15,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -25,6 +28,8 @@ ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
 PORTABLE = ("--workspace", "--exclude", "lumencut-python")
 """All crates but the extension module, which needs the Python of its target."""
+COMPILED_ELSEWHERE = {WASM, "aarch64-unknown-linux-gnu"}
+"""The page compiles what browsers load; for ARM stands macOS, as no code is meant for ARM under Linux."""
 CHECKS = ("--locked", "--profile", "checks")
 """One profile for all, so that what the compilations share is compiled once."""
 SCRIPTS = tuple(
@@ -38,6 +43,8 @@ TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
+MAIN, PAGE, PYTHON = "main", "page", "python"
+"""The lanes. That of the page and that of Rust have folders of their own for what they compile."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +70,10 @@ class Check:
     environment: dict[str, str] = field(default_factory=dict)
     count: Callable[[str], Count] | None = None
     report: str = ""
+    #: Checks of one lane run in their order; what the others print is shown when they are done.
+    lane: str = MAIN
+    #: Names of checks of other lanes that must be green before.
+    needs: tuple[str, ...] = ()
 
 
 def count_rust(text: str) -> Count:
@@ -90,39 +101,61 @@ def count_page(text: str) -> Count:
 
 def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
-    cargo = ("cargo", "--quiet")
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
+        *python_lints(),
+        *page_lints(),
+        *rust_lints(),
+        Check("package", ("make", "--no-print-directory", "develop", "PROFILE=checks"), needs=("tools",)),
+        Check("stubs", (f"{BIN}/python", "-m", "mypy.stubtest", "lumencut._lumencut")),
+    ]
+
+
+def python_lints() -> list[Check]:
+    """What needs the Python tools alone, one after the other."""
+    tools = Check("tools", ("make", "--no-print-directory", "tools"), lane=PYTHON, needs=("toolchain",))
+    commands = {
+        "format of Python": ("ruff", "format", "--check"),
+        "lint of Python": ("ruff", "check"),
+        "types": ("mypy",),
+        "types of the scripts": ("mypy", *SCRIPTS),
+    }
+    return [
+        tools,
+        *(Check(name, (f"{BIN}/{tool}", *words), lane=PYTHON) for name, (tool, *words) in commands.items()),
+    ]
+
+
+def page_lints() -> list[Check]:
+    """The page, which is compiled for browsers, and what is checked of its sources."""
+    return [
+        Check(
+            "page of the viewer", ("make", "--no-print-directory", "page"), lane=PAGE, needs=("toolchain",)
+        ),
+        Check("lint of the page", ("npm", "run", "lint", "--silent", "--prefix", "web"), lane=PAGE),
+        Check("size of the page", ("npm", "run", "size", "--silent", "--prefix", "web"), lane=PAGE),
+    ]
+
+
+def rust_lints() -> list[Check]:
+    """Format, lints and documentation of Rust, and what it compiles for."""
+    cargo = ("cargo", "--quiet")
+    lock = (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)
+    clippy = (*cargo, "clippy", *CHECKS, "--workspace", "--all-targets", "--", "-D", "warnings")
+    targets = (f"--target={one}" for one in TARGETS if one not in COMPILED_ELSEWHERE)
+    return [
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
         # Fuzzing comes last and has a lock file of its own: what a crate newly depends on is asked for here.
-        Check(
-            "lock file of fuzzing", (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)
-        ),
+        Check("lock file of fuzzing", lock),
         Check("licences", (sys.executable, "scripts/licences.py", "--check")),
-        Check("tools", ("make", "--no-print-directory", "tools")),
-        Check("format of Python", (f"{BIN}/ruff", "format", "--check")),
-        Check("lint of Python", (f"{BIN}/ruff", "check")),
-        Check(
-            "lint of Rust",
-            (*cargo, "clippy", *CHECKS, "--workspace", "--all-targets", "--", "-D", "warnings"),
-        ),
+        Check("lint of Rust", clippy),
         Check(
             "documentation",
             (*cargo, "doc", *CHECKS, "--workspace", "--no-deps"),
             {"RUSTDOCFLAGS": "-D warnings"},
         ),
-        # One command for all of them: both cores have work to the end. The page compiles what browsers load.
-        Check(
-            "other platforms",
-            (*cargo, "check", *CHECKS, *PORTABLE, *(f"--target={one}" for one in TARGETS if one != WASM)),
-        ),
-        Check("page of the viewer", ("make", "--no-print-directory", "page")),
-        Check("lint of the page", ("npm", "run", "lint", "--silent", "--prefix", "web")),
-        Check("size of the page", ("npm", "run", "size", "--silent", "--prefix", "web")),
-        Check("package", ("make", "--no-print-directory", "develop", "PROFILE=checks")),
-        Check("types", (f"{BIN}/mypy",)),
-        Check("types of the scripts", (f"{BIN}/mypy", *SCRIPTS)),
-        Check("stubs", (f"{BIN}/python", "-m", "mypy.stubtest", "lumencut._lumencut")),
+        # One command for all of them: both cores have work to the end.
+        Check("other platforms", (*cargo, "check", *CHECKS, *PORTABLE, *targets)),
     ]
 
 
@@ -144,16 +177,24 @@ def test_checks(report: str) -> list[Check]:
             count=count_python,
             report=report,
         ),
-        Check("tests of the page", ("npm", "run", "check", "--silent", "--prefix", "web"), count=count_page),
+        Check(
+            "tests of the page",
+            ("npm", "run", "check", "--silent", "--prefix", "web"),
+            count=count_page,
+            needs=("size of the page",),
+        ),
         Check("fuzzing", (sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS))),
     ]
 
 
 def run(check: Check) -> tuple[int, str]:
-    """The exit status of the command, and what it printed while it ran."""
+    """The exit status of the command, and what it printed, which only the main lane shows at once."""
     lines = []
     # A `make` that runs this script would hand its job slots down to commands that cannot use them.
     inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    heading = f"\n== {check.name}: {' '.join(check.command)}\n"
+    if check.lane == MAIN:
+        print(heading, end="", flush=True)
     with subprocess.Popen(
         check.command,
         cwd=ROOT,
@@ -166,8 +207,11 @@ def run(check: Check) -> tuple[int, str]:
     ) as process:
         assert process.stdout is not None
         for line in process.stdout:
-            print(line, end="", flush=True)
+            if check.lane == MAIN:
+                print(line, end="", flush=True)
             lines.append(line)
+    if check.lane != MAIN:
+        print(heading + "".join(lines), end="", flush=True)
     return process.returncode, "".join(lines)
 
 
@@ -192,22 +236,65 @@ def judge(check: Check) -> tuple[Count, str]:
     return count, ""
 
 
+class Run:
+    """Checks in their lanes, up to the first red one; what is under way then is done to its end."""
+
+    def __init__(self, checks: list[Check]) -> None:
+        self.checks = checks
+        self.total = Count()
+        self.seconds: list[tuple[str, float]] = []
+        self.red = ""
+        self.changed = threading.Condition()
+
+    def perform(self) -> None:
+        """Run all lanes beside each other."""
+        lanes = [
+            threading.Thread(target=self.follow, args=(one,)) for one in {c.lane: None for c in self.checks}
+        ]
+        for lane in lanes:
+            lane.start()
+        for lane in lanes:
+            lane.join()
+
+    def follow(self, lane: str) -> None:
+        """Run the checks of a lane in their order."""
+        for check in self.checks:
+            if check.lane == lane and self.may_begin(check):
+                start = time.monotonic()
+                try:
+                    count, wrong = judge(check)
+                except Exception as error:
+                    # The other lanes would wait for it for ever.
+                    count, wrong = Count(failed=1), repr(error)
+                self.note(check.name, time.monotonic() - start, count, wrong)
+
+    def may_begin(self, check: Check) -> bool:
+        """Wait for what a check needs; not where a check was red before it begins."""
+        with self.changed:
+            self.changed.wait_for(
+                lambda: self.red or {name for name, _ in self.seconds}.issuperset(check.needs)
+            )
+            return not self.red
+
+    def note(self, name: str, seconds: float, count: Count, wrong: str) -> None:
+        """Keep what became of a check."""
+        with self.changed:
+            self.total += count
+            self.seconds.append((name, seconds))
+            self.red = self.red or (f"{name}: {wrong}" if wrong else "")
+            self.changed.notify_all()
+
+
 def perform(checks: list[Check]) -> Count:
-    """Run the checks in order up to the first red one."""
-    total, seconds = Count(), []
-    for check in checks:
-        print(f"\n== {check.name}: {' '.join(check.command)}", flush=True)
-        start = time.monotonic()
-        count, wrong = judge(check)
-        total += count
-        seconds.append((check.name, time.monotonic() - start))
-        if wrong:
-            print(f"\n== RED: {check.name}: {wrong}; nothing after it was run")
-            break
+    """Run the checks up to the first red one, and tell how long each took."""
+    start, run = time.monotonic(), Run(checks)
+    run.perform()
+    if run.red:
+        print(f"\n== RED: {run.red}; nothing after it was run")
     print("\n== seconds")
-    for name, taken in [*seconds, ("all", sum(taken for _, taken in seconds))]:
+    for name, taken in [*run.seconds, ("all", time.monotonic() - start)]:
         print(f"{taken:8.1f}  {name}")
-    return total
+    return run.total
 
 
 def main() -> int:

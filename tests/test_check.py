@@ -87,6 +87,53 @@ def test_a_red_check_stops_the_run(check, tmp_path, capfd):
     assert made.exists()
 
 
+def test_lanes_run_beside_each_other_and_wait_for_what_they_need(check, tmp_path, capfd):
+    """Each of the first two waits for the file that the other one writes."""
+    wait = (
+        "import pathlib, sys, time\n"
+        "pathlib.Path(sys.argv[1]).touch()\n"
+        "while not pathlib.Path(sys.argv[2]).exists(): time.sleep(0.01)\n"
+        "print(sys.argv[3])"
+    )
+    one, other = str(tmp_path / "one"), str(tmp_path / "other")
+    order = check.perform(
+        [
+            check.Check("first", (sys.executable, "-c", wait, one, other, "of the main lane")),
+            check.Check(
+                "beside",
+                (sys.executable, "-c", wait, other, one, RUST_GREEN),
+                lane="page",
+                count=check.count_rust,
+            ),
+            check.Check("last", says(RUST_GREEN), count=check.count_rust, needs=("beside",)),
+        ]
+    )
+    assert order == check.Count(10, 0)
+    told = capfd.readouterr().out
+    assert told.index("== beside:") < told.index("== last:")
+
+
+def test_a_red_check_stops_every_lane(check, tmp_path, capfd):
+    made = tmp_path / "made"
+    later = (sys.executable, "-c", f"open({str(made)!r}, 'w')")
+    checks = [
+        check.Check("red", says("", 3), lane="page"),
+        check.Check("needs it", later, needs=("red",)),
+        check.Check("after it", later, lane="page"),
+    ]
+    assert check.perform(checks) == check.Count(0, 1)
+    assert not made.exists()
+    assert "RED: red: exit status 3; nothing after it was run" in capfd.readouterr().out
+
+
+def test_every_check_that_is_needed_is_there_before(check):
+    checks = [*check.lint_checks(), *check.test_checks("report.xml")]
+    names = [one.name for one in checks]
+    assert len(set(names)) == len(names)
+    for place, one in enumerate(checks):
+        assert set(one.needs) <= set(names[:place]), one.name
+
+
 def test_a_missing_command_or_report_is_red(check):
     assert perform(check, (("no-such-command-anywhere",), None)) == (0, 1)
     missing = check.Check("report", says("5 passed"), count=check.count_python, report="no/such/report.xml")

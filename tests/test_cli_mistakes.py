@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 
 from lumencut import (
     Camera,
@@ -143,6 +144,8 @@ def test_settings_of_the_cut_surface_need_centerlines(tmp_path, given):
 def test_what_does_something_or_asks_for_nothing_is_taken_without_centerlines(tmp_path, given):
     words = ["-o", tmp_path / "out.png", "--size", "8x8", *given.split()]
     assert invoke("render", write_volume(tmp_path / "ct.nii"), *words).exit_code == 0
+    with Image.open(tmp_path / "out.png") as picture:
+        assert picture.size == (8, 8)
 
 
 def test_the_rules_of_the_paper_can_be_typed_as_its_help_names_them():
@@ -185,7 +188,8 @@ def test_options_of_dicom_are_refused_for_other_volumes(tmp_path, option):
 def test_options_of_dicom_are_taken_where_one_of_the_files_can_be_a_series(tmp_path):
     folder, volume = write_stack(tmp_path / "dicom", coded(), np.eye(4)), write_volume(tmp_path / "ct.nii")
     for files in ([folder], [folder / "IM0001.dcm"], [volume, folder]):
-        assert invoke("info", *files, "--fill-gaps", "--resample-slices").exit_code == 0
+        result = invoke("info", *files, "--fill-gaps", "--resample-slices")
+        assert (result.exit_code, "DICOM" in result.output) == (0, True), result.output
 
 
 @pytest.mark.parametrize("option", ["--coordinates lps", "--unit cm"])

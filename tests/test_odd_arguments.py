@@ -6,6 +6,7 @@ import os
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from lumencut import (
     CameraError,
@@ -144,7 +145,10 @@ def test_frames_per_second_of_the_wrong_kind(frame, tmp_path, name, fps):
 @pytest.mark.parametrize("name", ["spin.webp", "spin.png"])
 def test_slowest_and_fastest(frame, tmp_path, name, fps):
     save_animation([frame, frame], tmp_path / name, fps)
-    assert (tmp_path / name).exists()
+    with Image.open(tmp_path / name) as moving:
+        moving.load()
+        assert moving.n_frames == 2
+        assert moving.info["duration"] == pytest.approx(1000 / fps, abs=0.5)
 
 
 @pytest.mark.parametrize("name", ["spin.webp", "spin.png", "frames", "f-%d.png"])

@@ -285,6 +285,7 @@ def test_the_evaluation_takes_several_files_with_and_without_a_volume(runs):
         words = ["evaluate", *map(str, files), "--views", "1", "--size", "16x16"]
         result = CliRunner().invoke(main, words)
         assert result.exit_code == 0, result.output
+        assert "csr" in result.output
 
 
 # Several views
