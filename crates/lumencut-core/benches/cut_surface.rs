@@ -8,6 +8,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::centerline_smoothing::smooth_centerlines;
 use lumencut_core::math::lanes::Isa;
+use lumencut_core::math::statistics::median;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::LeveledTree;
 use lumencut_core::settings::{LevelChoice, Settings};
@@ -135,8 +136,8 @@ fn over_directions(name: &str, tree: &VesselTree) {
             cut_surface(&mut renderer, &camera, &settings, 5).0.minimum
         })
         .collect();
-    times.sort_by(f64::total_cmp);
-    let (median, worst) = (times[25], times[49]);
+    let worst = times.iter().copied().fold(0.0, f64::max);
+    let median = median(&mut times).unwrap_or(f64::NAN);
     row([name.to_owned(), format!("{median:.2}"), format!("{worst:.2}"), format!("{:.2}", worst / median)]);
 }
 

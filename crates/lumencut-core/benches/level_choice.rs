@@ -5,6 +5,7 @@
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
+use lumencut_core::math::statistics::median;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
@@ -41,10 +42,7 @@ fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
             times[2].push(pair[0] / pair[1]);
         }
     }
-    Ok(times.map(|mut all| {
-        all.sort_by(f64::total_cmp);
-        all[RUNS / 2]
-    }))
+    Ok(times.map(|mut all| median(&mut all).unwrap_or(f64::NAN)))
 }
 
 /// A tree from the front and obliquely, at spacings of pixels by their names.

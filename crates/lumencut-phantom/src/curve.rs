@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use lumencut_core::math::arc_length::LinePlace;
+
 use crate::random::uniform;
 
 /// A way point of a vessel: x, y, z (mm, LPS) and the radius there (mm).
@@ -89,19 +91,8 @@ impl Curve {
 
     /// Point and radius at arc length `s` (mm), exactly the end points at the ends.
     pub(crate) fn at(&self, s: f64) -> (DVec3, f64) {
-        let last = self.points.len() - 1;
-        if s <= 0.0 {
-            return (self.points[0], self.radius[0]);
-        }
-        if s >= self.length() {
-            return (self.points[last], self.radius[last]);
-        }
-        let i = self.arc.partition_point(|a| *a <= s).clamp(1, last);
-        let t = (s - self.arc[i - 1]) / (self.arc[i] - self.arc[i - 1]);
-        (
-            self.points[i - 1].lerp(self.points[i], t),
-            self.radius[i - 1] + t * (self.radius[i] - self.radius[i - 1]),
-        )
+        let place = LinePlace::at(&self.arc, s);
+        (place.point(&self.points), place.value(&self.radius))
     }
 
     /// Unit tangent at arc length `s` (mm).

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use lumencut::error::{Error, ErrorKind};
-use lumencut::math::path::Path;
+use lumencut::math::centerline_path::CenterlinePath;
 use lumencut::named::Named;
 use lumencut::pipeline;
 use lumencut::reformations::cpr::{self, CprMode, Straightened, View};
@@ -42,7 +42,7 @@ impl Cpr {
         let view = View { up: DVec3::from_array(up), angle, normal: normal.map(DVec3::from_array) };
         let points = points_of(&points)?;
         let made = CprMode::named("mode of the CPR", mode).and_then(|mode| {
-            let path = Path::new(&Vessel::new(points, None)?, smoothing)?;
+            let path = CenterlinePath::new(&Vessel::new(points, None)?, smoothing)?;
             cpr::Cpr::new(path, mode, view, width, pixel_spacing)
         });
         made.map(Self).map_err(to_python)

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use lumencut_core::error::Result;
 use lumencut_core::frame::Frame;
+use lumencut_core::math::statistics::median;
 
 /// What repeated runs took (ms).
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +30,8 @@ pub fn once<T>(work: impl FnOnce() -> T) -> (f64, T) {
 pub fn time(runs: usize, mut work: impl FnMut()) -> Times {
     work();
     let mut times: Vec<f64> = (0..runs).map(|_| once(&mut work).0).collect();
-    times.sort_by(f64::total_cmp);
-    Times { median: times[runs / 2], minimum: times[0] }
+    let minimum = times.iter().copied().fold(f64::INFINITY, f64::min);
+    Times { median: median(&mut times).unwrap_or(f64::NAN), minimum }
 }
 
 /// The medians of `frames` frames after a first one, which compiles, uploads and warms the caches.
@@ -47,11 +48,8 @@ pub fn stage_medians(frames: usize, mut render: impl FnMut() -> Result<Frame>) -
         frame?.timings.iter().for_each(|t| *of_frame.entry(t.stage).or_default() += t.milliseconds);
         of_frame.into_iter().for_each(|(stage, time)| all.entry(stage).or_default().push(time));
     }
-    let median = |mut times: Vec<f64>| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    };
-    Ok(all.into_iter().map(|(stage, times)| (stage, median(times))).collect())
+    let usual = |mut times: Vec<f64>| median(&mut times).unwrap_or(f64::NAN);
+    Ok(all.into_iter().map(|(stage, times)| (stage, usual(times))).collect())
 }
 
 /// One row of a Markdown table.

@@ -20,12 +20,19 @@ pub struct LinePlace {
     pub share: f64,
 }
 
+/// The segment at arc length `at` of a line whose points have the rising arc lengths `lengths`, of which there is one at least:
+/// beyond the ends the first or the last one, at a point the one after it. All that lies at an arc length is found by this.
+pub fn segment_at(lengths: &[f64], at: f64) -> usize {
+    let last = lengths.len() - 1;
+    lengths.partition_point(|length| *length <= at).clamp(1, last.max(1)) - 1
+}
+
 impl LinePlace {
     /// The place at arc length `at` of a line whose points have the rising arc lengths `lengths`, of which there is one at
-    /// least: beyond the ends of the line its nearer end. At a point of the line it is the start of the segment after it.
+    /// least, on the segment of [`segment_at`]: beyond the ends of the line its nearer end.
     pub fn at(lengths: &[f64], at: f64) -> Self {
         let last = lengths.len() - 1;
-        let segment = lengths.partition_point(|length| *length <= at).clamp(1, last.max(1)) - 1;
+        let segment = segment_at(lengths, at);
         let step = lengths[(segment + 1).min(last)] - lengths[segment];
         let share = if step > 0.0 { ((at - lengths[segment]) / step).clamp(0.0, 1.0) } else { 0.0 };
         Self { segment, share }
@@ -40,7 +47,17 @@ impl LinePlace {
     /// What lies between the values of both points there.
     pub fn value(self, values: &[f64]) -> f64 {
         let before = values[self.segment];
-        values.get(self.segment + 1).map_or(before, |after| before + (after - before) * self.share)
+        values.get(self.segment + 1).map_or(before, |after| self.between([before, *after]))
+    }
+
+    /// What lies between a value of the point before the place and one of the point after it. At one of both points it is
+    /// the value there, also where the other one is unknown (NaN).
+    pub fn between(self, [before, after]: [f64; 2]) -> f64 {
+        match self.share {
+            share if share <= 0.0 => before,
+            share if share >= 1.0 => after,
+            share => before + (after - before) * share,
+        }
     }
 }
 
@@ -66,6 +83,12 @@ mod tests {
         }
         assert_eq!(LinePlace::at(&lengths, 2.0), LinePlace { segment: 2, share: 0.0 });
         assert_eq!(LinePlace::at(&lengths, 5.0).value(&[0.0, 1.0, 5.0, 9.0]), 8.0);
+        assert_eq!(LinePlace::at(&lengths, 2.0).value(&[0.0, 1.0, 5.0, f64::NAN]), 5.0);
+        assert_eq!(LinePlace::at(&lengths, 6.0).value(&[0.0, 1.0, f64::NAN, 9.0]), 9.0);
+        assert!(LinePlace::at(&lengths, 3.0).value(&[0.0, 1.0, 5.0, f64::NAN]).is_nan());
+        for (at, segment) in [(-1.0, 0), (0.0, 0), (1.0, 0), (2.0, 2), (6.0, 2), (7.0, 2)] {
+            assert_eq!(segment_at(&lengths, at), segment);
+        }
         assert_eq!(point_at(&[DVec3::Y], &[0.0], 3.0), DVec3::Y);
     }
 }

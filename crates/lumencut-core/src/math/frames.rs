@@ -9,7 +9,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::path::Path;
+use super::centerline_path::CenterlinePath;
 
 /// How far before and after a point of the path its corner is rounded (mm), at most.
 pub const CORNER: f64 = 5.0;
@@ -79,7 +79,7 @@ pub struct Frames {
 
 impl Frames {
     /// The frame that begins as `first`, whose tangent is that of the first segment.
-    pub fn new(path: &Path, first: MovingFrame) -> Self {
+    pub fn new(path: &CenterlinePath, first: MovingFrame) -> Self {
         let mut stations = vec![Station { at: 0.0, frame: first, turn: DVec3::ZERO }];
         for i in 1..path.direction().len() {
             let [from, to] = [path.direction()[i - 1], path.direction()[i]];

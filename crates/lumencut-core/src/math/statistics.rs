@@ -1,21 +1,20 @@
-//! Medians, percentiles and groups of values.
+//! Medians, quantiles and groups of values. Medians and quantiles take time in proportion to the number of values.
 
-/// The median; the mean of the two in the middle where their number is even. None of no values.
+/// The median; the mean of the two in the middle where their number is even. None of no values. It changes the order of the
+/// values.
 pub fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 {
-        return Some(nth(values, middle));
-    }
-    let above = (!values.is_empty()).then(|| nth(values, middle))?;
-    Some((nth(values, middle - 1) + above) / 2.0)
+    let last = values.len().checked_sub(1)?;
+    let [below, above] = neighbours(values, last / 2);
+    Some(if last % 2 == 0 { below } else { (below + above) / 2.0 })
 }
 
-/// The value below which `part` of all values lie, interpolated linearly between neighbours; None of no values.
+/// The value below which `part` of all values lie, interpolated linearly between neighbours; None of no values. It
+/// changes the order of the values.
 pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let place = last as f64 * part;
     let below = (place.floor() as usize).min(last);
-    let (low, high) = (nth(values, below), nth(values, (below + 1).min(last)));
+    let [low, high] = neighbours(values, below);
     let (weight, difference) = (place - below as f64, high - low);
     // From the nearer end: so both ends are met exactly.
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
@@ -40,8 +39,10 @@ pub fn two_groups(rising: &[f64]) -> Option<usize> {
     best.1
 }
 
-fn nth(values: &mut [f64], n: usize) -> f64 {
-    *values.select_nth_unstable_by(n, f64::total_cmp).1
+/// The value before which `n` others come in rising order, and the one after it; at the end the same one twice.
+fn neighbours(values: &mut [f64], n: usize) -> [f64; 2] {
+    let (_, found, above) = values.select_nth_unstable_by(n, f64::total_cmp);
+    [*found, above.iter().copied().min_by(f64::total_cmp).unwrap_or(*found)]
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ pub use self::view::View;
 use crate::camera::{MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
 use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
-use crate::math::path::Path;
+use crate::math::centerline_path::CenterlinePath;
 use crate::named::Named;
 
 /// What a default width leaves free on each side of the vessel (mm).
@@ -60,7 +60,7 @@ impl Named for CprMode {
 pub struct Cpr {
     mode: CprMode,
     view: View,
-    path: Arc<Path>,
+    path: Arc<CenterlinePath>,
     surface: Arc<dyn Surface>,
     straightened: Option<Straightened>,
     width: Option<f64>,
@@ -76,7 +76,7 @@ impl Cpr {
     /// [`ErrorKind::Camera`] for an invalid view, width or spacing, for too many pixels, and where the whole vessel
     /// lies in one row.
     pub fn new(
-        path: Path,
+        path: CenterlinePath,
         mode: CprMode,
         view: View,
         width: Option<f64>,
@@ -94,7 +94,7 @@ impl Cpr {
     fn laid_out(
         mode: CprMode,
         view: View,
-        path: Arc<Path>,
+        path: Arc<CenterlinePath>,
         straightened: Option<Straightened>,
         width: Option<f64>,
         pixel_spacing: f64,

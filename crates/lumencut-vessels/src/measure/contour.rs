@@ -35,8 +35,7 @@ fn quiet(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
     (0..RAYS)
         .map(|n| {
             let mut five: [f64; 5] = std::array::from_fn(|m| shares[(n + RAYS + m - 2) % RAYS]);
-            five.sort_unstable_by(f64::total_cmp);
-            five[2] * own(n)
+            median(&mut five).unwrap_or(1.0) * own(n)
         })
         .collect()
 }

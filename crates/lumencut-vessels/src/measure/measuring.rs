@@ -235,8 +235,7 @@ fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, fwhm: f64) -> Bench<'a, '
 fn assumed(voxels: &Voxels) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
-    lengths.sort_unstable_by(f64::total_cmp);
-    DEFAULT_FWHM * lengths[1]
+    DEFAULT_FWHM * median(&mut lengths).unwrap_or_default()
 }
 
 fn no_lumen(scale: &Scale) -> Error {

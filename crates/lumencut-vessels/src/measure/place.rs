@@ -3,8 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::arc_length::LinePlace;
+use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::math::frames::{Frames, MovingFrame};
-use lumencut_core::math::path::Path;
 use lumencut_core::math::statistics::median;
 use lumencut_core::vessel_tree::Vessel;
 
@@ -46,9 +47,9 @@ impl Place {
 /// A vessel by its arc length, with planes across it.
 #[derive(Clone, Debug)]
 pub struct Track {
-    path: Path,
+    path: CenterlinePath,
     /// The same points, quieter: what directions are taken from.
-    quiet: Path,
+    quiet: CenterlinePath,
     frames: Frames,
     /// Whether sections are seen along the way of the vessel.
     is_seen_along: bool,
@@ -62,9 +63,9 @@ impl Track {
     /// [`ErrorKind::VesselTree`] for a vessel without length.
     pub fn new(vessel: &Vessel, radius: Option<f64>) -> Result<Self> {
         let smoothing = (0.5 * radius.unwrap_or(0.0)).clamp(SMOOTHING[0], SMOOTHING[1]);
-        let path = Path::new(vessel, 0.0)?;
+        let path = CenterlinePath::new(vessel, 0.0)?;
         let distinct = Vessel::new(path.points().to_vec(), None)?;
-        let quiet = Path::new(&distinct, smoothing)?;
+        let quiet = CenterlinePath::new(&distinct, smoothing)?;
         let begins = quiet.direction()[0];
         // Downwards is the patient's back, or the feet where the vessel runs to the back.
         let down = if begins.y.abs() > ALONG { DVec3::NEG_Z } else { DVec3::Y };
@@ -102,10 +103,7 @@ impl Track {
     /// An arc length on the vessel as one on its quiet line.
     fn along_quiet(&self, at: f64) -> f64 {
         let [own, quiet] = [self.path.arc_length(), self.quiet.arc_length()];
-        let last = own.len().min(quiet.len()) - 1;
-        let i = self.path.segment(at).min(last - 1);
-        let share = (at - own[i]) / (own[i + 1] - own[i]);
-        quiet[i] + share * (quiet[i + 1] - quiet[i])
+        LinePlace::at(&own[..own.len().min(quiet.len())], at).value(quiet)
     }
 }
 

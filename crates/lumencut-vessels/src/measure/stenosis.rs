@@ -13,6 +13,7 @@ use std::f64::consts::PI;
 use super::flags::BRANCH;
 use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::arc_length::LinePlace;
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
@@ -126,17 +127,9 @@ impl Profile {
     /// [`ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured.
     pub fn diameter_at(&self, at: f64) -> Result<(f64, f64)> {
         self.check_place("place on the vessel", at)?;
-        let after = self.arc_length.partition_point(|there| *there < at).clamp(1, self.len() - 1);
-        let before = after - 1;
-        let weight = (at - self.arc_length[before]) / (self.arc_length[after] - self.arc_length[before]);
-        // A section whose weight is 0 need not have been measured.
-        let mix = |numbers: [f64; 2]| match weight {
-            w if w <= 0.0 => numbers[0],
-            w if w >= 1.0 => numbers[1],
-            w => numbers[0] + w * (numbers[1] - numbers[0]),
-        };
-        let width = |n: usize| 2.0 * (self.area[n] / PI).sqrt();
-        let diameter = mix([width(before), width(after)]);
+        let place = LinePlace::at(&self.arc_length, at);
+        let ends = [place.segment, (place.segment + 1).min(self.len() - 1)];
+        let diameter = place.between(ends.map(|n| 2.0 * (self.area[n] / PI).sqrt()));
         if diameter.is_nan() {
             return Err(measuring(
                 "place on the vessel",
@@ -144,7 +137,7 @@ impl Profile {
                 MEASURED,
             ));
         }
-        Ok((diameter, mix([self.uncertainty[before], self.uncertainty[after]])))
+        Ok((diameter, place.between(ends.map(|n| self.uncertainty[n]))))
     }
 
     /// The median diameter around an arc length (mm), of the sections that count.

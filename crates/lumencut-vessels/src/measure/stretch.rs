@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::arc_length::point_at;
 
 /// The length of a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,9 +89,7 @@ impl Profile {
 
     /// The vessel's point at an arc length (mm, LPS).
     pub fn point_at(&self, at: f64) -> DVec3 {
-        let after = self.arc_length.partition_point(|there| *there < at).clamp(1, self.len() - 1);
-        let [a, b] = [self.arc_length[after - 1], self.arc_length[after]];
-        self.on_vessel[after - 1].lerp(self.on_vessel[after], ((at - a) / (b - a)).clamp(0.0, 1.0))
+        point_at(&self.on_vessel, &self.arc_length, at)
     }
 
     fn check_stretch(&self, ends: [f64; 2]) -> Result<()> {

@@ -2,7 +2,7 @@
 
 use crate::feature_aggregation::Feature;
 use glam::{DVec2, DVec3};
-use lumencut_core::math::path::Path;
+use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::reformations::cpr::{Cpr, CprMode, View};
 use lumencut_core::vessel_tree::Vessel;
 use serde::Deserialize;
@@ -69,7 +69,7 @@ impl Laid {
             return Ok(Self { message, cpr: laid.cpr.rotated(message.angle)? });
         }
         let view = View { up: DVec3::Z, angle: message.angle, normal: None };
-        let path = Path::new(vessel, 0.0)?;
+        let path = CenterlinePath::new(vessel, 0.0)?;
         let cpr = Cpr::new(path, CprMode::Straightened, view, Some(message.width), message.pixel_spacing)?;
         Ok(Self { message, cpr })
     }

@@ -45,8 +45,8 @@ fn double_reflection_is_of_fourth_order() {
     assert!(coarse < 1e-3 && (12.0..20.0).contains(&(coarse / fine)), "{coarse} {fine}");
 }
 
-fn frames(points: Vec<DVec3>, ahead: DVec3) -> (Path, Frames) {
-    let path = Path::new(&Vessel::new(points, None).unwrap(), 0.0).unwrap();
+fn frames(points: Vec<DVec3>, ahead: DVec3) -> (CenterlinePath, Frames) {
+    let path = CenterlinePath::new(&Vessel::new(points, None).unwrap(), 0.0).unwrap();
     let frames = Frames::new(&path, MovingFrame::looking(path.direction()[0], ahead));
     (path, frames)
 }

@@ -9,12 +9,12 @@ use super::row::{Anchor, Row, Run};
 use super::surface::{Surface, one_row};
 use super::view::Axes;
 use crate::error::Result;
-use crate::math::path::Path;
+use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 
 /// The surface of the mode.
 pub(super) struct Projected {
-    path: Arc<Path>,
+    path: Arc<CenterlinePath>,
     axes: Axes,
     /// The height of each point along up (mm).
     heights: Vec<f64>,
@@ -28,7 +28,7 @@ pub(super) struct Projected {
 impl Projected {
     /// # Errors
     /// [`crate::error::ErrorKind::Camera`] for a vessel less than a row high.
-    pub fn new(path: Arc<Path>, axes: Axes, row: f64) -> Result<Self> {
+    pub fn new(path: Arc<CenterlinePath>, axes: Axes, row: f64) -> Result<Self> {
         let heights: Vec<_> = path.points().iter().map(|point| point.dot(axes.up)).collect();
         let [low, high] = range(heights.iter().copied());
         if high - low < row {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame, Station};
-use crate::math::path::Path;
 use crate::math::same_place::ON_PICTURE;
 
 /// How often an interval is halved at most to find a section: below what a number can tell.
@@ -16,7 +16,7 @@ const LARGEST_TURN: f64 = 0.1;
 
 /// The sections of a vessel, whatever the angle from which it is seen.
 pub(super) struct Sections {
-    pub path: Arc<Path>,
+    pub path: Arc<CenterlinePath>,
     pub frames: Frames,
     /// Places between which path and frame are smooth, by rising arc length.
     marks: Vec<Mark>,
@@ -46,7 +46,7 @@ impl Section {
 }
 
 impl Sections {
-    pub fn new(path: Arc<Path>, frames: Frames) -> Self {
+    pub fn new(path: Arc<CenterlinePath>, frames: Frames) -> Self {
         let mut at = path.arc_length().to_vec();
         for ends in frames.stations().windows(2) {
             let [from, to] = [ends[0].at, ends[1].at];

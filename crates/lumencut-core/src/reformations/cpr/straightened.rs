@@ -10,8 +10,8 @@ use super::sections::{Section, Sections};
 use super::surface::{Surface, comes_first};
 use super::view::{PARALLEL, View, unit};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
-use crate::math::path::Path;
 use crate::math::same_place::ON_PICTURE;
 
 /// The space around a straightened vessel: x across the picture to the right, y into it, z along the vessel, all in mm.
@@ -26,7 +26,7 @@ pub struct Straightened {
 impl Straightened {
     /// # Errors
     /// [`crate::error::ErrorKind::Camera`] for vectors that are none.
-    pub fn new(path: Arc<Path>, view: &View) -> Result<Self> {
+    pub fn new(path: Arc<CenterlinePath>, view: &View) -> Result<Self> {
         let axes = view.unturned()?;
         let tangent = path.direction()[0];
         let is_along = |v: DVec3| v.cross(tangent).length() <= PARALLEL * v.dot(tangent).abs();

@@ -10,7 +10,7 @@ use super::row::{Anchor, Row, Run};
 use super::surface::{Surface, comes_first, one_row};
 use super::view::Axes;
 use crate::error::Result;
-use crate::math::path::Path;
+use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 
 /// A segment that is not parallel to the lines.
@@ -27,7 +27,7 @@ struct Strip {
 
 /// The surface of the mode.
 pub(super) struct Stretched {
-    path: Arc<Path>,
+    path: Arc<CenterlinePath>,
     across: DVec3,
     strips: Vec<Strip>,
     reach: f64,
@@ -37,7 +37,7 @@ pub(super) struct Stretched {
 impl Stretched {
     /// # Errors
     /// [`crate::error::ErrorKind::Camera`] for a vessel that is parallel to the lines.
-    pub fn new(path: Arc<Path>, axes: Axes) -> Result<Self> {
+    pub fn new(path: Arc<CenterlinePath>, axes: Axes) -> Result<Self> {
         let points = path.points();
         // The vessel runs downwards in the image. One that rises in space is seen from the same side, upside down.
         let rises = (points[points.len() - 1] - points[0]).dot(axes.up) > 0.0;

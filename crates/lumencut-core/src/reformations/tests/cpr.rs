@@ -5,7 +5,7 @@ const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
 const MODES: [CprMode; 3] = [CprMode::Projected, CprMode::Stretched, CprMode::Straightened];
 
 fn layout(points: &[DVec3], mode: CprMode, view: View) -> Result<Cpr> {
-    Cpr::new(Path::new(&Vessel::new(points.to_vec(), None)?, 0.0)?, mode, view, Some(20.0), 0.5)
+    Cpr::new(CenterlinePath::new(&Vessel::new(points.to_vec(), None)?, 0.0)?, mode, view, Some(20.0), 0.5)
 }
 
 fn wave(n: i32) -> DVec3 {
@@ -87,7 +87,7 @@ fn what_makes_no_picture_is_refused() {
     ] {
         assert_eq!(layout(&tall, CprMode::Straightened, view).err().map(|e| e.kind), Some(ErrorKind::Camera));
     }
-    let path = || Path::new(&Vessel::new(tall.to_vec(), None).unwrap(), 0.0).unwrap();
+    let path = || CenterlinePath::new(&Vessel::new(tall.to_vec(), None).unwrap(), 0.0).unwrap();
     for (width, spacing) in
         [(Some(0.0), 1.0), (Some(f64::NAN), 1.0), (None, 0.0), (None, f64::NAN), (Some(10.0), 1e-5)]
     {

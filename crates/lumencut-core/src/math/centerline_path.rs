@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::limits::Limits;
-use crate::math::arc_length::arc_lengths;
+use crate::math::arc_length::{arc_lengths, segment_at};
 use crate::math::centerline_smoothing::smooth_centerlines;
 use crate::math::same_place::REPEATED_POINT;
 use crate::vessel_tree::{Vessel, VesselTree};
@@ -14,13 +14,13 @@ const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
 
 /// A polyline without repeated points. Beyond both ends it goes on straight.
 #[derive(Clone, Debug)]
-pub struct Path {
+pub struct CenterlinePath {
     points: Vec<DVec3>,
     arc_length: Vec<f64>,
     direction: Vec<DVec3>,
 }
 
-impl Path {
+impl CenterlinePath {
     /// The centerline of a vessel, smoothed along its arc length by a Gaussian with a standard deviation of `smoothing` mm;
     /// 0 leaves it as it is. Both ends stay where they are.
     ///
@@ -67,10 +67,10 @@ impl Path {
 
     /// The segment at arc length `t` (mm), the first or the last one beyond the ends.
     pub fn segment(&self, t: f64) -> usize {
-        self.arc_length.partition_point(|at| *at <= t).clamp(1, self.direction.len()) - 1
+        segment_at(&self.arc_length, t)
     }
 
-    /// The point at arc length `t` (mm).
+    /// The point at arc length `t` (mm); beyond both ends it lies straight on.
     pub fn at(&self, t: f64) -> DVec3 {
         let segment = self.segment(t);
         self.points[segment] + self.direction[segment] * (t - self.arc_length[segment])
@@ -86,5 +86,5 @@ fn smoothed(vessel: &Vessel, length: f64) -> Result<Vessel> {
 }
 
 #[cfg(test)]
-#[path = "tests/path.rs"]
+#[path = "tests/centerline_path.rs"]
 mod tests;

@@ -1,8 +1,8 @@
 use super::*;
 
-fn path(points: &[[f64; 3]], smoothing: f64) -> Result<Path> {
+fn path(points: &[[f64; 3]], smoothing: f64) -> Result<CenterlinePath> {
     let points = points.iter().map(|p| DVec3::from_array(*p)).collect();
-    Path::new(&Vessel::new(points, None)?, smoothing)
+    CenterlinePath::new(&Vessel::new(points, None)?, smoothing)
 }
 
 #[test]
