@@ -38,10 +38,16 @@ def document(case: Case, path: Path) -> dict[str, Any]:
         found |= {"answer": json.loads(judge_dicom(headers, wanted))}
         volume = read_volume(path, series=case.series, resample_slices=case.resample_slices)
     except FormatError as error:
-        return found | {"error": {"found": error.found, "expected": error.expected, "mend": error.mend}}
+        return found | {"error": _trouble(error)}
     digest = hashlib.sha256(volume.array.astype("<f4").tobytes()).hexdigest()
     told = {"type": volume.array.dtype.name, "size": volume.size, "sha256": digest}
     return found | {"volume": told}
+
+
+def _trouble(error: FormatError) -> dict[str, Any]:
+    """An error in the parts that the answer of the judge has, by the same names."""
+    mends = [{"name": mend.name, "values": list(mend.values)} for mend in error.mends]
+    return {"found": error.found, "expected": error.expected, "advice": error.advice, "mends": mends}
 
 
 def write(case: Case, place: Path) -> None:

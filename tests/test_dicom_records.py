@@ -135,6 +135,9 @@ def test_cases_are_written_for_other_hosts(tmp_path, name):
     headers, wanted = (json.dumps(told[key]).encode() for key in ("headers", "wanted"))
     assert json.loads(judge_dicom(headers, wanted)) == told["answer"]
     assert ("error" in told["answer"]) == bool(case.words)
+    assert ("error" in told) == bool(case.words)
+    for part in ("found", "expected", "advice", "mends") if case.words else ():
+        assert told["error"][part] == told["answer"]["error"][part]
     if not case.words:
         volume = read_volume(tmp_path / told["path"], resample_slices=case.resample_slices)
         assert told["volume"]["size"] == list(volume.size)

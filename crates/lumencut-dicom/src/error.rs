@@ -22,7 +22,7 @@ pub struct Error {
     /// What was expected instead.
     pub expected: String,
     /// Advice that no host acts on; empty where there is none.
-    pub mend: String,
+    pub advice: String,
     /// What mends it beside the advice, for hosts to offer in their own words: as JSON a list `mends` of names and values.
     #[serde(rename = "mends", serialize_with = "as_list")]
     pub mended_by: Option<Box<Mend>>,
@@ -49,7 +49,7 @@ impl Error {
             file: None,
             found,
             expected,
-            mend: String::new(),
+            advice: String::new(),
             mended_by: None,
             series: Box::default(),
         }
@@ -63,8 +63,8 @@ impl Error {
 
     /// The same, with advice that no host acts on.
     #[must_use]
-    pub fn mend(self, mend: impl Into<String>) -> Self {
-        Self { mend: mend.into(), ..self }
+    pub fn mend(self, advice: impl Into<String>) -> Self {
+        Self { advice: advice.into(), ..self }
     }
 
     /// The same, with a mend that hosts offer in their own words.

@@ -56,7 +56,7 @@ fn missing_slices_are_named_and_filled() {
          2 between IM5 and IM6 (6 mm apart at (0, 0, 12))"
     );
     assert_eq!((error.expected.as_str(), error.file), ("slices every 2 mm", None));
-    assert_eq!(error.mend, "add the missing files");
+    assert_eq!(error.advice, "add the missing files");
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::FillGaps));
     let plan = judged(&files, json!({"fill_gaps": true})).expect("a volume");
     assert_eq!((plan.size[2], &plan.missing), (12, &vec![3, 7, 8]));
@@ -69,7 +69,7 @@ fn missing_slices_are_named_and_filled() {
 fn more_is_not_made_up_than_was_measured() {
     let files = stack(&[0.0, 2.0, 4.0, 20.0], as_they_are);
     let error = judged(&files, json!({"fill_gaps": true})).expect_err("too few slices");
-    assert_eq!((error.mend.as_str(), error.mended_by), ("add the missing files", None));
+    assert_eq!((error.advice.as_str(), error.mended_by), ("add the missing files", None));
     let far = stack(&[0.0, 2.0, 4.0, 1e300], as_they_are);
     let error = judged(&far, json!({"fill_gaps": true, "resample_slices": true})).expect_err("too far");
     assert!(error.found.contains("missing slices"), "{}", error.found);
@@ -135,7 +135,7 @@ fn holes_between_uneven_slices_are_filled_only_where_that_is_asked_for() {
     let heights = [0.0, 4.0, 8.0, 12.0, 28.0, 31.1, 34.2, 37.3, 40.4];
     let files = stack(&heights, as_they_are);
     let error = refused(&files);
-    assert_eq!(error.mend, "add what is missing of 16 mm between IM3 and IM4");
+    assert_eq!(error.advice, "add what is missing of 16 mm between IM3 and IM4");
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::ResampleAndFill));
     let error = judged(&files, json!({"resample_slices": true})).expect_err("a hole");
     assert!(error.found.ends_with("with a hole of 16 mm between IM3 and IM4"), "{}", error.found);
@@ -144,11 +144,11 @@ fn holes_between_uneven_slices_are_filled_only_where_that_is_asked_for() {
     assert!(judged(&files, wanted.clone()).expect("a grid").is_resampled);
     let far = heights.map(|height| if height > 20.0 { height + 40.0 } else { height });
     let error = judged(&stack(&far, as_they_are), wanted).expect_err("mostly a hole");
-    assert_eq!((error.mend.as_str(), error.mended_by), ("add the missing files", None));
+    assert_eq!((error.advice.as_str(), error.mended_by), ("add the missing files", None));
     // What would be refused is not offered.
     let error = refused(&stack(&far, as_they_are));
     assert_eq!(
-        (error.mend.as_str(), error.mended_by),
+        (error.advice.as_str(), error.mended_by),
         ("add what is missing of 56 mm between IM3 and IM4", None)
     );
 }

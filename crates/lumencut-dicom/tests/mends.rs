@@ -26,7 +26,7 @@ fn phases_can_be_chosen_among_in_the_order_of_their_numbers() {
     assert_eq!(refused(&files).mended_by.as_deref(), Some(&Mend::Phase(values)));
     let error = document(&files);
     assert_eq!(error["mends"], json!([{"name": "phase", "values": ["0", "50", "400"]}]));
-    assert_eq!(error["mend"], "");
+    assert_eq!(error["advice"], "");
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn values_that_cannot_be_shown_are_no_choice() {
 fn documents_tell_names_for_each_kind_of_refusal() {
     let with_gap = document(&stack(&[0.0, 2.0, 4.0, 8.0, 10.0], as_they_are));
     assert_eq!(with_gap["mends"], json!([{"name": "fill_gaps", "values": []}]));
-    assert_eq!(with_gap["mend"], "add the missing files");
+    assert_eq!(with_gap["advice"], "add the missing files");
     let uneven = document(&stack(&[0.0, 2.0, 4.0, 7.0, 10.0], as_they_are));
     assert_eq!(uneven["mends"][0]["name"], "resample_slices");
     let turned = |k: usize, attributes: &mut Value| {

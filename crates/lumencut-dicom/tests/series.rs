@@ -98,7 +98,7 @@ fn what_is_no_image_is_left_out() {
     assert_eq!(plan.slices[0].file, 1);
     assert_eq!(refused(&[]).found, "nothing in it");
     let error = refused(&[foreign("DICOMDIR", "Media Storage Directory Storage")]);
-    assert_eq!(error.mend, "give the folder that it is in");
+    assert_eq!(error.advice, "give the folder that it is in");
     files.push(made::file("cut", &json!({"Rows": 3})));
     let error = refused(&files);
     assert_eq!((error.found.as_str(), error.file), ("an image without rows and columns", Some(5)));

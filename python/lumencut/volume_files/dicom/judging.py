@@ -92,7 +92,7 @@ def _answer(path: Path, files: Sequence[File], answer: str) -> Record:
 def _error(path: Path, files: Sequence[File], error: Record) -> FormatError:
     subject = str(path if error["file"] is None else files[error["file"]].source)
     mends = [(mend["name"], mend["values"]) for mend in error["mends"]]
-    words = subject, error["found"], error["expected"], told(error["mend"], mends)
+    words = subject, error["found"], error["expected"], told(error["advice"], mends)
     if error["kind"] != "series":
         return FormatError(*words)
     several = SeriesError(*words)

@@ -38,7 +38,7 @@ interface Trouble {
   readonly found: string;
   readonly expected: string;
   /** Advice in words. */
-  readonly mend: string;
+  readonly advice: string;
   readonly mends: readonly Mend[];
   readonly series: readonly SeriesChoice[];
 }
@@ -56,6 +56,6 @@ export function judged(judge: Judge, subject: string, files: readonly LookedInto
   }
   const trouble: Trouble = answer.error;
   const named = trouble.file === null ? subject : (files[trouble.file]?.source.path ?? subject);
-  const { found, expected, mend, mends, series } = trouble;
-  throw new Failure('format', named, found, expected, mend, { mends, series });
+  const { found, expected, advice, mends, series } = trouble;
+  throw new Failure('format', named, found, expected, advice, { mends, series });
 }
