@@ -1,6 +1,6 @@
 /** The page as a user sees it: what can be done with it, and what it shows. It notes everything that must not happen. */
 import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
-import type { Measuring } from '../src/core/measuring';
+import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import type { Camera, Pair, Report } from '../src/core/messages';
 import { stateOf, type ViewState } from '../src/url/fragment';
 import type { Pixels } from './compare';
@@ -12,10 +12,8 @@ const NO_SAMPLES = 700;
 /** After this the address tells the view (ms); the page waits for 250. */
 const WRITTEN = 400;
 
-interface TestHook {
+interface TestHook extends Asked {
   memory(): Promise<number>;
-  report(): Promise<Report>;
-  readonly measuring: Measuring;
 }
 
 export class Viewer {
@@ -234,13 +232,13 @@ export class Viewer {
 
   /** What is open. */
   report(): Promise<Report> {
-    return this.page.evaluate(() => (window as unknown as { lumencutTest: TestHook }).lumencutTest.report());
+    return this.ask('report', null);
   }
 
-  /** Asks the measuring of the page; `ask` runs there, and sees nothing but what it is given. */
-  measuring<A, T>(ask: (measuring: Measuring, given: A) => Promise<T>, given: A): Promise<T> {
-    const run = `async (given) => (${ask})(window.lumencutTest.measuring, given)`;
-    return this.page.evaluate(`(${run})(${JSON.stringify(given)})`) as Promise<T>;
+  /** What the engine answers, or why it does not. */
+  ask<N extends Question>(name: N, message: Message<N>): Promise<Answer<N>> {
+    const asked = JSON.stringify([name, message]);
+    return this.page.evaluate(`window.lumencutTest.ask(...${asked})`) as Promise<Answer<N>>;
   }
 
   screenshot(name: string): Promise<Buffer> {

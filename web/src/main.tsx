@@ -52,14 +52,13 @@ if (root) {
   render(<App />, root);
 }
 listenToKeys();
-followEdits(engine.tracing);
+followEdits(engine);
 if (asked.has('test')) {
-  // What the tests of the page need and no user: the size of the memory, and measuring without its panel.
+  // What the tests of the page need and no user: the size of the memory, and what the engine answers.
   Object.assign(window, {
     lumencutTest: {
       memory: () => engine.memory(),
-      report: () => engine.report(),
-      measuring: engine.measuring,
+      ask: engine.ask.bind(engine),
     },
   });
 }

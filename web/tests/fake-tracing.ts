@@ -1,13 +1,22 @@
 /** An engine in the place of the worker's, whose vessels are straight between clicks, and which notes what it is asked. */
-import type { DocumentVessel, Edit, Edited, EditRequest, VesselDocument } from '../src/core/edits';
+import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
-import type { Report, Vector } from '../src/core/messages';
-import type { LineContent, NamedLine, Tracing } from '../src/core/tracing';
+import type {
+  DocumentVessel,
+  Edit,
+  Edited,
+  EditRequest,
+  LineContent,
+  NamedLine,
+  Report,
+  Vector,
+  VesselDocument,
+} from '../src/core/messages';
 
 /** Where the fake has no lumen: below this z (mm). */
 export const FLOOR = -50;
 
-export class FakeTracing implements Tracing {
+export class FakeTracing implements Asked {
   readonly lines: LineContent[] = [];
   readonly edits: EditRequest[] = [];
   readonly shown: (readonly NamedLine[])[] = [];
@@ -17,7 +26,12 @@ export class FakeTracing implements Tracing {
   gate: Promise<void> = Promise.resolve();
   private lastId = 100;
 
-  async add(content: LineContent): Promise<number> {
+  /** Questions are answered by the methods of their names. */
+  ask<N extends Question>(name: N, message: Message<N>): Promise<Answer<N>> {
+    return (this as unknown as Answering)[name](message) as Promise<Answer<N>>;
+  }
+
+  async add_line(content: LineContent): Promise<number> {
     this.lines.push(content);
     return this.lines.length - 1;
   }
@@ -27,7 +41,7 @@ export class FakeTracing implements Tracing {
     return this.lines.length - 1;
   }
 
-  async beginDocument(): Promise<VesselDocument> {
+  async begin_document(): Promise<VesselDocument> {
     return NOTHING;
   }
 
@@ -90,22 +104,19 @@ export class FakeTracing implements Tracing {
     return { ...vessel, clicks, line: this.straight(clicks) };
   }
 
-  async checkClick(click: Vector): Promise<void> {
+  async check_click(click: Vector): Promise<null> {
     if (click[2] < FLOOR) {
       throw new Failure('tracing', 'point', 'fat', 'lumen', '', { place: click, value: -80 });
     }
+    return null;
   }
 
-  async path({ from, to }: Parameters<Tracing['path']>[0]): Promise<readonly Vector[] | null> {
+  async path({ from, to }: Message<'path'>): Promise<Answer<'path'>> {
     await this.gate;
     return to[2] < FLOOR ? null : [from, [to[0], from[1], from[2]], to];
   }
 
-  async brightest(): ReturnType<Tracing['brightest']> {
-    return { point: [0, 0, 0], value: 1, vessel: null, arc_length: null };
-  }
-
-  async line(line: number): Promise<LineContent> {
+  async line({ line }: Message<'line'>): Promise<LineContent> {
     return this.lines[line] as LineContent;
   }
 
@@ -115,10 +126,13 @@ export class FakeTracing implements Tracing {
     return reportOf(lines);
   }
 
-  async write(lines: readonly NamedLine[], kind: string): Promise<Uint8Array<ArrayBuffer>> {
-    return new TextEncoder().encode(`${kind}: ${lines.map(({ name }) => name).join()}`);
+  async write_lines({ lines, kind }: Message<'write_lines'>): Promise<Answer<'write_lines'>> {
+    const text = `${kind}: ${lines.map(({ name }) => name).join()}`;
+    return { bytes: new Uint8ClampedArray(new TextEncoder().encode(text)) };
   }
 }
+
+type Answering = Readonly<Record<Question, (message: unknown) => Promise<unknown>>>;
 
 /** The report of a study with vessels of 10 mm. */
 export function reportOf(lines: readonly NamedLine[]): Report {

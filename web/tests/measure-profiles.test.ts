@@ -1,7 +1,8 @@
 /** Profiles are measured once, kept by their lines, and can be stopped. */
 import { beforeEach, expect, test } from 'vitest';
+import type { Asked, Message } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
-import type { Measuring, Profile } from '../src/core/measuring';
+import type { Profile } from '../src/core/messages';
 import {
   beingMeasured,
   forgetProfiles,
@@ -22,9 +23,8 @@ class Fake {
   answer: (profile: Profile) => void = () => undefined;
   refuse: (error: Failure) => void = () => undefined;
 
-  profile(line: number, fwhm: number | null, told: (progress: typeof store.progress.value & object) => void) {
+  ask(_: string, { line, fwhm }: Message<'profile'>) {
     this.asked.push([line, fwhm]);
-    told({ words: 'measuring', done: 0, total: null });
     return new Promise<Profile>((resolve, reject) => {
       this.answer = resolve;
       this.refuse = reject;
@@ -33,10 +33,10 @@ class Fake {
 }
 
 let fake: Fake;
-let measuring: Measuring;
+let measuring: Asked;
 beforeEach(() => {
   fake = new Fake();
-  measuring = fake as unknown as Measuring;
+  measuring = fake as unknown as Asked;
   forgetProfiles();
   givenFwhm.value = null;
   store.progress.value = null;
@@ -45,7 +45,7 @@ beforeEach(() => {
 test('a line is measured once', async () => {
   const first = measure(measuring, 3);
   await measure(measuring, 3);
-  expect(store.progress.value?.words).toBe('measuring');
+  expect(store.progress.value?.words).toBe('measuring the vessel');
   fake.answer(madeProfile());
   await first;
   await measure(measuring, 3);

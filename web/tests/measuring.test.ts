@@ -3,10 +3,9 @@ import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
-import type { MeasuredVessel, Profile } from '../src/core/measuring';
-import type { Pair } from '../src/core/messages';
+import type { Asked } from '../src/core/asked';
+import type { MeasuredVessel, Pair, Profile } from '../src/core/messages';
 import { NO_MARKS } from '../src/edit/document';
-import { MeasuringHost } from '../src/worker/measuring-host';
 import { opened } from './traced';
 
 /** Two compilers round sums and sines differently: by parts of a number, or of a mm. */
@@ -62,24 +61,22 @@ function fields(table: string): (number | string)[] {
 const withoutNumbers = (json: string) => json.replace(/-?\d+\.\d+(e[+-]?\d+)?/g, '0');
 
 /** What the first vessel answers, by the names that `measured.py` has. */
-async function answers(
-  host: MeasuringHost,
-  line: number,
-  length: number,
-  { at, references }: Truth['asked'],
-) {
-  const { stenosis: graded } = await host.grade(line, { ...NO_MARKS, at, references, method: 'area' });
-  const section = await host.section(line, at);
-  const stretch = await host.stretch(line, references);
-  const spots = await host.offeredReferences(line, { ...NO_MARKS, at });
-  const { diameter, uncertainty } = await host.diameterAt(line, at);
+async function answers(engine: Asked, line: number, length: number, { at, references }: Truth['asked']) {
+  const { stenosis: graded } = await engine.ask('grade', {
+    line,
+    marks: { ...NO_MARKS, at, references, method: 'area' },
+  });
+  const section = await engine.ask('measured_section', { line, at });
+  const stretch = await engine.ask('stretch', { line, ends: references });
+  const spots = await engine.ask('offered_references', { line, marks: { ...NO_MARKS, at } });
+  const { diameter, uncertainty } = await engine.ask('diameter_at', { line, at });
   return {
     at: graded?.at,
     references: graded?.references.map((spot) => spot.at),
     percent: graded?.percent,
     // A percentage and its doubts are one line in Python.
     words: [graded?.words, ...(graded?.doubts ?? [])].join(graded?.doubts.length ? '. ' : ''),
-    doubts: await host.doubts(line, { at, references, method: 'area' }),
+    doubts: await engine.ask('doubts', { line, compared: { at, references, method: 'area' } }),
     suggested: spots.map((spot) => spot && { arc_length: spot.at, diameter: spot.diameter }),
     diameter_at: [diameter, uncertainty],
     number: section.number,
@@ -88,14 +85,18 @@ async function answers(
     straight: stretch.straight,
     direction: stretch.direction,
     c_arm: stretch.c_arm,
-    angle: await host.angleBetween(line, [0, references[0]], [references[1], length]),
+    angle: await engine.ask('angle_between', {
+      line,
+      first: [0, references[0]],
+      second: [references[1], length],
+    }),
   };
 }
 
 /** The report of a vessel, with pictures that show nothing. */
-async function reported(host: MeasuringHost, vessel: MeasuredVessel, length: number): Promise<string> {
-  const { places } = await host.reportPlan(vessel);
-  return host.report({
+async function reported(engine: Asked, vessel: MeasuredVessel, length: number): Promise<string> {
+  const { places } = await engine.ask('report_plan', vessel);
+  return engine.ask('measured_report', {
     vessel,
     scan: null,
     saved: 'a day',
@@ -131,23 +132,24 @@ describe.skipIf(!existsSync(python))('measuring is that of Python', () => {
   test.each(['stenosis', 'y_junction'])('on the phantom %s', { timeout: 60_000 }, async (phantom) => {
     const expected = truth(phantom);
     const { engine, report } = await opened(phantom);
-    const host = new MeasuringHost(async (work) => work(engine));
     const vessels = report().vessels ?? [];
-    const profiles = await Promise.all(vessels.map(({ line }) => host.profile(line, null)));
+    const profiles = await Promise.all(
+      vessels.map(({ line }) => engine.ask('profile', { line, fwhm: null })),
+    );
     expect(profiles.length).toBe(expected.profiles.length);
     expect(apart(profiles, expected.profiles)).toBe('');
     const [{ line, length }] = vessels as [(typeof vessels)[0]];
-    expect(apart(await answers(host, line, length, expected.asked), expected.asked)).toBe('');
+    expect(apart(await answers(engine, line, length, expected.asked), expected.asked)).toBe('');
     const measured: MeasuredVessel[] = vessels.map(({ line, name }, n) => {
       return { id: `${n}`, name, line, marks: NO_MARKS };
     });
-    expect(apart(fields(await host.csv(measured)), fields(expected.csv))).toBe('');
-    const json = await host.json(measured);
+    expect(apart(fields(await engine.ask('profiles_csv', measured)), fields(expected.csv))).toBe('');
+    const json = await engine.ask('profiles_json', measured);
     expect(apart(JSON.parse(json), JSON.parse(expected.json))).toBe('');
     expect(withoutNumbers(json)).toBe(withoutNumbers(expected.json));
     const { at, references } = expected.asked;
     const marks = { ...NO_MARKS, at, references: references.slice(0, 1), group: 'carotid' } as const;
     const [first] = measured as [MeasuredVessel];
-    expect(textOf(await reported(host, { ...first, marks }, length))).toEqual(textOf(expected.report));
+    expect(textOf(await reported(engine, { ...first, marks }, length))).toEqual(textOf(expected.report));
   });
 });

@@ -37,9 +37,9 @@ export class Memory {
     this.bytes.set(bytes, offset);
   }
 
-  open_centerlines(_bytes: Uint8Array, name: string): string {
+  openCenterlines(_bytes: Uint8Array, name: string): readonly string[] {
     this.lines = name;
-    return '[]';
+    return [];
   }
 
   get values(): Float32Array {

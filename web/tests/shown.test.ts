@@ -139,7 +139,7 @@ describe('the vessel that is picked', () => {
 
 test('the content of lines is asked for once, and gives their length', async () => {
   forgetLines();
-  const line = await tracing.add({
+  const line = await tracing.add_line({
     points: [
       [0, 0, 0],
       [3, 4, 0],

@@ -1,16 +1,16 @@
 /** The engine itself, as the page's worker has it, with the room that traces. */
 import { readFileSync } from 'node:fs';
-import type { Edit, Edited, VesselDocument } from '../src/core/edits';
+import type { Asked } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
-import type { Progress, Report, Vector } from '../src/core/messages';
+import type { Edit, Edited, Progress, Report, Vector, VesselDocument } from '../src/core/messages';
 import { Engine, initSync } from '../src/core/pkg/lumencut.js';
-import { TracingHost } from '../src/worker/tracing-host';
+import { ask, refuseStopped } from '../src/worker/answers';
+import { askWithFiles } from '../src/worker/masks';
 
 initSync({ module: readFileSync(new URL('../src/core/pkg/lumencut_bg.wasm', import.meta.url)) });
 
 export interface Opened {
-  readonly engine: Engine;
-  readonly tracing: TracingHost;
+  readonly engine: Asked;
   readonly report: () => Report;
   /** Says stop to what was asked for until then. */
   readonly cancel: () => void;
@@ -18,36 +18,35 @@ export interface Opened {
 
 /** An engine with a phantom open. */
 export async function opened(phantom: string, scale = 1): Promise<Opened> {
-  const engine = await Engine.open('cpu');
-  engine.open_phantom(phantom, scale);
-  const report = (): Report => JSON.parse(engine.report());
+  const module = await Engine.open('cpu');
+  module.open_phantom(phantom, scale);
   let cancelled = new AbortController();
-  const tracing = new TracingHost({
-    run: async (work) => {
+  const engine: Asked = {
+    ask: async (name, message, beside = {}) => {
+      const { signal } = cancelled;
       // As in the queue, work begins once what asked for it has gone on.
       await Promise.resolve();
       try {
-        return await work(engine);
+        refuseStopped(name, signal);
+        return await askWithFiles(module, name, message, { beside, signal });
       } catch (error) {
         throw Failure.of(error);
       }
     },
-    signal: () => cancelled.signal,
-    report,
-  });
+  };
   const cancel = () => {
     cancelled.abort();
     cancelled = new AbortController();
   };
-  return { engine, tracing, report, cancel };
+  return { engine, report: () => ask(module, 'report', null), cancel };
 }
 
 /** A document without vessels. */
 export const EMPTY: VesselDocument = { vessels: [], stoppers: [], bridge: false };
 
 /** What comes of an edit of a document. */
-export const edited = (tracing: TracingHost, edit: Edit, document = EMPTY): Promise<Edited> =>
-  tracing.edit({ document, edit, bridging: false }, unheard, null);
+export const edited = (engine: Asked, edit: Edit, document = EMPTY): Promise<Edited> =>
+  engine.ask('edit', { document, edit, bridging: false });
 
 /** The line of a vessel after an edit. */
 export const lineOf = ({ document }: Edited, n = 0): number => document.vessels[n]?.line ?? -1;

@@ -5,9 +5,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, test } from 'vitest';
-import type { Vector } from '../src/core/messages';
-import type { CenterlineKind, LineContent } from '../src/core/tracing';
-import { EMPTY, edited, lineOf, opened, unheard } from './traced';
+import type { CenterlineKind, LineContent, Vector } from '../src/core/messages';
+import { EMPTY, edited, lineOf, opened } from './traced';
 
 interface Truth {
   readonly phantom: string;
@@ -61,43 +60,45 @@ const every = everyTruth();
 
 describe.skipIf(every.length === 0)('as Python', () => {
   test.each(every)('traces $phantom', async ({ phantom, clicks, lines, files }) => {
-    const { tracing } = await opened(phantom);
+    const { engine } = await opened(phantom);
     // All vessels but the last were clicked before; it is begun, and all are traced together.
     const vessel = { line: 0, name: '', color: '', isHidden: false, doubt: null };
     const vessels = clicks.slice(0, -1).map((own, n) => ({ ...vessel, id: n + 1, clicks: own }));
     const begin = { kind: 'begin_vessel', clicks: clicks.at(-1) ?? [] } as const;
-    const traced = await edited(tracing, begin, { ...EMPTY, vessels });
+    const traced = await edited(engine, begin, { ...EMPTY, vessels });
     expect(traced.document.vessels.length).toBe(lines.length);
     for (const [n, truth] of lines.entries()) {
-      const found = await tracing.line(lineOf(traced, n));
+      const found = await engine.ask('line', { line: lineOf(traced, n) });
       expect(apart(found, truth)).toBeLessThan(LAST_BITS);
       expect(found.bridged).toEqual(truth.bridged);
     }
     // The same numbers give the same bytes.
-    const own = await Promise.all(lines.map((line) => tracing.add(line)));
+    const own = await Promise.all(lines.map((line) => engine.ask('add_line', line)));
     const named = own.map((line, n) => ({ line, name: `vessel ${n}` }));
     for (const kind of ['vtp', 'mrk.json'] as const) {
-      expect(new TextDecoder().decode(await tracing.write(named, kind))).toBe(files[kind]);
+      expect(new TextDecoder().decode((await engine.ask('write_lines', { lines: named, kind })).bytes)).toBe(
+        files[kind],
+      );
     }
   });
 
   test.each(every)('finds the branches of $phantom', async ({ phantom, clicks, branches }) => {
-    const { tracing } = await opened(phantom);
-    const found = await edited(tracing, { kind: 'add_branches', seed: clicks[0]?.[0] ?? [0, 0, 0] });
+    const { engine } = await opened(phantom);
+    const found = await edited(engine, { kind: 'add_branches', seed: clicks[0]?.[0] ?? [0, 0, 0] });
     expect(found.added.length).toBe(branches.length);
     for (const [n, truth] of branches.entries()) {
-      expect(apart(await tracing.line(lineOf(found, n)), truth)).toBeLessThan(SHOWN);
+      expect(apart(await engine.ask('line', { line: lineOf(found, n) }), truth)).toBeLessThan(SHOWN);
     }
   });
 
   test.each(every)('traces a mask of $phantom', async ({ phantom, mask, masked, notes }) => {
-    const { tracing } = await opened(phantom);
+    const { engine } = await opened(phantom);
     const file = new File([readFileSync(mask)], 'mask.nii.gz');
-    const found = await tracing.edit(ADD_MASK, unheard, [{ path: 'mask.nii.gz', file }]);
+    const found = await engine.ask('edit', ADD_MASK, { mask: [{ path: 'mask.nii.gz', file }] });
     expect(found.notes).toEqual(notes);
     expect(found.document.vessels.map(({ name }) => name)).toEqual(masked.map((_, n) => `Mask ${n + 1}`));
     for (const [n, truth] of masked.entries()) {
-      expect(apart(await tracing.line(lineOf(found, n)), truth)).toBeLessThan(SHOWN);
+      expect(apart(await engine.ask('line', { line: lineOf(found, n) }), truth)).toBeLessThan(SHOWN);
     }
   });
 });

@@ -1,24 +1,24 @@
 import { expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
 import { nextColor, PALETTE } from '../src/edit/palette';
-import { distance, EMPTY, edited, lineOf, opened, refusal, unheard } from './traced';
+import { distance, EMPTY, edited, lineOf, opened, refusal } from './traced';
 
 test('a vessel between two clicks follows the one that is there', async () => {
-  const { tracing, report } = await opened('y_junction');
+  const { engine, report } = await opened('y_junction');
   const [trunk] = report().vessels ?? [];
-  const truth = await tracing.line(trunk?.line ?? -1);
+  const truth = await engine.ask('line', { line: trunk?.line ?? -1 });
   const ends = [truth.points[4], truth.points.at(-5)] as Vector[];
   const begin = { kind: 'begin_vessel', clicks: ends } as const;
-  const begun = await edited(tracing, begin);
-  const { points, radius, confidence, bridged } = await tracing.line(lineOf(begun));
+  const begun = await edited(engine, begin);
+  const { points, radius, confidence, bridged } = await engine.ask('line', { line: lineOf(begun) });
   const away = points.map((point) => Math.min(...truth.points.map((known) => distance(known, point))));
   expect(Math.max(...away)).toBeLessThan(0.5);
   expect([radius?.length, confidence?.length, bridged?.length]).toEqual(
     points.map(() => points.length).slice(0, 3),
   );
   // The same clicks once more give the same line.
-  expect(lineOf(await edited(tracing, begin))).toBe(lineOf(begun));
-  const way = await tracing.path({
+  expect(lineOf(await edited(engine, begin))).toBe(lineOf(begun));
+  const way = await engine.ask('path', {
     from: ends[0] as Vector,
     to: ends[1] as Vector,
     stoppers: [],
@@ -29,79 +29,79 @@ test('a vessel between two clicks follows the one that is there', async () => {
 });
 
 test('a click into no lumen is refused with its place and the value there', async () => {
-  const { tracing, report } = await opened('y_junction');
+  const { engine, report } = await opened('y_junction');
   const [corner] = report().volume?.corners ?? [];
-  const truth = await tracing.line(report().vessels?.[0]?.line ?? -1);
+  const truth = await engine.ask('line', { line: report().vessels?.[0]?.line ?? -1 });
   const inside = truth.points[4] as Vector;
   const air = (corner ?? inside).map((c, a) => 0.9 * c + 0.1 * (inside[a] ?? 0)) as unknown as Vector;
-  const failure = await refusal(edited(tracing, { kind: 'begin_vessel', clicks: [inside, air] }));
+  const failure = await refusal(edited(engine, { kind: 'begin_vessel', clicks: [inside, air] }));
   expect([failure.kind, failure.subject]).toEqual(['tracing', 'this point']);
   expect(distance(failure.place ?? [0, 0, 0], air)).toBeLessThan(1e-9);
   expect(failure.value).not.toBeNull();
-  expect(await tracing.path({ from: inside, to: air, stoppers: [], bridge: false })).toBeNull();
+  expect(await engine.ask('path', { from: inside, to: air, stoppers: [], bridge: false })).toBeNull();
 });
 
 test('a stop is heard by tracing that has not begun, and not by what is asked for later', async () => {
-  const { tracing, report, cancel } = await opened('y_junction');
-  const { points } = await tracing.line(report().vessels?.[0]?.line ?? -1);
+  const { engine, report, cancel } = await opened('y_junction');
+  const { points } = await engine.ask('line', { line: report().vessels?.[0]?.line ?? -1 });
   const ends = [points[4], points.at(-5)] as Vector[];
   const begin = { kind: 'begin_vessel', clicks: ends } as const;
-  const stopped = refusal(edited(tracing, begin));
+  const stopped = refusal(edited(engine, begin));
   cancel();
   expect((await stopped).kind).toBe('interrupted');
-  expect((await edited(tracing, begin)).added).toHaveLength(1);
+  expect((await edited(engine, begin)).added).toHaveLength(1);
 });
 
 test('what is shown can be cut, joined and shown again', async () => {
-  const { tracing } = await opened('stenosis');
-  const whole = await tracing.beginDocument();
+  const { engine } = await opened('stenosis');
+  const whole = await engine.ask('begin_document', null);
   expect(whole.vessels).toMatchObject([
     { id: 1, color: '#f0e442', isHidden: false, clicks: null, doubt: null },
   ]);
-  const cut = await edited(tracing, { kind: 'cut', id: 1, at: 20 }, whole);
+  const cut = await edited(engine, { kind: 'cut', id: 1, at: 20 }, whole);
   expect([cut.words, cut.added, cut.without_marks]).toEqual(['cut a vessel', [2], [1]]);
   const named = cut.document.vessels.map(({ line }, n) => ({ line, name: `part ${n}` }));
-  const shown = await tracing.show(named);
+  const shown = await engine.ask('show', named);
   expect(shown.vessels?.map(({ name, length }) => [name, Math.round(length)])).toEqual([
     ['part 0', 20],
     ['part 1', 40],
   ]);
-  const joined = await edited(tracing, { kind: 'join', id: 2, other: 1 }, cut.document);
-  const { points } = await tracing.line(lineOf(joined));
-  expect(points).toEqual((await tracing.line(whole.vessels[0]?.line ?? -1)).points);
-  expect((await tracing.show([])).vessels).toBeNull();
-  const far = await refusal(edited(tracing, { kind: 'cut', id: 1, at: 99 }, whole));
+  const joined = await edited(engine, { kind: 'join', id: 2, other: 1 }, cut.document);
+  const { points } = await engine.ask('line', { line: lineOf(joined) });
+  expect(points).toEqual((await engine.ask('line', { line: whole.vessels[0]?.line ?? -1 })).points);
+  expect((await engine.ask('show', [])).vessels).toBeNull();
+  const far = await refusal(edited(engine, { kind: 'cut', id: 1, at: 99 }, whole));
   expect(far.kind).toBe('vessel tree');
 });
 
 test('the colour of a vessel that is drawn is the one that the engine gives it', async () => {
-  const { tracing } = await opened('stenosis');
-  const { vessels } = await tracing.beginDocument();
+  const { engine } = await opened('stenosis');
+  const { vessels } = await engine.ask('begin_document', null);
   const lines = Array.from({ length: 2 * PALETTE.length }, () => ({
     line: vessels[0]?.line ?? -1,
     name: '',
   }));
-  const { document } = await edited(tracing, { kind: 'add_lines', lines });
+  const { document } = await edited(engine, { kind: 'add_lines', lines });
   for (const [n, vessel] of document.vessels.entries()) {
     expect(vessel.color).toBe(nextColor(document.vessels.slice(0, n)));
   }
 });
 
 test('a document comes back from the engine with the numbers that it had, to the last bit', async () => {
-  const { tracing } = await opened('stenosis');
+  const { engine } = await opened('stenosis');
   const odd: Vector = [0.1 + 0.2, 1 / 3, -1e-17];
-  const { vessels, ...rest } = await tracing.beginDocument();
+  const { vessels, ...rest } = await engine.ask('begin_document', null);
   const document = { ...rest, vessels: vessels.map((vessel) => ({ ...vessel, clicks: [odd, odd] })) };
-  const same = await edited(tracing, { kind: 'accept', ids: [1] }, document);
+  const same = await edited(engine, { kind: 'accept', ids: [1] }, document);
   expect(JSON.stringify(same.document.vessels)).toBe(JSON.stringify(document.vessels));
 });
 
 test('files that are no mask are refused, and the scan stays', async () => {
-  const { tracing, report } = await opened('stenosis');
+  const { engine, report } = await opened('stenosis');
   const before = report();
   const table = new File(['x,y,z\n0,0,0\n1,0,0\n'], 'line.csv');
   const request = { document: EMPTY, edit: { kind: 'add_mask' }, bridging: false } as const;
-  const failure = await refusal(tracing.edit(request, unheard, [{ path: 'line.csv', file: table }]));
+  const failure = await refusal(engine.ask('edit', request, { mask: [{ path: 'line.csv', file: table }] }));
   expect([failure.found, failure.expected]).toEqual(['centerlines', 'a mask of vessels']);
   expect(report()).toEqual(before);
 });

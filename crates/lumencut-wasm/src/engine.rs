@@ -1,24 +1,21 @@
-//! What the page's worker calls, and the turning view: on the canvas where a GPU computes, else as bytes.
+//! What the page's worker calls: questions by their names, and what they do not do: devices, the turning view (on the canvas where
+//! a GPU computes, else as bytes), and voxels as they come.
 
-use js_sys::{Promise, Uint8Array, Uint8ClampedArray};
+use js_sys::{Array, Date, Function, Promise, Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
 use lumencut::devices::Wanted;
 use lumencut::pipeline::Request;
 use lumencut::screen::Screen;
 use lumencut::stages::{Image, ImageSet};
-use serde::Serialize;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use wasm_bindgen_futures::future_to_promise;
 use web_sys::OffscreenCanvas;
 
 use crate::{phantoms, stopping};
-use lumencut::study::centerline_files::AskedMessage;
+use lumencut::study::asking::{Answer, Asking};
 use lumencut::study::failure::{Failure, Result};
-use lumencut::study::labels::{LaidPicture, PictureLabels};
-use lumencut::study::open_study::{Picture, Study};
-use lumencut::study::planes::Plane;
-use lumencut::study::settings::table_as_json;
-use lumencut::study::straightened::CprMessage;
+use lumencut::study::open_study::Study;
+use lumencut::study::questions::ask_at_once;
 use lumencut::study::view::{View, ViewMessage};
 
 /// What computes, and the study that is open. All methods throw the JSON of an error.
@@ -26,36 +23,30 @@ use lumencut::study::view::{View, ViewMessage};
 pub struct Engine {
     backend: Backend,
     screen: Option<Screen>,
-    pub(crate) study: Study,
+    study: Study,
 }
 
 /// What the page gets, or catches.
-pub(crate) type Answer<T> = std::result::Result<T, JsValue>;
+type Thrown<T> = std::result::Result<T, JsValue>;
 
 fn thrown(failure: &Failure) -> JsValue {
     JsValue::from_str(&serde_json::to_string(failure).unwrap_or_else(|error| error.to_string()))
 }
 
 /// What succeeded, or what is thrown.
-pub(crate) fn answer<T>(result: Result<T>) -> Answer<T> {
+fn answer<T>(result: Result<T>) -> Thrown<T> {
     result.map_err(|failure| thrown(&failure))
 }
 
-/// What succeeded, as JSON.
-pub(crate) fn told<T: Serialize>(result: Result<T>) -> Answer<String> {
-    let text = result.and_then(|value| {
-        serde_json::to_string(&value).map_err(|error| Failure::of_message("answer", &error, "JSON"))
-    });
-    answer(text)
-}
-
-/// A message of the page.
-pub(crate) fn read<'a, T: serde::Deserialize<'a>>(what: &str, text: &'a str) -> Result<T> {
-    serde_json::from_str(text).map_err(|error| Failure::of_message(what, &error, "JSON"))
+/// An answer as its JSON, and the bytes beside it; `undefined` where there are none.
+fn sent(answered: Result<Answer>) -> Thrown<Array> {
+    let Answer { json, bytes } = answer(answered)?;
+    let bytes = bytes.map_or(JsValue::UNDEFINED, |bytes| clamped(&bytes).into());
+    Ok(Array::of(&[json.into(), bytes]))
 }
 
 /// What computes on a device of this name.
-async fn backend(device: &str) -> Answer<Backend> {
+async fn backend(device: &str) -> Thrown<Backend> {
     let wanted = match device {
         "any" => Wanted::told("auto", Some("any")),
         name => Wanted::told(name, None),
@@ -72,7 +63,7 @@ impl Engine {
     ///
     /// # Errors
     /// `device` where a GPU is asked for and none can be used.
-    pub async fn open(device: &str) -> Answer<Engine> {
+    pub async fn open(device: &str) -> Thrown<Engine> {
         Ok(Self { backend: backend(device).await?, screen: None, study: Study::default() })
     }
 
@@ -86,7 +77,7 @@ impl Engine {
     ///
     /// # Errors
     /// As [`Engine::open`].
-    pub async fn change_device(&mut self, device: &str) -> Answer<()> {
+    pub async fn change_device(&mut self, device: &str) -> Thrown<()> {
         self.screen = None;
         self.backend = backend(device).await?;
         Ok(())
@@ -105,7 +96,7 @@ impl Engine {
     ///
     /// # Errors
     /// `device` where the GPU cannot draw on it.
-    pub fn draw_on(&mut self, canvas: OffscreenCanvas) -> Answer<()> {
+    pub fn draw_on(&mut self, canvas: OffscreenCanvas) -> Thrown<()> {
         self.screen = Some(answer(Screen::new(canvas).map_err(Failure::from))?);
         Ok(())
     }
@@ -116,25 +107,41 @@ impl Engine {
         stopping::address()
     }
 
-    /// The table of settings as JSON.
-    pub fn settings_table() -> String {
-        table_as_json().to_string()
+    /// Long work can begin again: the page's cancellation has been heard.
+    pub fn cancellation_was_heard() {
+        stopping::heard(stopping::LONG);
     }
 
-    /// The letters at the edges of a picture and its scale bar, as JSON. It asks nothing of the study, so that it need not wait for a
-    /// view that is drawn.
+    /// Answers a question of the table `lumencut::study::questions`: JSON, and bytes beside it or `undefined`. `bytes` are those of
+    /// a file for questions that take one; `listener` gets the share that is done now and then.
     ///
     /// # Errors
-    /// `settings` for a text that does not say how the picture lies.
-    pub fn picture_labels(picture: &str) -> Answer<String> {
-        told(read::<LaidPicture>("picture", picture).map(PictureLabels::from))
+    /// Those of the question, `interrupted` once the page says stop.
+    pub fn ask(
+        &mut self,
+        name: &str,
+        message: &str,
+        bytes: &[u8],
+        listener: Option<Function>,
+    ) -> Thrown<Array> {
+        sent(stopping::watched(listener, |watch| {
+            self.study.ask(name, &Asking { message, bytes, watch, clock: &Date::now })
+        }))
+    }
+
+    /// Answers a question that asks nothing of the study, so that it need not wait for a view that is drawn; as [`Engine::ask`].
+    ///
+    /// # Errors
+    /// Those of the question.
+    pub fn ask_at_once(name: &str, message: &str) -> Thrown<Array> {
+        sent(ask_at_once(name, message))
     }
 
     /// Makes room for a volume; `header` is the JSON before its voxels.
     ///
     /// # Errors
     /// `volume` where there is no memory for it.
-    pub fn begin_volume(&mut self, header: &str) -> Answer<()> {
+    pub fn begin_volume(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_volume(header))
     }
 
@@ -142,7 +149,7 @@ impl Engine {
     ///
     /// # Errors
     /// `volume` for more bytes than the header tells of.
-    pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Answer<()> {
+    pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
         let room = self.study.voxel_bytes(offset as usize, bytes.length() as usize);
         bytes.copy_to(answer(room)?);
         Ok(())
@@ -153,42 +160,35 @@ impl Engine {
         self.study.voxels_changed();
     }
 
+    /// Makes room for a mask; `header` is the JSON before its voxels.
+    ///
+    /// # Errors
+    /// `volume` where no scan is open, or there is no memory for the mask.
+    pub fn begin_mask(&mut self, header: &str) -> Thrown<()> {
+        answer(self.study.begin_mask(header))
+    }
+
+    /// Takes over bytes of voxels of the mask from `offset` on.
+    ///
+    /// # Errors
+    /// `volume` for more bytes than the header tells of.
+    pub fn take_mask_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
+        let room = self.study.mask_bytes(offset as usize, bytes.length() as usize);
+        bytes.copy_to(answer(room)?);
+        Ok(())
+    }
+
+    /// Forgets the mask that was read.
+    pub fn end_mask(&mut self) {
+        self.study.end_mask();
+    }
+
     /// Opens a phantom by its name, in `scale` times as many voxels along each axis where it has scales.
     ///
     /// # Errors
     /// `settings` for another name, `volume` where there is no memory for it.
-    pub fn open_phantom(&mut self, name: &str, scale: f64) -> Answer<()> {
+    pub fn open_phantom(&mut self, name: &str, scale: f64) -> Thrown<()> {
         answer(phantoms::open(&mut self.study, name, scale))
-    }
-
-    /// Opens centerlines, in the space and unit that are asked for (as JSON); tells what was odd about them, as a list in JSON.
-    ///
-    /// # Errors
-    /// `format` for a file that is damaged or holds none.
-    pub fn open_centerlines(&mut self, bytes: &[u8], name: &str, asked: &str) -> Answer<String> {
-        let asked = read("space and unit of the centerlines", asked).map(AskedMessage::statement);
-        told(asked.and_then(|asked| self.study.open_centerlines(bytes, name, asked)))
-    }
-
-    /// Closes the study.
-    pub fn close(&mut self) {
-        self.study.close();
-    }
-
-    /// What is open, as JSON.
-    ///
-    /// # Errors
-    /// `volume` for values beyond all windows.
-    pub fn report(&self) -> Answer<String> {
-        told(self.study.report())
-    }
-
-    /// The camera of a named view that shows all of the study, as JSON.
-    ///
-    /// # Errors
-    /// `camera` where nothing is open.
-    pub fn fitted(&self, view: &str, width: usize, height: usize) -> Answer<String> {
-        told(self.study.fitted(view, [width, height]))
     }
 
     /// Renders a view, given as JSON. On the canvas of [`Engine::draw_on`] where the GPU computes, and then it gives nothing;
@@ -196,7 +196,7 @@ impl Engine {
     ///
     /// # Errors
     /// Those of view and scene, `interrupted` once the page says stop.
-    pub async fn render(&mut self, view: &str) -> Answer<Option<Uint8ClampedArray>> {
+    pub async fn render(&mut self, view: &str) -> Thrown<Option<Uint8ClampedArray>> {
         let view = answer(ViewMessage::read(view).and_then(|message| message.view()))?;
         answer(self.rendered(&view).await)
     }
@@ -213,78 +213,9 @@ impl Engine {
             Drawn::Frame(frame) => Ok(Some(clamped(&frame.image.into_flattened()))),
         }
     }
-
-    /// What a pixel of a view shows, as JSON.
-    ///
-    /// # Errors
-    /// Those of the view.
-    pub fn pick(&mut self, view: &str, column: f64, row: f64) -> Answer<String> {
-        let view = ViewMessage::read(view).and_then(|message| message.view());
-        told(view.and_then(|view| self.study.pick(&view, [column, row])))
-    }
-
-    /// What lies at a world point, as JSON.
-    ///
-    /// # Errors
-    /// `settings` for a text that is no point.
-    pub fn at(&self, point: &str) -> Answer<String> {
-        told(read("point", point).map(|point| self.study.at(point)))
-    }
-
-    /// How the values of the volume are distributed, as JSON.
-    ///
-    /// # Errors
-    /// `volume` where none is open.
-    pub fn histogram(&self, bins: usize) -> Answer<String> {
-        told(self.study.histogram(bins))
-    }
-
-    /// The pixels of a plane, RGBA, in a window of this level and width.
-    ///
-    /// # Errors
-    /// `volume` where none is open.
-    pub fn slice(&self, plane: &str, level: f64, width: f64) -> Answer<Uint8ClampedArray> {
-        let plane = answer(read::<Plane>("plane", plane))?;
-        Ok(clamped(&answer(self.study.slice(&plane, [level, width]))?.bytes))
-    }
-
-    /// The middle and the axes of the section across a vessel, the measured one once there is one, as JSON.
-    ///
-    /// # Errors
-    /// `vessel tree` for a vessel that there is not.
-    pub fn across(&self, vessel: usize, at: f64) -> Answer<String> {
-        told(self.study.across(vessel, at))
-    }
-
-    /// The straightened CPR of a vessel: its size in pixels, and these, RGBA.
-    ///
-    /// # Errors
-    /// `vessel tree` for a vessel that there is not.
-    pub fn straightened(&mut self, message: &str, level: f64, width: f64) -> Answer<js_sys::Array> {
-        let message = answer(read::<CprMessage>("cpr", message))?;
-        let Picture { size, bytes } = answer(self.study.straightened(message, [level, width]))?;
-        let size = size.map(|count| JsValue::from_f64(count as f64));
-        Ok(js_sys::Array::of(&[size[0].clone(), size[1].clone(), clamped(&bytes).into()]))
-    }
-
-    /// What a place in the straightened CPR shows, as JSON.
-    ///
-    /// # Errors
-    /// `settings` where none was shown.
-    pub fn pick_straightened(&self, column: f64, row: f64) -> Answer<String> {
-        told(self.study.pick_straightened([column, row]))
-    }
-
-    /// Column and row of a world point in the straightened CPR, as JSON; null where none is shown.
-    ///
-    /// # Errors
-    /// `settings` for a text that is no point.
-    pub fn on_straightened(&self, point: &str) -> Answer<String> {
-        told(read("point", point).map(|point| self.study.on_straightened(point)))
-    }
 }
 
-/// The bytes of a picture as a browser takes them, which cannot be in shared memory.
+/// Bytes as a browser takes them for a picture, which cannot be in shared memory.
 fn clamped(bytes: &[u8]) -> Uint8ClampedArray {
     let copy = Uint8ClampedArray::new_with_length(bytes.len() as u32);
     copy.copy_from(bytes);

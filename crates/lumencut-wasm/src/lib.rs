@@ -3,14 +3,8 @@
 
 #[cfg(target_arch = "wasm32")]
 mod engine;
-#[cfg(target_arch = "wasm32")]
-mod measuring_engine;
 pub mod phantoms;
-#[cfg(target_arch = "wasm32")]
-mod session_files_engine;
 #[cfg(target_arch = "wasm32")]
 mod stopping;
 #[cfg(target_arch = "wasm32")]
 mod threads;
-#[cfg(target_arch = "wasm32")]
-mod tracing_engine;

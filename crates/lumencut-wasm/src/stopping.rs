@@ -48,13 +48,13 @@ pub fn is_asked(kind: u8) -> bool {
     ASKED.load(Ordering::Relaxed) & kind != 0
 }
 
-/// Does long work that can be stopped; `told` is called now and then with the share that is done.
+/// Does work that can be stopped; `told`, where somebody listens, is called now and then with the share that is done.
 ///
 /// # Errors
 /// Those of the work.
-pub fn watched<T>(told: Function, work: impl FnOnce(Watch) -> Result<T>) -> Result<T> {
+pub fn watched<T>(told: Option<Function>, work: impl FnOnce(Watch) -> Result<T>) -> Result<T> {
     let progress = Progress::default();
-    LISTENER.set(Some(Listener { told, last: Date::now() }));
+    LISTENER.set(told.map(|told| Listener { told, last: Date::now() }));
     let stop = || {
         tell(&progress);
         is_asked(LONG)
@@ -74,10 +74,4 @@ fn tell(progress: &Progress) {
             let _ = listener.told.call1(&JsValue::NULL, &JsValue::from_f64(progress.share()));
         }
     });
-}
-
-/// Stops after some time (ms).
-pub fn after(milliseconds: f64) -> impl Fn() -> bool + Sync {
-    let end = Date::now() + milliseconds;
-    move || Date::now() >= end
 }

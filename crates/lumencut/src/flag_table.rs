@@ -7,6 +7,7 @@ use serde::Serialize;
 
 /// A flag of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct FlagLook {
     /// Its name in code, such as `NO_EDGE`.
     #[serde(skip)]

@@ -14,6 +14,7 @@ const SIDES: [[char; 2]; 3] = [['R', 'L'], ['A', 'P'], ['I', 'S']];
 
 /// The letters at the four edges of a picture.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct EdgeLetters {
     /// At the left edge.
     pub left: String,

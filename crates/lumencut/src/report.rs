@@ -76,15 +76,18 @@ pub struct Lengths {
 
 /// A view of all vessels.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportView"))]
 pub struct View {
     /// A PNG in base64.
     pub picture: String,
     /// The name of its method, such as `csr`.
+    #[cfg_attr(test, ts(type = "Method"))]
     pub method: String,
 }
 
 /// The straightened vessel from left to right: the middle of its first column is the beginning of the vessel.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportStrip"))]
 pub struct Strip {
     /// A PNG in base64.
     pub picture: String,

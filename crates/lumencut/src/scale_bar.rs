@@ -7,6 +7,7 @@ const PART: f64 = 0.25;
 
 /// A bar of a length that is easily read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct ScaleBar {
     /// mm
     pub length: f64,

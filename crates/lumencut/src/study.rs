@@ -3,6 +3,7 @@
 //!
 //! Points are in world space (LPS, mm) unless their documentation says otherwise.
 
+pub mod asking;
 pub mod brightest;
 pub mod centerline_files;
 pub mod content;
@@ -27,6 +28,7 @@ pub mod picking;
 pub mod planes;
 mod points_along;
 pub mod profiles;
+pub mod questions;
 pub mod report_messages;
 pub mod session_files;
 pub mod settings;
@@ -37,4 +39,4 @@ pub mod view;
 pub mod voxels;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

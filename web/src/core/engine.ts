@@ -1,37 +1,11 @@
 /** The worker as the page uses it: typed calls whose errors are failures. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
 import type { EngineHost } from '../worker/host';
+import type { Answer, Asked, Beside, Message, Question, Told } from './asked';
 import { Failure } from './failure';
-import type { Measuring } from './measuring';
-import { MeasuringClient } from './measuring-client';
-import type {
-  Camera,
-  Cpr,
-  Drawn,
-  GivenFile,
-  Histogram,
-  LaidPicture,
-  Pair,
-  Pick,
-  Picture,
-  PictureLabels,
-  Plane,
-  Progress,
-  Report,
-  SeriesWish,
-  Started,
-  States,
-  Vector,
-  View,
-  Window,
-} from './messages';
+import { TURNS } from './generated/questions';
+import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from './messages';
 import { Precedence } from './precedence';
-import { SessionClient } from './session-client';
-import type { Sessions } from './session-file';
-import type { Tracing } from './tracing';
-import { TracingClient } from './tracing-client';
-
-export type Told = (progress: Progress) => void;
 
 /** Files of the same origin. */
 export interface Addresses {
@@ -50,10 +24,7 @@ export interface Opened {
 const STOP_VIEW = 1;
 const STOP_LONG = 2;
 
-export class EngineClient {
-  readonly tracing: Tracing;
-  readonly sessions: Sessions;
-  readonly measuring: Measuring;
+export class EngineClient implements Asked {
   private readonly host: Remote<EngineHost>;
   private stopByte: Uint8Array | null = null;
   private readonly precedence = new Precedence(() => this.stop());
@@ -61,9 +32,12 @@ export class EngineClient {
   constructor() {
     const worker = new Worker(new URL('../worker/engine.worker.ts', import.meta.url), { type: 'module' });
     this.host = wrap<EngineHost>(worker);
-    this.tracing = new TracingClient(this.host.tracing, (answer) => this.first(answer));
-    this.sessions = new SessionClient(this.host.sessions, (answer) => this.first(answer));
-    this.measuring = new MeasuringClient(this.host.measuring, (answer) => this.first(answer));
+  }
+
+  /** The answer to a question of the table; those that the user waits for come before the view under way. */
+  ask<N extends Question>(name: N, message: Message<N>, { told, ...files }: Beside = {}): Promise<Answer<N>> {
+    const answer = this.host.ask(name, message, files, told ? proxy(told) : null) as Promise<Answer<N>>;
+    return TURNS[name].when === 'first' ? this.first(answer) : heard(answer);
   }
 
   async start(device: string): Promise<Started> {
@@ -74,10 +48,10 @@ export class EngineClient {
 
   /** Stops the view under way, where the memory is shared; elsewhere it goes on to its end. */
   stop(): void {
-    this.ask(STOP_VIEW);
+    this.say(STOP_VIEW);
   }
 
-  private ask(bit: number): void {
+  private say(bit: number): void {
     if (this.stopByte) {
       Atomics.or(this.stopByte, 0, bit);
     }
@@ -112,23 +86,10 @@ export class EngineClient {
     return this.first(this.host.openFiles(files, wish, proxy(told)));
   }
 
-  /** What is open. */
-  report(): Promise<Report> {
-    return heard(this.host.whatIsOpen());
-  }
-
   /** Stops loading, tracing and measuring; the last two, once under way, only where the memory is shared. */
   cancel(): Promise<void> {
-    this.ask(STOP_LONG);
+    this.say(STOP_LONG);
     return heard(this.host.cancel());
-  }
-
-  close(): Promise<void> {
-    return this.first(this.host.close());
-  }
-
-  fitted(view: string, [width, height]: Pair): Promise<Camera> {
-    return this.first(this.host.fitted(view, width, height));
   }
 
   render(view: View): Promise<Drawn> {
@@ -139,43 +100,6 @@ export class EngineClient {
   /** An answer that the user waits for. */
   private first<T>(answer: Promise<T>): Promise<T> {
     return this.precedence.first(heard(answer));
-  }
-
-  pick(view: View, [column, row]: Pair): Promise<Pick> {
-    return this.first(this.host.pick(view, column, row));
-  }
-
-  at(point: Vector): Promise<Pick> {
-    return this.first(this.host.at(point));
-  }
-
-  slice(plane: Plane, window: Window): Promise<Picture> {
-    return this.first(this.host.slice(plane, window));
-  }
-
-  across(vessel: number, at: number): Promise<[Vector, Vector, Vector]> {
-    return this.first(this.host.across(vessel, at));
-  }
-
-  /** The letters and the scale bar of a picture; no view gives way to them. */
-  labels(picture: LaidPicture): Promise<PictureLabels> {
-    return heard(this.host.labels(picture));
-  }
-
-  straightened(cpr: Cpr, window: Window): Promise<Picture> {
-    return this.first(this.host.straightened(cpr, window));
-  }
-
-  pickStraightened([column, row]: Pair): Promise<Pick> {
-    return this.first(this.host.pickStraightened(column, row));
-  }
-
-  onStraightened(point: Vector): Promise<[number, number] | null> {
-    return heard(this.host.onStraightened(point));
-  }
-
-  histogram(bins: number): Promise<Histogram> {
-    return heard(this.host.histogram(bins));
   }
 }
 

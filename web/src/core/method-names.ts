@@ -1,6 +1,5 @@
 /** How readers call methods, in the order to show them; a test compares both tables with the engine's. */
-import type { StenosisMethod } from './measuring';
-import type { Method } from './messages';
+import type { Method, StenosisMethod } from './messages';
 
 export const VIEW_METHODS: readonly (readonly [Method, string])[] = [
   ['csr', 'CSR'],

@@ -1,5 +1,5 @@
 /** What page and worker tell each other of session files. The fields are those of the file, which the module checks; lengths in mm. */
-import type { LineId, Pair, SettingValue, Vector } from './messages';
+import type { Pair, SettingValue, Vector } from './plain';
 
 /** The grid of the scan that a session was made of. */
 export interface SavedScan {
@@ -58,25 +58,4 @@ export interface SavedSession {
   /** The width of the point spread that the reader gave; null where it is estimated. */
   readonly fwhm_mm: number | null;
   readonly view: SavedView | null;
-}
-
-/** A line of a session with its name. */
-export interface SavedLine {
-  readonly line: LineId;
-  readonly name: string;
-}
-
-/** A session with its lines: one for each vessel, and one for each doubtful branch. */
-export interface SessionContent {
-  readonly lines: readonly SavedLine[];
-  readonly doubtful_lines: readonly SavedLine[];
-  readonly session: SavedSession;
-}
-
-/** Session files. Throws `Failure`. */
-export interface Sessions {
-  /** The bytes of a session file. */
-  write(content: SessionContent): Promise<Uint8Array<ArrayBuffer>>;
-  /** The content of a session file; its lines are taken over, and nothing is shown yet. */
-  read(bytes: Uint8Array, name: string): Promise<SessionContent>;
 }

@@ -1,25 +1,25 @@
 /** Many vessels at once: all branches from a seed, and the vessels of a mask. */
+import type { Asked } from '../core/asked';
 import type { GivenFile, Vector } from '../core/messages';
-import type { Tracing } from '../core/tracing';
 import { notes } from '../state/store';
 import { commit, isDone } from './committing';
 
 /** Adds all branches that a seed reaches; doubtful ones wait until they are accepted. */
-export const addBranches = (tracing: Tracing, seed: Vector): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'add_branches', seed }));
+export const addBranches = (engine: Asked, seed: Vector): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'add_branches', seed }));
 
 /** Accepts branches that are doubtful. */
-export const accept = (tracing: Tracing, ids: readonly number[]): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'accept', ids }));
+export const accept = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'accept', ids }));
 
 /** Leaves branches out that are doubtful. */
-export const leaveOut = (tracing: Tracing, ids: readonly number[]): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'leave_out', ids }));
+export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'leave_out', ids }));
 
 /** Adds the vessels of a mask; what was odd about it is told among the notes. */
-export async function addMask(tracing: Tracing, mask: readonly GivenFile[]): Promise<boolean> {
+export async function addMask(engine: Asked, mask: readonly GivenFile[]): Promise<boolean> {
   const then = (edited: { readonly notes: readonly string[] }) => {
     notes.value = [...new Set([...notes.value, ...edited.notes])];
   };
-  return isDone(commit(tracing, { kind: 'add_mask' }, { mask, then }));
+  return isDone(commit(engine, { kind: 'add_mask' }, { mask, then }));
 }

@@ -1,5 +1,5 @@
 /** What the page reads of a document, and how it takes over what the engine made of it. */
-import type { DocumentVessel, Edited } from '../core/edits';
+import type { DocumentVessel, Edited } from '../core/messages';
 import type { Document } from './document';
 
 export const vesselOf = (document: Document, id: number | null): DocumentVessel | null =>

@@ -1,6 +1,6 @@
 /** The clicks of vessels. After each edit the vessels that were clicked are traced anew; a click that is refused changes nothing. */
+import type { Asked } from '../core/asked';
 import type { Vector } from '../core/messages';
-import type { Tracing } from '../core/tracing';
 import { commit, isDone } from './committing';
 
 /**
@@ -8,31 +8,31 @@ import { commit, isDone } from './committing';
  * user bridges a gap after that.
  */
 export async function beginVessel(
-  tracing: Tracing,
+  engine: Asked,
   clicks: readonly Vector[],
   begun: (id: number) => void = () => undefined,
 ): Promise<number | null> {
   const then = ({ added: [id] }: { readonly added: readonly number[] }) =>
     id === undefined ? null : begun(id);
-  const edited = await commit(tracing, { kind: 'begin_vessel', clicks }, { then });
+  const edited = await commit(engine, { kind: 'begin_vessel', clicks }, { then });
   return edited?.added[0] ?? null;
 }
 
 /** Adds a click at the end of a vessel. */
-export const addClick = (tracing: Tracing, id: number, point: Vector): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'add_click', id, point }));
+export const addClick = (engine: Asked, id: number, point: Vector): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'add_click', id, point }));
 
 /** Adds a click where the line of a vessel was taken hold of. */
-export const addClickOnLine = (tracing: Tracing, id: number, point: Vector): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'add_click_on_line', id, point }));
+export const addClickOnLine = (engine: Asked, id: number, point: Vector): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'add_click_on_line', id, point }));
 
-export const moveClick = (tracing: Tracing, id: number, number: number, point: Vector): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'move_click', id, number, point }));
+export const moveClick = (engine: Asked, id: number, number: number, point: Vector): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'move_click', id, number, point }));
 
 /** Removes a click; a vessel that would have only one left goes with it. */
-export const removeClick = (tracing: Tracing, id: number, number: number): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'remove_click', id, number }));
+export const removeClick = (engine: Asked, id: number, number: number): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'remove_click', id, number }));
 
 /** Whether vessels go on where no lumen is seen. */
-export const setBridge = (tracing: Tracing, bridge: boolean): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'set_bridge', bridge }));
+export const setBridge = (engine: Asked, bridge: boolean): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'set_bridge', bridge }));

@@ -3,10 +3,9 @@
  * can be stopped; where one is refused, those that wait behind it are dropped, since they were meant for what it would have made.
  */
 import { signal } from '@preact/signals';
-import type { Edit, Edited } from '../core/edits';
+import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { GivenFile, Progress } from '../core/messages';
-import type { Tracing } from '../core/tracing';
+import type { Edit, Edited, GivenFile, Progress } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
 import { problem, progress } from '../state/store';
 import { afterEdit } from './changes';
@@ -138,15 +137,16 @@ interface Beside {
  * An edit of vessels, which the engine makes of the document as it is in its turn; gives what came of it, null where it was not
  * done. What the page changes meanwhile, such as marks, stays.
  */
-export async function commit(tracing: Tracing, edit: Edit, beside: Beside = {}): Promise<Edited | null> {
-  const { mask = null, then, bridging = false } = beside;
+export async function commit(engine: Asked, edit: Edit, beside: Beside = {}): Promise<Edited | null> {
+  const { mask, then, bridging = false } = beside;
+  const files = mask && { mask };
   const work: Work<Edited> = async (told) => {
     const ask = ({ vessels, stoppers, bridge }: Document) =>
-      tracing.edit({ document: { vessels, stoppers, bridge }, edit, bridging }, told, mask);
+      engine.ask('edit', { document: { vessels, stoppers, bridge }, edit, bridging }, { told, ...files });
     const edited = await latest(ask);
     return { words: edited.words, after: afterEdit(document_.value, edited), result: edited };
   };
-  const again = () => void commit(tracing, edit, { ...beside, bridging: true });
+  const again = () => void commit(engine, edit, { ...beside, bridging: true });
   const edited = await inTurn(work, again);
   if (edited) {
     then?.(edited);

@@ -1,7 +1,5 @@
 /** What the user made of a scan: vessels, stoppers and marks. It is never changed in place; `history.ts` keeps what was before. */
-import type { VesselDocument } from '../core/edits';
-import type { Marks } from '../core/measuring';
-import type { Pair, Vector } from '../core/messages';
+import type { Marks, Pair, Vector, VesselDocument } from '../core/messages';
 
 /** A straight distance between two points. */
 export interface Ruler {

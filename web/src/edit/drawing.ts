@@ -1,7 +1,7 @@
 /** The vessel that is being drawn: its clicks that are no vessel yet, and the way to the pointer. */
 import { computed, effect, signal } from '@preact/signals';
-import type { Vector } from '../core/messages';
-import type { Tracing } from '../core/tracing';
+import type { Asked } from '../core/asked';
+import type { PathRequest, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { Latest } from '../views/latest';
 import { vesselOf } from './changes';
@@ -80,7 +80,7 @@ function legs(): readonly Leg[] {
 const MOST_TRIES = 40;
 
 /** Shows the live path from now on, always the latest; gives what ends it. */
-export function followPointer(tracing: Tracing): () => void {
+export function followPointer(engine: Asked): () => void {
   const latest = new Latest();
   let number = 0;
   /** What was asked before this is of a vessel that is no longer drawn. */
@@ -91,7 +91,7 @@ export function followPointer(tracing: Tracing): () => void {
     const wanted = legs();
     const { stoppers, bridge } = document_.value;
     const look = async (tries: number) => {
-      const paths = await Promise.all(wanted.map((leg) => pathOf(tracing, leg, { stoppers, bridge })));
+      const paths = await Promise.all(wanted.map((leg) => pathOf(engine, leg, { stoppers, bridge })));
       if (own >= ended) {
         livePaths.value = paths;
       }
@@ -108,11 +108,11 @@ export function followPointer(tracing: Tracing): () => void {
 }
 
 async function pathOf(
-  tracing: Tracing,
+  engine: Asked,
   [from, to]: Leg,
-  rules: Pick<Parameters<Tracing['path']>[0], 'stoppers' | 'bridge'>,
+  rules: Pick<PathRequest, 'stoppers' | 'bridge'>,
 ): Promise<LivePath> {
-  const points = await tracing.path({ from, to, ...rules }).catch(() => null);
+  const points = await engine.ask('path', { from, to, ...rules }).catch(() => null);
   return points ? { points, isFound: true } : { points: [from, to], isFound: false };
 }
 

@@ -1,8 +1,8 @@
 /** The content of the document's lines, for what is drawn over the views. */
 import { effect, signal } from '@preact/signals';
+import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { LineId } from '../core/messages';
-import type { LineContent, Tracing } from '../core/tracing';
+import type { LineContent, LineId } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { problem } from '../state/store';
 import { document_ } from './history';
@@ -13,7 +13,7 @@ export const contents = signal<ReadonlyMap<LineId, LineContent>>(new Map());
 const asked = new Set<LineId>();
 
 /** Loads the content of lines as they come into the document; gives what ends it. */
-export function followLines(tracing: Tracing): () => void {
+export function followLines(engine: Asked): () => void {
   return effect(() => {
     const lines = document_.value.vessels.map((vessel) => vessel.line);
     if (lines.length === 0) {
@@ -21,17 +21,17 @@ export function followLines(tracing: Tracing): () => void {
     }
     const missing = lines.filter((line) => !asked.has(line));
     if (missing.length > 0) {
-      void load(tracing, missing);
+      void load(engine, missing);
     }
   });
 }
 
-async function load(tracing: Tracing, lines: readonly LineId[]): Promise<void> {
+async function load(engine: Asked, lines: readonly LineId[]): Promise<void> {
   for (const line of lines) {
     asked.add(line);
   }
   try {
-    const found = await Promise.all(lines.map((line) => tracing.line(line)));
+    const found = await Promise.all(lines.map((line) => engine.ask('line', { line })));
     contents.value = new Map([
       ...contents.value,
       ...found.map((content, n) => [lines[n] ?? -1, content] as const),

@@ -1,5 +1,5 @@
 /** The colours of vessels: those of Okabe and Ito that stand out on a dark picture, told apart also by the colour-blind. */
-import type { DocumentVessel } from '../core/edits';
+import type { DocumentVessel } from '../core/messages';
 
 export const PALETTE: readonly (readonly [color: string, words: string])[] = [
   ['#f0e442', 'yellow'],

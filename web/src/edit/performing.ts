@@ -45,9 +45,9 @@ function edit(engine: EngineClient, action: Action): boolean {
 
 function point(engine: EngineClient, action: Action): boolean {
   if (action === 'enter') {
-    enter(engine.tracing);
+    enter(engine);
   } else if (action === 'remove point' && tool.value === 'trace') {
-    removeLast(engine.tracing);
+    removeLast(engine);
   } else {
     return false;
   }
@@ -58,7 +58,7 @@ function point(engine: EngineClient, action: Action): boolean {
 export function branchesFromHere(engine: EngineClient): void {
   const seed = crossHair.value?.point;
   if (seed) {
-    void addBranches(engine.tracing, seed);
+    void addBranches(engine, seed);
   }
 }
 

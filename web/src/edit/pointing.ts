@@ -1,8 +1,8 @@
 /** What a click, Enter and Escape do with the tools that trace. */
 import { batch } from '@preact/signals';
+import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
-import type { Tracing } from '../core/tracing';
 import { length, subtract } from '../core/vectors';
 import { crossHair } from '../state/store';
 import { addClick, beginVessel, removeClick } from './clicks';
@@ -18,33 +18,33 @@ const SAME = 0.05;
 let beginning: Promise<number | null> | null = null;
 
 /** Sets a point of a vessel, or a stopper. */
-export async function setPoint(tracing: Tracing, point: Vector): Promise<void> {
+export async function setPoint(engine: Asked, point: Vector): Promise<void> {
   candidate.value = null;
   if (tool.value === 'stopper') {
-    await addStopper(tracing, point);
+    await addStopper(engine, point);
   } else if (anchor.value === null) {
     forgetRefusal();
     first.value = point;
-    await checkFirst(tracing, point);
+    await checkFirst(engine, point);
   } else {
     const own = { point, drawing: drawing.value };
     coming.value = [...coming.value, own];
-    await goOn(tracing, point);
+    await goOn(engine, point);
     coming.value = coming.value.filter((one) => one !== own);
   }
 }
 
-async function goOn(tracing: Tracing, point: Vector): Promise<void> {
+async function goOn(engine: Asked, point: Vector): Promise<void> {
   if (drawn.value) {
-    await addClick(tracing, drawn.value.id, point);
+    await addClick(engine, drawn.value.id, point);
   } else if (beginning) {
     const id = await beginning;
-    await (id === null ? null : addClick(tracing, id, point));
+    await (id === null ? null : addClick(engine, id, point));
   } else if (first.value) {
     const own = drawing.value;
     // A vessel that was ended while it was traced does not go on.
     const goesOn = () => own === drawing.value;
-    beginning = beginVessel(tracing, [first.value, point], (id) => {
+    beginning = beginVessel(engine, [first.value, point], (id) => {
       if (goesOn()) {
         batch(() => {
           active.value = id;
@@ -62,8 +62,8 @@ async function goOn(tracing: Tracing, point: Vector): Promise<void> {
 }
 
 /** Takes a first point back at once that no vessel can begin at: no second one would make a vessel of it. */
-async function checkFirst(tracing: Tracing, point: Vector): Promise<void> {
-  const refused = await tracing.checkClick(point).then(() => null, Failure.of);
+async function checkFirst(engine: Asked, point: Vector): Promise<void> {
+  const refused = await engine.ask('check_click', point).then(() => null, Failure.of);
   if (refused && first.value === point) {
     first.value = null;
     tellRefusal(refused);
@@ -77,25 +77,25 @@ function isBlamed(point: Vector | null): boolean {
 }
 
 /** Accepts the place of a projection; says whether there was one. */
-export function acceptCandidate(tracing: Tracing): boolean {
+export function acceptCandidate(engine: Asked): boolean {
   const point = candidate.value;
   if (point) {
-    void setPoint(tracing, point);
+    void setPoint(engine, point);
   }
   return point !== null;
 }
 
 /** Enter: accepts the place of a projection, else sets a point at the cross-hair; twice at one place ends the vessel. */
-export function enter(tracing: Tracing): void {
+export function enter(engine: Asked): void {
   const place = crossHair.value?.point;
-  if (acceptCandidate(tracing) || !place) {
+  if (acceptCandidate(engine) || !place) {
     return;
   }
   const last = anchor.value;
   if (tool.value === 'trace' && last && length(subtract(place, last)) < SAME) {
     endVessel();
   } else {
-    void setPoint(tracing, place);
+    void setPoint(engine, place);
   }
 }
 
@@ -125,13 +125,13 @@ export function leave(): boolean {
 }
 
 /** Removes the last point that was set of the vessel that is drawn. */
-export function removeLast(tracing: Tracing): void {
+export function removeLast(engine: Asked): void {
   const clicks = drawn.value?.clicks;
   if (candidate.value) {
     candidate.value = null;
   } else if (drawn.value && clicks) {
     const kept = clicks.length === 2 ? (clicks[0] ?? null) : null;
-    void removeClick(tracing, drawn.value.id, clicks.length - 1).then(() => {
+    void removeClick(engine, drawn.value.id, clicks.length - 1).then(() => {
       first.value = kept;
     });
   } else {

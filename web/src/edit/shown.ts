@@ -1,9 +1,8 @@
 /** The tree that is shown follows the document: the visible vessels, without the doubtful ones, whenever they change. */
 import { batch, effect, signal } from '@preact/signals';
-import type { DocumentVessel, VesselDocument } from '../core/edits';
+import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { Report } from '../core/messages';
-import type { Tracing } from '../core/tracing';
+import type { DocumentVessel, Report, VesselDocument } from '../core/messages';
 import * as store from '../state/store';
 import { shownVessels } from './changes';
 import { dropEdits } from './committing';
@@ -45,16 +44,16 @@ export function beginDocument(document: Document): void {
 }
 
 /** The engine shows another tree than the document has: what the document has is shown again. */
-export function showAgain(tracing: Tracing): Promise<void> {
+export function showAgain(engine: Asked): Promise<void> {
   shownText = '';
-  return show(tracing);
+  return show(engine);
 }
 
 /** Shows the document's tree from now on; gives what ends it. */
-export function followDocument(tracing: Tracing): () => void {
+export function followDocument(engine: Asked): () => void {
   return effect(() => {
     if (textOf(shownVessels(document_.value)) !== shownText) {
-      void show(tracing);
+      void show(engine);
     }
   });
 }
@@ -62,12 +61,12 @@ export function followDocument(tracing: Tracing): () => void {
 let showing: Promise<void> | null = null;
 
 /** One tree is asked for at a time; where the document changes meanwhile, the latest one follows. Ends when that is shown. */
-function show(tracing: Tracing): Promise<void> {
-  showing ??= showLatest(tracing);
+function show(engine: Asked): Promise<void> {
+  showing ??= showLatest(engine);
   return showing;
 }
 
-async function showLatest(tracing: Tracing): Promise<void> {
+async function showLatest(engine: Asked): Promise<void> {
   // What is shown is known to be under way before it can end.
   await null;
   let study = store.report.value?.volume;
@@ -78,7 +77,10 @@ async function showLatest(tracing: Tracing): Promise<void> {
       if (text === shownText) {
         break;
       }
-      const report = await tracing.show(vessels.map(({ line, name }) => ({ line, name })));
+      const report = await engine.ask(
+        'show',
+        vessels.map(({ line, name }) => ({ line, name })),
+      );
       if (study === store.report.value?.volume) {
         shownText = text;
         take(report, vessels);

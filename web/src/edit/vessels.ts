@@ -1,6 +1,6 @@
 /** Vessels as wholes: their names, colours, whether they are shown, and cutting and joining them. */
-import type { DocumentVessel } from '../core/edits';
-import type { Tracing } from '../core/tracing';
+import type { Asked } from '../core/asked';
+import type { DocumentVessel } from '../core/messages';
 import { changed, vesselOf } from './changes';
 import { commit, commitPlain, isDone } from './committing';
 
@@ -23,13 +23,13 @@ function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<bo
   });
 }
 
-export const remove = (tracing: Tracing, ids: readonly number[]): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'remove', ids }));
+export const remove = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'remove', ids }));
 
 /** Cuts a vessel in two at an arc length (mm). */
-export const cut = (tracing: Tracing, id: number, at: number): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'cut', id, at }));
+export const cut = (engine: Asked, id: number, at: number): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'cut', id, at }));
 
 /** Joins a second vessel to a first one. */
-export const join = (tracing: Tracing, id: number, other: number): Promise<boolean> =>
-  isDone(commit(tracing, { kind: 'join', id, other }));
+export const join = (engine: Asked, id: number, other: number): Promise<boolean> =>
+  isDone(commit(engine, { kind: 'join', id, other }));

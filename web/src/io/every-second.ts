@@ -34,8 +34,8 @@ export class EverySecond implements Study {
     this.study.close();
   }
 
-  open_centerlines(bytes: Uint8Array, name: string): string {
-    return this.study.open_centerlines(bytes, name);
+  openCenterlines(bytes: Uint8Array, name: string): readonly string[] {
+    return this.study.openCenterlines(bytes, name);
   }
 
   begin_volume(text: string): void {

@@ -12,8 +12,8 @@ import { formatFailure } from './words';
 
 /** What takes a study: the engine, or a test. */
 export interface Study extends Sink {
-  /** Gives notes as JSON. */
-  open_centerlines(bytes: Uint8Array, name: string): string;
+  /** Gives notes. */
+  openCenterlines(bytes: Uint8Array, name: string): readonly string[];
 }
 
 /** What files are opened with. */
@@ -76,7 +76,7 @@ export async function openLines(source: Source, { study, steps }: Means): Promis
     throw formatFailure(source.path, found.words, LINES, 'copy or export it again');
   }
   await steps.step('Centerlines', 0, null);
-  return JSON.parse(study.open_centerlines(await source.slice(0, source.size), fileName(source.path)));
+  return study.openCenterlines(await source.slice(0, source.size), fileName(source.path));
 }
 
 async function sort(sources: readonly Source[], steps: Steps): Promise<Sorted> {

@@ -19,8 +19,8 @@ export function moveTo(place: number): void {
   const study = report.value?.volume;
   latest.run(async () => {
     try {
-      const [center] = await engine.across(vessel, at);
-      const pick = { ...(await engine.at(center)), vessel, arc_length: at };
+      const [center] = await engine.ask('across', { vessel, at: at });
+      const pick = { ...(await engine.ask('at', center)), vessel, arc_length: at };
       // Another study has other places.
       if (report.value?.volume === study) {
         placeCrossHair(pick, 'section');

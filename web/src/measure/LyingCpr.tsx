@@ -24,7 +24,9 @@ export function LyingCpr({ x, lying, height }: LyingCprProps) {
   const text = cpr && JSON.stringify(cpr);
   const [shown, setShown] = useState<Pair | null>(null);
   const ask = useCallback(async () => {
-    const picture = lyingPicture(await engine.straightened(JSON.parse(text ?? '{}') as Cpr, window));
+    const picture = lyingPicture(
+      await engine.ask('straightened', { cpr: JSON.parse(text ?? '{}') as Cpr, window: window }),
+    );
     setShown(picture.size);
     return picture;
   }, [text, window]);

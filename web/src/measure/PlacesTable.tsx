@@ -1,5 +1,5 @@
 /** The marked and suggested places of a vessel with their numbers, and the widest place. */
-import type { Profile } from '../core/measuring';
+import type { Profile } from '../core/messages';
 import { moveTo } from '../link/along';
 import { currentPlaces } from './current';
 import { confirm, remove } from './editing';

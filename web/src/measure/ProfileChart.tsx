@@ -1,5 +1,5 @@
 /** The diameter of a vessel by its arc length, drawn in the page. */
-import type { Profile } from '../core/measuring';
+import type { Profile } from '../core/messages';
 import type { ChartLayout } from './chart-layout';
 import { bandPath, counted, DEVIATIONS, linePath, lonely, spreadOf } from './curves';
 import { flagsIn, runs } from './flags';

@@ -1,7 +1,6 @@
 /** The picked vessel lying, and under it, along the same axis, its diameter; with the places that are marked on it. */
 import { useMemo, useRef, useState } from 'preact/hooks';
-import type { Profile } from '../core/measuring';
-import type { Pair } from '../core/messages';
+import type { Pair, Profile } from '../core/messages';
 import * as store from '../state/store';
 import { usePaneSize } from '../views/pane-size';
 import { axisAlong, chartLayout } from './chart-layout';

@@ -1,6 +1,6 @@
 /** What is read off a profile: the numbers under the pointer, or those of the section; a click moves the section there. */
 import type { ComponentChildren, TargetedPointerEvent } from 'preact';
-import type { Profile } from '../core/measuring';
+import type { Profile } from '../core/messages';
 import { moveAlong, moveTo } from '../link/along';
 import * as store from '../state/store';
 import { type Axis, valueAt } from './scale';

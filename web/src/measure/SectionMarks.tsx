@@ -1,7 +1,6 @@
 /** The lumen of a measured section: its contour, its shortest and its longest diameter, and its numbers. */
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { MeasuredSection } from '../core/measuring';
-import type { LineId, Pair, Plane, Vector } from '../core/messages';
+import type { LineId, MeasuredSection, Pair, Plane, Vector } from '../core/messages';
 import { engine } from '../core/shared';
 import { pickedPlace } from '../state/store';
 import { Latest } from '../views/latest';
@@ -33,7 +32,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
     }
     latest.current.run(async () => {
       const { line } = vessel;
-      const section = await engine.measuring.section(line, at).catch(() => null);
+      const section = await engine.ask('measured_section', { line, at }).catch(() => null);
       setFound(section && { line, section });
     });
   }, [vessel?.line, profile, at]);

@@ -1,5 +1,5 @@
 /** A stenosis that the reader marked: never a percentage without its method, its references and mm. */
-import type { StenosisMethod, Territory } from '../core/measuring';
+import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
 import type { VesselMarks } from '../edit/document';
 import { attempt } from '../output/attempt';

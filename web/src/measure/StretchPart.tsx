@@ -1,7 +1,6 @@
 /** A marked stretch of a vessel: its lengths, and how a C-arm is turned that shows it in its whole length. */
 
-import type { Profile, Stretch } from '../core/measuring';
-import type { Pair } from '../core/messages';
+import type { Pair, Profile, Stretch } from '../core/messages';
 import { middle } from '../core/vectors';
 import type { VesselMarks } from '../edit/document';
 import * as store from '../state/store';

@@ -2,8 +2,7 @@
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import { Failure } from '../core/failure';
-import type { Profile } from '../core/measuring';
-import type { LineId } from '../core/messages';
+import type { LineId, Profile } from '../core/messages';
 import { engine } from '../core/shared';
 import type { VesselMarks } from '../edit/document';
 import { moveTo } from '../link/along';
@@ -33,7 +32,7 @@ export function useMeasuring(): void {
     const isFree = beingMeasured.value === null && !profiles.value.has(vessel?.line ?? -1);
     const isWanted = store.layout.value === 'measure' && store.hasVolume.value;
     if (vessel && isWanted && isFree && stopped.value !== vessel.line) {
-      void measure(engine.measuring, vessel.line);
+      void measure(engine, vessel.line);
     }
   });
   useSignalEffect(arrive);
@@ -84,7 +83,7 @@ function unlessGone(error: unknown): null {
 export async function asked(line: LineId, profile: Profile, marks: VesselMarks): Promise<Answers> {
   const [suggested, { stenosis, not_graded }, stretches] = await Promise.all([
     offeredBeside(line, marks),
-    engine.measuring.grade(line, marks),
+    engine.ask('grade', { line, marks }),
     stretchesOf(line, marks),
   ]);
   const compared = comparedIn(placesOf(profile, marks, suggested));
@@ -92,13 +91,13 @@ export async function asked(line: LineId, profile: Profile, marks: VesselMarks):
   const doubts =
     stenosis || !compared
       ? (stenosis?.doubts ?? [])
-      : await engine.measuring.doubts(line, { at: compared.at, references, method: marks.method });
+      : await engine.ask('doubts', { line, compared: { at: compared.at, references, method: marks.method } });
   return { suggested, stenosis, notGraded: not_graded, doubts, ...stretches };
 }
 
 async function offeredBeside(line: LineId, marks: VesselMarks): Promise<Suggested> {
   try {
-    return await engine.measuring.offeredReferences(line, marks);
+    return await engine.ask('offered_references', { line, marks });
   } catch {
     // A place where nothing was measured has no suggestions: grading says why.
     return NOTHING_SUGGESTED;
@@ -110,9 +109,9 @@ async function stretchesOf(
   { stretch, secondStretch }: VesselMarks,
 ): Promise<Pick<Answers, 'stretch' | 'secondStretch' | 'angle'>> {
   const [first, second, angle] = await Promise.all([
-    stretch && engine.measuring.stretch(line, stretch),
-    secondStretch && engine.measuring.stretch(line, secondStretch),
-    stretch && secondStretch && engine.measuring.angleBetween(line, stretch, secondStretch),
+    stretch && engine.ask('stretch', { line, ends: stretch }),
+    secondStretch && engine.ask('stretch', { line, ends: secondStretch }),
+    stretch && secondStretch && engine.ask('angle_between', { line, first: stretch, second: secondStretch }),
   ]);
   return { stretch: first, secondStretch: second, angle };
 }

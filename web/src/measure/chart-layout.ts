@@ -1,6 +1,5 @@
 /** Where things lie in the picture of a profile (CSS pixels). The picture of the vessel above it has the same axis `x`. */
-import type { Profile } from '../core/measuring';
-import type { Pair } from '../core/messages';
+import type { Pair, Profile } from '../core/messages';
 import { topOf } from './curves';
 import { flagsIn } from './flags';
 import type { Axis } from './scale';

@@ -1,8 +1,7 @@
 /** The vessel that is measured: the one that is picked, with its profile and what is marked on it. */
 import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
-import type { Profile, Stenosis, Stretch } from '../core/measuring';
-import type { LineId } from '../core/messages';
+import type { LineId, Profile, Stenosis, Stretch } from '../core/messages';
 import type { VesselMarks } from '../edit/document';
 import { document_ } from '../edit/history';
 import * as store from '../state/store';

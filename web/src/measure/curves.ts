@@ -1,5 +1,5 @@
 /** The curves of a profile as paths of an SVG. */
-import type { Profile } from '../core/measuring';
+import type { Profile } from '../core/messages';
 import { type Axis, pixelAt } from './scale';
 
 /** How many standard deviations the band reaches to both sides. */

@@ -1,7 +1,6 @@
 /** What there is to know of sections, in words. The engine's table has their order, words, meanings and colours. */
 
-import type { FlagLook, Profile } from '../core/measuring';
-import type { Pair } from '../core/messages';
+import type { FlagLook, Pair, Profile } from '../core/messages';
 
 /** Flags with what they mean, a line for each. */
 export const meanings = ({ flag_table }: Profile, words: readonly string[]): string =>

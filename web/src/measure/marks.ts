@@ -1,6 +1,5 @@
 /** Places on a vessel that a reader marked, and those that are suggested for what is not marked yet. */
-import type { Profile, Spot } from '../core/measuring';
-import type { Pair } from '../core/messages';
+import type { Pair, Profile, Spot } from '../core/messages';
 import type { VesselMarks } from '../edit/document';
 import { lengthOf } from './sections';
 

@@ -1,8 +1,8 @@
 /** The profiles of vessels: measured when one is looked at, and kept by their lines while the study is open. */
 import { batch, signal } from '@preact/signals';
+import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { Measuring, Profile } from '../core/measuring';
-import type { LineId } from '../core/messages';
+import type { LineId, Profile } from '../core/messages';
 import * as store from '../state/store';
 
 /** A profile, or why there is none. */
@@ -19,13 +19,13 @@ export const stopped = signal<LineId | null>(null);
 let asked = 0;
 
 /** Measures a line, unless it is measured already. */
-export async function measure(measuring: Measuring, line: LineId): Promise<void> {
+export async function measure(engine: Asked, line: LineId): Promise<void> {
   if (profiles.value.has(line) || beingMeasured.value !== null || stopped.value === line) {
     return;
   }
   const question = ++asked;
   beingMeasured.value = line;
-  const found = await profileOf(measuring, line, question);
+  const found = await profileOf(engine, line, question);
   if (question !== asked) {
     return;
   }
@@ -41,17 +41,22 @@ export async function measure(measuring: Measuring, line: LineId): Promise<void>
 }
 
 /** The profile, or why there is none; nothing where it was stopped. */
-async function profileOf(measuring: Measuring, line: LineId, question: number): Promise<Measured | null> {
+async function profileOf(engine: Asked, line: LineId, question: number): Promise<Measured | null> {
   try {
-    const profile = await measuring.profile(line, givenFwhm.value, (told) => {
-      if (question === asked) {
-        store.progress.value = told;
-      }
-    });
+    tell(question, null);
+    const profile = await engine.ask('profile', { line, fwhm: givenFwhm.value });
+    tell(question, 1);
     return { profile };
   } catch (error) {
     const failure = Failure.of(error);
     return failure.kind === 'interrupted' ? null : { failure };
+  }
+}
+
+/** Tells that a vessel is being measured, or that it is; without a total it is not known how long it takes. */
+function tell(question: number, total: number | null): void {
+  if (question === asked) {
+    store.progress.value = { words: 'measuring the vessel', done: total ?? 0, total };
   }
 }
 

@@ -1,7 +1,6 @@
 /** Sections of a profile by their place. */
 
-import type { Profile } from '../core/measuring';
-import type { Pair, Vector } from '../core/messages';
+import type { Pair, Profile, Vector } from '../core/messages';
 
 /** The number of the section that is nearest to an arc length, the first of two. */
 export function nearestSection({ arc_length: places }: Profile, at: number): number {

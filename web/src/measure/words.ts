@@ -1,5 +1,5 @@
 /** Measured numbers as words. Where the file does not state its spacing, no length has a unit. */
-import type { Stenosis } from '../core/measuring';
+import type { Stenosis } from '../core/messages';
 import { states } from '../state/store';
 import type { Place } from './marks';
 import type { SectionNumbers } from './sections';

@@ -32,7 +32,7 @@ export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasEl
 }
 
 const labelsOf = (camera: Camera, density: number): Promise<PictureLabels> =>
-  engine.labels({
+  engine.ask('labels', {
     right: rightOf(camera),
     down: negate(camera.up),
     width: camera.size[0] * density,

@@ -1,8 +1,17 @@
 /** The pictures of a report, drawn on canvases. */
 import { pixelOf } from '../core/camera';
 import { Failure } from '../core/failure';
-import type { Profile, ReportPlace, ReportPlan, ReportRequest } from '../core/measuring';
-import type { Cpr, LineId, Picture, PictureLabels, Plane } from '../core/messages';
+import type {
+  Cpr,
+  LineId,
+  Picture,
+  PictureLabels,
+  Plane,
+  Profile,
+  ReportPlace,
+  ReportPlan,
+  ReportRequest,
+} from '../core/messages';
 import { engine } from '../core/shared';
 import { lyingPicture } from '../measure/lying';
 import { COLORS } from '../measure/PlaceHandles';
@@ -59,7 +68,7 @@ export async function straightened(
   { width, spacing }: ReportPlan,
 ): Promise<ReportRequest['strip']> {
   const cpr: Cpr = { vessel, angle: store.cprAngle.value, width, pixel_spacing: spacing, feature: null };
-  const picture = lyingPicture(await engine.straightened(cpr, store.window_.value));
+  const picture = lyingPicture(await engine.ask('straightened', { cpr: cpr, window: store.window_.value }));
   const [canvas, context] = canvasOf(...picture.size);
   context.putImageData(pixelsOf(picture), 0, 0);
   return { picture: pngOf(canvas), size: picture.size, spacing };
@@ -74,8 +83,8 @@ export async function sectionPair(
   const number = nearestSection(profile, at);
   const plane = await planeOf(vessel, profile, { number, side });
   const [picture, section] = await Promise.all([
-    engine.slice(plane, store.window_.value),
-    engine.measuring.section(line, at),
+    engine.ask('slice', { plane: plane, window: store.window_.value }),
+    engine.ask('measured_section', { line, at }),
   ]);
   const [canvas, context] = canvasOf(2 * SIDE, SIDE);
   const pixels = pixelsOf(picture);
@@ -91,7 +100,7 @@ export async function sectionPair(
   context.strokeStyle = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
   context.stroke();
   if (store.states.value.spacing) {
-    const { bar } = await engine.labels({ ...plane, width: SIDE });
+    const { bar } = await engine.ask('labels', { ...plane, width: SIDE });
     drawBar(context, bar);
   }
   return pngOf(canvas);
@@ -103,7 +112,7 @@ async function planeOf(
   profile: Profile,
   { number, side }: { readonly number: number; readonly side: number },
 ): Promise<Plane> {
-  const [middle, right, down] = await engine.across(vessel, profile.arc_length[number] ?? 0);
+  const [middle, right, down] = await engine.ask('across', { vessel, at: profile.arc_length[number] ?? 0 });
   return {
     center: profile.center[number] ?? middle,
     right,

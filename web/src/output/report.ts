@@ -1,7 +1,7 @@
 /** The report of the picked vessel: the engine writes it, the page gives its pictures. */
 import { signal } from '@preact/signals';
 import { Failure } from '../core/failure';
-import type { MeasuredVessel, Profile } from '../core/measuring';
+import type { MeasuredVessel, Profile } from '../core/messages';
 import { engine } from '../core/shared';
 import { document_ } from '../edit/history';
 import { currentMarks, currentProfile, currentVessel } from '../measure/current';
@@ -18,7 +18,7 @@ export const isScanNamed = signal(false);
 export async function saveReport(): Promise<void> {
   const [vessel, profile] = measuredVessel();
   const html = await reportOf(vessel, profile);
-  const { not_graded: notGraded } = await engine.measuring.grade(vessel.line, vessel.marks);
+  const { not_graded: notGraded } = await engine.ask('grade', { line: vessel.line, marks: vessel.marks });
   const words = notGraded === null ? '' : notGradedWords({ notGraded });
   saveAs(new Blob([html], { type: 'text/html' }), 'lumencut-report.html', words);
 }
@@ -37,14 +37,14 @@ function measuredVessel(): [MeasuredVessel, Profile] {
 
 async function reportOf(vessel: MeasuredVessel, profile: Profile): Promise<string> {
   const number = Number(vessel.id);
-  const plan = await engine.measuring.reportPlan(vessel);
+  const plan = await engine.ask('report_plan', vessel);
   const sections: string[] = [];
   for (const { at } of plan.places) {
     sections.push(await sectionPair({ vessel: number, line: vessel.line, side: plan.side }, profile, at));
   }
   const { spacing: hasUnits, orientation } = store.states.value;
   const { stretch, secondStretch } = currentMarks.value ?? {};
-  return engine.measuring.report({
+  return engine.ask('measured_report', {
     vessel,
     scan: isScanNamed.value && store.studyName.value !== '' ? store.studyName.value : null,
     saved: new Date().toLocaleString('sv-SE', { dateStyle: 'short', timeStyle: 'short' }),

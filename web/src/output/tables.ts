@@ -1,6 +1,6 @@
 /** The numbers of measured vessels as files. */
 import { Failure } from '../core/failure';
-import type { MeasuredVessel } from '../core/measuring';
+import type { MeasuredVessel } from '../core/messages';
 import { engine } from '../core/shared';
 import { document_ } from '../edit/history';
 import { profiles } from '../measure/profiles';
@@ -20,7 +20,9 @@ export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
       'press m to measure the picked one',
     );
   }
-  const text = await (kind === 'csv' ? engine.measuring.csv(vessels) : engine.measuring.json(vessels));
+  const text = await (kind === 'csv'
+    ? engine.ask('profiles_csv', vessels)
+    : engine.ask('profiles_json', vessels));
   const type = kind === 'csv' ? 'text/csv' : 'application/json';
   saveAs(new Blob([text], { type }), `lumencut-profile.${kind}`);
 }

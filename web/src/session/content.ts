@@ -1,8 +1,16 @@
 /** A document and a view as the content of a session file, and back. */
-import type { DocumentVessel } from '../core/edits';
-import type { StenosisMethod, Territory } from '../core/measuring';
-import type { Camera, Pair, Report, Settings, Vector } from '../core/messages';
-import type { SavedMarks, SavedScan, SavedView, SessionContent } from '../core/session-file';
+import type {
+  Camera,
+  DocumentVessel,
+  Pair,
+  Report,
+  SessionContent,
+  Settings,
+  StenosisMethod,
+  Territory,
+  Vector,
+} from '../core/messages';
+import type { SavedMarks, SavedScan, SavedView } from '../core/session-file';
 import type { Document, VesselMarks } from '../edit/document';
 
 /** How a scan is looked at when it is saved. */

@@ -1,8 +1,7 @@
 /** Saving the session, and going on with a saved one. */
 import { batch, effect, untracked } from '@preact/signals';
-import type { DocumentVessel } from '../core/edits';
 import { Failure } from '../core/failure';
-import type { GivenFile, Method } from '../core/messages';
+import type { Bytes, DocumentVessel, GivenFile, Method } from '../core/messages';
 import type { SavedView } from '../core/session-file';
 import { engine } from '../core/shared';
 import { shownVessels } from '../edit/changes';
@@ -24,12 +23,13 @@ export async function isSession({ file }: GivenFile): Promise<boolean> {
 }
 
 /** The bytes of the session as it is now. */
-export function savedSession(): Promise<Uint8Array<ArrayBuffer>> {
+export async function savedSession(): Promise<Bytes> {
   const report = store.report.value;
   if (!report?.volume) {
     throw new Failure('session', 'session', 'no scan', 'a scan that is open');
   }
-  return engine.sessions.write(contentOf(document_.value, report, looked(), givenFwhm.value));
+  const content = contentOf(document_.value, report, looked(), givenFwhm.value);
+  return (await engine.ask('write_session', content)).bytes;
 }
 
 function looked(): Looked | null {
@@ -49,7 +49,11 @@ function looked(): Looked | null {
 
 /** Goes on with a saved session of the scan that is open; the engine refuses one of another scan. */
 export async function openSession({ file }: GivenFile): Promise<void> {
-  const content = await engine.sessions.read(new Uint8Array(await file.arrayBuffer()), file.name);
+  const content = await engine.ask(
+    'read_session',
+    { name: file.name },
+    { bytes: new Uint8Array(await file.arrayBuffer()) },
+  );
   const { view } = content.session;
   const document = documentOf(content);
   batch(() => {
@@ -88,7 +92,7 @@ function point({ picked, cross_hair: place }: SavedView, document: Document): vo
     store.pickedPlace.value = picked.at_mm;
   }
   if (place) {
-    void engine.at(place).then(({ value, vessel, arc_length: arcLength }) => {
+    void engine.ask('at', place).then(({ value, vessel, arc_length: arcLength }) => {
       if (store.crossHair.value?.point === place) {
         store.crossHair.value = { point: place, value, vessel, arcLength };
       }

@@ -106,7 +106,7 @@ export function setSetting(name: string, value: SettingValue): void {
 export async function showNamedView(engine: EngineClient, name: string): Promise<void> {
   const camera = store.camera.value;
   if (camera && store.report.value) {
-    store.camera.value = await engine.fitted(name, camera.size);
+    store.camera.value = await engine.ask('fitted', { view: name, size: camera.size });
   }
 }
 

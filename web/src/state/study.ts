@@ -46,7 +46,7 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
 
 /** What was open stays where others were refused before they took its place. */
 async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
-  const { volume, vessels } = await engine.report();
+  const { volume, vessels } = await engine.ask('report', null);
   if (!volume && !vessels) {
     layDown();
     batch(forget);
@@ -80,7 +80,7 @@ export function openAddresses(
 export async function close(engine: EngineClient): Promise<void> {
   layDown();
   batch(forget);
-  await engine.close();
+  await engine.ask('close', null);
 }
 
 /** No tool and no measuring goes on in another study. What a tool changed of the views is put back, which effects do at once. */
@@ -97,10 +97,10 @@ async function showStudy(
   name: string,
 ): Promise<void> {
   const size = store.camera.value?.size ?? FIRST_SIZE;
-  const camera = await engine.fitted('anterior', size);
-  const histogram = report.volume ? await engine.histogram(128) : null;
+  const camera = await engine.ask('fitted', { view: 'anterior', size: size });
+  const histogram = report.volume ? await engine.ask('histogram', { bins: 128 }) : null;
   const hair = await firstPlace(engine, report);
-  const vessels = await engine.tracing.beginDocument();
+  const vessels = await engine.ask('begin_document', null);
   layDown();
   batch(() => {
     forget();
@@ -125,16 +125,16 @@ const hasEdits = (): boolean =>
 /** Centerlines come to the vessels that there are, as a step that can be undone; the views show the longest of them. */
 async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {
   const loaded = report.vessels ?? [];
-  await addLoaded(engine.tracing, loaded);
-  await showAgain(engine.tracing);
+  await addLoaded(engine, loaded);
+  await showAgain(engine);
   store.notes.value = notes;
   const line = loaded[longest(report)]?.line;
   const shown = store.report.value?.vessels ?? [];
   const vessel = shown.findIndex((one) => one.line === line);
   if (vessel >= 0) {
     const arcLength = (shown[vessel]?.length ?? 0) / 2;
-    const [point] = await engine.across(vessel, arcLength);
-    const { value } = await engine.at(point);
+    const [point] = await engine.ask('across', { vessel, at: arcLength });
+    const { value } = await engine.ask('at', point);
     placeCrossHair({ point, value, vessel, arc_length: arcLength }, 'turning');
   }
 }
@@ -144,14 +144,14 @@ async function firstPlace(engine: EngineClient, report: Report): Promise<store.C
   if (report.vessels?.length) {
     const vessel = longest(report);
     const arcLength = (report.vessels[vessel]?.length ?? 0) / 2;
-    const [point] = await engine.across(vessel, arcLength);
-    const { value } = await engine.at(point);
+    const [point] = await engine.ask('across', { vessel, at: arcLength });
+    const { value } = await engine.ask('at', point);
     return { point, value, vessel, arcLength };
   }
   if (!report.volume) {
     return null;
   }
-  const { point, value } = await engine.at(middle(report.volume.corners));
+  const { point, value } = await engine.ask('at', middle(report.volume.corners));
   return { point, value, vessel: null, arcLength: null };
 }
 

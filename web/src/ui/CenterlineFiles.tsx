@@ -1,7 +1,7 @@
 /** Vessels as files, and files as vessels. */
 import { Failure } from '../core/failure';
+import type { CenterlineKind } from '../core/messages';
 import { engine } from '../core/shared';
-import type { CenterlineKind } from '../core/tracing';
 import { centerlineFile } from '../edit/files';
 import { document_, markSaved } from '../edit/history';
 import { saveAs } from '../output/pictures';
@@ -36,7 +36,7 @@ export function CenterlineFiles() {
 async function save(kind: CenterlineKind): Promise<void> {
   const document = document_.value;
   try {
-    saveAs(await centerlineFile(engine.tracing, kind), `centerlines.${kind}`);
+    saveAs(await centerlineFile(engine, kind), `centerlines.${kind}`);
     markSaved(document);
   } catch (error) {
     problem.value = Failure.of(error);

@@ -22,7 +22,7 @@ export function FileQuestion() {
       <button
         type="button"
         ref={(button) => button?.focus()}
-        onClick={() => answer(() => addMask(engine.tracing, files))}
+        onClick={() => answer(() => addMask(engine, files))}
       >
         Use as a mask of vessels
       </button>

@@ -68,7 +68,7 @@ function Hint() {
     <div class="trace-bar" role="status">
       <span>{hintWords()}</span>
       {candidate.value && (
-        <button type="button" onClick={() => acceptCandidate(engine.tracing)}>
+        <button type="button" onClick={() => acceptCandidate(engine)}>
           Set the point here
         </button>
       )}
@@ -112,7 +112,7 @@ function hintWords(): string {
 function Doubt({ id, words }: { readonly id: number; readonly words: string }) {
   const answer = (work: typeof accept) => () => {
     chosenDoubt.value = null;
-    void work(engine.tracing, [id]);
+    void work(engine, [id]);
   };
   return (
     <div class="trace-bar over" role="status">

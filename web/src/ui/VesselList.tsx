@@ -1,6 +1,6 @@
 /** The list of vessels: their names, colours and lengths, and what can be done with all of them. */
 
-import type { DocumentVessel } from '../core/edits';
+import type { DocumentVessel } from '../core/messages';
 import { engine } from '../core/shared';
 import { accept, leaveOut } from '../edit/branches';
 import { doubtful, nameOf } from '../edit/changes';
@@ -37,7 +37,7 @@ export function VesselList() {
             type="button"
             onClick={() =>
               void remove(
-                engine.tracing,
+                engine,
                 vessels.map((vessel) => vessel.id),
               )
             }
@@ -101,7 +101,7 @@ function Means() {
         <input
           type="checkbox"
           checked={document_.value.bridge}
-          onChange={(event) => void setBridge(engine.tracing, event.currentTarget.checked)}
+          onChange={(event) => void setBridge(engine, event.currentTarget.checked)}
         />
         Bridge gaps without lumen
       </label>
@@ -124,10 +124,10 @@ function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) 
         </p>
       ))}
       <div class="buttons">
-        <button type="button" onClick={() => void accept(engine.tracing, ids)}>
+        <button type="button" onClick={() => void accept(engine, ids)}>
           Accept all
         </button>
-        <button type="button" onClick={() => void leaveOut(engine.tracing, ids)}>
+        <button type="button" onClick={() => void leaveOut(engine, ids)}>
           Leave all out
         </button>
       </div>
@@ -139,14 +139,14 @@ function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) 
             <button
               type="button"
               aria-label={`Accept ${nameOf(vessel)}`}
-              onClick={() => void accept(engine.tracing, [vessel.id])}
+              onClick={() => void accept(engine, [vessel.id])}
             >
               ✓
             </button>
             <button
               type="button"
               aria-label={`Leave ${nameOf(vessel)} out`}
-              onClick={() => void leaveOut(engine.tracing, [vessel.id])}
+              onClick={() => void leaveOut(engine, [vessel.id])}
             >
               ✕
             </button>

@@ -1,7 +1,7 @@
 /** A vessel of the list; the one that is picked shows what can be done with it. */
 import { batch } from '@preact/signals';
 import { useState } from 'preact/hooks';
-import type { DocumentVessel } from '../core/edits';
+import type { DocumentVessel } from '../core/messages';
 import { engine } from '../core/shared';
 import { nameOf } from '../edit/changes';
 import { document_ } from '../edit/history';
@@ -113,7 +113,7 @@ function Means({ vessel }: RowProps) {
         <button
           type="button"
           title="Cut it where the section stands"
-          onClick={() => void cut(engine.tracing, id, pickedPlace.value)}
+          onClick={() => void cut(engine, id, pickedPlace.value)}
         >
           Cut here
         </button>
@@ -122,7 +122,7 @@ function Means({ vessel }: RowProps) {
         <select
           value=""
           aria-label={`Join ${nameOf(vessel)} with`}
-          onChange={(event) => void join(engine.tracing, id, Number(event.currentTarget.value))}
+          onChange={(event) => void join(engine, id, Number(event.currentTarget.value))}
         >
           <option value="">Join with …</option>
           {others.map((other) => (
@@ -132,7 +132,7 @@ function Means({ vessel }: RowProps) {
           ))}
         </select>
       )}
-      <button type="button" onClick={() => void remove(engine.tracing, [id])}>
+      <button type="button" onClick={() => void remove(engine, [id])}>
         Delete
       </button>
     </div>
@@ -148,8 +148,8 @@ async function pick({ id }: DocumentVessel): Promise<void> {
     pickedPlace.value = length / 2;
   });
   try {
-    const [point] = await engine.across(vessel, length / 2);
-    const { value } = await engine.at(point);
+    const [point] = await engine.ask('across', { vessel, at: length / 2 });
+    const { value } = await engine.ask('at', point);
     placeCrossHair({ point, value, vessel, arc_length: length / 2 }, 'turning');
   } catch (error) {
     recover(error);

@@ -27,7 +27,10 @@ export function CprView() {
   const text = cpr && JSON.stringify(cpr);
   const [shown, setShown] = useState<Pair | null>(null);
   const ask = useCallback(async () => {
-    const picture = await engine.straightened(JSON.parse(text ?? '{}') as Cpr, window);
+    const picture = await engine.ask('straightened', {
+      cpr: JSON.parse(text ?? '{}') as Cpr,
+      window,
+    });
     setShown(picture.size);
     return picture;
   }, [text, window, store.pickedLine()]);
@@ -36,7 +39,7 @@ export function CprView() {
   const point = (at: Pair) => {
     if (shown) {
       void engine
-        .pickStraightened([at[0] - left, at[1]])
+        .ask('pick_straightened', { pixel: [at[0] - left, at[1]] })
         .then((pick) => placeCrossHair(pick, 'straightened'));
     }
   };

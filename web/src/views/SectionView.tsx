@@ -1,6 +1,7 @@
 /** The section across the picked vessel. */
 import { useEffect, useState } from 'preact/hooks';
-import type { Pair, Plane, Vector } from '../core/messages';
+import type { Answer } from '../core/asked';
+import type { Pair, Plane } from '../core/messages';
 import { engine } from '../core/shared';
 import { moveAlong } from '../link/along';
 import { placeCrossHair } from '../link/cross-hair';
@@ -36,8 +37,8 @@ export function SectionView() {
     if (vessel === null) {
       setFrame(null);
     } else {
-      const show = ([center, right, down]: [Vector, Vector, Vector]) => setFrame({ center, right, down });
-      engine.across(vessel, at).then(show, (error) => {
+      const show = ([center, right, down]: Answer<'across'>) => setFrame({ center, right, down });
+      engine.ask('across', { vessel, at }).then(show, (error) => {
         // What was asked of a tree that is gone needs no answer.
         if (line === pickedLine()) {
           recover(error);
@@ -51,7 +52,7 @@ export function SectionView() {
   const ask = useAsked(plane, window);
   const point = (place: Pair) => {
     if (plane) {
-      void engine.at(pointOn(plane, place)).then((pick) => placeCrossHair(pick, 'section'));
+      void engine.ask('at', pointOn(plane, place)).then((pick) => placeCrossHair(pick, 'section'));
     }
   };
   const handlers = {

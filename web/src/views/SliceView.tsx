@@ -86,7 +86,7 @@ function sliceHandlers(
 ): Handlers {
   const point = (at: Pair) => {
     if (plane) {
-      void engine.at(pointOn(plane, at)).then((pick) => placeCrossHair(pick, name));
+      void engine.ask('at', pointOn(plane, at)).then((pick) => placeCrossHair(pick, name));
     }
   };
   const pointed = plane && projection ? { name, projection, place: (at: Pair) => pointOn(plane, at) } : null;
@@ -173,7 +173,7 @@ function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void 
 function moveTo(name: SliceName, point: Vector): void {
   store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
   moving.run(async () => {
-    const pick = await engine.at(point);
+    const pick = await engine.ask('at', point);
     if (store.crossHair.value?.point === point) {
       placeCrossHair(pick, name);
     }

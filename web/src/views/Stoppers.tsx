@@ -1,7 +1,6 @@
 /** Stoppers over a view: the circles that slices cut out of them, which can be dragged and removed. */
 
-import type { Stopper } from '../core/edits';
-import type { Vector } from '../core/messages';
+import type { Stopper, Vector } from '../core/messages';
 import { engine } from '../core/shared';
 import { add } from '../core/vectors';
 import { draggedStopper } from '../edit/drawing';
@@ -46,7 +45,7 @@ function Ball({ number, stopper, projection }: BallProps) {
   };
   const end = async () => {
     if (draggedStopper.value) {
-      await moveStopper(engine.tracing, number, draggedStopper.value.point);
+      await moveStopper(engine, number, draggedStopper.value.point);
       draggedStopper.value = null;
     }
   };
@@ -68,7 +67,7 @@ function Ball({ number, stopper, projection }: BallProps) {
         onPutBack={() => {
           draggedStopper.value = null;
         }}
-        onRemove={() => void removeStopper(engine.tracing, number)}
+        onRemove={() => void removeStopper(engine, number)}
       />
     </>
   );

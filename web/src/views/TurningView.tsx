@@ -216,7 +216,7 @@ function pointed(): Pointed | null {
     ? {
         name: 'turning',
         projection: ofCamera(view.camera, volume),
-        place: async (at) => (await engine.tracing.brightest(view, at)).point,
+        place: async (at) => (await engine.ask('brightest', { view, pixel: at })).point,
       }
     : null;
 }
@@ -227,7 +227,7 @@ async function findAxis(): Promise<void> {
     vesselAxis = null;
     return;
   }
-  const [, right, down] = await engine.across(vessel, store.pickedPlace.value);
+  const [, right, down] = await engine.ask('across', { vessel, at: store.pickedPlace.value });
   vesselAxis = cross(right, down);
 }
 
@@ -240,7 +240,7 @@ async function pickAt(at: readonly [number, number]): Promise<void> {
   }
   isPicking = true;
   try {
-    placeCrossHair(await engine.pick(view, at), 'turning');
+    placeCrossHair(await engine.ask('pick', { view, pixel: at }), 'turning');
   } catch (error) {
     recover(error);
   } finally {

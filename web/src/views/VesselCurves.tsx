@@ -1,7 +1,6 @@
 /** The vessels of the document as curves over a view, and the way to the pointer. */
 
-import type { DocumentVessel } from '../core/edits';
-import type { Vector } from '../core/messages';
+import type { DocumentVessel, Vector } from '../core/messages';
 import { drawnColor, livePaths } from '../edit/drawing';
 import { document_ } from '../edit/history';
 import { contents } from '../edit/lines';

@@ -1,7 +1,6 @@
 /** The points of vessels over a view: each can be dragged, moved by keys and removed. */
 
-import type { DocumentVessel } from '../core/edits';
-import type { Vector } from '../core/messages';
+import type { DocumentVessel, Vector } from '../core/messages';
 import { engine } from '../core/shared';
 import { add } from '../core/vectors';
 import { nameOf } from '../edit/changes';
@@ -68,13 +67,13 @@ function Click({ vessel, number, point, projection }: ClickProps) {
     const moved = dragged.value;
     if (moved) {
       lookAt(moved.point);
-      await moveClick(engine.tracing, id, number, moved.point);
+      await moveClick(engine, id, number, moved.point);
       dragged.value = null;
     } else if (number === (vessel.clicks?.length ?? 0) - 1 && !isDrawing.value) {
       // A click on the last point goes on from there; one on another point begins a branch, or ends a vessel there.
       active.value = id;
     } else if (tool.value === 'trace' && id !== active.value) {
-      await setPoint(engine.tracing, point);
+      await setPoint(engine, point);
     }
   };
   return (
@@ -90,7 +89,7 @@ function Click({ vessel, number, point, projection }: ClickProps) {
       onPutBack={() => {
         dragged.value = null;
       }}
-      onRemove={() => void removeClick(engine.tracing, id, number)}
+      onRemove={() => void removeClick(engine, id, number)}
     />
   );
 }

@@ -6,6 +6,9 @@ import { engine } from '../core/shared';
 /** The question for the picture of a plane, which changes only where the picture does; none without a plane. */
 export function useAsked(plane: Plane | null, window: Window): (() => Promise<Picture>) | null {
   const text = plane && JSON.stringify(plane);
-  const ask = useCallback(() => engine.slice(JSON.parse(text ?? '{}') as Plane, window), [text, window]);
+  const ask = useCallback(
+    () => engine.ask('slice', { plane: JSON.parse(text ?? '{}') as Plane, window: window }),
+    [text, window],
+  );
   return text ? ask : null;
 }

@@ -1,7 +1,6 @@
 /** Lines in space as curves over a view: their paths, and which of them a pixel is on. */
 
-import type { DocumentVessel } from '../core/edits';
-import type { Pair, Vector } from '../core/messages';
+import type { DocumentVessel, Pair, Vector } from '../core/messages';
 import { document_ } from '../edit/history';
 import { contents } from '../edit/lines';
 import type { Projection } from './projection';

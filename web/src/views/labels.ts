@@ -19,7 +19,7 @@ export function useLabels(picture: LaidPicture): PictureLabels | null {
   useEffect(() => {
     latest.current.run(async () => {
       // Rather none than those of another view.
-      const found = await engine.labels(JSON.parse(text) as LaidPicture).catch(() => null);
+      const found = await engine.ask('labels', JSON.parse(text) as LaidPicture).catch(() => null);
       if (isThere.current) {
         setLabels(found);
       }

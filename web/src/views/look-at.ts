@@ -6,7 +6,7 @@ import { recover } from '../state/device';
 
 export async function lookAt(point: Vector): Promise<void> {
   try {
-    placeCrossHair(await engine.at(point), 'turning');
+    placeCrossHair(await engine.ask('at', point), 'turning');
   } catch (error) {
     recover(error);
   }

@@ -47,7 +47,7 @@ export function clickWithTool(view: Pointed, action: Action, at: Pair): boolean 
 async function setAt(view: Pointed, at: Pair): Promise<void> {
   const { projection } = view;
   if (candidate.value && isAt(projection, candidate.value, at)) {
-    acceptCandidate(engine.tracing);
+    acceptCandidate(engine);
     return;
   }
   // On its own curve a vessel does not go on: a double click adds a point there.
@@ -61,7 +61,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
     } else {
       // The point is set before the engine answers anything: Enter may follow at once.
       const point = view.place(at) as Vector;
-      void setPoint(engine.tracing, point);
+      void setPoint(engine, point);
       await lookAt(view, point);
     }
   } catch (error) {
@@ -80,7 +80,7 @@ async function propose(view: Pointed, point: Vector): Promise<void> {
 /** Puts the cross-hair at a place at once, and tells what is there when that is known. */
 async function lookAt(view: Pointed, point: Vector): Promise<void> {
   crossHair.value = { point, value: null, vessel: null, arcLength: null };
-  const pick = await engine.at(point);
+  const pick = await engine.ask('at', point);
   if (crossHair.value?.point === point) {
     placeCrossHair(pick, view.name);
   }
@@ -88,7 +88,7 @@ async function lookAt(view: Pointed, point: Vector): Promise<void> {
 
 /** A double click ends the vessel at the point that its first click set; on a curve it adds a point there. */
 function endAt(view: Pointed, at: Pair): void {
-  if (acceptCandidate(engine.tracing)) {
+  if (acceptCandidate(engine)) {
     return;
   }
   const hit = curveAt(view.projection, at);
@@ -106,7 +106,7 @@ function endAt(view: Pointed, at: Pair): void {
 function addOnCurve({ projection }: Pointed, at: Pair): void {
   const hit = curveAt(projection, at);
   if (hit) {
-    void addClickOnLine(engine.tracing, hit.vessel.id, hit.point);
+    void addClickOnLine(engine, hit.vessel.id, hit.point);
   }
 }
 

@@ -1,51 +1,41 @@
 /** What the page asks its worker for. Errors leave as the texts that `Failure.of` reads. */
 import { transfer } from 'comlink';
+import type { Beside, Message, Question, Told } from '../core/asked';
 import { Failure } from '../core/failure';
-import type {
-  Cpr,
-  Drawn,
-  GivenFile,
-  Histogram,
-  LaidPicture,
-  Pick,
-  Picture,
-  PictureLabels,
-  Plane,
-  Progress,
-  Report,
-  SeriesWish,
-  Started,
-  Vector,
-  View,
-  Window,
-} from '../core/messages';
+import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
 import { Engine, loadJudge, loadModule, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { EverySecond } from '../io/every-second';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
-import { type Fetched, fetchStudy, type Told } from './fetching';
-import { MeasuringHost } from './measuring-host';
+import { ask, askAtOnce, isAtOnce, moved, refuseStopped } from './answers';
+import { type Fetched, fetchStudy } from './fetching';
+import { askWithFiles } from './masks';
 import { Queue } from './queue';
 import { type Means, Replacing } from './replacing';
-import { SessionHost } from './session-host';
 import { startThreads } from './threads';
-import { TracingHost } from './tracing-host';
 
 /** What is told of a volume of which not every voxel was taken. */
 const COARSER = 'every second voxel along each axis was taken; measured numbers are less sure';
 
 export class EngineHost {
-  readonly measuring = new MeasuringHost((work) => this.run(() => work(this.ready())));
   private readonly queue = new Queue();
   private engine: Engine | null = null;
   private cancelled = new AbortController();
-  readonly tracing = new TracingHost({
-    run: (work) => this.run(() => work(this.ready())),
-    signal: () => this.cancelled.signal,
-    report: () => this.report(),
-  });
-  readonly sessions = new SessionHost((work) => this.run(() => work(this.ready())));
+  /** Answers a question of the table; those that need no study at once, beside the work that is queued. */
+  ask(name: Question, message: unknown, files: Beside, told: Told | null): unknown {
+    const asked = message as Message<Question>;
+    if (isAtOnce(name)) {
+      this.ready();
+      return askAtOnce(name, asked);
+    }
+    const { signal } = this.cancelled;
+    const beside = told ? { ...files, told } : files;
+    return this.run(async () => {
+      refuseStopped(name, signal);
+      return moved(await askWithFiles(this.ready(), name, asked, { beside, signal }));
+    });
+  }
 
   /** Loads the module and finds out what computes. */
   start(device: string): Promise<Started> {
@@ -59,7 +49,7 @@ export class EngineHost {
         ...this.device(),
         threads,
         isIsolated: self.crossOriginIsolated,
-        table: JSON.parse(Engine.settings_table()),
+        table: askAtOnce('settings_table', null),
         stop: isShared ? { buffer, address: Engine.stop_address() } : null,
       };
     });
@@ -152,10 +142,6 @@ export class EngineHost {
     });
   }
 
-  whatIsOpen(): Promise<Report> {
-    return this.run(() => this.report());
-  }
-
   /** Stops loading, tracing and measuring; measuring that has not begun goes on. */
   cancel(): void {
     this.cancelled.abort();
@@ -163,14 +149,6 @@ export class EngineHost {
     if (this.engine) {
       Engine.cancellation_was_heard();
     }
-  }
-
-  close(): Promise<void> {
-    return this.run(() => this.ready().close());
-  }
-
-  fitted(view: string, width: number, height: number): Promise<View['camera']> {
-    return this.run(() => JSON.parse(this.ready().fitted(view, width, height)));
   }
 
   /** Renders a view: on the canvas where the GPU draws, else into the answer. */
@@ -185,54 +163,8 @@ export class EngineHost {
     });
   }
 
-  pick(view: View, column: number, row: number): Promise<Pick> {
-    return this.run(() => JSON.parse(this.ready().pick(JSON.stringify(view), column, row)));
-  }
-
-  at(point: Vector): Promise<Pick> {
-    return this.run(() => JSON.parse(this.ready().at(JSON.stringify(point))));
-  }
-
-  slice(plane: Plane, window: Window): Promise<Picture> {
-    return this.run(() => {
-      const bytes = plain(this.ready().slice(JSON.stringify(plane), window[0], window[1]));
-      return transfer({ size: plane.size, bytes }, [bytes.buffer]);
-    });
-  }
-
-  /** The section across a vessel, the measured one once there is one: its middle, to the right and downwards. */
-  across(vessel: number, at: number): Promise<[Vector, Vector, Vector]> {
-    return this.run(() => JSON.parse(this.ready().across(vessel, at)));
-  }
-
-  /** The letters and the scale bar of a picture, at once: they do not wait for the work that is queued. */
-  labels(picture: LaidPicture): PictureLabels {
-    this.ready();
-    return JSON.parse(Engine.picture_labels(JSON.stringify(picture)));
-  }
-
-  straightened(cpr: Cpr, window: Window): Promise<Picture> {
-    return this.run(() => {
-      const [width, height, pixels] = this.ready().straightened(JSON.stringify(cpr), window[0], window[1]);
-      const bytes = plain(pixels as Uint8ClampedArray);
-      return transfer({ size: [width as number, height as number] as const, bytes }, [bytes.buffer]);
-    });
-  }
-
-  pickStraightened(column: number, row: number): Promise<Pick> {
-    return this.run(() => JSON.parse(this.ready().pick_straightened(column, row)));
-  }
-
-  onStraightened(point: Vector): Promise<[number, number] | null> {
-    return this.run(() => JSON.parse(this.ready().on_straightened(JSON.stringify(point))));
-  }
-
-  histogram(bins: number): Promise<Histogram> {
-    return this.run(() => JSON.parse(this.ready().histogram(bins)));
-  }
-
   private report(): Report {
-    return JSON.parse(this.ready().report());
+    return ask(this.ready(), 'report', null);
   }
 
   private ready(): Engine {
@@ -257,5 +189,3 @@ function sent(picture: Picture, milliseconds: number): Drawn {
 function plain(bytes: Uint8ClampedArray): Uint8ClampedArray<ArrayBuffer> {
   return bytes as Uint8ClampedArray<ArrayBuffer>;
 }
-
-export type { Progress };

@@ -2,6 +2,7 @@
 import type { SeriesWish } from '../core/messages';
 import type { Engine } from '../core/module';
 import type { Study, Means as StudyMeans } from '../io/study';
+import { ask } from './answers';
 
 export class Replacing implements Study {
   hasBegun = false;
@@ -13,7 +14,7 @@ export class Replacing implements Study {
 
   close(): void {
     this.hasBegun = true;
-    this.engine.close();
+    ask(this.engine, 'close', null);
   }
 
   begin_volume(header: string): void {
@@ -25,8 +26,8 @@ export class Replacing implements Study {
     this.engine.take_voxels(offset, bytes);
   }
 
-  open_centerlines(bytes: Uint8Array, name: string): string {
-    return this.engine.open_centerlines(bytes, name, JSON.stringify(this.wish));
+  openCenterlines(bytes: Uint8Array, name: string): readonly string[] {
+    return ask(this.engine, 'open_centerlines', { name, wish: this.wish }, { bytes });
   }
 }
 

@@ -36,6 +36,7 @@ impl From<&Mark> for ReportMark {
 
 /// A place with its name and colour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlace"))]
 pub struct Place {
     /// Such as `marked place` or `reference before (suggestion)`.
     pub name: String,

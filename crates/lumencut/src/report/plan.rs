@@ -26,6 +26,7 @@ const FINEST: f64 = 0.05;
 
 /// The pictures of a vessel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
 pub struct Plan {
     /// The width of the straightened vessel across it (mm); a host shows less where the volume has less.
     pub width: f64,

@@ -15,10 +15,13 @@ use crate::study::failure::Result;
 /// In which space and unit centerlines are to be read, by names; what is left out is not asked for.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "CenterlineWish"))]
 pub struct AskedMessage {
     /// `lps` or `ras`.
+    #[cfg_attr(test, ts(optional))]
     pub coordinates: Option<String>,
     /// `um`, `mm`, `cm`, `dm` or `m`.
+    #[cfg_attr(test, ts(optional))]
     pub unit: Option<String>,
 }
 

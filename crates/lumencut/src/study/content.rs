@@ -4,15 +4,14 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use crate::window_presets::{DataWindow, PresetSource, WINDOW_PRESETS};
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use lumencut_core::named::Named;
 use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::{ContextName, Window};
-use lumencut_core::vessel_tree::VesselTree;
+use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use serde::Serialize;
-use serde_json::json;
 
-use crate::study::failure::{Failure, Result};
+use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
 
 /// A tree with the names and the lines of its vessels.
@@ -47,12 +46,56 @@ pub struct Content {
 /// Level and width of a window, as the page has them.
 type LevelWidth = [f64; 2];
 
-/// The windows that the page offers.
+/// What is open.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Report {
+    /// The volume; none where vessels alone are open.
+    pub volume: Option<VolumeReport>,
+    /// The vessels that are shown; none where the volume alone is open.
+    pub vessels: Option<Vec<VesselReport>>,
+    /// The windows that the data suggest; none without a volume.
+    pub windows: Option<Windows>,
+}
+
+/// The volume that is open.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct VolumeReport {
+    /// The number of voxels along (i, j, k).
+    pub size: [usize; 3],
+    /// World position of a continuous index, row by row.
+    #[cfg_attr(test, ts(type = "Array<Array<number>>"))]
+    pub world_from_index: [[f64; 4]; 4],
+    /// The corners of its outermost voxels.
+    #[cfg_attr(test, ts(type = "Array<Vector>"))]
+    pub corners: [[f64; 3]; 8],
+    /// The smallest side of a voxel (mm).
+    pub smallest_side: f64,
+}
+
+/// A vessel that is shown.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct VesselReport {
+    /// The number of its line.
+    pub line: usize,
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// mm
+    pub length: f64,
+    /// Whether its radius is known.
+    pub has_radius: bool,
+}
+
+/// The windows of what is open.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Windows {
     /// That of cut surface and flat views.
     main: LevelWidth,
     /// Those of the contexts, by their names.
+    #[cfg_attr(test, ts(type = "Readonly<Record<string, Pair>>"))]
     contexts: BTreeMap<&'static str, LevelWidth>,
     /// Those that have a name, in the order to show them.
     presets: Vec<NamedWindow>,
@@ -60,9 +103,13 @@ pub struct Windows {
 
 /// A window that has a name, with its numbers for what is open.
 #[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 struct NamedWindow {
+    /// The name of the preset.
     name: &'static str,
+    /// What menus call it.
     words: &'static str,
+    /// Level and width.
     window: LevelWidth,
 }
 
@@ -137,22 +184,34 @@ impl Content {
     ///
     /// # Errors
     /// As [`Content::windows`].
-    pub fn report(&self) -> Result<serde_json::Value> {
-        let volume = self.held.as_ref().map(|held| {
-            let corners = held.volume().map(|volume| volume.corners().map(|corner| corner.to_array()));
-            let side = held.volume().map(|volume| volume.smallest_side());
-            let rows = glam::DMat4::from(held.world_from_index).transpose().to_cols_array_2d();
-            Ok::<_, Failure>(
-                json!({"size": held.size, "world_from_index": rows, "corners": corners?, "smallest_side": side?}),
-            )
-        });
-        let vessels = self.named.as_ref().map(|named| {
-            let vessels = named.leveled.tree().vessels().iter().zip(&named.names).zip(&named.lines);
-            let about = vessels.map(|((vessel, name), line)| {
-                json!({"line": line, "name": name, "length": vessel.arc_length().last(), "has_radius": vessel.radius().is_some()})
-            });
-            about.collect::<Vec<_>>()
-        });
-        Ok(json!({"volume": volume.transpose()?, "vessels": vessels, "windows": self.windows()?}))
+    pub fn report(&self) -> Result<Report> {
+        let volume = self.held.as_ref().map(VolumeReport::of).transpose()?;
+        let vessels = self.named.as_ref().map(VesselReport::of_all);
+        Ok(Report { volume, vessels, windows: self.windows()? })
+    }
+}
+
+impl VolumeReport {
+    fn of(held: &HeldVolume) -> Result<Self> {
+        let volume = held.volume()?;
+        Ok(Self {
+            size: held.size,
+            world_from_index: DMat4::from(held.world_from_index).transpose().to_cols_array_2d(),
+            corners: volume.corners().map(|corner| corner.to_array()),
+            smallest_side: volume.smallest_side(),
+        })
+    }
+}
+
+impl VesselReport {
+    fn of_all(named: &NamedTree) -> Vec<Self> {
+        let vessels = named.leveled.tree().vessels().iter().zip(&named.names).zip(&named.lines);
+        let about = |((vessel, name), line): ((&Vessel, &String), &usize)| Self {
+            line: *line,
+            name: name.clone(),
+            length: vessel.arc_length().last().copied().unwrap_or_default(),
+            has_radius: vessel.radius().is_some(),
+        };
+        vessels.map(about).collect()
     }
 }

@@ -12,6 +12,7 @@ pub type Place = [f64; 3];
 /// A vessel that the reader sees in the list.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct DocumentVessel {
     /// Stays the same through edits; never given twice in a study.
     pub id: u32,
@@ -38,6 +39,7 @@ impl DocumentVessel {
 
 /// The vessels of a document, and what they are traced by.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "VesselDocument"))]
 pub struct Document {
     /// In the order of the list.
     pub vessels: Vec<DocumentVessel>,

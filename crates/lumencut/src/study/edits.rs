@@ -12,6 +12,7 @@ use crate::study::lines::NamedLine;
 /// An edit of vessels. Clicks and stoppers are numbered from 0, arc lengths are in mm.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(tag = "kind", rename_all = "snake_case")]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub enum Edit {
     /// A vessel between two clicks or more.
     BeginVessel {
@@ -158,6 +159,7 @@ impl Edit {
 
 /// What a host asks for: an edit of a document.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "EditRequest"))]
 pub struct EditMessage {
     /// The document as it is.
     pub document: Document,
@@ -177,6 +179,7 @@ impl EditMessage {
 
 /// What came of an edit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Edited {
     /// The document after it; the same one where there was nothing to do.
     pub document: Document,

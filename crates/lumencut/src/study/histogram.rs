@@ -8,6 +8,7 @@ const MOST: usize = 500_000;
 
 /// How many voxels are in each of equally wide ranges of values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Histogram {
     /// The smallest value.
     pub low: f32,

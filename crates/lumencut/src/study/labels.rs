@@ -8,15 +8,21 @@ use crate::scale_bar::ScaleBar;
 
 /// How a picture lies: unit vectors to the right and downwards (LPS), its width in pixels and their side (mm).
 #[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct LaidPicture {
+    /// To the right.
     right: [f64; 3],
+    /// Downwards.
     down: [f64; 3],
+    /// Pixels.
     width: f64,
+    /// The side of a pixel (mm).
     pixel_spacing: f64,
 }
 
 /// What stands around a picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct PictureLabels {
     /// The letters at its edges.
     pub letters: EdgeLetters,

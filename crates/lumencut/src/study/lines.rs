@@ -28,15 +28,21 @@ pub struct Line {
 
 /// A line as the page has it; `null` stands for a radius that is not known.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct LineContent {
+    /// At least two.
     points: Vec<[f64; 3]>,
+    /// mm; null where it is not known, of all points or of one
     radius: Option<Vec<Option<f64>>>,
+    /// How sure each point is, from 0 to 1, where the line was traced.
     confidence: Option<Vec<f64>>,
+    /// Which points lie on a stretch without lumen that was bridged, where that is known.
     bridged: Option<Vec<bool>>,
 }
 
 /// A line with the name under which it is shown and saved.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct NamedLine {
     /// Its number.
     pub line: usize,

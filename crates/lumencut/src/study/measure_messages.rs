@@ -19,8 +19,11 @@ type Vector = [f64; 3];
 
 /// A place on a vessel and the diameter there (mm).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Spot"))]
 pub struct SpotMessage {
+    /// mm along the vessel
     at: f64,
+    /// mm
     diameter: f64,
 }
 
@@ -32,32 +35,52 @@ impl From<Spot> for SpotMessage {
 
 /// The lumen of a vessel by its arc length. What was not measured is NaN, null in JSON.
 #[derive(Clone, Debug, Serialize)]
-pub struct ProfileMessage<'a> {
-    arc_length: &'a [f64],
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Profile"))]
+pub struct ProfileMessage {
+    /// mm
+    arc_length: Vec<f64>,
+    /// Of a circle of the same area (mm).
+    #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter: Vec<f64>,
-    diameter_min: &'a [f64],
-    diameter_max: &'a [f64],
-    area: &'a [f64],
-    uncertainty: &'a [f64],
+    /// The shortest one (mm).
+    #[cfg_attr(test, ts(type = "Array<number | null>"))]
+    diameter_min: Vec<f64>,
+    /// The longest one (mm).
+    #[cfg_attr(test, ts(type = "Array<number | null>"))]
+    diameter_max: Vec<f64>,
+    /// mm²
+    #[cfg_attr(test, ts(type = "Array<number | null>"))]
+    area: Vec<f64>,
+    /// The standard deviation of `diameter` (mm).
+    #[cfg_attr(test, ts(type = "Array<number | null>"))]
+    uncertainty: Vec<f64>,
+    /// Whether a section counts for what is narrowest, widest or suggested.
     counts: Vec<bool>,
+    /// Words such as `calcium`, `no edge`.
     flags: Vec<Vec<String>>,
+    /// Every flag that there is, in the order of plots and tables.
     flag_table: &'static [FlagLook],
+    /// The middle of each section.
     center: Vec<Vector>,
+    /// Full width at half maximum of the point spread (mm).
     fwhm: f64,
+    /// How it was found: `given`, `estimated on …`, `assumed: …`.
     fwhm_source: String,
+    /// A suggestion, not a finding.
     narrowest: Option<SpotMessage>,
+    /// The longest diameter; none also where an odd outline or a branch may be what makes it so.
     widest: Option<SpotMessage>,
 }
 
-impl<'a> From<&'a Profile> for ProfileMessage<'a> {
-    fn from(profile: &'a Profile) -> Self {
+impl From<&Profile> for ProfileMessage {
+    fn from(profile: &Profile) -> Self {
         Self {
-            arc_length: &profile.arc_length,
+            arc_length: profile.arc_length.clone(),
             diameter: profile.diameter_equivalent(),
-            diameter_min: &profile.diameter_min,
-            diameter_max: &profile.diameter_max,
-            area: &profile.area,
-            uncertainty: &profile.uncertainty,
+            diameter_min: profile.diameter_min.clone(),
+            diameter_max: profile.diameter_max.clone(),
+            area: profile.area.clone(),
+            uncertainty: profile.uncertainty.clone(),
             counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
             flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
             flag_table: &FLAGS,
@@ -72,12 +95,21 @@ impl<'a> From<&'a Profile> for ProfileMessage<'a> {
 
 /// What a reader marked on one vessel (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Marks"))]
 pub struct MarksMessage {
+    /// The place of a stenosis.
     at: Option<f64>,
+    /// One or two places to compare it with.
     references: Vec<f64>,
+    /// How it is graded.
+    #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: String,
+    /// The assumed original diameter (mm), for ECST.
     original: Option<f64>,
+    /// The diameter of a vessel like the normal one (mm).
     comparison: Option<f64>,
+    /// The territory whose groups are told.
+    #[cfg_attr(test, ts(type = "Territory | null"))]
     group: Option<String>,
 }
 
@@ -116,8 +148,11 @@ impl MarksMessage {
 
 /// What is told of a place that was marked; nothing where none is.
 #[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Grade"))]
 pub struct GradeMessage {
+    /// The stenosis that was marked.
     stenosis: Option<StenosisMessage>,
+    /// What is still missing, or what is wrong with a place.
     not_graded: Option<String>,
 }
 
@@ -128,17 +163,31 @@ impl From<Option<Grade>> for GradeMessage {
     }
 }
 
+/// A stenosis that is graded.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stenosis"))]
 struct StenosisMessage {
+    /// How much narrower it is than the reference.
     percent: f64,
+    /// Its place (mm).
     at: f64,
+    /// mm
     diameter: f64,
+    /// The standard deviation of `percent`.
+    #[cfg_attr(test, ts(type = "number | null"))]
     uncertainty: f64,
+    /// What it is compared with, in the unit of the method.
     reference: f64,
+    /// The places that it is compared with.
     references: Vec<SpotMessage>,
+    /// How it is graded.
+    #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: &'static str,
+    /// The percentage in one line. Python's `str(stenosis)` has it with its doubts.
     words: String,
+    /// What makes the percentage doubtful, a sentence each.
     doubts: Vec<String>,
+    /// The group of the field with its source, where a territory was named.
     group: Option<String>,
 }
 
@@ -163,9 +212,14 @@ impl StenosisMessage {
 
 /// Places that are compared before anything is graded, such as those that are offered (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Compared"))]
 pub struct ComparedMessage {
+    /// The narrow place.
     at: f64,
+    /// The places that it is compared with.
     references: Vec<f64>,
+    /// How it would be graded.
+    #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: String,
 }
 
@@ -182,19 +236,32 @@ impl ComparedMessage {
 
 /// The diameter at a place and its standard deviation (mm).
 #[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Diameter"))]
 pub struct DiameterMessage {
     /// Of a circle of the same area (mm).
     pub diameter: f64,
     /// Its standard deviation (mm).
+    #[cfg_attr(test, ts(type = "number | null"))]
     pub uncertainty: f64,
+}
+
+impl From<(f64, f64)> for DiameterMessage {
+    fn from((diameter, uncertainty): (f64, f64)) -> Self {
+        Self { diameter, uncertainty }
+    }
 }
 
 /// A section: its number, its wall, and the ends of its shortest and longest diameter (mm, LPS).
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredSection"))]
 pub struct SectionMessage {
+    /// Its number in the profile.
     number: usize,
+    /// The points of the wall; empty where none was found.
     contour: Vec<Vector>,
+    /// The ends of the shortest diameter.
     shortest: Option<[Vector; 2]>,
+    /// The ends of the longest diameter.
     longest: Option<[Vector; 2]>,
 }
 
@@ -212,21 +279,34 @@ impl SectionMessage {
 
 /// From where a stretch is seen.
 #[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Look"))]
 pub struct LookMessage {
+    /// From the viewer into the scene.
     direction: Vector,
+    /// Upwards.
     up: Vector,
 }
 
 /// A marked stretch of a vessel.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stretch"))]
 pub struct StretchMessage {
+    /// Along the vessel (mm).
     length: f64,
+    /// From end to end (mm).
     straight: f64,
+    /// `length` in straight distances; null where it ends where it begins.
+    #[cfg_attr(test, ts(type = "number | null"))]
     tortuosity: f64,
+    /// Unit vector along it.
     direction: Vector,
+    /// How a C-arm is turned to the left that shows it in its whole length (radians).
     lao: f64,
+    /// How it is turned to the head (radians).
     cranial: f64,
+    /// The same as it stands on a C-arm: `RAO 20° CRAN 5°`.
     c_arm: String,
+    /// The view from the detector of that C-arm.
     view: LookMessage,
 }
 
@@ -257,6 +337,7 @@ impl StretchMessage {
 
 /// A vessel for tables.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredVessel"))]
 pub struct VesselMessage {
     /// Its id.
     pub id: String,

@@ -14,7 +14,7 @@ use lumencut_core::with_voxels;
 use lumencut_vessels::measure::cross_section::section_place;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 
-use crate::study::content::Content;
+use crate::study::content::{Content, Report};
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::histogram::Histogram;
@@ -26,10 +26,12 @@ use crate::study::view::CameraMessage;
 
 /// A picture: RGBA in rows from the top, and its size.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Picture {
     /// Columns and rows.
     pub size: [usize; 2],
     /// A byte for each channel.
+    #[cfg_attr(test, ts(type = "Bytes"))]
     pub bytes: Vec<u8>,
 }
 
@@ -66,7 +68,7 @@ impl Study {
     ///
     /// # Errors
     /// `volume` for values beyond all windows.
-    pub fn report(&self) -> Result<serde_json::Value> {
+    pub fn report(&self) -> Result<Report> {
         self.content.report()
     }
 

@@ -19,6 +19,7 @@ const AROUND: usize = 8;
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Pick {
     /// The world point.
     pub point: [f64; 3],

@@ -9,6 +9,7 @@ use crate::study::failure::Result;
 /// A flat picture as the page asks for it: the world point in its middle, unit vectors to the right and downwards (LPS), its
 /// size in pixels and their side (mm).
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Plane {
     /// The world point in the middle.
     pub center: [f64; 3],

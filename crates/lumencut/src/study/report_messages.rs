@@ -13,20 +13,32 @@ use crate::study::view::method_word;
 
 /// A report of one vessel.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportRequest"))]
 pub struct ReportMessage {
+    /// The vessel, with its marks.
     vessel: VesselMessage,
+    /// The name of the scan, where the user wants it there.
     scan: Option<String>,
+    /// When it was saved, in words.
     saved: String,
+    /// Whether the file of the scan states the sizes of its voxels.
     has_units: bool,
+    /// Whether it states the sides of the patient.
     has_orientation: bool,
     /// Level and width.
     window: [f64; 2],
     /// The settings of the view that differ from the usual ones.
+    #[cfg_attr(test, ts(type = "Settings"))]
     settings: Map<String, Json>,
+    /// A view of all vessels.
     view: View,
+    /// The straightened vessel.
     strip: Strip,
+    /// A section for each place of the plan, PNGs in base64.
     sections: Vec<String>,
+    /// Stretches from one arc length to another (mm).
     stretches: Vec<[f64; 2]>,
+    /// Straight distances (mm).
     distances: Vec<f64>,
 }
 

@@ -19,9 +19,14 @@ const ROUNDING: f64 = 1e-3;
 
 /// A session as the page has it: lines by their numbers, and all else as the file has it but for what is known at each point.
 #[derive(Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct SessionContent {
+    /// One for each vessel.
     lines: Vec<NamedLine>,
+    /// One for each doubtful branch.
     doubtful_lines: Vec<NamedLine>,
+    /// All but the lines.
+    #[cfg_attr(test, ts(type = "SavedSession"))]
     session: Value,
 }
 

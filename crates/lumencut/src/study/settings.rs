@@ -1,28 +1,54 @@
 //! Settings by name, as JSON: the same table as everywhere.
 
 use lumencut_core::named::Named;
-use lumencut_core::settings::{Choices, Kind, Settings, Slab, SlabMode, Value, Window, table};
-use serde_json::{Map, Value as Json, json};
+use lumencut_core::settings::{Choices, Kind, Setting, Settings, Slab, SlabMode, Value, Window, table};
+use serde::Serialize;
+use serde_json::{Map, Value as Json};
 
 use crate::study::failure::{Failure, Result};
 
-/// The table of settings for the page: names, kinds, ranges, units, names of values, defaults and what each does.
-pub fn table_as_json() -> Json {
-    let rows = table().map(|setting| {
-        json!({
-            "name": setting.name,
-            "kind": setting.kind.name(),
-            "optional": setting.optional,
-            "default": default_of(setting.default()),
-            "low": setting.limits.map(|limits| limits.low),
-            "high": setting.limits.map(|limits| limits.high),
-            "unit": setting.limits.map(|limits| limits.unit),
-            "choices": setting.choices(),
-            "open": setting.open,
-            "sentence": setting.sentence(),
-        })
-    });
-    Json::Array(rows.collect())
+/// A row of the table of settings.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct SettingRow {
+    /// Its name in Python and in files.
+    name: &'static str,
+    /// What kind of value it has.
+    kind: &'static str,
+    /// Whether it may be left open.
+    optional: bool,
+    /// The value where nothing is chosen.
+    #[cfg_attr(test, ts(type = "SettingValue"))]
+    default: Json,
+    /// The smallest number.
+    low: Option<f64>,
+    /// The largest number.
+    high: Option<f64>,
+    /// The unit of a number.
+    unit: Option<&'static str>,
+    /// The names that can be chosen.
+    choices: Vec<&'static str>,
+    /// What holds where it is left open, for those that are open by default.
+    open: Option<&'static str>,
+    /// What it does.
+    sentence: String,
+}
+
+/// The table of settings for viewers.
+pub fn rows() -> Vec<SettingRow> {
+    let row = |setting: &Setting| SettingRow {
+        name: setting.name,
+        kind: setting.kind.name(),
+        optional: setting.optional,
+        default: default_of(setting.default()),
+        low: setting.limits.map(|limits| limits.low),
+        high: setting.limits.map(|limits| limits.high),
+        unit: setting.limits.map(|limits| limits.unit),
+        choices: setting.choices(),
+        open: setting.open,
+        sentence: setting.sentence(),
+    };
+    table().map(row).collect()
 }
 
 fn default_of(value: Value) -> Json {
@@ -86,6 +112,8 @@ fn slab(json: &Json) -> Result<Option<Slab>> {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
 
     fn of(json: &Json) -> Result<Settings> {
@@ -111,6 +139,6 @@ mod tests {
 
     #[test]
     fn the_table_has_a_row_for_every_setting() {
-        assert_eq!(table_as_json().as_array().map(Vec::len), Some(table().count()));
+        assert_eq!(rows().len(), table().count());
     }
 }

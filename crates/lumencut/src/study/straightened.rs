@@ -11,6 +11,7 @@ use crate::study::failure::Result;
 
 /// A CPR as the page asks for it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Cpr"))]
 pub struct CprMessage {
     /// The vessel's number.
     pub vessel: usize,
@@ -28,6 +29,7 @@ pub struct CprMessage {
 /// The features of CFA by their names.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Feature"))]
 pub enum Aggregated {
     /// The largest value.
     Max,

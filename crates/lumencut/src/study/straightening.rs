@@ -15,6 +15,7 @@ use crate::study::straightened::{CprMessage, Laid};
 
 /// What a place in the straightened CPR shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct StraightenedPick {
     /// The world point.
     pub point: [f64; 3],

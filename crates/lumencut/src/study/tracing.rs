@@ -31,6 +31,7 @@ pub struct Watch<'a> {
 
 /// A ball that no vessel may pass.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stopper"))]
 pub struct StopperMessage {
     /// Its center.
     pub center: [f64; 3],
@@ -52,10 +53,15 @@ pub(crate) struct TraceRequest {
 
 /// A way to where the pointer is.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PathRequest"))]
 pub struct PathMessage {
+    /// The last click.
     from: [f64; 3],
+    /// Where the pointer is.
     to: [f64; 3],
+    /// What no vessel may pass.
     stoppers: Vec<StopperMessage>,
+    /// Whether stretches without lumen are bridged, however long.
     bridge: bool,
 }
 

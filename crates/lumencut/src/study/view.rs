@@ -11,13 +11,19 @@ use serde_json::{Map, Value as Json};
 use crate::study::failure::{Failure, Result};
 use crate::study::settings::settings;
 
-/// A camera as the page has it; its axes are unit vectors (LPS).
+/// A camera: orthographic, its axes unit vectors.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Camera"))]
 pub struct CameraMessage {
+    /// What is in the middle of the picture.
     center: [f64; 3],
+    /// From the viewer into the scene.
     direction: [f64; 3],
+    /// Upwards.
     up: [f64; 3],
+    /// Columns and rows.
     size: [usize; 2],
+    /// The side of a pixel (mm).
     pixel_spacing: f64,
 }
 
@@ -55,12 +61,15 @@ pub fn method_word(name: &str) -> &str {
 
 /// A view as the page asks for it.
 #[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "View"))]
 pub struct ViewMessage {
     /// From where.
     pub camera: CameraMessage,
     /// One of the names of [`METHODS`].
+    #[cfg_attr(test, ts(type = "Method"))]
     pub method: String,
     /// Settings by name.
+    #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
 }
 

@@ -5,7 +5,7 @@ use lumencut_core::error::ErrorKind;
 use lumencut_io as centerlines;
 use serde_json::json;
 
-use super::open_phantom;
+use super::{open_phantom, report_of};
 use crate::study::line_edits::{MEETING, cut, join, path};
 use crate::study::lines::{Line, LineContent, NamedLine};
 use crate::study::open_study::Study;
@@ -120,12 +120,12 @@ fn named(line: usize, name: &str) -> NamedLine {
 fn lines_are_shown_in_their_order_and_windows_stay() {
     let mut study = Study::default();
     open_phantom(&mut study, "y_junction");
-    let before = study.content.report().expect("a report");
+    let before = report_of(&study);
     let lines: Vec<u64> =
         before["vessels"].as_array().expect("vessels").iter().filter_map(|v| v["line"].as_u64()).collect();
     let added = with_line(&mut study, &straight(0.0, 5));
     study.show(&[named(added, "mine"), named(lines[1] as usize, "other")]).expect("a tree");
-    let report = study.content.report().expect("a report");
+    let report = report_of(&study);
     assert_eq!(
         report["vessels"][0],
         json!({"line": added, "name": "mine", "length": 4.0, "has_radius": true})
@@ -133,9 +133,9 @@ fn lines_are_shown_in_their_order_and_windows_stay() {
     assert_eq!(report["vessels"][1]["length"], before["vessels"][1]["length"]);
     assert_eq!(report["windows"], before["windows"]);
     assert!(study.show(&[named(9999, "")]).is_err());
-    assert_eq!(study.content.report().expect("a report")["vessels"], report["vessels"]);
+    assert_eq!(report_of(&study)["vessels"], report["vessels"]);
     study.show(&[]).expect("the volume alone");
-    let report = study.content.report().expect("a report");
+    let report = report_of(&study);
     assert_eq!((&report["vessels"], &report["windows"]), (&json!(null), &before["windows"]));
 }
 
@@ -146,7 +146,7 @@ fn the_number_of_a_line_never_stands_for_one_of_another_study() {
     let added = with_line(&mut study, &straight(0.0, 5));
     open_phantom(&mut study, "stenosis");
     assert!((0..=added).all(|line| study.line(line).is_err()));
-    let line = study.content.report().expect("a report")["vessels"][0]["line"].as_u64().expect("a number");
+    let line = report_of(&study)["vessels"][0]["line"].as_u64().expect("a number");
     assert_eq!(line as usize, added + 1);
 }
 

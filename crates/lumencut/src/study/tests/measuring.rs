@@ -14,7 +14,7 @@ use crate::study::lines::NamedLine;
 use crate::study::measure_messages::{
     GradeMessage, MarksMessage, ProfileMessage, SectionMessage, StretchMessage,
 };
-use crate::study::tests::{LPS, opened};
+use crate::study::tests::{LPS, opened, report_of};
 
 const SIZE: [usize; 3] = [40, 40, 80];
 const SIDE: f64 = 0.5;
@@ -74,7 +74,7 @@ fn open_line(study: &mut Study, from: f64, to: f64) {
 
 /// The number of a vessel's line, as the page knows it.
 fn line_of(study: &Study, vessel: usize) -> usize {
-    let report = study.content.report().expect("a report");
+    let report = report_of(study);
     report["vessels"][vessel]["line"].as_u64().expect("a line") as usize
 }
 

@@ -4,7 +4,9 @@ mod edits;
 mod lines;
 mod masks;
 mod planes;
+mod pretty;
 mod tracing;
+pub(crate) mod typescript;
 
 use crate::backend::Backend;
 use crate::devices::Wanted;
@@ -47,6 +49,11 @@ pub fn open_phantom(study: &mut Study, name: &str) {
     let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = made.expect("a phantom");
     let held = HeldVolume { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
     study.open(held, tree, vessel_names).expect("a tree");
+}
+
+/// What a viewer is told of what is open.
+pub fn report_of(study: &Study) -> serde_json::Value {
+    serde_json::to_value(study.report().expect("a report")).expect("JSON")
 }
 
 fn view(study: &Study, size: [usize; 2]) -> ViewMessage {
@@ -184,7 +191,7 @@ fn centerlines_are_read_in_the_space_and_unit_that_are_asked_for() {
 #[test]
 fn the_report_names_vessels_and_windows() {
     let study = opened("stenosis");
-    let report = study.report().expect("a report");
+    let report = report_of(&study);
     assert_eq!(report["vessels"].as_array().map(Vec::len), Some(1));
     let windows = &report["windows"];
     assert!(windows["main"][1].as_f64().expect("a width") > 0.0);
@@ -194,7 +201,7 @@ fn the_report_names_vessels_and_windows() {
     assert_eq!(presets[0], json!({"name": "auto", "words": "From the data", "window": windows["main"]}));
     assert_eq!(presets[1], json!({"name": "cta", "words": "CT angiography", "window": [300.0, 900.0]}));
     assert_eq!(presets.len(), crate::window_presets::WINDOW_PRESETS.len());
-    assert!(Study::default().report().expect("a report")["volume"].is_null());
+    assert!(report_of(&Study::default())["volume"].is_null());
 }
 
 #[test]

@@ -4,13 +4,13 @@ use glam::DVec3;
 use lumencut_vessels::measure::profile::Profile;
 
 use crate::study::open_study::Study;
-use crate::study::tests::opened;
+use crate::study::tests::{opened, report_of};
 
 /// Arc lengths along the helix (mm), most of them between two of the sections that are measured every half millimetre.
 const PLACES: [f64; 5] = [0.0, 40.13, 101.6, 160.37, 258.0];
 
 fn profile_of_helix(study: &mut Study) -> Profile {
-    let report = study.content.report().expect("a report");
+    let report = report_of(study);
     let line = report["vessels"][0]["line"].as_u64().expect("a line") as usize;
     study.profile(line, Some(0.8), &|| false).expect("a profile").clone()
 }

@@ -1,0 +1,950 @@
+/** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make types`; a test says where it is stale. */
+import type { Bytes, Pair, Settings, SettingValue, Turn, Vector } from '../plain';
+import type { SavedSession } from '../session-file';
+
+export type Method = 'csr' | 'csr-paper' | 'cr' | 'mpcpr';
+export type StenosisMethod = 'nascet' | 'ecst' | 'area';
+export type Territory = 'carotid' | 'coronary';
+
+/** A camera: orthographic, its axes unit vectors. */
+export type Camera = {
+  /** What is in the middle of the picture. */
+  readonly center: Vector;
+  /** From the viewer into the scene. */
+  readonly direction: Vector;
+  /** Upwards. */
+  readonly up: Vector;
+  /** Columns and rows. */
+  readonly size: Pair;
+  /** The side of a pixel (mm). */
+  readonly pixel_spacing: number;
+};
+
+/** In which space and unit centerlines are to be read, by names; what is left out is not asked for. */
+export type CenterlineWish = {
+  /** `lps` or `ras`. */
+  readonly coordinates?: string;
+  /** `um`, `mm`, `cm`, `dm` or `m`. */
+  readonly unit?: string;
+};
+
+/** Places that are compared before anything is graded, such as those that are offered (arc lengths, mm). */
+export type Compared = {
+  /** The narrow place. */
+  readonly at: number;
+  /** The places that it is compared with. */
+  readonly references: ReadonlyArray<number>;
+  /** How it would be graded. */
+  readonly method: StenosisMethod;
+};
+
+/** A CPR as the page asks for it. */
+export type Cpr = {
+  /** The vessel's number. */
+  readonly vessel: number;
+  /** The rotation about its axis (radians). */
+  readonly angle: number;
+  /** The width of the picture (mm). */
+  readonly width: number;
+  /** The side of a pixel (mm). */
+  readonly pixel_spacing: number;
+  /** Which value of a half circle a pixel shows, by CFA; without one its own. */
+  readonly feature: Feature | null;
+};
+
+/** The diameter at a place and its standard deviation (mm). */
+export type Diameter = {
+  /** Of a circle of the same area (mm). */
+  readonly diameter: number;
+  /** Its standard deviation (mm). */
+  readonly uncertainty: number | null;
+};
+
+/** A vessel that the reader sees in the list. */
+export type DocumentVessel = {
+  /** Stays the same through edits; never given twice in a study. */
+  readonly id: number;
+  /** The number of its line. */
+  readonly line: number;
+  /** Its name; empty where it has none. */
+  readonly name: string;
+  /** `#rrggbb`. */
+  readonly color: string;
+  /** Whether the views leave it out. */
+  readonly isHidden: boolean;
+  /** Where it was clicked, in order along it; none where it came from a file, a mask or a seed, or was cut or joined. */
+  readonly clicks: ReadonlyArray<Vector> | null;
+  /** Why a branch from a seed is doubtful: it is shown apart until it is accepted. None where it is not. */
+  readonly doubt: string | null;
+};
+
+/** The letters at the four edges of a picture. */
+export type EdgeLetters = {
+  /** At the left edge. */
+  readonly left: string;
+  /** At the right edge. */
+  readonly right: string;
+  /** At the top edge. */
+  readonly top: string;
+  /** At the bottom edge. */
+  readonly bottom: string;
+};
+
+/** An edit of vessels. Clicks and stoppers are numbered from 0, arc lengths are in mm. */
+export type Edit = {
+  readonly "kind": "begin_vessel";
+  /** In order along it. */
+  readonly clicks: ReadonlyArray<Vector>;
+} | {
+  readonly "kind": "add_click";
+  /** The vessel. */
+  readonly id: number;
+  /** Where it is. */
+  readonly point: Vector;
+} | {
+  readonly "kind": "add_click_on_line";
+  /** The vessel. */
+  readonly id: number;
+  /** A point of its line. */
+  readonly point: Vector;
+} | {
+  readonly "kind": "move_click";
+  /** The vessel. */
+  readonly id: number;
+  /** Which of its clicks. */
+  readonly number: number;
+  /** Where it is now. */
+  readonly point: Vector;
+} | {
+  readonly "kind": "remove_click";
+  /** The vessel. */
+  readonly id: number;
+  /** Which of its clicks. */
+  readonly number: number;
+} | {
+  readonly "kind": "add_stopper";
+  /** Its center. */
+  readonly center: Vector;
+} | {
+  readonly "kind": "move_stopper";
+  /** Which of them. */
+  readonly number: number;
+  /** Its center now. */
+  readonly center: Vector;
+} | {
+  readonly "kind": "remove_stopper";
+  /** Which of them. */
+  readonly number: number;
+} | {
+  readonly "kind": "set_bridge";
+  /** Whether they do from now on. */
+  readonly bridge: boolean;
+} | {
+  readonly "kind": "cut";
+  /** The vessel. */
+  readonly id: number;
+  /** The arc length of the cut. */
+  readonly at: number;
+} | {
+  readonly "kind": "join";
+  /** The first vessel. */
+  readonly id: number;
+  /** The second one. */
+  readonly other: number;
+} | {
+  readonly "kind": "remove";
+  /** Which of them. */
+  readonly ids: ReadonlyArray<number>;
+} | {
+  readonly "kind": "add_branches";
+  /** A place in a vessel. */
+  readonly seed: Vector;
+} | {
+  readonly "kind": "accept";
+  /** Which of them. */
+  readonly ids: ReadonlyArray<number>;
+} | {
+  readonly "kind": "leave_out";
+  /** Which of them. */
+  readonly ids: ReadonlyArray<number>;
+} | {
+  readonly "kind": "add_mask"
+} | {
+  readonly "kind": "add_lines";
+  /** In their order. */
+  readonly lines: ReadonlyArray<NamedLine>;
+};
+
+/** What a host asks for: an edit of a document. */
+export type EditRequest = {
+  /** The document as it is. */
+  readonly document: VesselDocument;
+  /** What is done to it. */
+  readonly edit: Edit;
+  /** Whether gaps are bridged from now on, as part of the same step: what mends an edit that was refused by `bridge`. */
+  readonly bridging: boolean;
+};
+
+/** What came of an edit. */
+export type Edited = {
+  /** The document after it; the same one where there was nothing to do. */
+  readonly document: VesselDocument;
+  /** The name of the step that can be undone. */
+  readonly words: string;
+  /** The vessels that came to it, by their ids. */
+  readonly added: ReadonlyArray<number>;
+  /** The vessels whose marks are lost, by their ids: they are gone, or their places lie elsewhere. */
+  readonly without_marks: ReadonlyArray<number>;
+  /** What was odd, one sentence each. */
+  readonly notes: ReadonlyArray<string>;
+};
+
+/** The features of CFA by their names. */
+export type Feature = "max" | "mean" | "min";
+
+/** A flag of a section. */
+export type FlagLook = {
+  /** What tables and reports call it, such as `no edge`. */
+  readonly word: string;
+  /** What it means, as a part of a sentence. */
+  readonly meaning: string;
+  /** Its colour on a dark screen, `#rrggbb`. */
+  readonly screen: string;
+};
+
+/** What is told of a place that was marked; nothing where none is. */
+export type Grade = {
+  /** The stenosis that was marked. */
+  readonly stenosis: Stenosis | null;
+  /** What is still missing, or what is wrong with a place. */
+  readonly not_graded: string | null;
+};
+
+/** How many voxels are in each of equally wide ranges of values. */
+export type Histogram = {
+  /** The smallest value. */
+  readonly low: number;
+  /** The largest value. */
+  readonly high: number;
+  /** The number of voxels of each range, the lowest first; the largest value counts to the last. */
+  readonly counts: ReadonlyArray<number>;
+};
+
+/** How a picture lies: unit vectors to the right and downwards (LPS), its width in pixels and their side (mm). */
+export type LaidPicture = {
+  /** To the right. */
+  readonly right: Vector;
+  /** Downwards. */
+  readonly down: Vector;
+  /** Pixels. */
+  readonly width: number;
+  /** The side of a pixel (mm). */
+  readonly pixel_spacing: number;
+};
+
+/** A line as the page has it; `null` stands for a radius that is not known. */
+export type LineContent = {
+  /** At least two. */
+  readonly points: ReadonlyArray<Vector>;
+  /** mm; null where it is not known, of all points or of one */
+  readonly radius: ReadonlyArray<number | null> | null;
+  /** How sure each point is, from 0 to 1, where the line was traced. */
+  readonly confidence: ReadonlyArray<number> | null;
+  /** Which points lie on a stretch without lumen that was bridged, where that is known. */
+  readonly bridged: ReadonlyArray<boolean> | null;
+};
+
+/** From where a stretch is seen. */
+export type Look = {
+  /** From the viewer into the scene. */
+  readonly direction: Vector;
+  /** Upwards. */
+  readonly up: Vector;
+};
+
+/** What a reader marked on one vessel (arc lengths, mm). */
+export type Marks = {
+  /** The place of a stenosis. */
+  readonly at: number | null;
+  /** One or two places to compare it with. */
+  readonly references: ReadonlyArray<number>;
+  /** How it is graded. */
+  readonly method: StenosisMethod;
+  /** The assumed original diameter (mm), for ECST. */
+  readonly original: number | null;
+  /** The diameter of a vessel like the normal one (mm). */
+  readonly comparison: number | null;
+  /** The territory whose groups are told. */
+  readonly group: Territory | null;
+};
+
+/** A section: its number, its wall, and the ends of its shortest and longest diameter (mm, LPS). */
+export type MeasuredSection = {
+  /** Its number in the profile. */
+  readonly number: number;
+  /** The points of the wall; empty where none was found. */
+  readonly contour: ReadonlyArray<Vector>;
+  /** The ends of the shortest diameter. */
+  readonly shortest: readonly [Vector, Vector] | null;
+  /** The ends of the longest diameter. */
+  readonly longest: readonly [Vector, Vector] | null;
+};
+
+/** A vessel for tables. */
+export type MeasuredVessel = {
+  /** Its id. */
+  readonly id: string;
+  /** Its name, empty where it has none. */
+  readonly name: string;
+  /** Its line. */
+  readonly line: number;
+  /** What was marked on it. */
+  readonly marks: Marks;
+};
+
+/** A line with the name under which it is shown and saved. */
+export type NamedLine = {
+  /** Its number. */
+  readonly line: number;
+  /** Its name; empty where it has none. */
+  readonly name: string;
+};
+
+/** A window that has a name, with its numbers for what is open. */
+export type NamedWindow = {
+  /** The name of the preset. */
+  readonly name: string;
+  /** What menus call it. */
+  readonly words: string;
+  /** Level and width. */
+  readonly window: Pair;
+};
+
+/** A way to where the pointer is. */
+export type PathRequest = {
+  /** The last click. */
+  readonly from: Vector;
+  /** Where the pointer is. */
+  readonly to: Vector;
+  /** What no vessel may pass. */
+  readonly stoppers: ReadonlyArray<Stopper>;
+  /** Whether stretches without lumen are bridged, however long. */
+  readonly bridge: boolean;
+};
+
+/** What a pixel shows. */
+export type Pick = {
+  /** The world point. */
+  readonly point: Vector;
+  /** The volume there; none outside. */
+  readonly value: number | null;
+  /** The vessel whose zone it is in. */
+  readonly vessel: number | null;
+  /** The place on the vessel that is nearest (mm). */
+  readonly arc_length: number | null;
+};
+
+/** A picture: RGBA in rows from the top, and its size. */
+export type Picture = {
+  /** Columns and rows. */
+  readonly size: Pair;
+  /** A byte for each channel. */
+  readonly bytes: Bytes;
+};
+
+/** What stands around a picture. */
+export type PictureLabels = {
+  /** The letters at its edges. */
+  readonly letters: EdgeLetters;
+  /** The scale bar; none where the picture has no width. */
+  readonly bar: ScaleBar | null;
+};
+
+/** A flat picture as the page asks for it: the world point in its middle, unit vectors to the right and downwards (LPS), its size in pixels and their side (mm). */
+export type Plane = {
+  /** The world point in the middle. */
+  readonly center: Vector;
+  /** To the right. */
+  readonly right: Vector;
+  /** Downwards. */
+  readonly down: Vector;
+  /** Columns and rows. */
+  readonly size: Pair;
+  /** The side of a pixel (mm). */
+  readonly pixel_spacing: number;
+};
+
+/** The lumen of a vessel by its arc length. What was not measured is NaN, null in JSON. */
+export type Profile = {
+  /** mm */
+  readonly arc_length: ReadonlyArray<number>;
+  /** Of a circle of the same area (mm). */
+  readonly diameter: ReadonlyArray<number | null>;
+  /** The shortest one (mm). */
+  readonly diameter_min: ReadonlyArray<number | null>;
+  /** The longest one (mm). */
+  readonly diameter_max: ReadonlyArray<number | null>;
+  /** mm² */
+  readonly area: ReadonlyArray<number | null>;
+  /** The standard deviation of `diameter` (mm). */
+  readonly uncertainty: ReadonlyArray<number | null>;
+  /** Whether a section counts for what is narrowest, widest or suggested. */
+  readonly counts: ReadonlyArray<boolean>;
+  /** Words such as `calcium`, `no edge`. */
+  readonly flags: ReadonlyArray<ReadonlyArray<string>>;
+  /** Every flag that there is, in the order of plots and tables. */
+  readonly flag_table: ReadonlyArray<FlagLook>;
+  /** The middle of each section. */
+  readonly center: ReadonlyArray<Vector>;
+  /** Full width at half maximum of the point spread (mm). */
+  readonly fwhm: number;
+  /** How it was found: `given`, `estimated on …`, `assumed: …`. */
+  readonly fwhm_source: string;
+  /** A suggestion, not a finding. */
+  readonly narrowest: Spot | null;
+  /** The longest diameter; none also where an odd outline or a branch may be what makes it so. */
+  readonly widest: Spot | null;
+};
+
+/** What is open. */
+export type Report = {
+  /** The volume; none where vessels alone are open. */
+  readonly volume: VolumeReport | null;
+  /** The vessels that are shown; none where the volume alone is open. */
+  readonly vessels: ReadonlyArray<VesselReport> | null;
+  /** The windows that the data suggest; none without a volume. */
+  readonly windows: Windows | null;
+};
+
+/** A place with its name and colour. */
+export type ReportPlace = {
+  /** Such as `marked place` or `reference before (suggestion)`. */
+  readonly name: string;
+  /** Its arc length (mm). */
+  readonly at: number;
+  /** Whether it is offered; a reader marked it otherwise. */
+  readonly is_suggestion: boolean;
+  /** Whether it is compared with the place of a stenosis. */
+  readonly is_reference: boolean;
+};
+
+/** The pictures of a vessel. */
+export type ReportPlan = {
+  /** The width of the straightened vessel across it (mm); a host shows less where the volume has less. */
+  readonly width: number;
+  /** The side of its pixels (mm). */
+  readonly spacing: number;
+  /** The places whose sections are shown, in this order. */
+  readonly places: ReadonlyArray<ReportPlace>;
+  /** The side of the pictures of sections (mm). */
+  readonly side: number;
+};
+
+/** A report of one vessel. */
+export type ReportRequest = {
+  /** The vessel, with its marks. */
+  readonly vessel: MeasuredVessel;
+  /** The name of the scan, where the user wants it there. */
+  readonly scan: string | null;
+  /** When it was saved, in words. */
+  readonly saved: string;
+  /** Whether the file of the scan states the sizes of its voxels. */
+  readonly has_units: boolean;
+  /** Whether it states the sides of the patient. */
+  readonly has_orientation: boolean;
+  /** Level and width. */
+  readonly window: Pair;
+  /** The settings of the view that differ from the usual ones. */
+  readonly settings: Settings;
+  /** A view of all vessels. */
+  readonly view: ReportView;
+  /** The straightened vessel. */
+  readonly strip: ReportStrip;
+  /** A section for each place of the plan, PNGs in base64. */
+  readonly sections: ReadonlyArray<string>;
+  /** Stretches from one arc length to another (mm). */
+  readonly stretches: ReadonlyArray<Pair>;
+  /** Straight distances (mm). */
+  readonly distances: ReadonlyArray<number>;
+};
+
+/** The straightened vessel from left to right: the middle of its first column is the beginning of the vessel. */
+export type ReportStrip = {
+  /** A PNG in base64. */
+  readonly picture: string;
+  /** Columns and rows. */
+  readonly size: Pair;
+  /** The side of a pixel (mm). */
+  readonly spacing: number;
+};
+
+/** A view of all vessels. */
+export type ReportView = {
+  /** A PNG in base64. */
+  readonly picture: string;
+  /** The name of its method, such as `csr`. */
+  readonly method: Method;
+};
+
+/** A bar of a length that is easily read. */
+export type ScaleBar = {
+  /** mm */
+  readonly length: number;
+  /** The length with its unit, as it stands above the bar. */
+  readonly words: string;
+  /** How many pixels it is long; those who draw whole pixels round it. */
+  readonly pixels: number;
+};
+
+/** A session as the page has it: lines by their numbers, and all else as the file has it but for what is known at each point. */
+export type SessionContent = {
+  /** One for each vessel. */
+  readonly lines: ReadonlyArray<NamedLine>;
+  /** One for each doubtful branch. */
+  readonly doubtful_lines: ReadonlyArray<NamedLine>;
+  /** All but the lines. */
+  readonly session: SavedSession;
+};
+
+/** A row of the table of settings. */
+export type SettingRow = {
+  /** Its name in Python and in files. */
+  readonly name: string;
+  /** What kind of value it has. */
+  readonly kind: string;
+  /** Whether it may be left open. */
+  readonly optional: boolean;
+  /** The value where nothing is chosen. */
+  readonly default: SettingValue;
+  /** The smallest number. */
+  readonly low: number | null;
+  /** The largest number. */
+  readonly high: number | null;
+  /** The unit of a number. */
+  readonly unit: string | null;
+  /** The names that can be chosen. */
+  readonly choices: ReadonlyArray<string>;
+  /** What holds where it is left open, for those that are open by default. */
+  readonly open: string | null;
+  /** What it does. */
+  readonly sentence: string;
+};
+
+/** A place on a vessel and the diameter there (mm). */
+export type Spot = {
+  /** mm along the vessel */
+  readonly at: number;
+  /** mm */
+  readonly diameter: number;
+};
+
+/** A stenosis that is graded. */
+export type Stenosis = {
+  /** How much narrower it is than the reference. */
+  readonly percent: number;
+  /** Its place (mm). */
+  readonly at: number;
+  /** mm */
+  readonly diameter: number;
+  /** The standard deviation of `percent`. */
+  readonly uncertainty: number | null;
+  /** What it is compared with, in the unit of the method. */
+  readonly reference: number;
+  /** The places that it is compared with. */
+  readonly references: ReadonlyArray<Spot>;
+  /** How it is graded. */
+  readonly method: StenosisMethod;
+  /** The percentage in one line. Python's `str(stenosis)` has it with its doubts. */
+  readonly words: string;
+  /** What makes the percentage doubtful, a sentence each. */
+  readonly doubts: ReadonlyArray<string>;
+  /** The group of the field with its source, where a territory was named. */
+  readonly group: string | null;
+};
+
+/** A ball that no vessel may pass. */
+export type Stopper = {
+  /** Its center. */
+  readonly center: Vector;
+  /** Its radius (mm). */
+  readonly radius: number;
+};
+
+/** What a place in the straightened CPR shows. */
+export type StraightenedPick = {
+  /** The world point. */
+  readonly point: Vector;
+  /** The volume there; none outside. */
+  readonly value: number | null;
+  /** The vessel that is straightened. */
+  readonly vessel: number;
+  /** The place along it (mm). */
+  readonly arc_length: number;
+};
+
+/** A marked stretch of a vessel. */
+export type Stretch = {
+  /** Along the vessel (mm). */
+  readonly length: number;
+  /** From end to end (mm). */
+  readonly straight: number;
+  /** `length` in straight distances; null where it ends where it begins. */
+  readonly tortuosity: number | null;
+  /** Unit vector along it. */
+  readonly direction: Vector;
+  /** How a C-arm is turned to the left that shows it in its whole length (radians). */
+  readonly lao: number;
+  /** How it is turned to the head (radians). */
+  readonly cranial: number;
+  /** The same as it stands on a C-arm: `RAO 20° CRAN 5°`. */
+  readonly c_arm: string;
+  /** The view from the detector of that C-arm. */
+  readonly view: Look;
+};
+
+/** The vessels of a document, and what they are traced by. */
+export type VesselDocument = {
+  /** In the order of the list. */
+  readonly vessels: ReadonlyArray<DocumentVessel>;
+  /** Balls that no vessel may pass. */
+  readonly stoppers: ReadonlyArray<Stopper>;
+  /** Whether vessels go on where no lumen is seen. */
+  readonly bridge: boolean;
+};
+
+/** A vessel that is shown. */
+export type VesselReport = {
+  /** The number of its line. */
+  readonly line: number;
+  /** Its name; empty where it has none. */
+  readonly name: string;
+  /** mm */
+  readonly length: number;
+  /** Whether its radius is known. */
+  readonly has_radius: boolean;
+};
+
+/** A view as the page asks for it. */
+export type View = {
+  /** From where. */
+  readonly camera: Camera;
+  /** One of the names of [`METHODS`]. */
+  readonly method: Method;
+  /** Settings by name. */
+  readonly settings: Settings;
+};
+
+/** The volume that is open. */
+export type VolumeReport = {
+  /** The number of voxels along (i, j, k). */
+  readonly size: Vector;
+  /** World position of a continuous index, row by row. */
+  readonly world_from_index: ReadonlyArray<ReadonlyArray<number>>;
+  /** The corners of its outermost voxels. */
+  readonly corners: ReadonlyArray<Vector>;
+  /** The smallest side of a voxel (mm). */
+  readonly smallest_side: number;
+};
+
+/** The windows of what is open. */
+export type Windows = {
+  /** That of cut surface and flat views. */
+  readonly main: Pair;
+  /** Those of the contexts, by their names. */
+  readonly contexts: Readonly<Record<string, Pair>>;
+  /** Those that have a name, in the order to show them. */
+  readonly presets: ReadonlyArray<NamedWindow>;
+};
+
+/** The bytes of a file that is written. */
+export type WrittenFile = {
+  /** All of them. */
+  readonly bytes: Bytes;
+};
+
+/** The questions that the engine answers, by their names. */
+export type Questions = {
+  /** What is open. */
+  readonly report: {
+    readonly message: null;
+    readonly answer: Report;
+  };
+  /** Closes what is open. */
+  readonly close: {
+    readonly message: null;
+    readonly answer: null;
+  };
+  /** Opens a file of centerlines beside the volume; tells what was odd about it, a sentence each. */
+  readonly open_centerlines: {
+    readonly message: {
+      readonly name: string;
+      readonly wish: CenterlineWish;
+    };
+    readonly answer: ReadonlyArray<string>;
+  };
+  /** The camera of a named view that shows all of the study. */
+  readonly fitted: {
+    readonly message: {
+      readonly view: string;
+      readonly size: Pair;
+    };
+    readonly answer: Camera;
+  };
+  /** What a pixel of a view shows. */
+  readonly pick: {
+    readonly message: {
+      readonly view: View;
+      readonly pixel: Pair;
+    };
+    readonly answer: Pick;
+  };
+  /** The brightest voxel on the ray of a pixel. */
+  readonly brightest: {
+    readonly message: {
+      readonly view: View;
+      readonly pixel: Pair;
+    };
+    readonly answer: Pick;
+  };
+  /** What lies at a point, and the vessel in whose lumen it is. */
+  readonly at: {
+    readonly message: Vector;
+    readonly answer: Pick;
+  };
+  /** How the values of the volume are distributed. */
+  readonly histogram: {
+    readonly message: {
+      readonly bins: number;
+    };
+    readonly answer: Histogram;
+  };
+  /** The picture of a plane in a window. */
+  readonly slice: {
+    readonly message: {
+      readonly plane: Plane;
+      readonly window: Pair;
+    };
+    readonly answer: Picture;
+  };
+  /** The section across a vessel at an arc length (mm), the measured one once there is one: its middle, to the right and downwards. */
+  readonly across: {
+    readonly message: {
+      readonly vessel: number;
+      readonly at: number;
+    };
+    readonly answer: readonly [Vector, Vector, Vector];
+  };
+  /** The straightened CPR of a vessel in a window. */
+  readonly straightened: {
+    readonly message: {
+      readonly cpr: Cpr;
+      readonly window: Pair;
+    };
+    readonly answer: Picture;
+  };
+  /** What a pixel of the straightened CPR shows that was asked for last. */
+  readonly pick_straightened: {
+    readonly message: {
+      readonly pixel: Pair;
+    };
+    readonly answer: StraightenedPick;
+  };
+  /** Column and row of a point in the straightened CPR that was asked for last; null where none was. */
+  readonly on_straightened: {
+    readonly message: Vector;
+    readonly answer: Pair | null;
+  };
+  /** The document that the study begins with: the vessels that were opened, counted from 1. */
+  readonly begin_document: {
+    readonly message: null;
+    readonly answer: VesselDocument;
+  };
+  /** What comes of an edit of vessels; one that adds a mask comes with the files of the mask, which a viewer reads first. */
+  readonly edit: {
+    readonly message: EditRequest;
+    readonly answer: Edited;
+  };
+  /** Refuses a place that no vessel can begin at: one outside of the scan, and one whose value alone shows that it is no lumen. */
+  readonly check_click: {
+    readonly message: Vector;
+    readonly answer: null;
+  };
+  /** The way to the pointer, through the middles of voxels; null where none is found within 40 ms. Never refused for places without lumen. */
+  readonly path: {
+    readonly message: PathRequest;
+    readonly answer: ReadonlyArray<Vector> | null;
+  };
+  /** The content of a line. */
+  readonly line: {
+    readonly message: {
+      readonly line: number;
+    };
+    readonly answer: LineContent;
+  };
+  /** Takes over a line, as from a saved session; gives its number. */
+  readonly add_line: {
+    readonly message: LineContent;
+    readonly answer: number;
+  };
+  /** Shows these lines as the vessel tree, in this order; none shows the volume alone. Windows stay as they were. */
+  readonly show: {
+    readonly message: ReadonlyArray<NamedLine>;
+    readonly answer: Report;
+  };
+  /** A centerline file of these lines. */
+  readonly write_lines: {
+    readonly message: {
+      readonly lines: ReadonlyArray<NamedLine>;
+      readonly kind: string;
+    };
+    readonly answer: WrittenFile;
+  };
+  /** The profile of a line among the lines that are shown: kept, or measured with a step of 0.5 mm under a point spread of this width (mm); null stands for the one that is estimated. */
+  readonly profile: {
+    readonly message: {
+      readonly line: number;
+      readonly fwhm: number | null;
+    };
+    readonly answer: Profile;
+  };
+  /** What is told of the place that was marked on a line: the stenosis, or why it is not graded. */
+  readonly grade: {
+    readonly message: {
+      readonly line: number;
+      readonly marks: Marks;
+    };
+    readonly answer: Grade;
+  };
+  /** What would make a percentage from these places doubtful, a sentence each. */
+  readonly doubts: {
+    readonly message: {
+      readonly line: number;
+      readonly compared: Compared;
+    };
+    readonly answer: ReadonlyArray<string>;
+  };
+  /** The references that are offered before and after the stenosis, on sides where none is marked. */
+  readonly offered_references: {
+    readonly message: {
+      readonly line: number;
+      readonly marks: Marks;
+    };
+    readonly answer: readonly [Spot | null, Spot | null];
+  };
+  /** The diameter at an arc length (mm). */
+  readonly diameter_at: {
+    readonly message: {
+      readonly line: number;
+      readonly at: number;
+    };
+    readonly answer: Diameter;
+  };
+  /** The section that is nearest to an arc length (mm). */
+  readonly measured_section: {
+    readonly message: {
+      readonly line: number;
+      readonly at: number;
+    };
+    readonly answer: MeasuredSection;
+  };
+  /** The stretch from one arc length to another (mm). */
+  readonly stretch: {
+    readonly message: {
+      readonly line: number;
+      readonly ends: Pair;
+    };
+    readonly answer: Stretch;
+  };
+  /** The angle between two stretches (radians): 0 where the second goes on as the first does. */
+  readonly angle_between: {
+    readonly message: {
+      readonly line: number;
+      readonly first: Pair;
+      readonly second: Pair;
+    };
+    readonly answer: number;
+  };
+  /** The table that `lumencut measure -o x.csv` writes. */
+  readonly profiles_csv: {
+    readonly message: ReadonlyArray<MeasuredVessel>;
+    readonly answer: string;
+  };
+  /** What `lumencut measure -o x.json` writes. */
+  readonly profiles_json: {
+    readonly message: ReadonlyArray<MeasuredVessel>;
+    readonly answer: string;
+  };
+  /** The pictures that the report of a vessel asks for. */
+  readonly report_plan: {
+    readonly message: MeasuredVessel;
+    readonly answer: ReportPlan;
+  };
+  /** The report as HTML, as `lumencut measure --report` writes it. */
+  readonly measured_report: {
+    readonly message: ReportRequest;
+    readonly answer: string;
+  };
+  /** A session file of this content. */
+  readonly write_session: {
+    readonly message: SessionContent;
+    readonly answer: WrittenFile;
+  };
+  /** The content of a session file of the scan that is open; its lines are held, and nothing is shown yet. */
+  readonly read_session: {
+    readonly message: {
+      readonly name: string;
+    };
+    readonly answer: SessionContent;
+  };
+  /** The letters at the edges of a picture, and its scale bar. */
+  readonly labels: {
+    readonly message: LaidPicture;
+    readonly answer: PictureLabels;
+  };
+  /** The table of settings. */
+  readonly settings_table: {
+    readonly message: null;
+    readonly answer: ReadonlyArray<SettingRow>;
+  };
+};
+
+/** When each question is answered, and what its progress is called. */
+export const TURNS = {
+  report: { when: 'later', words: null },
+  close: { when: 'first', words: null },
+  open_centerlines: { when: 'first', words: null },
+  fitted: { when: 'first', words: null },
+  pick: { when: 'first', words: null },
+  brightest: { when: 'first', words: null },
+  at: { when: 'first', words: null },
+  histogram: { when: 'later', words: null },
+  slice: { when: 'first', words: null },
+  across: { when: 'first', words: null },
+  straightened: { when: 'first', words: null },
+  pick_straightened: { when: 'first', words: null },
+  on_straightened: { when: 'later', words: null },
+  begin_document: { when: 'first', words: null },
+  edit: { when: 'first', words: 'Tracing' },
+  check_click: { when: 'first', words: null },
+  path: { when: 'first', words: null },
+  line: { when: 'first', words: null },
+  add_line: { when: 'first', words: null },
+  show: { when: 'first', words: null },
+  write_lines: { when: 'first', words: null },
+  profile: { when: 'first', words: null },
+  grade: { when: 'first', words: null },
+  doubts: { when: 'first', words: null },
+  offered_references: { when: 'first', words: null },
+  diameter_at: { when: 'first', words: null },
+  measured_section: { when: 'first', words: null },
+  stretch: { when: 'first', words: null },
+  angle_between: { when: 'first', words: null },
+  profiles_csv: { when: 'first', words: null },
+  profiles_json: { when: 'first', words: null },
+  report_plan: { when: 'first', words: null },
+  measured_report: { when: 'first', words: null },
+  write_session: { when: 'first', words: null },
+  read_session: { when: 'first', words: null },
+  labels: { when: 'at once', words: null },
+  settings_table: { when: 'at once', words: null },
+} as const satisfies Record<keyof Questions, Turn>;

@@ -1,0 +1,67 @@
+/** A mask of vessels beside the scan that is open: read as scans are, and traced. */
+import type { Answer, Beside, Message, Question } from '../core/asked';
+import { Failure } from '../core/failure';
+import type { Edited, GivenFile } from '../core/messages';
+import { type Engine, loadJudge } from '../core/module';
+import { ALL_OF_IT } from '../io/dicom/wanted';
+import { among, BlobSource } from '../io/source';
+import { Steps } from '../io/steps';
+import type { Study } from '../io/study';
+import { ask, refuseStopped } from './answers';
+
+/** What comes with a question, and what stops it while a mask is read. */
+interface Asking {
+  readonly beside: Beside;
+  readonly signal: AbortSignal;
+}
+
+/** The answer to a question; the mask that comes with it is read first, and what was odd about its files is told too. */
+export async function askWithFiles<N extends Question>(
+  engine: Engine,
+  name: N,
+  message: Message<N>,
+  { beside, signal }: Asking,
+): Promise<Answer<N>> {
+  const { mask, told = () => undefined } = beside;
+  if (!mask) {
+    return ask(engine, name, message, beside);
+  }
+  try {
+    const notes = await readMask(engine, mask, new Steps(told, signal));
+    refuseStopped(name, signal);
+    const answer = ask(engine, name, message, beside) as Edited;
+    return { ...answer, notes: [...notes, ...answer.notes] } as Answer<N>;
+  } finally {
+    engine.end_mask();
+  }
+}
+
+/** Reads a mask as scans are read; gives notes. */
+async function readMask(
+  engine: Engine,
+  files: readonly GivenFile[],
+  steps: Steps,
+): Promise<readonly string[]> {
+  const study = new MaskStudy(engine);
+  const sources = files.map(({ path, file }) => new BlobSource(path, file));
+  const { openFiles } = await import('../io/study');
+  const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, { study, loadJudge, steps });
+  return notes;
+}
+
+/** The engine as readers of files have it while they read a mask. */
+class MaskStudy implements Study {
+  constructor(private readonly engine: Engine) {}
+
+  begin_volume(header: string): void {
+    this.engine.begin_mask(header);
+  }
+
+  take_voxels(offset: number, bytes: Uint8Array): void {
+    this.engine.take_mask_voxels(offset, bytes);
+  }
+
+  openCenterlines(_bytes: Uint8Array, name: string): readonly string[] {
+    throw new Failure('format', name, 'centerlines', 'a mask of vessels', 'open centerlines as such');
+  }
+}
