@@ -60,7 +60,7 @@ test('what is shown can be cut, joined and shown again', async () => {
   ]);
   const cut = await edited(engine, { kind: 'cut', id: 1, at: 20 }, whole);
   expect([cut.words, cut.added, cut.without_marks]).toEqual(['cut a vessel', [2], [1]]);
-  const named = cut.document.vessels.map(({ line }, n) => ({ line, name: `part ${n}` }));
+  const named = cut.document.vessels.map(({ line }, n) => ({ line, name: `part ${n}`, hidden: false }));
   const shown = await engine.ask('show', named);
   expect(shown.vessels?.map(({ name, length }) => [name, Math.round(length)])).toEqual([
     ['part 0', 20],

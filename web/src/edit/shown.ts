@@ -2,7 +2,7 @@
 import { batch, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
-import type { DocumentVessel, Report, VesselDocument } from '../core/messages';
+import type { DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
 import * as store from '../state/store';
 import { shownVessels } from './changes';
 import { dropEdits } from './committing';
@@ -16,9 +16,12 @@ export const tree = signal<readonly DocumentVessel[]>([]);
 /** The vessel of the document that is picked. */
 export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;
 
-/** What is asked of a tree: lines and names. */
-const textOf = (vessels: readonly { line: number; name: string }[]): string =>
-  JSON.stringify(vessels.map(({ line, name }) => [line, name]));
+/** What is asked of a list of vessels: lines and names, and which of them are hidden. */
+const listOf = (vessels: readonly DocumentVessel[]): readonly ListedLine[] =>
+  vessels
+    .filter((vessel) => vessel.doubt === null)
+    .map(({ line, name, isHidden }) => ({ line, name, hidden: isHidden }));
+const textOf = (vessels: readonly DocumentVessel[]): string => JSON.stringify(listOf(vessels));
 
 let shownText = textOf([]);
 
@@ -52,7 +55,7 @@ export function showAgain(engine: Asked): Promise<void> {
 /** Shows the document's tree from now on; gives what ends it. */
 export function followDocument(engine: Asked): () => void {
   return effect(() => {
-    if (textOf(shownVessels(document_.value)) !== shownText) {
+    if (textOf(document_.value.vessels) !== shownText) {
       void show(engine);
     }
   });
@@ -72,18 +75,15 @@ async function showLatest(engine: Asked): Promise<void> {
   let study = store.report.value?.volume;
   try {
     while (study) {
-      const vessels = shownVessels(document_.value);
-      const text = textOf(vessels);
+      const document = document_.value;
+      const text = textOf(document.vessels);
       if (text === shownText) {
         break;
       }
-      const report = await engine.ask(
-        'show',
-        vessels.map(({ line, name }) => ({ line, name })),
-      );
+      const report = await engine.ask('show', listOf(document.vessels));
       if (study === store.report.value?.volume) {
         shownText = text;
-        take(report, vessels);
+        take(report, shownVessels(document));
       }
       study = store.report.value?.volume;
     }

@@ -23,12 +23,34 @@ pub struct NamedTree {
     pub names: Vec<String>,
     /// The number of the line of each vessel.
     pub lines: Vec<usize>,
+    /// Those of the tree and, in their places between them, those that are hidden; none where nothing is hidden.
+    with_hidden: Option<Listed>,
+}
+
+/// Vessels that are measured among each other, with the numbers of their lines.
+#[derive(Debug)]
+pub struct Listed {
+    /// One number for each vessel.
+    pub lines: Vec<usize>,
+    /// In the order of the list.
+    pub vessels: Vec<Vessel>,
 }
 
 impl NamedTree {
     /// A tree of which nothing is known yet.
     pub fn new(tree: VesselTree, names: Vec<String>, lines: Vec<usize>) -> Self {
-        Self { leveled: Arc::new(LeveledTree::new(tree)), names, lines }
+        Self { leveled: Arc::new(LeveledTree::new(tree)), names, lines, with_hidden: None }
+    }
+
+    /// The same tree, whose vessels are measured among all of a list.
+    pub fn among(self, listed: Listed) -> Self {
+        Self { with_hidden: Some(listed), ..self }
+    }
+
+    /// The vessels that tell each other's point spread and branches, and the numbers of their lines: also those that are hidden.
+    pub fn measured_among(&self) -> (&[usize], &[Vessel]) {
+        let shown = (&self.lines[..], self.leveled.tree().vessels());
+        self.with_hidden.as_ref().map_or(shown, |all| (&all.lines, &all.vessels))
     }
 }
 

@@ -50,6 +50,19 @@ pub struct NamedLine {
     pub name: String,
 }
 
+/// A line as a viewer lists it. One that is hidden is not drawn; it is measured among all the same, so that hiding a vessel changes
+/// no number.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ListedLine {
+    /// Its number.
+    pub line: usize,
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// Whether it is hidden.
+    pub hidden: bool,
+}
+
 impl Line {
     /// The vessel of the core: radii that are not known are 0 beside others that are.
     ///

@@ -1,8 +1,8 @@
 //! The profiles that are kept, by their lines.
 //!
-//! The tree tells the point spread and where branches are. So a profile holds for the lines that were shown when it was measured:
-//! once other ones are shown, or the same in another order, all profiles are forgotten, and measured anew when they are asked
-//! for. They are also forgotten with the volume. Names do not matter.
+//! The vessels of a list tell the point spread and where branches are, also those of them that are hidden: hiding a vessel changes no
+//! number. So a profile holds for the list that it was measured among: with other lines, or the same in another order, all
+//! profiles are forgotten, and measured anew when they are asked for. They are also forgotten with the volume. Names do not matter.
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ use lumencut_vessels::measure::measuring::STEP;
 use lumencut_vessels::measure::profile::Profile;
 
 use crate::kept_profiles::{self, KeptProfiles, Scan};
-use crate::study::content::Content;
+use crate::study::content::{Content, NamedTree};
 use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::lines::wrong;
@@ -19,8 +19,8 @@ use crate::study::lines::wrong;
 /// The profiles that are kept, and how they were asked for.
 #[derive(Default)]
 pub struct Profiles {
-    /// The lines that were shown when they were measured.
-    shown: Vec<usize>,
+    /// The lines that they were measured among.
+    listed: Vec<usize>,
     kept: KeptProfiles<usize>,
     /// The width of the point spread that each line was asked for with last.
     widths: HashMap<usize, Option<f64>>,
@@ -32,16 +32,15 @@ impl Profiles {
     /// # Errors
     /// `vessel tree` for a line that is not shown, `volume` where none is open, and those of measuring.
     pub fn of(&mut self, content: &Content, line: usize, asking: &Asking) -> Result<usize> {
-        let shown = content.named.as_ref().map_or(&[][..], |named| &named.lines[..]);
-        if self.shown != shown {
+        let (listed, tree) = content.named.as_ref().map_or((&[][..], &[][..]), NamedTree::measured_among);
+        if self.listed != listed {
             self.kept = KeptProfiles::default();
-            self.shown = shown.to_vec();
+            self.listed = listed.to_vec();
         }
         let volume = &content.held.as_ref().map(HeldVolume::volume).transpose()?.ok_or_else(no_volume)?;
-        let number = shown.iter().position(|own| *own == line);
+        let number = listed.iter().position(|own| *own == line);
         let not_shown = || wrong("number", line.to_string(), "one of the lines that are shown");
-        let (tree, number) = content.tree().zip(number).ok_or_else(not_shown)?;
-        let tree = tree.tree().vessels();
+        let number = number.ok_or_else(not_shown)?;
         let asking = kept_profiles::Asking { step: STEP, fwhm: asking.fwhm, stop: asking.stop };
         Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &asking)?)
     }

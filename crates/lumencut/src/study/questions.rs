@@ -11,7 +11,7 @@ use crate::study::edits::{EditMessage, Edited};
 use crate::study::failure::{Failure, Result};
 use crate::study::histogram::Histogram;
 use crate::study::labels::{LaidPicture, PictureLabels};
-use crate::study::lines::{LineContent, NamedLine};
+use crate::study::lines::{LineContent, ListedLine, NamedLine};
 use crate::study::measure_messages::{
     ComparedMessage, DiameterMessage, GradeMessage, MarksMessage, ProfileMessage, SectionMessage,
     SpotMessage, StretchMessage, VesselMessage,
@@ -100,8 +100,9 @@ of_the_study {
     /// Takes over a line, as from a saved session; gives its number.
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;
 
-    /// Shows these lines as the vessel tree, in this order; none shows the volume alone. Windows stay as they were.
-    [Turn::First] show(lines: Vec<NamedLine>) -> Report = {
+    /// Shows the lines of a list that are not hidden as the vessel tree, in this order; none shows the volume alone. They are measured
+    /// among all of the list. Windows stay as they were.
+    [Turn::First] show(lines: Vec<ListedLine>) -> Report = {
         study.show(&lines)?;
         study.report()?
     };

@@ -13,11 +13,11 @@ use lumencut_vessels::trace::seed::seed_tree::Doubt;
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
-use crate::study::content::NamedTree;
+use crate::study::content::{Listed, NamedTree};
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
 use crate::study::line_edits::{cut, join};
-use crate::study::lines::{Line, LineContent, NamedLine};
+use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
 
 /// How long work is watched: asked whether to stop, and how far it is.
@@ -185,19 +185,23 @@ impl Study {
         self.lines.add(content.into())
     }
 
-    /// Shows these lines as the tree, in this order; none shows the volume alone. Windows stay as they were.
+    /// Shows the lines of a list that are not hidden as the tree, in this order; none shows the volume alone. They are measured among
+    /// all of the list. Windows stay as they were.
     ///
     /// # Errors
     /// `vessel tree` for a line that there is not; what was shown stays then.
-    pub fn show(&mut self, shown: &[NamedLine]) -> Result<()> {
-        let vessels = shown.iter().map(|named| self.lines.get(named.line)?.vessel());
+    pub fn show(&mut self, listed: &[ListedLine]) -> Result<()> {
+        let vessels = listed.iter().map(|one| self.lines.get(one.line)?.vessel());
         let vessels = vessels.collect::<Result<Vec<_>>>()?;
-        let named = if vessels.is_empty() {
+        let shown: Vec<_> = listed.iter().zip(&vessels).filter(|(one, _)| !one.hidden).collect();
+        let named = if shown.is_empty() {
             None
         } else {
-            let names = shown.iter().map(|named| named.name.clone()).collect();
-            let lines = shown.iter().map(|named| named.line).collect();
-            Some(NamedTree::new(VesselTree::new(vessels)?, names, lines))
+            let names = shown.iter().map(|(one, _)| one.name.clone()).collect();
+            let lines = shown.iter().map(|(one, _)| one.line).collect();
+            let tree = VesselTree::new(shown.iter().map(|(_, vessel)| (*vessel).clone()).collect())?;
+            let all = Listed { lines: listed.iter().map(|one| one.line).collect(), vessels };
+            Some(NamedTree::new(tree, names, lines).among(all))
         };
         self.laid = None;
         self.content.named = named;

@@ -254,6 +254,16 @@ export type LineContent = {
   readonly bridged: ReadonlyArray<boolean> | null;
 };
 
+/** A line as a viewer lists it. One that is hidden is not drawn; it is measured among all the same, so that hiding a vessel changes no number. */
+export type ListedLine = {
+  /** Its number. */
+  readonly line: number;
+  /** Its name; empty where it has none. */
+  readonly name: string;
+  /** Whether it is hidden. */
+  readonly hidden: boolean;
+};
+
 /** From where a stretch is seen. */
 export type Look = {
   /** From the viewer into the scene. */
@@ -786,9 +796,9 @@ export type Questions = {
     readonly message: LineContent;
     readonly answer: number;
   };
-  /** Shows these lines as the vessel tree, in this order; none shows the volume alone. Windows stay as they were. */
+  /** Shows the lines of a list that are not hidden as the vessel tree, in this order; none shows the volume alone. They are measured among all of the list. Windows stay as they were. */
   readonly show: {
-    readonly message: ReadonlyArray<NamedLine>;
+    readonly message: ReadonlyArray<ListedLine>;
     readonly answer: Report;
   };
   /** A centerline file of these lines. */

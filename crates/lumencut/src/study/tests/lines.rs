@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::{open_phantom, report_of};
 use crate::study::line_edits::{MEETING, cut, join, path};
-use crate::study::lines::{Line, LineContent, NamedLine};
+use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
 
 /// A line along x in steps of 1 mm from `from`, its radius growing with it.
@@ -116,6 +116,10 @@ fn named(line: usize, name: &str) -> NamedLine {
     NamedLine { line, name: name.into() }
 }
 
+fn listed(line: usize, name: &str) -> ListedLine {
+    ListedLine { line, name: name.into(), hidden: false }
+}
+
 #[test]
 fn lines_are_shown_in_their_order_and_windows_stay() {
     let mut study = Study::default();
@@ -124,7 +128,7 @@ fn lines_are_shown_in_their_order_and_windows_stay() {
     let lines: Vec<u64> =
         before["vessels"].as_array().expect("vessels").iter().filter_map(|v| v["line"].as_u64()).collect();
     let added = with_line(&mut study, &straight(0.0, 5));
-    study.show(&[named(added, "mine"), named(lines[1] as usize, "other")]).expect("a tree");
+    study.show(&[listed(added, "mine"), listed(lines[1] as usize, "other")]).expect("a tree");
     let report = report_of(&study);
     assert_eq!(
         report["vessels"][0],
@@ -132,7 +136,7 @@ fn lines_are_shown_in_their_order_and_windows_stay() {
     );
     assert_eq!(report["vessels"][1]["length"], before["vessels"][1]["length"]);
     assert_eq!(report["windows"], before["windows"]);
-    assert!(study.show(&[named(9999, "")]).is_err());
+    assert!(study.show(&[listed(9999, "")]).is_err());
     assert_eq!(report_of(&study)["vessels"], report["vessels"]);
     study.show(&[]).expect("the volume alone");
     let report = report_of(&study);

@@ -10,7 +10,7 @@ use lumencut_vessels::measure::measuring::{MeasureRequest, measure};
 use serde_json::{Value as Json, json};
 
 use super::*;
-use crate::study::lines::NamedLine;
+use crate::study::lines::ListedLine;
 use crate::study::measure_messages::{
     GradeMessage, MarksMessage, ProfileMessage, SectionMessage, StretchMessage,
 };
@@ -237,6 +237,10 @@ fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
     assert!(StretchMessage::between(profile, [4.0, 4.0]).is_err());
 }
 
+fn listed(line: usize) -> ListedLine {
+    ListedLine { line, name: String::new(), hidden: false }
+}
+
 /// The first vessel of a tree, measured without the study.
 fn measured_by_core(study: &Study, tree: &[Vessel]) -> Profile {
     let volume = study.content.held.as_ref().expect("a volume").volume().expect("a volume");
@@ -257,13 +261,37 @@ fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
     );
     // One by itself has no branches, and tells the point spread alone.
     for (line, vessel) in [(trunk, 0), (branch, 1)] {
-        study.show(&[NamedLine { line, name: String::new() }]).expect("one line");
+        study.show(&[listed(line)]).expect("one line");
         let expected = measured_by_core(&study, &tree.vessels()[vessel..=vessel]);
         assert_ne!((&expected.flags, expected.fwhm), (&among_all.flags, among_all.fwhm));
         let found = study.measured(line, &go_on).expect("a profile");
         assert_eq!((&found.flags, &found.area), (&expected.flags, &expected.area));
         assert_eq!((found.fwhm, &found.fwhm_source), (expected.fwhm, &expected.fwhm_source));
     }
+}
+
+#[test]
+fn hiding_a_vessel_changes_no_number() {
+    let mut study = opened("y_junction");
+    let tree = study.content.tree().expect("a tree").tree().clone();
+    let lines: Vec<usize> = (0..tree.vessels().len()).map(|vessel| line_of(&study, vessel)).collect();
+    let among_all = measured_by_core(&study, tree.vessels());
+    let alone = measured_by_core(&study, &tree.vessels()[..1]);
+    assert_ne!((&alone.flags, alone.fwhm), (&among_all.flags, among_all.fwhm));
+    let hidden = |line: &usize| ListedLine { hidden: *line != lines[0], ..listed(*line) };
+    let list: Vec<_> = lines.iter().map(hidden).collect();
+    study.show(&list).expect("one vessel, others hidden");
+    assert_eq!(report_of(&study)["vessels"].as_array().map(Vec::len), Some(1));
+    let found = study.profile(lines[0], None, &go_on).expect("a profile").clone();
+    assert_eq!((&found.flags, &found.area), (&among_all.flags, &among_all.area));
+    assert_eq!((found.fwhm, &found.fwhm_source), (among_all.fwhm, &among_all.fwhm_source));
+    // Shown again, it is not measured again.
+    study.show(&lines.iter().map(|line| listed(*line)).collect::<Vec<_>>()).expect("all of them");
+    assert_eq!(study.profile(lines[0], None, &|| true).expect("kept").area, among_all.area);
+    study
+        .show(&lines.iter().map(|line| ListedLine { hidden: true, ..listed(*line) }).collect::<Vec<_>>())
+        .expect("none");
+    assert_eq!(report_of(&study)["vessels"], json!(null));
 }
 
 #[test]
@@ -278,7 +306,7 @@ fn profiles_are_kept_until_other_vessels_are_shown() {
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     assert_eq!(study.measured(line, &never).expect("kept").area, first.area);
     // The same line by another name.
-    study.show(&[NamedLine { line, name: "carotid".into() }]).expect("the line");
+    study.show(&[ListedLine { name: "carotid".into(), ..listed(line) }]).expect("the line");
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     open_line(&mut study, 3.0, 37.0);
     let line = line_of(&study, 0);
