@@ -43,7 +43,7 @@ TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer, over all formats."""
-MAIN, PAGE, PYTHON = "main", "page", "python"
+MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
 """The lanes. That of the page and that of Rust have folders of their own for what they compile."""
 
 
@@ -183,7 +183,13 @@ def test_checks(report: str) -> list[Check]:
             count=count_page,
             needs=("size of the page",),
         ),
-        Check("fuzzing", (sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS))),
+        # It takes what the tests of the page leave idle while they wait for the browser, and no more.
+        Check(
+            "fuzzing",
+            ("nice", "-n", "19", sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS)),
+            lane=FUZZ,
+            needs=("tests of Python",),
+        ),
     ]
 
 
