@@ -7,6 +7,7 @@ import type {
   Edited,
   EditRequest,
   LineContent,
+  ListedLine,
   NamedLine,
   Report,
   Vector,
@@ -19,7 +20,7 @@ export const FLOOR = -50;
 export class FakeTracing implements Asked {
   readonly lines: LineContent[] = [];
   readonly edits: EditRequest[] = [];
-  readonly shown: (readonly NamedLine[])[] = [];
+  readonly shown: (readonly ListedLine[])[] = [];
   /** What was odd about each edit. */
   notes: readonly string[] = [];
   /** Edits and trees wait for this. */
@@ -120,10 +121,10 @@ export class FakeTracing implements Asked {
     return this.lines[line] as LineContent;
   }
 
-  async show(lines: readonly NamedLine[]): Promise<Report> {
+  async show(lines: readonly ListedLine[]): Promise<Report> {
     this.shown.push(lines);
     await this.gate;
-    return reportOf(lines);
+    return reportOf(lines.filter(({ hidden }) => !hidden));
   }
 
   async write_lines({ lines, kind }: Message<'write_lines'>): Promise<Answer<'write_lines'>> {

@@ -1,7 +1,8 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
+import { changed } from '../src/edit/changes';
 import { change, document_, redo, undo } from '../src/edit/history';
 import { contents, followLines, forgetLines, lengthOf } from '../src/edit/lines';
-import { beginStudy, followDocument, pickedId, successor, tree } from '../src/edit/shown';
+import { beginStudy, followDocument, listedLines, pickedId, successor, tree } from '../src/edit/shown';
 import { active } from '../src/edit/tool';
 import { hide, remove } from '../src/edit/vessels';
 import * as store from '../src/state/store';
@@ -96,6 +97,21 @@ test('a tree of a study that was closed is not taken', async () => {
   await idle();
   expect(store.report.value.vessels).toHaveLength(1);
   expect(tree.value.map((vessel) => vessel.line)).toEqual([9]);
+});
+
+test('what vessels are measured among counts hidden ones too, and no doubtful ones', async () => {
+  open(1, 2);
+  expect(listedLines.value).toBe('1,2');
+  await hide(2, true);
+  await idle();
+  expect([listedLines.value, tree.value.length]).toEqual(['1,2', 1]);
+  // The line of the hidden one is another one: the vessel that is shown is measured anew.
+  change('edit', changed(document_.value, 2, { line: 7 }));
+  await idle();
+  expect([listedLines.value, tree.value.length]).toEqual(['1,7', 1]);
+  change('doubt', changed(document_.value, 2, { doubt: 'short' }));
+  await idle();
+  expect(listedLines.value).toBe('1');
 });
 
 describe('the vessel that is picked', () => {

@@ -13,6 +13,13 @@ import { active } from './tool';
 /** The vessels of the tree that is shown: those of `store.report`, in the same order. */
 export const tree = signal<readonly DocumentVessel[]>([]);
 
+/** The lines that vessels are measured among, in their order: also those of vessels that are hidden. */
+export const listedLines = signal('');
+const linesOf = (vessels: readonly DocumentVessel[]): string =>
+  listOf(vessels)
+    .map(({ line }) => line)
+    .join();
+
 /** The vessel of the document that is picked. */
 export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;
 
@@ -32,6 +39,7 @@ export function beginStudy(vessels: VesselDocument | null): void {
   batch(() => {
     active.value = null;
     tree.value = document.vessels;
+    listedLines.value = linesOf(document.vessels);
     shownText = textOf(document.vessels);
     begin(document);
   });
@@ -83,7 +91,10 @@ async function showLatest(engine: Asked): Promise<void> {
       const report = await engine.ask('show', listOf(document.vessels));
       if (study === store.report.value?.volume) {
         shownText = text;
-        take(report, shownVessels(document));
+        batch(() => {
+          listedLines.value = linesOf(document.vessels);
+          take(report, shownVessels(document));
+        });
       }
       study = store.report.value?.volume;
     }

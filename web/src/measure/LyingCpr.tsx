@@ -25,7 +25,7 @@ export function LyingCpr({ x, lying, height }: LyingCprProps) {
   const [shown, setShown] = useState<Pair | null>(null);
   const ask = useCallback(async () => {
     const picture = lyingPicture(
-      await engine.ask('straightened', { cpr: JSON.parse(text ?? '{}') as Cpr, window: window }),
+      await engine.ask('straightened', { cpr: JSON.parse(text ?? '{}') as Cpr, window }),
     );
     setShown(picture.size);
     return picture;

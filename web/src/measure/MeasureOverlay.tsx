@@ -19,7 +19,7 @@ export function TurningMeasures({ camera }: { readonly camera: Camera }) {
   const seen = (point: Vector) => pixelOf(camera, point);
   const pointAt = async (pixel: Pair) => {
     const view = { camera, method: store.method.value, settings: store.viewSettings.value };
-    return (await engine.ask('pick', { view, pixel: pixel })).point;
+    return (await engine.ask('pick', { view, pixel })).point;
   };
   return (
     <>

@@ -5,6 +5,7 @@ import { Failure } from '../core/failure';
 import type { LineId, Profile } from '../core/messages';
 import { engine } from '../core/shared';
 import type { VesselMarks } from '../edit/document';
+import { listedLines } from '../edit/shown';
 import { moveTo } from '../link/along';
 import * as store from '../state/store';
 import { Latest } from '../views/latest';
@@ -19,8 +20,8 @@ export function useMeasuring(): void {
   const answered = useRef<LineId | null>(null);
   const lines = useRef('');
   useSignalEffect(() => {
-    // The other vessels tell where branches are: a profile holds among the vessels that it was measured among.
-    const now = (store.report.value?.vessels ?? []).map(({ line }) => line).join();
+    // The other vessels tell where branches are, hidden ones too: a profile holds among the vessels that it was measured among.
+    const now = listedLines.value;
     if (now !== lines.current) {
       lines.current = now;
       untracked(forgetProfiles);

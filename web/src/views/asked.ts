@@ -7,7 +7,7 @@ import { engine } from '../core/shared';
 export function useAsked(plane: Plane | null, window: Window): (() => Promise<Picture>) | null {
   const text = plane && JSON.stringify(plane);
   const ask = useCallback(
-    () => engine.ask('slice', { plane: JSON.parse(text ?? '{}') as Plane, window: window }),
+    () => engine.ask('slice', { plane: JSON.parse(text ?? '{}') as Plane, window }),
     [text, window],
   );
   return text ? ask : null;

@@ -22,6 +22,7 @@ export class EngineHost {
   private readonly queue = new Queue();
   private engine: Engine | null = null;
   private cancelled = new AbortController();
+
   /** Answers a question of the table; those that need no study at once, beside the work that is queued. */
   ask(name: Question, message: unknown, files: Beside, told: Told | null): unknown {
     const asked = message as Message<Question>;
