@@ -8,22 +8,27 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-com
 RESOLVE := $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 --generate-hashes \
 	--no-header --no-annotate --upgrade --quiet --system-certs
 
-# How the extension module is compiled: `release` as users get it, or `checks` as the checks do.
+# How the extension module is compiled: `release` as users get it, `checks` as the checks do, `demo` to have it soon.
 PROFILE := release
+# The demo takes the module that is there, of whatever profile.
+DEMO_PROFILE = $(or $(patsubst $(VENV)/.lumencut-%,%,$(firstword $(wildcard $(VENV)/.lumencut-*))),demo)
 # What the extension module is built from: it is rebuilt when one of these is newer than the last build.
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
 	$(shell find crates/*/src)
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page site test lint format settings types fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: help demo page page-if-possible site test lint format settings types fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
 
-demo: develop ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
-	@$(PYTHON) scripts/page.py --if-possible
+demo: ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
+	@$(MAKE) --no-print-directory --jobs=2 develop page-if-possible PROFILE=$(DEMO_PROFILE)
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo
+
+page-if-possible: toolchain
+	@$(PYTHON) scripts/page.py --if-possible
 
 page: toolchain ## Build the viewer's page into the package where its sources changed; needs Node.
 	@$(PYTHON) scripts/page.py

@@ -14,21 +14,16 @@ const target = 'wasm32-unknown-unknown';
 /** Small modules take minutes to link; for trying things out `LUMENCUT_WASM_PROFILE=checks` compiles quickly. */
 const profile = process.env.LUMENCUT_WASM_PROFILE ?? 'wasm';
 const pkg = join(web, 'src/core/pkg');
-const exported = ['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'];
-const linking = [
-  '--shared-memory',
-  '--import-memory',
-  '--max-memory=4294967296',
-  ...exported.map((name) => `--export=${name}`),
-];
-const small = ['-Zunstable-options', '-Cpanic=immediate-abort'];
-const sharing = [
+/** One set of flags for both modules, so that the standard library is compiled once; how the engine shares its memory is said to the
+ * linker by its build script. */
+const flags = [
+  '-Zunstable-options',
+  '-Cpanic=immediate-abort',
   '-Ctarget-feature=+atomics,+bulk-memory,+simd128',
-  ...linking.map((argument) => `-Clink-arg=${argument}`),
 ];
 const modules = [
-  { crate: 'lumencut-wasm', flags: [...small, ...sharing], folder: pkg, name: 'lumencut' },
-  { crate: 'lumencut-dicom-wasm', flags: small, folder: join(pkg, 'dicom'), name: 'lumencut_dicom' },
+  { crate: 'lumencut-wasm', folder: pkg, name: 'lumencut' },
+  { crate: 'lumencut-dicom-wasm', folder: join(pkg, 'dicom'), name: 'lumencut_dicom' },
 ];
 
 /** Runs a command in the repository; the build ends where it fails. */
@@ -45,7 +40,7 @@ function run(command, commandArguments, environment = {}) {
 }
 
 /** Compiles a crate for the browser, and writes its module to a folder. */
-function build({ crate, flags, folder, name }) {
+function build({ crate, folder, name }) {
   run(
     'cargo',
     [
