@@ -14,21 +14,22 @@ PROFILE := release
 DEMO_PROFILE = $(or $(patsubst $(VENV)/.lumencut-%,%,$(firstword $(wildcard $(VENV)/.lumencut-*))),checks)
 # What the extension module is built from: it is rebuilt when one of these is newer than the last build.
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
-	$(shell find crates/*/src)
+	$(wildcard crates/*/build.rs) $(shell find crates/*/src)
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page page-if-possible site test lint format settings types fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: help demo page site test lint format settings types fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
 
-demo: ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
-	@$(MAKE) --no-print-directory --jobs=2 develop page-if-possible PROFILE=$(DEMO_PROFILE)
+# The page and the package are compiled beside each other. By `--jobs` make would hand its slots down to both, and each would
+# compile as if the machine had two cores.
+demo: toolchain ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
+	@$(PYTHON) scripts/page.py --if-possible & page=$$!; \
+	$(MAKE_COMMAND) --no-print-directory develop PROFILE=$(DEMO_PROFILE); package=$$?; \
+	wait $$page && exit $$package
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo
-
-page-if-possible: toolchain
-	@$(PYTHON) scripts/page.py --if-possible
 
 page: toolchain ## Build the viewer's page into the package where its sources changed; needs Node.
 	@$(PYTHON) scripts/page.py

@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 
 import notices
@@ -40,7 +41,8 @@ class PageError(Exception):
 
 def sources() -> Iterator[Path]:
     """What the page is built from."""
-    for path in (*WEB.rglob("*"), *ROOT.glob("crates/*/src/**/*"), *ROOT.glob("crates/*/Cargo.toml")):
+    of_crates = (ROOT.glob(f"crates/*/{pattern}") for pattern in ("src/**/*", "Cargo.toml", "build.rs"))
+    for path in (*WEB.rglob("*"), *chain.from_iterable(of_crates)):
         inner = path.relative_to(ROOT).parts[1:]
         if path.is_file() and not _NO_SOURCES.intersection(inner) and path != notices.NOTICES:
             yield path
