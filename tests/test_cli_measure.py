@@ -163,6 +163,7 @@ def test_the_point_spread_is_the_given_one(files, tmp_path):
         (["--at", "30", "--reference", "90"], 1, "found 90 mm; expected an arc length from 0 to 60"),
         (["--at", "30", "--reference", "40,50"], 1, "one place before it and one after it"),
         (["--at", "10", "--reference", "30"], 1, "not below that of the stenosis"),
+        (["--at", "30", "--reference", "30"], 1, "30.0 mm, 0.0 mm from the stenosis at 30.0 mm"),
         (["--at", "30", "--reference", "1,2,3"], 2, "not of the form MM[,MM]"),
         (
             ["--at", "30", "--reference", "1,2", "--reference", "3"],

@@ -146,7 +146,9 @@ def test_places_that_nobody_named_are_suggestions(profile):
     ]
     # Before the place no reference is marked: one is offered there.
     assert [mark.is_suggestion for mark in named] == [False, True, False]
-    assert (offered.name, offered.arc_length) == ("reference", suggested[1].arc_length)
+    before, _ = profile.suggested_references(30.0)
+    assert before is not None
+    assert (offered.name, offered.arc_length) == ("reference", before.arc_length)
     assert len(marks(profile, 30.0, (10.0, 50.0))) == 3
     assert named[0].diameter == profile.diameter_at(30.0)[0]
 

@@ -24,7 +24,9 @@ STATES = {
     "a reference beyond the vessel": {"references_mm": [500.0]},
     "a place beyond the vessel": {"at_mm": 500.0},
     "a reference and no place": {"at_mm": None},
-    "both references on one side": {"references_mm": [40.0, 50.0]},
+    "both references on one side": {"references_mm": [45.0, 50.0]},
+    "a reference at the place": {"references_mm": [30.0]},
+    "a reference within a diameter": {"references_mm": [12.0, 36.0]},
 }
 
 
@@ -105,6 +107,8 @@ def test_ecst_has_no_group_and_no_references(graded):
             "place on the vessel: found 500 mm; expected an arc length",
         ),
         ("both references on one side", "one place before it and one after it"),
+        ("a reference at the place", "found 30.0 mm, 0.0 mm from the stenosis at 30.0 mm; expected a place"),
+        ("a reference within a diameter", "mark the reference farther from the stenosis, where the vessel"),
     ],
 )
 def test_the_reason_stands_where_the_percentage_would(graded, name, reason):
@@ -138,10 +142,17 @@ def test_the_other_vessels_are_measured_too(tmp_path):
     assert [vessel["not_graded"] is None for vessel in vessels] == [False, True, True]
 
 
-def test_a_report_says_why_there_is_no_percentage(narrow, tmp_path):
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"method": "ecst"}, ECST),
+        ({"references_mm": [30.0]}, "reference of the stenosis: found 30.0 mm, 0.0 mm from the stenosis"),
+    ],
+)
+def test_a_report_says_why_there_is_no_percentage(narrow, tmp_path, changes, reason):
     scene, volume = narrow
-    session = write_session(tmp_path / "s.mrk.json", scene.tree, marks=MARKS | {"method": "ecst"})
+    session = write_session(tmp_path / "s.mrk.json", scene.tree, marks=MARKS | changes)
     result = run(volume, session, "-o", tmp_path / "p.csv", "--report", tmp_path / "r.html")
     assert result.exit_code == 0, result.output
     page = (tmp_path / "r.html").read_text("utf-8")
-    assert f"No percentage: {ECST}" in page
+    assert f"No percentage: {reason}" in page

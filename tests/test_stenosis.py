@@ -42,9 +42,9 @@ def test_two_references_are_weighted_by_their_distances():
     values = np.clip(0.5 - (np.hypot(x, y) - radius) / 0.5, 0, 1) * 300
     line = np.linspace([0, 0, -length / 2], [0, 0, length / 2], 81)
     profile = measure(Volume(values.astype(np.float32), world_from_index=grid.affine), Vessel(line), fwhm=0.5)
-    graded = profile.stenosis(30.0, (10.0, 34.0), "area")
+    graded = profile.stenosis(30.0, (10.0, 36.0), "area")
     (_, first), (_, second) = graded.references
-    assert graded.reference == pytest.approx(first + (second - first) * 20 / 24)
+    assert graded.reference == pytest.approx(first + (second - first) * 20 / 26)
 
 
 def test_no_percentage_without_method_reference_and_mm(half):
@@ -63,6 +63,9 @@ def test_no_percentage_without_method_reference_and_mm(half):
         ((30,), "reference of the stenosis: found 0 places"),
         ((30, (1, 2, 3)), "reference of the stenosis: found 3 places"),
         ((30, (40, 45)), "one place before it and one after it"),
+        ((45, 45), r"found 45\.0 mm, 0\.0 mm from the stenosis at 45\.0 mm.*at least one diameter of"),
+        ((30, 34, "area"), r"found 34\.0 mm, 4\.0 mm from the stenosis.*mark the reference farther from"),
+        ((30, (10, 34)), r"found 34\.0 mm, 4\.0 mm from the stenosis.*mark the reference farther from"),
         ((45, 30), r"reference of the stenosis: found 2\.\d+ mm, where the stenosis at 45.0 mm measures"),
         ((30, 45, "ecst"), "original diameter of the stenosis: found none"),
         ((30, 45, "ecst", 0.0), "original diameter of the stenosis: found 0 mm"),

@@ -202,9 +202,9 @@ class Profile(ProfileOutputs):
         ------
         MeasuringError
             For places beyond the vessel or where nothing was measured, a reference that is narrower than
-            the stenosis, two references on one side of it, a missing or needless original diameter; and for
-            NASCET at a near-occlusion, where the reference is below half of the vessel on the other side of
-            the stenosis, or at most 0.87 of ``comparison``.
+            the stenosis or lies within its own diameter of it, two references on one side of it, a missing
+            or needless original diameter; and for NASCET at a near-occlusion, where the reference is below
+            half of the vessel on the other side of the stenosis, or at most 0.87 of ``comparison``.
         SettingsError
             For another method.
         """
@@ -245,10 +245,9 @@ class Profile(ProfileOutputs):
     def suggested_references(self, at: float) -> tuple[Spot | None, Spot | None]:
         """Return places before and after an arc length (mm) that it could be compared with.
 
-        Each is the nearest one, 3 to 50 mm away, whose walls are parallel over 5 mm and that is about as
-        wide as most of the vessel on its side; None where there is none. No branch lies between, unless both
-        sides would then have none. These are suggestions: a reader
-        must look.
+        Each is the nearest one, 3 to 50 mm and at least its own diameter away, whose walls are parallel over
+        5 mm and that is about as wide as most of the vessel on its side; None where there is none. No branch
+        lies between, unless both sides would then have none. These are suggestions: a reader must look.
 
         Raises
         ------

@@ -85,6 +85,22 @@ test('one drag moves one place: a reference passes the stenosis, and stops there
   await expect(tube.row('reference-0')).toContainText('at 12.0 mm');
 });
 
+test('the stenosis passes its reference, and is not graded with one that lies within a diameter of it', async () => {
+  await tube.marked();
+  const dragTo = async (from: number, to: number) => {
+    const handle = tube.handle(`marked place, ${from.toFixed(1)} mm`, 'in the profile');
+    await tube.dragBy(handle, [await tube.pixels(to - from), 0]);
+    await expect(tube.row('place-0')).toContainText(`at ${to.toFixed(1)} mm`);
+  };
+  await dragTo(30, 50);
+  await expect(tube.stenosis()).toContainText('found 50.0 mm, 0.0 mm from the stenosis at 50.0 mm');
+  await expect(tube.stenosis()).toContainText('at least one diameter of the vessel');
+  await dragTo(50, 57);
+  await expect(tube.stenosis()).toContainText('No percentage');
+  await dragTo(57, 30);
+  await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
+});
+
 test('by keys a reference passes the stenosis too, and stays the one that has the focus', async () => {
   await tube.nothingMarked();
   const steps = (await tube.arcLength('reference-1')) - (await tube.arcLength('place-0'));

@@ -120,11 +120,21 @@ describe('moving', () => {
     expect(placeAfter(profile, given, one, after)).toMatchObject({ slot: 1, at: 30 });
   });
 
-  test('the stenosis stays between its references', () => {
+  test('the stenosis passes its references', () => {
     const given = marks({ at: 30, references: [15, 45] });
-    expect(moved(profile, given, place(given, 'place'), 5).at).toBe(15);
-    expect(moved(profile, given, place(given, 'place'), 55).at).toBe(45);
+    const main = place(given, 'place');
+    for (const to of [5, 15, 45, 55]) {
+      const after = moved(profile, given, main, to);
+      expect(after).toEqual({ ...given, at: to });
+      expect(placeAfter(profile, given, main, after)).toMatchObject({ kind: 'place', slot: 0, at: to });
+    }
     expect(moved(profile, marks({}), place(marks({}), 'place'), -4).at).toBe(0);
+  });
+
+  test('a reference that the stenosis has passed is the one on the other side', () => {
+    const given = marks({ at: 30, references: [45] });
+    const after = moved(profile, given, place(given, 'place'), 50);
+    expect(short(found(after, NOTHING_SUGGESTED))).toEqual(['place 0 50', 'reference 0 45']);
   });
 
   test('two references of a file that lie on one side can both be moved', () => {

@@ -78,7 +78,8 @@ function stretchEnds(marks: VesselMarks): Place[] {
 export function moved(profile: Profile, marks: VesselMarks, place: Place, to: number): VesselMarks {
   const at = within(to, [0, lengthOf(profile)]);
   if (place.kind === 'place') {
-    return { ...marks, at: within(at, around(marks)) };
+    // It passes its references as they pass it: what cannot be graded there is told by the engine.
+    return { ...marks, at };
   }
   if (place.kind === 'reference') {
     return { ...marks, references: movedReferences(profile, marks, place.slot, at) };
@@ -90,16 +91,6 @@ export function moved(profile: Profile, marks: VesselMarks, place: Place, to: nu
   const kept: Pair =
     place.slot === 0 ? [Math.min(at, other - least), other] : [other, Math.max(at, other + least)];
   return { ...marks, [place.kind]: kept };
-}
-
-/** Between which references the place of a stenosis stays. */
-function around(marks: VesselMarks): Pair {
-  const [first, second] = referenceSlots(marks, marks.at ?? Number.POSITIVE_INFINITY);
-  // Without a place nothing tells on which side a single reference lies.
-  const isOpen = marks.at === null && marks.references.length < 2;
-  return isOpen
-    ? [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY]
-    : [first ?? Number.NEGATIVE_INFINITY, second ?? Number.POSITIVE_INFINITY];
 }
 
 /** One reference may pass the stenosis; where there is another on that side already, it stops at the stenosis. */

@@ -93,7 +93,8 @@ impl Profile {
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`] for places beyond the vessel or where nothing was measured, references that are narrower than
-    /// the stenosis or on one side of it, a missing original diameter, and NASCET at a near-occlusion.
+    /// the stenosis, on one side of it or within one diameter of it, a missing original diameter, and NASCET at a
+    /// near-occlusion.
     pub fn stenosis(&self, at: f64, method: Method, compared: &Compared) -> Result<Stenosis> {
         let (diameter, uncertainty) = self.diameter_at(at)?;
         let references = compared
@@ -103,7 +104,10 @@ impl Profile {
             .collect::<Result<Vec<_>>>()?;
         let reference = match method {
             Method::Ecst => original(compared.original)?,
-            Method::Nascet | Method::Area => at_stenosis(at, &references)?,
+            Method::Nascet | Method::Area => {
+                references.iter().try_for_each(|reference| refuse_near(at, *reference))?;
+                at_stenosis(at, &references)?
+            }
         };
         if reference < diameter {
             let found =
@@ -234,6 +238,20 @@ fn original(diameter: Option<f64>) -> Result<f64> {
     Err(measuring("original diameter of the stenosis", found, "the assumed diameter (mm), for ECST"))
 }
 
+/// Refuses a reference (its place and diameter, mm) that lies within its own diameter of the stenosis: so near the vessel is a part
+/// of the stenosis, and at the same place it would be compared with itself.
+fn refuse_near(at: f64, [place, diameter]: [f64; 2]) -> Result<()> {
+    let away = (place - at).abs();
+    // Lengths of the same line differ by rounding.
+    if away + ALONG_LINE >= diameter {
+        return Ok(());
+    }
+    let found = format!("{place:.1} mm, {away:.1} mm from the stenosis at {at:.1} mm");
+    let expected = format!("a place at least one diameter of the vessel ({diameter:.2} mm) away from it");
+    let mend = "mark the reference farther from the stenosis, where the vessel is normal";
+    Err(measuring("reference of the stenosis", found, &expected).mend(mend))
+}
+
 /// The reference at a stenosis: the one there is, or what lies between two by their distances.
 fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
     match references {
@@ -255,3 +273,7 @@ fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
 #[cfg(test)]
 #[path = "tests/doubts.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "tests/near_reference.rs"]
+mod near_reference;

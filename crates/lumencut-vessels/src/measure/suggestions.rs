@@ -70,8 +70,8 @@ impl Profile {
         (!(0..self.len()).filter(is_beside).any(is_odd)).then_some(spot)
     }
 
-    /// Places before and after an arc length (mm) that it could be compared with: the nearest ones whose walls are parallel and
-    /// that are as wide as most of the vessel on that side. No branch lies between a place and its reference, as beyond it the
+    /// Places before and after an arc length (mm) that it could be compared with: the nearest ones, at least their own diameter
+    /// away, whose walls are parallel and that are as wide as most of the vessel on that side. No branch lies between a place and its reference, as beyond it the
     /// vessel is of another width; only where that leaves neither side one, branches are passed. None on a side without such a
     /// place.
     ///
@@ -100,7 +100,10 @@ impl Profile {
         let normal = quantile(&mut self.widths(there.iter().copied()), 0.75)?;
         there.into_iter().find_map(|n| {
             let diameter = self.parallel(n, at)?;
-            (diameter >= NORMAL * normal).then_some(Spot { at: self.arc_length[n], diameter })
+            let spot = Spot { at: self.arc_length[n], diameter };
+            // Nearer than its own diameter it would be refused.
+            let is_apart = self.reference_at(spot.at).is_ok_and(|reference| away(&n) >= reference);
+            (diameter >= NORMAL * normal && is_apart).then_some(spot)
         })
     }
 
