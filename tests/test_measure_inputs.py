@@ -26,7 +26,8 @@ def volume() -> Volume:
         ({"fwhm": "wide"}, "fwhm: found 'wide'; expected numbers of shape one number"),
         ({"step": 0}, "step: found 0 mm; expected a number above 0 mm"),
         ({"step": np.inf}, "step: found inf mm; expected a number above 0 mm"),
-        ({"step": 1e-9}, "step: found 0.000000001 mm; expected a number above 0 mm that gives at most"),
+        ({"step": 1e-3}, "step: found 0.001 mm, which makes 2"),
+        ({"step": 1e-3}, "expected a step that makes at most 20000 sections; give a step of 0.01 mm or more"),
         ({"step": None}, "step: found None"),
     ],
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -97,3 +99,44 @@ def test_other_numbers_of_threads_are_refused(count):
     with pytest.raises(SettingsError, match="threads"):
         lumencut.set_threads(count)
     assert lumencut.get_threads() == before
+
+
+@pytest.fixture(scope="module")
+def narrow():
+    return phantom.stenosis()
+
+
+#: Sections so near to each other that something is told on the way (mm).
+NEAR = 0.01
+
+
+@pytest.mark.parametrize("whole_tree", [False, True])
+def test_measuring_tells_how_far_it_is(narrow, whole_tree):
+    told = []
+
+    def watch(done, total):
+        told.append((done, total))
+
+    if whole_tree:
+        radii = narrow.tree.measured(narrow.volume, NEAR, 1.0, progress=watch)[0].radius
+        expected = narrow.tree.measured(narrow.volume, NEAR, 1.0)[0].radius
+        np.testing.assert_array_equal(radii, expected)
+    else:
+        lumencut.measure(narrow.volume, narrow.tree[0], NEAR, 1.0, progress=watch)
+    done = [part for part, _ in told]
+    assert {total for _, total in told} == {1000}
+    assert done == sorted(done)
+    assert done[-1] == 1000
+    assert any(0 < part < 1000 for part in done)
+
+
+@pytest.mark.parametrize("whole_tree", [False, True])
+def test_what_the_callable_raises_ends_the_measuring(narrow, whole_tree):
+    def enough(done, _):
+        assert done < 1000
+        raise KeyboardInterrupt
+
+    work = narrow.tree.measured if whole_tree else partial(lumencut.measure, vessel=narrow.tree[0])
+    with pytest.raises(KeyboardInterrupt):
+        work(narrow.volume, step=NEAR, fwhm=1.0, progress=enough)
+    assert len(lumencut.measure(narrow.volume, narrow.tree[0], 5.0, 1.0)) == 13

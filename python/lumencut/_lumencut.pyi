@@ -383,9 +383,14 @@ def measure(
     fwhm: float | None = None,
     tree: list[_Arrays] | None = None,
     spread: PointSpread | None = None,
+    told: Callable[[int, int], object] | None = None,
 ) -> Profile: ...
 def measured_radii(
-    volume: Any, vessels: list[_Arrays], step: float, fwhm: float | None = None
+    volume: Any,
+    vessels: list[_Arrays],
+    step: float,
+    fwhm: float | None = None,
+    told: Callable[[int, int], object] | None = None,
 ) -> list[tuple[npt.NDArray[np.float64] | None, int, int]]: ...
 def panned(camera: Any, right: float, up: float) -> dict[str, Any]: ...
 def picture(value: npt.NDArray[np.float32], settings: Settings) -> npt.NDArray[np.uint8]: ...

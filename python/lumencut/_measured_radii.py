@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,11 @@ _Floats = npt.NDArray[np.float64]
 
 
 def measured_radii(
-    volume: Any, vessels: list[tuple[_Floats, _Floats | None]], step: float, fwhm: float | None
+    volume: Any,
+    vessels: list[tuple[_Floats, _Floats | None]],
+    step: float,
+    fwhm: float | None,
+    progress: Callable[[int, int], object] | None,
 ) -> tuple[list[_Floats | None], list[str]]:
     """Return the radii of each vessel, and a sentence for each vessel that was not measured as a whole."""
     found = _lumencut.measured_radii(
@@ -25,6 +30,7 @@ def measured_radii(
         vessels,
         number(SettingsError, "step", step),
         None if fwhm is None else number(SettingsError, "fwhm", fwhm),
+        progress,
     )
     notes = [
         f"vessel {n}: the radius of {counted(kept, 'point')} of {kept + measured} was not measured"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +18,9 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 
+#: Called with how much is done and how much there is to do.
+Progress = Callable[[int, int], object]
+
 
 def measure(
     volume: Volume | Any,
@@ -25,6 +29,7 @@ def measure(
     fwhm: float | None = None,
     *,
     tree: VesselTree | None = None,
+    progress: Progress | None = None,
 ) -> Profile:
     """Measure the lumen of a vessel in sections across it.
 
@@ -53,6 +58,8 @@ def measure(
     tree : VesselTree, optional
         The tree that the vessel is of: sections within the lumen of its other vessels get
         :attr:`Flag.BRANCH`.
+    progress : callable, optional
+        Called now and then with how much is done and how much there is to do.
 
     Returns
     -------
@@ -64,7 +71,7 @@ def measure(
     MeasuringError
         For a vessel outside the volume, or without a lumen around it.
     SettingsError
-        For an invalid step or width of the point spread.
+        For an invalid step or width of the point spread, and for a step that makes more than 20,000 sections.
     VesselTreeError
         For another kind of vessel or tree, or a vessel without length.
     VolumeError
@@ -79,7 +86,8 @@ def measure(
     given = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
     others = None if tree is None else [(one.points, one.radius) for one in tree]
     spread = None if others is None or given is not None else _point_spread(grid, tree, others, along)
-    return Profile(_lumencut.measure(grid, (vessel.points, vessel.radius), along, given, others, spread))
+    measured = (vessel.points, vessel.radius)
+    return Profile(_lumencut.measure(grid, measured, along, given, others, spread, progress))
 
 
 def _point_spread(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, SupportsIndex, overload
 
 import numpy as np
@@ -111,7 +111,14 @@ class VesselTree(Value):
         smoothed._space_settled = self._space_settled
         return smoothed
 
-    def measured(self, volume: Any, step: float = 0.5, fwhm: float | None = None) -> VesselTree:
+    def measured(
+        self,
+        volume: Any,
+        step: float = 0.5,
+        fwhm: float | None = None,
+        *,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> VesselTree:
         """Return the tree with radii measured in a volume, those of circles with the area of the lumen.
 
         Between sections at most 10 mm apart radii are interpolated, as within junctions. Beyond, points keep
@@ -125,6 +132,8 @@ class VesselTree(Value):
             The distance of sections (mm), at most.
         fwhm : float, optional
             As for :func:`lumencut.measure`; where not given, the widest vessel that tells it does so for all.
+        progress : callable, optional
+            Called now and then with how much is done and how much there is to do.
 
         Raises
         ------
@@ -135,7 +144,7 @@ class VesselTree(Value):
         KeyboardInterrupt
             After Ctrl-C.
         """
-        found, notes = measured_radii(volume, self._arrays(), step, fwhm)
+        found, notes = measured_radii(volume, self._arrays(), step, fwhm, progress)
         measured = VesselTree(
             Vessel(vessel.points, radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
             for vessel, radius in zip(self._vessels, found, strict=True)

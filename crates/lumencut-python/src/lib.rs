@@ -30,6 +30,7 @@ mod tree;
 mod values;
 mod views;
 mod volume;
+mod watching;
 mod windows;
 mod write_centerlines;
 

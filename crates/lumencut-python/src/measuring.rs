@@ -11,8 +11,10 @@ use lumencut::measure::profile;
 use lumencut::measure::radii;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
+use lumencut::measure::watched::watched as counted;
 use lumencut::measure_words;
 use lumencut::named::Named;
+use lumencut::stop::Stop;
 use lumencut::study::view;
 use lumencut::trace::lumen::refine;
 use lumencut::trace::{seed, skeleton};
@@ -25,6 +27,7 @@ use crate::pool;
 use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
+use crate::watching::told_while;
 
 /// The flags of sections (name, bit, word, meaning, and the colours on paper and on a dark screen of each), the methods of
 /// stenoses and views with their words, and defaults.
@@ -76,10 +79,11 @@ pub fn point_spread<'py>(
 }
 
 /// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree: under a point spread that is known,
-/// as its width (mm) or as the tree told it, or under the one that the vessel itself tells.
+/// as its width (mm) or as the tree told it, or under the one that the vessel itself tells. While it runs, `told` is called now and
+/// then with how much is done, in parts of the whole.
 #[pyfunction]
-#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, spread=None))]
-#[allow(clippy::needless_pass_by_value)]
+#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, spread=None, told=None))]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub fn measure<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
@@ -88,20 +92,26 @@ pub fn measure<'py>(
     fwhm: Option<f64>,
     tree: Option<Vec<VesselArrays<'py>>>,
     spread: Option<Py<PointSpread>>,
+    told: Option<Py<PyAny>>,
 ) -> PyResult<Profile> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let vessel = vessel_of(&measured)?;
-    interruptible(py, None, |stop| {
-        let request = MeasureRequest { step, fwhm, tree: &others, stop };
-        let measured = || match &spread {
-            Some(spread) => measuring::measure_under(spread.get().0.clone(), &volume, &vessel, &request),
-            None => measuring::measure(&volume, &vessel, &request),
+    let profile = told_while(py, told.as_ref(), |stop, progress| {
+        let measured = |stop: Stop<'_>| {
+            let request = MeasureRequest { step, fwhm, tree: &others, stop };
+            match &spread {
+                Some(spread) => measuring::measure_under(spread.get().0.clone(), &volume, &vessel, &request),
+                None => measuring::measure(&volume, &vessel, &request),
+            }
         };
-        pool::install(measured)?.map_err(to_python)
-    })
-    .map(|profile| Profile(Arc::new(profile)))
+        if let Some(progress) = progress {
+            progress.expect_views(1);
+        }
+        pool::install(|| counted(progress, (&vessel, step), stop, measured))?.map_err(to_python)
+    })?;
+    Ok(Profile(Arc::new(profile)))
 }
 
 #[pymethods]
@@ -334,9 +344,10 @@ pub fn cross_section<'py>(
 /// The radius of one vessel, shape (n,), how many points were measured, and how many were not.
 type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
 
-/// The measured radii of the vessels of a tree, each of points (n, 3) and radii (n,).
+/// The measured radii of the vessels of a tree, each of points (n, 3) and radii (n,). While it runs, `told` is called as that of
+/// [`measure`].
 #[pyfunction]
-#[pyo3(signature = (volume, vessels, step, fwhm=None))]
+#[pyo3(signature = (volume, vessels, step, fwhm=None, told=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub fn measured_radii<'py>(
     py: Python<'py>,
@@ -344,12 +355,14 @@ pub fn measured_radii<'py>(
     vessels: Vec<VesselArrays<'py>>,
     step: f64,
     fwhm: Option<f64>,
+    told: Option<Py<PyAny>>,
 ) -> PyResult<Vec<RadiusParts<'py>>> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let tree = vessels.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
-    let found = interruptible(py, None, |stop| {
-        pool::install(|| radii::measured_radii(&volume, &tree, step, fwhm, stop))?.map_err(to_python)
+    let found = told_while(py, told.as_ref(), |stop, progress| {
+        let radii = || radii::measured_radii(&volume, &tree, (step, fwhm), stop, progress);
+        pool::install(radii)?.map_err(to_python)
     })?;
     let parts = found.into_iter().map(|radii| {
         let radius = radii.radius.map(|radius| PyArray1::from_vec(py, radius));

@@ -28,6 +28,7 @@ pub mod slab;
 pub mod stenosis;
 pub mod stretch;
 pub mod suggestions;
+pub mod watched;
 
 #[cfg(test)]
 #[path = "measure/tests/made_profile.rs"]

@@ -27,6 +27,20 @@ pub struct Voxels<'a> {
     pub index_from_world: DAffine3,
     /// The smallest side of a voxel (mm).
     pub smallest_side: f64,
+    /// What distances of samples are told in: the smallest side, but at least a quarter of the middle one (mm). So the number of
+    /// samples does not grow with how uneven voxels are.
+    pub sampling_side: f64,
+}
+
+/// The least distance of samples, as a share of the middle one of the three sides of a voxel.
+const LEAST_OF_MIDDLE: f64 = 0.25;
+
+/// The middle one of the three sides of a voxel (mm).
+fn middle_side(world_from_index: DAffine3) -> f64 {
+    let sides = world_from_index.matrix3;
+    let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
+    lengths.sort_by(f64::total_cmp);
+    lengths[1]
 }
 
 impl<'a> Voxels<'a> {
@@ -40,6 +54,9 @@ impl<'a> Voxels<'a> {
             world_from_index: volume.world_from_index(),
             index_from_world: volume.index_from_world(),
             smallest_side: volume.smallest_side(),
+            sampling_side: volume
+                .smallest_side()
+                .max(LEAST_OF_MIDDLE * middle_side(volume.world_from_index())),
         }
     }
 

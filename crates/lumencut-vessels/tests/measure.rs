@@ -1,6 +1,8 @@
 //! Vessels whose blurred image has a closed form are measured as they are, and long work stops where it is asked to.
 #![allow(clippy::unwrap_used)]
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use glam::{DAffine3, DMat2, DVec2, DVec3};
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::stop::Stop;
@@ -8,7 +10,7 @@ use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut_vessels::measure::measuring::{MeasureRequest, measure};
+use lumencut_vessels::measure::measuring::{MeasureRequest, measure, point_spread_of};
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::stenosis::{Compared, Method};
 
@@ -65,6 +67,23 @@ fn the_point_spread_is_found() {
 #[test]
 fn long_work_stops_where_it_is_asked_to() {
     assert_eq!(measured(&tilted(), None, &|| true).unwrap_err().kind, ErrorKind::Interrupted);
+}
+
+#[test]
+fn a_point_spread_that_nobody_waited_for_is_not_told() {
+    let values = slices(&tilted());
+    let affine = DAffine3::from_scale(DVec3::splat(SIDE));
+    let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
+    let tree =
+        [Vessel::new([2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec(), Some(vec![2.0; 2])).unwrap()];
+    // It is stopped at each of the first questions: before, and while, the only vessel is looked at.
+    for questions in 0..40 {
+        let asked = AtomicUsize::new(0);
+        let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
+        let request = MeasureRequest { step: 0.5, fwhm: None, tree: &tree, stop: &stop };
+        let told = point_spread_of(&volume, &request);
+        assert_eq!(told.map_err(|error| error.kind), Err(ErrorKind::Interrupted), "{questions} questions");
+    }
 }
 
 #[test]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -168,10 +169,11 @@ def _measured(
     marks = session.marks if session and chosen["at"] is None else ()
     marks_of = {str(number): each for number, each in enumerate(marks)}
     fwhm = session.fwhm if session and chosen["fwhm"] is None else chosen["fwhm"]
-    with bar("measuring", "vessel") as told:
+    with bar("measuring", "share") as told:
         for number, (ids, vessel) in enumerate(vessels, 1):
             try:
-                profile = library(voxels, vessel, chosen["step"], fwhm, tree=tree)
+                part = partial(_tell, told, number - 1, len(vessels))
+                profile = library(voxels, vessel, chosen["step"], fwhm, tree=tree, progress=part)
                 if marked.at is not None:
                     _refuse(profile, marked.at, marked)
                 found.append(MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked)))
@@ -179,8 +181,12 @@ def _measured(
                 if number == len(vessels) and not found:
                     raise
                 warn(f"vessel {ids} is not measured: {error}")
-            told(number, len(vessels))
     return found
+
+
+def _tell(told: Callable[[int, int], None], before: int, count: int, done: int, total: int) -> None:
+    """Tell how much of all vessels is measured, where a part of one is and those before it are."""
+    told(before * total + done, count * total)
 
 
 def _refuse(profile: Profile, at: float, marked: Marked) -> None:

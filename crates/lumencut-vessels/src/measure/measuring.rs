@@ -44,6 +44,7 @@ const WIDEST: f64 = 45.0;
 const MOST_ASKED: usize = 8;
 
 /// How a vessel is measured.
+#[derive(Clone, Copy)]
 pub struct MeasureRequest<'a> {
     /// The distance of sections (mm), at most.
     pub step: f64,
@@ -126,7 +127,11 @@ fn of_tree(voxels: &Voxels, request: &MeasureRequest) -> Result<(f64, Source)> {
     for n in order.into_iter().take(MOST_ASKED) {
         go_on(request.stop)?;
         // A vessel that cannot be measured tells nothing.
-        let Ok(wide) = Looked::new(voxels, &request.tree[n], request) else { continue };
+        let wide = match Looked::new(voxels, &request.tree[n], request) {
+            Ok(wide) => wide,
+            Err(error) if error.kind == ErrorKind::Interrupted => return Err(error),
+            Err(_) => continue,
+        };
         match wide.point_spread(voxels, request.stop)? {
             Told::Width(found) => {
                 let on = format!("{} of vessel {n} of the tree", found.on());

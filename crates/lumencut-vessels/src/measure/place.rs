@@ -13,7 +13,7 @@ use lumencut_core::vessel_tree::Vessel;
 const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
 /// The most sections of a vessel.
-const MOST_SECTIONS: f64 = 1e5;
+const MOST_SECTIONS: u32 = 20_000;
 
 /// A vessel runs along an axis from this cosine on.
 const ALONG: f64 = 0.9;
@@ -88,13 +88,16 @@ impl Track {
     /// Places from the beginning to the end, at most `step` mm apart.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid step, or one that gives more places than can be measured.
+    /// [`ErrorKind::Settings`] for an invalid step, or one that makes more than 20,000 places.
     pub fn places(&self, step: f64) -> Result<Vec<Place>> {
-        let count = (self.length() / step).ceil();
-        if !(step > 0.0 && step.is_finite() && count <= MOST_SECTIONS) {
-            let expected =
-                format!("a number above 0 mm that gives at most {MOST_SECTIONS} sections of this vessel");
+        if !(step > 0.0 && step.is_finite()) {
+            let expected = "a number above 0 mm";
             return Err(Error::new(ErrorKind::Settings, "step", format!("{step} mm"), expected));
+        }
+        let count = (self.length() / step).ceil();
+        // There is a section at both ends.
+        if count >= f64::from(MOST_SECTIONS) {
+            return Err(too_many(self.length(), step, count + 1.0));
         }
         let count = count.max(1.0);
         Ok((0..=count as usize).map(|n| self.at(self.length() * n as f64 / count)).collect())
@@ -107,8 +110,20 @@ impl Track {
     }
 }
 
+fn too_many(length: f64, step: f64, count: f64) -> Error {
+    let found = format!("{step} mm, which makes {count:.0} sections of a vessel of {length:.0} mm");
+    let least = (length / f64::from(MOST_SECTIONS - 1) * 100.0).ceil() / 100.0;
+    let expected = format!("a step that makes at most {MOST_SECTIONS} sections");
+    Error::new(ErrorKind::Settings, "step", found, expected)
+        .mend(format!("give a step of {least} mm or more"))
+}
+
 /// About the radius of a vessel (mm), where its points have any.
 pub fn known_radius(vessel: &Vessel) -> Option<f64> {
     let mut radii: Vec<f64> = vessel.radius()?.iter().copied().filter(|radius| *radius > 0.0).collect();
     median(&mut radii)
 }
+
+#[cfg(test)]
+#[path = "tests/place.rs"]
+mod tests;

@@ -5,8 +5,10 @@ use std::f64::consts::PI;
 use super::flags::{LEFT_OUT, RECENTERED};
 use super::measuring::{MeasureRequest, measure_under, point_spread_of};
 use super::profile::Profile;
+use super::watched::watched;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;
+use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
@@ -28,7 +30,8 @@ pub struct Radii {
     pub kept: usize,
 }
 
-/// The measured radii of all vessels of a tree. Where the point spread is not given, the widest vessels tell it for all.
+/// The measured radii of all vessels of a tree, and how far that is. Where the point spread is not given, the widest vessels tell it
+/// for all.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for an invalid step or point spread, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
@@ -36,13 +39,21 @@ pub struct Radii {
 pub fn measured_radii(
     volume: &Volume,
     tree: &[Vessel],
-    step: f64,
-    fwhm: Option<f64>,
+    (step, fwhm): (f64, Option<f64>),
     stop: Stop,
+    progress: Option<&Progress>,
 ) -> Result<Vec<Radii>> {
+    if let Some(progress) = progress {
+        progress.expect_views(tree.len());
+    }
     let request = MeasureRequest { step, fwhm, tree, stop };
     let fwhm = point_spread_of(volume, &request)?;
-    let radii = |vessel: &Vessel| match measure_under(fwhm.clone(), volume, vessel, &request) {
+    let measured = |vessel: &Vessel| {
+        watched(progress, (vessel, step), stop, |stop| {
+            measure_under(fwhm.clone(), volume, vessel, &MeasureRequest { stop, ..request })
+        })
+    };
+    let radii = |vessel: &Vessel| match measured(vessel) {
         Ok(profile) => Ok(of_profile(vessel, &profile)),
         Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
             let kept = vessel.points().len();

@@ -11,7 +11,7 @@ use crate::voxels::Voxels;
 /// The rays of a section, each the point of a contour.
 pub const RAYS: usize = 64;
 
-/// The distance of samples along a ray, in smallest sides of a voxel.
+/// The distance of samples along a ray, in the sides that [`Voxels::sampling_side`] tells.
 const SAMPLE: f64 = 0.4;
 
 /// What a ray meets.
@@ -74,7 +74,7 @@ impl Rays<'_, '_> {
 
     /// The distance of samples along rays (mm).
     pub fn step(&self) -> f64 {
-        SAMPLE * self.voxels.smallest_side
+        SAMPLE * self.voxels.sampling_side
     }
 
     /// What a ray meets.

@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::place::Place;
 use super::rays::{Look, RAYS, Ray, Rays, direction};
+use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
 
 /// The lumen must be this much of what the whole vessel's is, as a share.
@@ -60,7 +61,7 @@ fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
     if level(rays, place, DVec2::ZERO) > 0.5 {
         return Some(DVec2::ZERO);
     }
-    let step = rays.voxels.smallest_side;
+    let step = search_step(rays.voxels, search);
     let count = (search / step).ceil() as i32;
     let mut best: Option<(f64, DVec2)> = None;
     for j in -count..=count {
@@ -80,9 +81,16 @@ fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
     best.map(|(_, point)| point)
 }
 
+/// The distance of the places among which a lumen is looked for within `search` mm: no more places than the volume has voxels,
+/// however far a radius in a file says that it may be.
+fn search_step(voxels: &Voxels, search: f64) -> f64 {
+    let count: f64 = voxels.size.iter().map(|n| *n as f64).product();
+    voxels.sampling_side.max(2.0 * search / count.sqrt())
+}
+
 /// The level near a point, as a share: the median of a few samples.
 fn level(rays: &Rays, place: &Place, center: DVec2) -> f64 {
-    let near = 0.5 * rays.voxels.smallest_side;
+    let near = 0.5 * rays.voxels.sampling_side;
     let mut values = vec![rays.at(place, center)];
     values.extend((0..8).map(|n| rays.at(place, center + direction(n * RAYS / 8) * near)));
     values.retain(|value| value.is_finite());
@@ -107,3 +115,7 @@ fn polygon(rays: &[Ray]) -> Option<(DVec2, f64)> {
     }
     (area > 0.0).then(|| (moment / area, (area / PI).sqrt()))
 }
+
+#[cfg(test)]
+#[path = "tests/rough.rs"]
+mod tests;

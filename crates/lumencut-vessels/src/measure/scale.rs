@@ -52,7 +52,7 @@ impl Scale {
     /// # Errors
     /// [`ErrorKind::Measuring`] where the lumen differs in nothing from what is around it.
     pub fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
-        let step = 0.5 * voxels.smallest_side;
+        let step = 0.5 * voxels.sampling_side;
         let reach = radius.map_or(REACH, |radius| 2.5 * radius + 3.0);
         let rings = rings(voxels, places, step, (reach / step).ceil() as usize);
         let [Some(lumen), ..] = rings[..] else {

@@ -31,11 +31,11 @@ fn where_none_is_sure_all_count() {
     assert!(profile(&[[f64::NAN, f64::NAN]; 4]).narrowest().is_none());
 }
 
-/// A vessel of 12 mm that becomes one of 8 mm at a branch 20 mm from its beginning, with a narrowing at 30 mm.
+/// A vessel of 12 mm that becomes one of 8 mm at a branch 20 mm from its beginning, with a narrowing at 35 mm.
 fn branched(sections: usize) -> Profile {
     let width = |n: usize| match n {
         0..40 => 12.0,
-        58..63 => 4.0,
+        68..73 => 4.0,
         _ => 8.0,
     };
     let mut profile = profile(&(0..sections).map(|n| [width(n), 0.1]).collect::<Vec<_>>());
@@ -45,7 +45,7 @@ fn branched(sections: usize) -> Profile {
 
 #[test]
 fn no_branch_lies_between_a_place_and_its_reference() {
-    let [before, after] = branched(120).suggested_references(30.0).expect("a place on it");
+    let [before, after] = branched(120).suggested_references(35.0).expect("a place on it");
     assert_eq!((before.map(|spot| spot.diameter), after.map(|spot| spot.diameter)), (Some(8.0), Some(8.0)));
     assert!(before.is_some_and(|spot| spot.at > 20.5), "{before:?}");
 }
@@ -53,9 +53,9 @@ fn no_branch_lies_between_a_place_and_its_reference() {
 #[test]
 fn where_no_reference_lies_before_a_branch_it_is_passed() {
     // The vessel ends behind the narrowing, and the branch is just before it.
-    let mut profile = branched(64);
-    profile.flags[38..50].fill(BRANCH);
-    let [before, after] = profile.suggested_references(30.0).expect("a place on it");
+    let mut profile = branched(74);
+    profile.flags[38..60].fill(BRANCH);
+    let [before, after] = profile.suggested_references(35.0).expect("a place on it");
     assert_eq!((before.map(|spot| spot.diameter), after), (Some(12.0), None));
 }
 
