@@ -240,6 +240,7 @@ class KeptProfiles:
 @final
 class Profile:
     def numbers(self) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
+    def uncertainty_parts(self) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
     @property
     def flags(self) -> npt.NDArray[np.uint32]: ...
     @property
@@ -259,6 +260,8 @@ class Profile:
     def noise(self) -> float: ...
     @property
     def fwhm(self) -> tuple[float, str]: ...
+    @property
+    def wall_source(self) -> str: ...
     def stenosis(
         self,
         at: float,
@@ -380,9 +383,9 @@ def measure(
     volume: Any,
     measured: _Arrays,
     step: float,
-    fwhm: float | None = None,
+    spread: float | PointSpread | None = None,
     tree: list[_Arrays] | None = None,
-    spread: PointSpread | None = None,
+    wall: tuple[float, float] | None = None,
     told: Callable[[int, int], object] | None = None,
 ) -> Profile: ...
 def measured_radii(

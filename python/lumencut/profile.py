@@ -67,6 +67,7 @@ class Profile(ProfileOutputs):
     def __init__(self, core: _lumencut.Profile) -> None:
         self._core = core
         self._numbers = {name: _locked(values) for name, values in core.numbers()}
+        self._parts = {name: _locked(values) for name, values in core.uncertainty_parts()}
         self._flags = core.flags
         self._flags.flags.writeable = False
         self._center, self._normal = _locked(core.center), _locked(core.normal)
@@ -112,8 +113,42 @@ class Profile(ProfileOutputs):
 
     @property
     def uncertainty(self) -> _Floats:
-        """The standard deviation of :attr:`diameter_equivalent` from noise and fit, shape (n,), mm."""
+        """The standard deviation of :attr:`diameter_equivalent`, shape (n,), mm.
+
+        :attr:`uncertainty_parts` says what it is made of.
+        """
         return self._numbers["uncertainty"]
+
+    @property
+    def uncertainty_parts(self) -> dict[str, _Floats]:
+        """What :attr:`uncertainty` is made of, each of shape (n,), mm: the sum of the squares is its square.
+
+        ``noise`` is the noise of the voxels as it is correlated in this scan; ``point_spread`` what is not
+        known of the FWHM (0 where it was given); ``wall`` what is not known of the level and the thickness of
+        the wall; ``lumen_level`` what is not known of the level of a narrow lumen; ``surroundings`` what is
+        not as the model has it, such as patches of another tissue.
+        """
+        return self._parts
+
+    @property
+    def wall(self) -> _Floats:
+        """The thickness of the wall, shape (n,), mm; NaN where it is not told from what is around it."""
+        return self._numbers["wall"]
+
+    @property
+    def wall_uncertainty(self) -> _Floats:
+        """The standard deviation of :attr:`wall`, shape (n,), mm."""
+        return self._numbers["wall_uncertainty"]
+
+    @property
+    def diameter_outer(self) -> _Floats:
+        """The diameter of a circle of the area that the wall encloses, shape (n,), mm, or NaN."""
+        return self._numbers["diameter_outer"]
+
+    @property
+    def diameter_outer_uncertainty(self) -> _Floats:
+        """The standard deviation of :attr:`diameter_outer`, shape (n,), mm."""
+        return self._numbers["diameter_outer_uncertainty"]
 
     @property
     def inscribed_radius(self) -> _Floats:
@@ -167,6 +202,11 @@ class Profile(ProfileOutputs):
     def fwhm_source(self) -> str:
         """How that was found: ``"given"``, ``"estimated on …"`` or ``"assumed: …"``."""
         return self._core.fwhm[1]
+
+    @property
+    def wall_source(self) -> str:
+        """The level that walls were expected to have, or why they were not told apart."""
+        return self._core.wall_source
 
     def stenosis(
         self,

@@ -7,10 +7,12 @@ use lumencut::flag_table::{FLAGS, FlagLook};
 use lumencut::measure::cross_section::{CrossSection, section_place};
 use lumencut::measure::groups::Territory;
 use lumencut::measure::measuring::{self, MeasureRequest};
+use lumencut::measure::parts::Part;
 use lumencut::measure::profile;
 use lumencut::measure::radii;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
+use lumencut::measure::wall_level::WallRequest;
 use lumencut::measure::watched::watched as counted;
 use lumencut::measure_words;
 use lumencut::named::Named;
@@ -57,7 +59,16 @@ pub struct Profile(pub Arc<profile::Profile>);
 
 /// The point spread of a scan, and where it is from.
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct PointSpread((f64, profile::Source));
+pub struct PointSpread(profile::PointSpread);
+
+/// A point spread that is known before a vessel is measured.
+#[derive(FromPyObject)]
+pub enum KnownSpread {
+    /// Its full width at half maximum (mm).
+    Width(f64),
+    /// As a tree told it.
+    OfTree(Py<PointSpread>),
+}
 
 /// The point spread that the vessels of a tree tell for all that is measured along them.
 #[pyfunction]
@@ -72,7 +83,7 @@ pub fn point_spread<'py>(
     let volume = volume.volume(&borrowed)?;
     let tree = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     interruptible(py, None, |stop| {
-        let request = MeasureRequest { step, fwhm: None, tree: &tree, stop };
+        let request = MeasureRequest { step, fwhm: None, wall: WallRequest::Automatic, tree: &tree, stop };
         pool::install(|| measuring::point_spread_of(&volume, &request))?.map_err(to_python)
     })
     .map(PointSpread)
@@ -82,28 +93,40 @@ pub fn point_spread<'py>(
 /// as its width (mm) or as the tree told it, or under the one that the vessel itself tells. While it runs, `told` is called now and
 /// then with how much is done, in parts of the whole.
 #[pyfunction]
-#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, spread=None, told=None))]
+#[pyo3(signature = (volume, measured, step, spread=None, tree=None, wall=None, told=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub fn measure<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     measured: VesselArrays<'py>,
     step: f64,
-    fwhm: Option<f64>,
+    spread: Option<KnownSpread>,
     tree: Option<Vec<VesselArrays<'py>>>,
-    spread: Option<Py<PointSpread>>,
+    wall: Option<[f64; 2]>,
     told: Option<Py<PyAny>>,
 ) -> PyResult<Profile> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let vessel = vessel_of(&measured)?;
+    // A standard deviation of 0 says that there is no wall.
+    let wall = match wall {
+        None => WallRequest::Automatic,
+        Some([_, 0.0]) => WallRequest::Off,
+        Some(level) => WallRequest::Level(level),
+    };
+    let fwhm = match spread {
+        Some(KnownSpread::Width(fwhm)) => Some(fwhm),
+        _ => None,
+    };
     let profile = told_while(py, told.as_ref(), |stop, progress| {
         let measured = |stop: Stop<'_>| {
-            let request = MeasureRequest { step, fwhm, tree: &others, stop };
+            let request = MeasureRequest { step, fwhm, wall, tree: &others, stop };
             match &spread {
-                Some(spread) => measuring::measure_under(spread.get().0.clone(), &volume, &vessel, &request),
-                None => measuring::measure(&volume, &vessel, &request),
+                Some(KnownSpread::OfTree(spread)) => {
+                    measuring::measure_under(spread.get().0.clone(), &volume, &vessel, &request)
+                }
+                _ => measuring::measure(&volume, &vessel, &request),
             }
         };
         if let Some(progress) = progress {
@@ -120,6 +143,8 @@ impl Profile {
     fn numbers<'py>(&self, py: Python<'py>) -> Vec<(&'static str, Bound<'py, PyArray1<f64>>)> {
         let profile = &self.0;
         let array = |values: &[f64]| PyArray1::from_slice(py, values);
+        let first = |values: &[[f64; 2]]| PyArray1::from_iter(py, values.iter().map(|both| both[0]));
+        let second = |values: &[[f64; 2]]| PyArray1::from_iter(py, values.iter().map(|both| both[1]));
         vec![
             ("arc_length", array(&profile.arc_length)),
             ("diameter_min", array(&profile.diameter_min)),
@@ -129,7 +154,26 @@ impl Profile {
             ("area", array(&profile.area)),
             ("uncertainty", array(&profile.uncertainty)),
             ("inscribed_radius", array(&profile.inscribed_radius)),
+            ("wall", first(&profile.wall)),
+            ("wall_uncertainty", second(&profile.wall)),
+            ("diameter_outer", first(&profile.diameter_outer)),
+            ("diameter_outer_uncertainty", second(&profile.diameter_outer)),
         ]
+    }
+
+    /// What the uncertainty is made of, by name, each of shape (n,).
+    fn uncertainty_parts<'py>(&self, py: Python<'py>) -> Vec<(&'static str, Bound<'py, PyArray1<f64>>)> {
+        let parts = &self.0.uncertainty_parts;
+        Part::ALL
+            .iter()
+            .map(|part| (part.name(), PyArray1::from_iter(py, parts.iter().map(|all| part.of(all).abs()))))
+            .collect()
+    }
+
+    /// Whether walls were told apart, and by which level, in words.
+    #[getter]
+    fn wall_source(&self) -> String {
+        measure_words::of_wall(&self.0.wall_source)
     }
 
     /// Bits of flags, shape (n,).

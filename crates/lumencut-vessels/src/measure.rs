@@ -8,13 +8,16 @@ pub mod contour;
 pub mod cross_section;
 pub mod ellipse;
 pub mod fit;
+pub mod fitting;
 pub mod flags;
 pub mod golden;
 pub mod groups;
 pub mod least_squares;
 pub mod levels;
 pub mod measuring;
+pub mod model;
 pub mod obstacles;
+pub mod parts;
 pub mod place;
 pub mod point_spread;
 pub mod pooled;
@@ -28,6 +31,11 @@ pub mod slab;
 pub mod stenosis;
 pub mod stretch;
 pub mod suggestions;
+pub mod sums;
+pub mod terms;
+pub mod texture;
+pub mod wall;
+pub mod wall_level;
 pub mod watched;
 
 #[cfg(test)]

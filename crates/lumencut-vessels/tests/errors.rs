@@ -6,6 +6,7 @@ use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::measuring::{MeasureRequest, measure};
+use lumencut_vessels::measure::wall_level::WallRequest;
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 
@@ -30,7 +31,13 @@ fn measuring_errors() -> Vec<Error> {
     let volume = Volume::new(Voxels::I16(&voxels), [10; 3], [1, 10, 100], DAffine3::IDENTITY).unwrap();
     let measured = |shift: f64| {
         let points = [0.0, 9.0].map(|z| DVec3::new(5.0 + shift, 5.0, z)).to_vec();
-        let request = MeasureRequest { step: 1.0, fwhm: None, tree: &[], stop: &|| false };
+        let request = MeasureRequest {
+            step: 1.0,
+            fwhm: None,
+            wall: WallRequest::Automatic,
+            tree: &[],
+            stop: &|| false,
+        };
         measure(&volume, &Vessel::new(points, None).unwrap(), &request).unwrap_err()
     };
     vec![measured(0.0), measured(50.0)]

@@ -13,6 +13,7 @@ use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
 use lumencut_vessels::measure::measuring::{MeasureRequest, measure, point_spread_of};
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::stenosis::{Compared, Method};
+use lumencut_vessels::measure::wall_level::WallRequest;
 
 const SIZE: usize = 36;
 const SIDE: f64 = 0.5;
@@ -36,7 +37,7 @@ fn measured(ellipse: &Ellipse, fwhm: Option<f64>, stop: Stop) -> Result<Profile>
     let affine = DAffine3::from_scale(DVec3::splat(SIDE));
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine)?;
     let points = [2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec();
-    let request = MeasureRequest { step: 0.5, fwhm, tree: &[], stop };
+    let request = MeasureRequest { step: 0.5, fwhm, wall: WallRequest::Automatic, tree: &[], stop };
     measure(&volume, &Vessel::new(points, None)?, &request)
 }
 
@@ -80,7 +81,8 @@ fn a_point_spread_that_nobody_waited_for_is_not_told() {
     for questions in 0..40 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
-        let request = MeasureRequest { step: 0.5, fwhm: None, tree: &tree, stop: &stop };
+        let request =
+            MeasureRequest { step: 0.5, fwhm: None, wall: WallRequest::Automatic, tree: &tree, stop: &stop };
         let told = point_spread_of(&volume, &request);
         assert_eq!(told.map_err(|error| error.kind), Err(ErrorKind::Interrupted), "{questions} questions");
     }

@@ -7,7 +7,8 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::measure::measuring::{MeasureRequest, measure_under, point_spread_of};
-use lumencut_vessels::measure::profile::{Profile, Source};
+use lumencut_vessels::measure::profile::{PointSpread, Profile};
+use lumencut_vessels::measure::wall_level::WallRequest;
 
 /// A volume and the tree in it. Both decide what is measured: profiles that were kept are those of other ones no longer.
 #[derive(Clone, Copy)]
@@ -32,7 +33,7 @@ pub struct Asking<'a> {
 /// The profiles that are kept, by what their host calls a vessel.
 pub struct KeptProfiles<K> {
     /// The point spread that the tree tells, for all of its vessels.
-    told: Option<(f64, Source)>,
+    told: Option<PointSpread>,
     kept: Vec<Kept<K>>,
 }
 
@@ -61,7 +62,7 @@ impl<K: PartialEq> KeptProfiles<K> {
         if let Some(found) = self.kept.iter().position(is_asked) {
             return Ok(found);
         }
-        let request = MeasureRequest { step, fwhm, tree: scan.tree, stop };
+        let request = MeasureRequest { step, fwhm, wall: WallRequest::Automatic, tree: scan.tree, stop };
         let spread = self.spread(scan.volume, &request)?;
         let profile = Arc::new(measure_under(spread, scan.volume, vessel, &request)?);
         self.kept.push(Kept { of: key, step, fwhm, profile });
@@ -79,7 +80,7 @@ impl<K: PartialEq> KeptProfiles<K> {
     }
 
     /// The point spread as it is given, or as the tree tells it, which is found once.
-    fn spread(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<(f64, Source)> {
+    fn spread(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<PointSpread> {
         if request.fwhm.is_some() {
             return point_spread_of(volume, request);
         }

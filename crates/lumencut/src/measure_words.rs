@@ -4,6 +4,7 @@ use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;
 use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
 use lumencut_vessels::measure::stretch::CArm;
+use lumencut_vessels::measure::wall_level::{CT_WALL, WallSource};
 
 use crate::flag_table::set_in;
 use crate::text::fixed;
@@ -69,6 +70,19 @@ pub fn of_source(source: &Source) -> String {
         Source::Given => "given".to_owned(),
         Source::Estimated { on } => format!("estimated on {on}"),
         Source::Assumed { from } => format!("assumed: {from}"),
+    }
+}
+
+/// Whether walls were told apart from what surrounds the vessel, and by which level.
+pub fn of_wall(source: &WallSource) -> String {
+    let level = |[level, deviation]: [f64; 2]| format!("{} ± {}", fixed(level, 0), fixed(deviation, 0));
+    match source {
+        WallSource::Hounsfield => format!("{} HU, as walls in CT", level(CT_WALL)),
+        WallSource::Given(given) => format!("{}, given", level(*given)),
+        WallSource::NotAsked => "not told apart, as asked".to_owned(),
+        WallSource::DarkLumen => "not told apart: the lumen is dark".to_owned(),
+        WallSource::AsBright => "not told apart: the surroundings are as bright".to_owned(),
+        WallSource::OtherUnit => "not told apart: nothing says that the values are HU".to_owned(),
     }
 }
 

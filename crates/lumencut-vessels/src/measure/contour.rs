@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::ellipse::{Boundary, Ellipse};
+use super::ellipse::Ellipse;
 use super::place::Place;
 use super::rays::{RAYS, Ray, direction};
 use lumencut_core::math::lanes::FAN;
@@ -11,15 +11,20 @@ use lumencut_core::math::statistics::median;
 /// A ray tells the wall where it is off the ellipse by no more than this share of the way there, or by this length (mm).
 const FARTHEST: (f64, f64) = (0.5, 0.5);
 
-/// The wall at each ray (mm from the centre of the ellipse): where the volume crosses a level along a ray, less what the blurred
-/// ellipse crosses it off its own boundary. Where a ray does not tell, it is that of the ellipse.
-pub fn wall(ellipse: &Ellipse, boundary: &Boundary, rays: &[Ray], level: f64) -> Vec<f64> {
+/// The wall at each ray (mm from the centre of the ellipse): where the volume crosses a level along a ray, less what `values`, what
+/// the fit says of places, cross it off the boundary of the ellipse. Where a ray does not tell, it is that of the ellipse.
+pub fn wall(
+    ellipse: &Ellipse,
+    values: impl Fn(&[f32; FAN], &[f32; FAN]) -> [f32; FAN],
+    rays: &[Ray],
+    level: f64,
+) -> Vec<f64> {
     let walls: Vec<f64> = (0..RAYS)
         .map(|n| {
             let own = ellipse.radius_towards(direction(n));
             let ray = &rays[n];
             let told = ray.edge.filter(|edge| *edge < ray.limit).and_then(|edge| {
-                let blurred = crossing(boundary, ellipse.center, direction(n), level, own)?;
+                let blurred = crossing(&values, ellipse.center, direction(n), level, own)?;
                 Some(own + edge - blurred)
             });
             let most = (FARTHEST.0 * own).max(FARTHEST.1);
@@ -62,14 +67,20 @@ fn within_rim([begins, ends]: [f64; 2], width: f64) -> f64 {
 }
 
 /// Where the blurred ellipse crosses a level along a ray (mm), looked for around its boundary.
-fn crossing(boundary: &Boundary, center: DVec2, direction: DVec2, level: f64, own: f64) -> Option<f64> {
+fn crossing(
+    values: impl Fn(&[f32; FAN], &[f32; FAN]) -> [f32; FAN],
+    center: DVec2,
+    direction: DVec2,
+    level: f64,
+    own: f64,
+) -> Option<f64> {
     let reach = 0.6 * own + 0.4;
     let first = (own - reach).max(0.0);
     let step = (own + reach - first) / (FAN - 1) as f64;
     let at = |n: usize| first + n as f64 * step;
     let x = std::array::from_fn(|n| (center.x + direction.x * at(n)) as f32);
     let y = std::array::from_fn(|n| (center.y + direction.y * at(n)) as f32);
-    let values = boundary.blurred(&x, &y).value.map(f64::from);
+    let values = values(&x, &y).map(f64::from);
     let n = (1..FAN).find(|n| values[*n] < level && values[n - 1] >= level)?;
     Some(at(n) - step * (level - values[n]) / (values[n - 1] - values[n]))
 }

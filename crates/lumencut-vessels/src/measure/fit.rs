@@ -1,15 +1,20 @@
 //! The ellipse that, blurred as the volume is, comes nearest to the voxels of a section.
 
-use super::ellipse::{Boundary, Ellipse, SHAPE, Whitening};
-use super::least_squares::{Minimum, Normal, minimum, variance};
-use super::slab::Samples;
-use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
-use lumencut_core::math::statistics::median;
+use std::marker::PhantomData;
 
-/// The parameters of a fit: those of the ellipse, the level of the lumen and that of its background.
-const PARAMETERS: usize = SHAPE + 2;
-const LUMEN: usize = SHAPE;
-const BACKGROUND: usize = SHAPE + 1;
+use super::ellipse::{Boundary, Ellipse, SHAPE, Whitening};
+use super::least_squares::{Minimum, Normal, minimum, solved, variance};
+use super::model::{
+    BACKGROUND, HARMONICS, LUMEN, Model, PLAIN, SECTORS, THICKNESS, ThreeLevels, TwoLevels, WALL, WALLED,
+};
+use super::parts::Parts;
+use super::slab::Samples;
+use super::sums::{Missing, Moves, Sums};
+use super::terms::{Term, unit};
+use super::texture::Texture;
+use super::wall::{KnownWall, Wall};
+use lumencut_core::math::lanes::{FAN, Isa, dispatch};
+use lumencut_core::math::statistics::median;
 
 /// Samples that miss by more than this number of standard deviations do not count (Tukey's weights).
 const TUKEY: f64 = 5.0;
@@ -22,7 +27,7 @@ const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
 /// What is known beforehand: means and standard deviations.
 #[derive(Clone, Copy, Debug)]
-pub struct Expected {
+pub struct Expected<'a> {
     /// The level of the lumen, as a share.
     pub lumen: [f64; 2],
     /// The level of its background, as a share.
@@ -33,7 +38,25 @@ pub struct Expected {
     pub noise: f64,
     /// Whether that is a guess: samples are then weighed by what they miss by and large.
     pub is_guessed: bool,
+    /// The wall, where it is told apart from the surroundings.
+    pub wall: Option<KnownWall>,
+    /// What else makes a diameter unsure, where that is asked.
+    pub unsure: Option<&'a Unsure<'a>>,
 }
+
+/// What makes a diameter unsure besides what a section tells itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Unsure<'a> {
+    /// The texture of the noise.
+    pub texture: &'a Texture,
+    /// The blur of a point spread that is wider by its standard deviation; None where it is known.
+    pub wider: Option<Whitening>,
+    /// The wall that may be there where it is not told apart from the surroundings.
+    pub wall: Option<KnownWall>,
+}
+
+/// Surroundings differ from side to side by these shares (standard deviations), in the order of the harmonics.
+const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15];
 
 /// The centre stays within this number of radii of where it began, and the size within these shares of that.
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
@@ -47,10 +70,14 @@ pub struct Fit {
     pub lumen: [f64; 2],
     /// The level of its background, as a share.
     pub background: f64,
+    /// Its wall, where that is told apart.
+    pub wall: Option<Wall>,
     /// What the samples miss, as a root of the mean square and as a share: the noise, where the lumen is an ellipse.
     pub missed: f64,
     /// The standard deviation of the diameter of a circle of the same area (mm).
     pub uncertainty: f64,
+    /// What that is made of.
+    pub parts: Parts,
     /// The share of all directions in which nothing was in the way of the wall.
     pub free: f64,
 }
@@ -63,43 +90,46 @@ impl Fit {
         start: &Ellipse,
         expected: &Expected,
     ) -> Option<Self> {
-        if samples.count < 2 * PARAMETERS {
-            return None;
-        }
-        let mut work = Work { samples, whitening, expected, start, kept: samples.weight.clone() };
-        let mut at = [0.0; PARAMETERS];
-        at[..SHAPE].copy_from_slice(&start.parameters());
-        (at[LUMEN], at[BACKGROUND]) = (expected.lumen[0], expected.background[0]);
-        let first = minimum(at, STEPS[0], |at| work.evaluate(at))?;
-        let missed = work.weigh(&first.at)?;
-        let last = minimum(first.at, STEPS[1], |at| work.evaluate(at))?;
-        Self::of(&last, missed, expected)
+        let levels = [Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)];
+        let Some(known) = expected.wall else {
+            let work = Work::<TwoLevels, PLAIN>::new(samples, whitening, start, expected, levels.to_vec());
+            let (minimum, missed, parts) = work.done()?;
+            return Self::of(&minimum, missed, parts);
+        };
+        let [lumen, background] =
+            [Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)];
+        let level = Term::one(WALL, known.level);
+        let thickness =
+            Term::one(THICKNESS, known.log_thickness(start)).less(WALL, known.slope, known.level[0]);
+        let sides = SIDES.into_iter().enumerate().map(|(h, side)| Term::one(SECTORS + h, [0.0, side]));
+        let terms = [lumen, background, level, thickness].into_iter().chain(sides).collect();
+        let (minimum, missed, parts) =
+            Work::<ThreeLevels, WALLED>::new(samples, whitening, start, expected, terms).done()?;
+        let wall = Wall::new(&minimum, start.center)?;
+        Some(Self { wall: Some(wall), ..Self::of(&minimum, missed, parts)? })
     }
 
-    fn of(minimum: &Minimum<PARAMETERS>, missed: f64, expected: &Expected) -> Option<Self> {
+    fn of<const N: usize>(minimum: &Minimum<N>, missed: f64, parts: Parts) -> Option<Self> {
         let at = &minimum.at;
-        let ellipse = Ellipse::from_parameters(at)?;
-        let diameter = ellipse.equivalent_diameter();
-        let mut by = [0.0; PARAMETERS];
-        by[2] = 4.0 * ellipse.mean / diameter;
-        by[3] = -4.0 * ellipse.stretch.x / diameter;
-        by[4] = -4.0 * ellipse.stretch.y / diameter;
-        let mut lumen = [0.0; PARAMETERS];
-        lumen[LUMEN] = 1.0;
-        // What misses more than noise does says that the lumen is no ellipse, or the surroundings are not even.
-        let excess = (missed / expected.noise).max(1.0);
-        let deviation = |by: &[f64; PARAMETERS]| {
-            let square = variance(&minimum.normal.matrix, by)?;
-            square.is_finite().then(|| (square * EVENLY_FALLING).sqrt() * excess)
-        };
         Some(Self {
-            ellipse,
-            lumen: [at[LUMEN], deviation(&lumen)?],
+            ellipse: Ellipse::from_parameters(at)?,
+            lumen: [at[LUMEN], deviation(minimum, &unit(LUMEN))?],
             background: at[BACKGROUND],
+            wall: None,
             missed,
-            uncertainty: deviation(&by)?,
+            uncertainty: parts.total(),
+            parts,
             free: 1.0,
         })
+    }
+
+    /// What samples miss under a blur.
+    pub fn missing(&self, samples: &Samples, whitening: Whitening) -> Vec<[f32; FAN]> {
+        let levels = [self.lumen[0], self.background];
+        match &self.wall {
+            Some(wall) => missing(samples, &ThreeLevels::of(&self.ellipse, wall, levels, whitening)),
+            None => missing(samples, &TwoLevels::of(&self.ellipse, levels, whitening)),
+        }
     }
 
     /// The blurred ellipse of a fit.
@@ -108,33 +138,150 @@ impl Fit {
     }
 }
 
-/// Samples and what is fitted to them.
-struct Work<'a> {
-    samples: &'a Samples,
-    whitening: Whitening,
-    expected: &'a Expected,
-    start: &'a Ellipse,
-    /// How much each sample counts.
-    kept: Vec<[f32; FAN]>,
+/// What samples miss of a model.
+fn missing<M: Model<N>, const N: usize>(samples: &Samples, model: &M) -> Vec<[f32; FAN]> {
+    dispatch(Isa::widest(), Missing { samples, model })
 }
 
-impl Work<'_> {
-    fn evaluate(&self, at: &[f64; PARAMETERS]) -> Option<Normal<PARAMETERS>> {
-        let ellipse = Ellipse::from_parameters(at).filter(|ellipse| self.trusts(ellipse))?;
-        let levels = [at[LUMEN], at[BACKGROUND]];
-        let boundary = Boundary::new(&ellipse, self.whitening);
-        let kernel = Sums { samples: self.samples, kept: &self.kept, boundary: &boundary, levels };
+/// The standard deviation of a combination of parameters.
+fn deviation<const N: usize>(minimum: &Minimum<N>, by: &[f64; N]) -> Option<f64> {
+    let square = variance(&minimum.normal.matrix, by)?;
+    square.is_finite().then(|| (square * EVENLY_FALLING).sqrt())
+}
+
+/// The derivatives of the diameter of a circle of the same area.
+fn diameter_by<const N: usize>(ellipse: &Ellipse) -> [f64; N] {
+    let diameter = ellipse.equivalent_diameter();
+    let mut by = [0.0; N];
+    by[2] = 4.0 * ellipse.mean / diameter;
+    by[3] = -4.0 * ellipse.stretch.x / diameter;
+    by[4] = -4.0 * ellipse.stretch.y / diameter;
+    by
+}
+
+/// Samples and what is fitted to them.
+struct Work<'a, M, const N: usize> {
+    samples: &'a Samples,
+    whitening: Whitening,
+    expected: &'a Expected<'a>,
+    start: &'a Ellipse,
+    /// What is expected of the parameters.
+    terms: Vec<Term<N>>,
+    /// How much each sample counts.
+    kept: Vec<[f32; FAN]>,
+    model: PhantomData<M>,
+}
+
+impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
+    fn new(
+        samples: &'a Samples,
+        whitening: Whitening,
+        start: &'a Ellipse,
+        expected: &'a Expected<'a>,
+        terms: Vec<Term<N>>,
+    ) -> Self {
+        Self { samples, whitening, expected, start, terms, kept: samples.weight.clone(), model: PhantomData }
+    }
+
+    /// The parameters that fit best, what the samples miss then, and what the diameter is unsure by; None where there are too
+    /// few samples.
+    fn done(mut self) -> Option<(Minimum<N>, f64, Parts)> {
+        if self.samples.count < 2 * N {
+            return None;
+        }
+        let mut at = [0.0; N];
+        for term in &self.terms {
+            at[term.parameter] = term.start;
+        }
+        at[..SHAPE].copy_from_slice(&self.start.parameters());
+        let first = minimum(at, STEPS[0], |at| self.evaluate(at))?;
+        let missed = self.weigh(&first.at)?;
+        let last = minimum(first.at, STEPS[1], |at| self.evaluate(at))?;
+        let parts = self.parts(&last, missed)?;
+        Some((last, missed, parts))
+    }
+
+    /// What makes the diameter unsure: each sample moves it by its noise, and each expectation by how wrong it may be.
+    fn parts(&self, minimum: &Minimum<N>, missed: f64) -> Option<Parts> {
+        let ellipse = Ellipse::from_parameters(&minimum.at)?;
+        let towards = solved(&minimum.normal.matrix, &diameter_by(&ellipse))?;
+        let expected = self.expected;
+        let model = self.model(&minimum.at, &ellipse);
+        let weight = 1.0 / expected.noise.powi(2);
+        let towards_shares = towards.map(|share| (share * weight) as f32);
+        let kernel =
+            Moves { samples: self.samples, kept: &self.kept, model: &model, towards: towards_shares };
+        let moves = dispatch(Isa::widest(), kernel);
+        let independent = Texture::white();
+        let texture = expected.unsure.map_or(&independent, |unsure| unsure.texture);
+        let noise = expected.noise * texture.variance(self.samples, &moves).sqrt();
+        // What misses more than noise does says that the lumen is no ellipse, or the surroundings are not even.
+        let excess = (missed / expected.noise).max(1.0);
+        let wall = match expected.unsure.and_then(|unsure| unsure.wall) {
+            Some(hidden) => self.moved(&moves, &model, &self.with_wall(&minimum.at, &ellipse, &hidden)),
+            None => self.expectations(&towards, |n| n == WALL || n == THICKNESS),
+        };
+        let wider = expected.unsure.and_then(|unsure| unsure.wider);
+        let point_spread = wider.map_or(0.0, |wider| {
+            let blurred = M::new(&minimum.at, &ellipse, wider, self.start.center);
+            self.moved(&moves, &model, &blurred)
+        });
+        let parts = Parts {
+            noise,
+            point_spread,
+            wall,
+            lumen: self.expectations(&towards, |n| n == LUMEN),
+            surroundings: noise * (excess * excess - 1.0).sqrt(),
+        };
+        parts.total().is_finite().then_some(parts)
+    }
+
+    /// By how much the diameter is wrong (mm) as what is expected of some parameters is, by its standard deviations.
+    fn expectations(&self, towards: &[f64; N], of: impl Fn(usize) -> bool) -> f64 {
+        let own = self.terms.iter().filter(|term| of(term.parameter));
+        let moved = |term: &Term<N>| (0..N).map(|n| term.by[n] * towards[n]).sum::<f64>() / term.level[1];
+        own.map(|term| moved(term).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// The section with a wall that is brighter than its surroundings by what it may be.
+    fn with_wall(&self, at: &[f64; N], ellipse: &Ellipse, hidden: &KnownWall) -> ThreeLevels {
+        let [level, deviation] = hidden.level;
+        let brighter = at[BACKGROUND] + deviation.hypot(level - at[BACKGROUND]);
+        let wall = Wall::assumed([brighter, deviation], hidden.log_thickness(ellipse), self.start.center);
+        ThreeLevels::of(ellipse, &wall, [at[LUMEN], at[BACKGROUND]], self.whitening)
+    }
+
+    /// By how much a diameter is another one (mm) where the samples are not as one model has them but as another one has.
+    fn moved<O: Model<P>, const P: usize>(&self, moves: &[[f32; FAN]], model: &M, other: &O) -> f64 {
+        let (own, others) = (missing(self.samples, model), missing(self.samples, other));
+        let mut sum = 0.0;
+        for (n, moves) in moves.iter().enumerate() {
+            for l in 0..FAN {
+                sum += f64::from(moves[l] * (others[n][l] - own[n][l]));
+            }
+        }
+        sum
+    }
+
+    fn model(&self, at: &[f64; N], ellipse: &Ellipse) -> M {
+        M::new(at, ellipse, self.whitening, self.start.center)
+    }
+
+    fn evaluate(&self, at: &[f64; N]) -> Option<Normal<N>> {
+        let ellipse = Ellipse::from_parameters(at).filter(|ellipse| self.trusts(ellipse) && M::allows(at))?;
+        let model = self.model(at, &ellipse);
+        let kernel = Sums { samples: self.samples, kept: &self.kept, model: &model };
         let mut normal = dispatch(Isa::widest(), kernel);
         let weight = 1.0 / self.expected.noise.powi(2);
         normal.cost *= weight;
         normal.slope = normal.slope.map(|slope| slope * weight);
         normal.matrix = normal.matrix.map(|row| row.map(|product| product * weight));
-        let Expected { lumen, background, stretch, .. } = self.expected;
-        normal.expect(LUMEN, lumen[0] - at[LUMEN], lumen[1]);
-        normal.expect(BACKGROUND, background[0] - at[BACKGROUND], background[1]);
-        let deviation = stretch * ellipse.mean;
-        normal.expect(3, -at[3], deviation);
-        normal.expect(4, -at[4], deviation);
+        for term in &self.terms {
+            normal.expect(&term.by, term.missing(at), term.level[1]);
+        }
+        let deviation = self.expected.stretch * ellipse.mean;
+        normal.expect(&unit(3), -at[3], deviation);
+        normal.expect(&unit(4), -at[4], deviation);
         Some(normal)
     }
 
@@ -160,10 +307,9 @@ impl Work<'_> {
     }
 
     /// Weighs the samples by how much they miss; gives the root of the mean square of that over those that count.
-    fn weigh(&mut self, at: &[f64; PARAMETERS]) -> Option<f64> {
-        let boundary = Boundary::new(&Ellipse::from_parameters(at)?, self.whitening);
-        let levels = [at[LUMEN] as f32, at[BACKGROUND] as f32];
-        let missing = dispatch(Isa::widest(), Missing { samples: self.samples, boundary: &boundary, levels });
+    fn weigh(&mut self, at: &[f64; N]) -> Option<f64> {
+        let model = self.model(at, &Ellipse::from_parameters(at)?);
+        let missing = missing(self.samples, &model);
         let Expected { noise, is_guessed, .. } = *self.expected;
         let scale = TUKEY * if is_guessed { noise.max(self.typical(&missing)?) } else { noise };
         let scale = scale as f32;
@@ -181,91 +327,7 @@ impl Work<'_> {
                 }
             }
         }
-        let free = count.checked_sub(PARAMETERS).filter(|free| *free >= PARAMETERS)?;
+        let free = count.checked_sub(N).filter(|free| *free >= N)?;
         Some((squares / all * count as f64 / free as f64).sqrt())
-    }
-}
-
-/// The sums over all samples as a kernel.
-struct Sums<'a> {
-    samples: &'a Samples,
-    kept: &'a [[f32; FAN]],
-    boundary: &'a Boundary,
-    levels: [f64; 2],
-}
-
-impl Kernel for Sums<'_> {
-    type Output = Normal<PARAMETERS>;
-
-    #[inline(always)]
-    fn run(self) -> Normal<PARAMETERS> {
-        let Self { samples, kept, boundary, levels } = self;
-        let (contrast, background) = ((levels[0] - levels[1]) as f32, levels[1] as f32);
-        let mut cost = [0.0; FAN];
-        let mut slope = [[0.0; FAN]; PARAMETERS];
-        let mut matrix = [[[0.0; FAN]; PARAMETERS]; PARAMETERS];
-        for n in 0..samples.x.len() {
-            let blurred = boundary.blurred(&samples.x[n], &samples.y[n]);
-            let mut by = [[0.0; FAN]; PARAMETERS];
-            for a in 0..SHAPE {
-                for l in 0..FAN {
-                    by[a][l] = contrast * blurred.slopes[a][l];
-                }
-            }
-            let mut missing = [0.0; FAN];
-            for l in 0..FAN {
-                by[LUMEN][l] = blurred.value[l];
-                by[BACKGROUND][l] = 1.0 - blurred.value[l];
-                missing[l] = samples.share[n][l] - (background + contrast * blurred.value[l]);
-            }
-            for l in 0..FAN {
-                cost[l] += kept[n][l] * missing[l] * missing[l];
-            }
-            for a in 0..PARAMETERS {
-                let mut weighted = [0.0; FAN];
-                for l in 0..FAN {
-                    weighted[l] = kept[n][l] * by[a][l];
-                    slope[a][l] += weighted[l] * missing[l];
-                }
-                for b in 0..=a {
-                    for l in 0..FAN {
-                        matrix[a][b][l] += weighted[l] * by[b][l];
-                    }
-                }
-            }
-        }
-        let sum = |lanes: &[f32; FAN]| lanes.iter().map(|lane| f64::from(*lane)).sum::<f64>();
-        Normal {
-            cost: sum(&cost),
-            slope: std::array::from_fn(|a| sum(&slope[a])),
-            matrix: std::array::from_fn(|a| std::array::from_fn(|b| sum(&matrix[a.max(b)][a.min(b)]))),
-        }
-    }
-}
-
-/// What each sample misses, as a kernel.
-struct Missing<'a> {
-    samples: &'a Samples,
-    boundary: &'a Boundary,
-    levels: [f32; 2],
-}
-
-impl Kernel for Missing<'_> {
-    type Output = Vec<[f32; FAN]>;
-
-    #[inline(always)]
-    fn run(self) -> Vec<[f32; FAN]> {
-        let Self { samples, boundary, levels } = self;
-        let mut all = Vec::with_capacity(samples.x.len());
-        for n in 0..samples.x.len() {
-            let blurred = boundary.blurred(&samples.x[n], &samples.y[n]);
-            let mut missing = [0.0; FAN];
-            for l in 0..FAN {
-                let model = levels[1] + (levels[0] - levels[1]) * blurred.value[l];
-                missing[l] = samples.share[n][l] - model;
-            }
-            all.push(missing);
-        }
-        all
     }
 }

@@ -17,12 +17,16 @@ impl<const N: usize> Normal<N> {
         Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
     }
 
-    /// Adds the square of how far a parameter is from what is expected of it, in standard deviations.
-    pub fn expect(&mut self, parameter: usize, missing: f64, deviation: f64) {
+    /// Adds the square of by how much a combination of parameters misses what is expected of it, in standard deviations.
+    pub fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
         let weight = 1.0 / (deviation * deviation);
         self.cost += weight * missing * missing;
-        self.matrix[parameter][parameter] += weight;
-        self.slope[parameter] += weight * missing;
+        for a in (0..N).filter(|a| by[*a] != 0.0) {
+            for b in 0..N {
+                self.matrix[a][b] += weight * by[a] * by[b];
+            }
+            self.slope[a] += weight * by[a] * missing;
+        }
     }
 }
 

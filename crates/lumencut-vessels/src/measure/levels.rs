@@ -56,7 +56,8 @@ fn together(bench: &Bench, places: &[Place], fits: &[Option<Fit>], stop: Stop) -
             .par_iter()
             .map(|(place, fit)| {
                 go_on(stop)?;
-                let known = Known { ellipse: fit.ellipse, lumen: [level, 0.005], noise: Some(noise) };
+                let known =
+                    Known { ellipse: fit.ellipse, lumen: [level, 0.005], noise: Some(noise), wall: None };
                 Ok(bench.fit(place, &known).map_or(0.0, |fit| fit.missed * fit.missed))
             })
             .collect::<Result<_>>()?;

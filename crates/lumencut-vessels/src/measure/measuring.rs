@@ -11,13 +11,17 @@ use super::fit::Fit;
 use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
 use super::place::{Place, Track, known_radius};
-use super::point_spread::{NARROW, Told, estimated};
-use super::profile::{Profile, Source};
+use super::point_spread::{NARROW, SharpEdges, Told, estimated};
+use super::pooled::Level;
+use super::profile::{PointSpread, Profile, Source};
 use super::rays::Rays;
 use super::rough::Rough;
 use super::scale::Scale;
-use super::sections::{Bench, Known, LEAST_CONTRAST, Section, center, noise};
+use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
 use super::slab::thickness;
+use super::texture::{Pairs, Texture};
+use super::wall::{KnownWall, is_apart, pooled};
+use super::wall_level::{WallRequest, WallSource, expected};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
@@ -33,6 +37,12 @@ const FWHM: Limits = Limits::new(0.0, 20.0, "mm");
 
 /// Without any other knowledge the point spread is assumed to be this wide (sides of a voxel).
 const DEFAULT_FWHM: f64 = 1.2;
+
+/// The standard deviation of a point spread that is assumed, as a share of it.
+const ASSUMED: f64 = 0.2;
+
+/// The texture of the noise is told by this number of sections.
+const TEXTURE: usize = 32;
 
 /// How far from its vessel a lumen is looked for (mm), at least.
 const SEARCH: f64 = 3.0;
@@ -50,6 +60,8 @@ pub struct MeasureRequest<'a> {
     pub step: f64,
     /// The full width at half maximum of the scanner's point spread (mm), where known.
     pub fwhm: Option<f64>,
+    /// The level of walls.
+    pub wall: WallRequest,
     /// The vessels of the tree that the vessel is of; it may be one of them.
     pub tree: &'a [Vessel],
     /// Asked whether to stop.
@@ -62,11 +74,11 @@ pub struct MeasureRequest<'a> {
 /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for a step or a width of
 /// the point spread that is invalid, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
 pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Result<Profile> {
-    check(request.fwhm)?;
+    check(request)?;
     let voxels = Voxels::new(volume);
     let looked = Looked::new(&voxels, vessel, request)?;
-    let fwhm = point_spread(&voxels, &looked, request)?;
-    looked.profile(&voxels, vessel, request, fwhm)
+    let spread = point_spread(&voxels, &looked, request)?;
+    looked.profile(&voxels, vessel, request, spread)
 }
 
 /// The profile of a vessel under the point spread that [`point_spread_of`] found for its tree: the same as that of [`measure`],
@@ -75,17 +87,18 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
 /// # Errors
 /// As [`measure`].
 pub fn measure_under(
-    (fwhm, source): (f64, Source),
+    spread: PointSpread,
     volume: &Volume,
     vessel: &Vessel,
     request: &MeasureRequest,
 ) -> Result<Profile> {
     let voxels = Voxels::new(volume);
-    Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, (fwhm, source))
+    Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, spread)
 }
 
-fn check(fwhm: Option<f64>) -> Result<()> {
-    let Some(fwhm) = fwhm else { return Ok(()) };
+fn check(request: &MeasureRequest) -> Result<()> {
+    request.wall.check()?;
+    let Some(fwhm) = request.fwhm else { return Ok(()) };
     FWHM.check("fwhm", fwhm)?;
     if fwhm > 0.0 {
         return Ok(());
@@ -95,12 +108,12 @@ fn check(fwhm: Option<f64>) -> Result<()> {
 
 /// The point spread: as it is given, as the tree tells it for all that is measured in its scan, or, where there is no tree, as the
 /// vessel itself tells it.
-fn point_spread(voxels: &Voxels, looked: &Looked, request: &MeasureRequest) -> Result<(f64, Source)> {
+fn point_spread(voxels: &Voxels, looked: &Looked, request: &MeasureRequest) -> Result<PointSpread> {
     match request.fwhm {
-        Some(fwhm) => Ok((fwhm, Source::Given)),
+        Some(fwhm) => Ok(given(fwhm)),
         None if !request.tree.is_empty() => of_tree(voxels, request),
         None => Ok(match looked.point_spread(voxels, request.stop)? {
-            Told::Width(found) => (found.fwhm, Source::Estimated { on: found.on() }),
+            Told::Width(found) => told(&found, found.on()),
             Told::Nothing(reason) => default(voxels, reason),
         }),
     }
@@ -111,15 +124,15 @@ fn point_spread(voxels: &Voxels, looked: &Looked, request: &MeasureRequest) -> R
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
-pub fn point_spread_of(volume: &Volume, request: &MeasureRequest) -> Result<(f64, Source)> {
-    check(request.fwhm)?;
+pub fn point_spread_of(volume: &Volume, request: &MeasureRequest) -> Result<PointSpread> {
+    check(request)?;
     match request.fwhm {
-        Some(fwhm) => Ok((fwhm, Source::Given)),
+        Some(fwhm) => Ok(given(fwhm)),
         None => of_tree(&Voxels::new(volume), request),
     }
 }
 
-fn of_tree(voxels: &Voxels, request: &MeasureRequest) -> Result<(f64, Source)> {
+fn of_tree(voxels: &Voxels, request: &MeasureRequest) -> Result<PointSpread> {
     let radius = |n: &usize| known_radius(&request.tree[*n]).unwrap_or(0.0);
     let mut order: Vec<usize> = (0..request.tree.len()).collect();
     order.sort_by(|a, b| radius(b).total_cmp(&radius(a)).then(a.cmp(b)));
@@ -135,7 +148,7 @@ fn of_tree(voxels: &Voxels, request: &MeasureRequest) -> Result<(f64, Source)> {
         match wide.point_spread(voxels, request.stop)? {
             Told::Width(found) => {
                 let on = format!("{} of vessel {n} of the tree", found.on());
-                return Ok((found.fwhm, Source::Estimated { on }));
+                return Ok(told(&found, on));
             }
             Told::Nothing(NARROW) => {}
             Told::Nothing(reason) => why = reason,
@@ -144,14 +157,34 @@ fn of_tree(voxels: &Voxels, request: &MeasureRequest) -> Result<(f64, Source)> {
     Ok(default(voxels, why))
 }
 
-fn default(voxels: &Voxels, reason: &str) -> (f64, Source) {
+fn given(fwhm: f64) -> PointSpread {
+    PointSpread { fwhm, deviation: 0.0, source: Source::Given }
+}
+
+fn told(found: &SharpEdges, on: String) -> PointSpread {
+    PointSpread { fwhm: found.fwhm, deviation: found.deviation, source: Source::Estimated { on } }
+}
+
+fn default(voxels: &Voxels, reason: &str) -> PointSpread {
     let from = format!("{DEFAULT_FWHM} sides of a voxel, as {reason}");
-    (assumed(voxels), Source::Assumed { from })
+    let fwhm = assumed(voxels);
+    PointSpread { fwhm, deviation: ASSUMED * fwhm, source: Source::Assumed { from } }
+}
+
+/// What the sections of a vessel tell by themselves and together.
+struct AllSections {
+    fits: Vec<Option<Fit>>,
+    noise: f64,
+    lumen: Vec<Level>,
+    walls: Option<Vec<KnownWall>>,
+    texture: Texture,
 }
 
 /// A vessel before it is fitted.
 struct Looked {
     scale: Scale,
+    wall: Option<KnownWall>,
+    wall_source: WallSource,
     places: Vec<Place>,
     rough: Vec<Option<Rough>>,
 }
@@ -161,18 +194,19 @@ impl Looked {
         let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
         let scale = Scale::of(voxels, &first, known)?;
+        let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
         let widest = known.map_or(WIDEST, |radius| (3.0 * radius + 5.0).min(WIDEST));
         let search = known.unwrap_or(0.0).max(SEARCH);
-        let bench = bench(voxels, scale, assumed(voxels));
+        let bench = bench(voxels, scale, wall, assumed(voxels));
         let rough = bench.rough(&first, search, widest, request.stop)?;
         let mut radii: Vec<f64> = rough.iter().flatten().map(|rough| rough.radius).collect();
         let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
         let places = Track::new(vessel, Some(radius))?.places(request.step)?;
-        Ok(Self { scale, places, rough: tamed(&rough) })
+        Ok(Self { scale, wall, wall_source, places, rough: tamed(&rough) })
     }
 
     fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
-        let bench = bench(voxels, self.scale, assumed(voxels));
+        let bench = bench(voxels, self.scale, self.wall, assumed(voxels));
         let fits = bench.first_fits(&self.places, &self.rough, stop)?;
         estimated(&bench, voxels.world_from_index.matrix3, &self.places, &fits, stop)
     }
@@ -182,16 +216,23 @@ impl Looked {
         voxels: &Voxels,
         vessel: &Vessel,
         request: &MeasureRequest,
-        fwhm: (f64, Source),
+        spread: PointSpread,
     ) -> Result<Profile> {
         let stop = request.stop;
-        let bench = bench(voxels, self.scale, fwhm.0);
-        let fits = bench.first_fits(&self.places, &self.rough, stop)?;
-        let noise = noise(&fits);
-        if LEAST_CONTRAST * noise > 1.0 {
-            return Err(no_lumen(&self.scale));
+        let mut bench = bench(voxels, self.scale, self.wall, spread.fwhm);
+        let mut all = self.all_sections(&bench, stop)?;
+        let (mut hidden, mut wall_source) = (None, self.wall_source);
+        if let Some((known, told)) = bench.wall.zip(all.walls.as_ref())
+            && !is_apart(&known, told, &all.fits)
+        {
+            hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
+            (bench.wall, wall_source) = (None, WallSource::AsBright);
+            all = self.all_sections(&bench, stop)?;
         }
-        let lumen = lumen_levels(&bench, &self.places, &fits, stop)?;
+        let wider = (spread.deviation > 0.0)
+            .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
+        let AllSections { fits, noise, lumen, walls, texture } = all;
+        bench.doubt = Some(Doubt { texture, wider, wall: hidden });
         let others = Lumen::of_others(request.tree, vessel);
         let section = |n: usize| {
             go_on(stop)?;
@@ -199,7 +240,8 @@ impl Looked {
             let rough = self.rough[n].map(|rough| Ellipse::circle(rough.center, rough.radius));
             let mut section = match fits[n].map(|fit| fit.ellipse).or(rough) {
                 Some(ellipse) => {
-                    bench.section(place, &Known { ellipse, lumen: lumen[n], noise: Some(noise) })
+                    let wall = walls.as_ref().map(|walls| walls[n]);
+                    bench.section(place, &Known { ellipse, lumen: lumen[n], noise: Some(noise), wall })
                 }
                 None => Section::none(),
             };
@@ -219,7 +261,39 @@ impl Looked {
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &at, &variance);
         let noise = noise * self.scale.contrast.abs();
-        Ok(Profile::new(&self.places, &sections, &self.scale, noise, fwhm))
+        Ok(Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source))
+    }
+
+    /// The sections by themselves, and what they tell together.
+    fn all_sections(&self, bench: &Bench, stop: Stop) -> Result<AllSections> {
+        let fits = bench.first_fits(&self.places, &self.rough, stop)?;
+        let noise = noise(&fits);
+        if LEAST_CONTRAST * noise > 1.0 {
+            return Err(no_lumen(&self.scale));
+        }
+        let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
+        let texture = self.texture(bench, &fits, noise, stop)?;
+        let sides = bench.rays.voxels.world_from_index.matrix3;
+        let inflation =
+            self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)));
+        let at: Vec<f64> = self.places.iter().map(|place| place.at).collect();
+        let walls = bench.wall.map(|known| pooled(&at, &fits, &known, inflation));
+        Ok(AllSections { fits, noise, lumen, walls, texture })
+    }
+
+    /// The texture of the noise, from what fits miss.
+    fn texture(&self, bench: &Bench, fits: &[Option<Fit>], noise: f64, stop: Stop) -> Result<Texture> {
+        let every = fits.len().div_ceil(TEXTURE).max(1);
+        let some: Vec<usize> = (0..fits.len()).step_by(every).collect();
+        let pairs = |n: &usize| {
+            go_on(stop)?;
+            let Some(fit) = &fits[*n] else { return Ok(None) };
+            let known = Known { ellipse: fit.ellipse, lumen: fit.lumen, noise: Some(noise), wall: None };
+            Ok(bench.pairs(&self.places[*n], &known, fit))
+        };
+        let found: Vec<Option<Pairs>> = some.par_iter().map(pairs).collect::<Result<_>>()?;
+        let all = found.into_iter().flatten().reduce(|all, pairs| all.with(&pairs));
+        Ok(all.map_or_else(Texture::white, |all| Texture::of(&all)))
     }
 
     /// The flag of a section within the lumen of another vessel.
@@ -231,9 +305,9 @@ impl Looked {
     }
 }
 
-fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, fwhm: f64) -> Bench<'a, 'v> {
+fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, fwhm: f64) -> Bench<'a, 'v> {
     let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
-    Bench { rays: Rays { voxels, scale }, blur, fwhm }
+    Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
 }
 
 /// The point spread where nothing is known of it (FWHM, mm): by the middle one of the three sides of a voxel.

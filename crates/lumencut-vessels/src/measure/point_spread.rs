@@ -7,6 +7,7 @@ use super::blur::Blur;
 use super::fit::Fit;
 use super::golden::least;
 use super::place::Place;
+use super::pooled::Level;
 use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
@@ -30,7 +31,10 @@ const RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 
 /// The middle half of all estimates lies within this share of their median, or else they tell nothing.
-const AGREED: f64 = 0.25;
+const AGREED: f64 = 0.15;
+
+/// Estimates are at least as unsure as this share of them.
+const LEAST_SPREAD: f64 = 0.03;
 
 /// How often the range is narrowed.
 const ROUNDS: usize = 14;
@@ -40,6 +44,8 @@ const ROUNDS: usize = 14;
 pub struct SharpEdges {
     /// Its full width at half maximum (mm).
     pub fwhm: f64,
+    /// The standard deviation of that (mm).
+    pub deviation: f64,
     /// How many sections told it.
     pub count: usize,
     /// The arc lengths of the first and the last of them (mm).
@@ -91,7 +97,8 @@ pub fn estimated(
         .map(|n| {
             go_on(stop)?;
             let Some(fit) = fits[*n] else { return Ok(None) };
-            let known = Known { ellipse: fit.ellipse, lumen: [fit.lumen[0], 0.5], noise: Some(noise) };
+            let known =
+                Known { ellipse: fit.ellipse, lumen: [fit.lumen[0], 0.5], noise: Some(noise), wall: None };
             let cost = |fwhm: f64| {
                 let fit = bench.fit_blurred(&places[*n], &known, &Blur::new(fwhm, sides));
                 fit.map(|fit| fit.missed).ok_or(())
@@ -104,26 +111,29 @@ pub fn estimated(
     for one in found {
         best.extend(one?);
     }
-    let agreed = match agreed(&mut best, [low, high]) {
-        Ok(fwhm) => fwhm,
+    let [fwhm, deviation] = match agreed(&mut best, [low, high]) {
+        Ok(agreed) => agreed,
         Err(reason) => return Ok(Told::Nothing(reason)),
     };
     let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));
-    Ok(Told::Width(SharpEdges { fwhm: agreed, count: best.len(), ends: [first, last] }))
+    Ok(Told::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
 
-/// The median of estimates that agree and lie within a range; else the reason why there is none.
-fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<f64, &'static str> {
+/// The median of estimates that agree and lie within a range, and its standard deviation; else the reason why there is none.
+fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level, &'static str> {
     let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(NARROW) };
     let margin = 0.02 * (high - low);
     if fwhm < low + margin {
         return Err("the walls of wide vessels are sharper than voxels tell");
     }
     let away: Vec<f64> = best.iter().map(|one| (one - fwhm).abs()).collect();
-    if fwhm > high - margin || median(&mut { away }).is_none_or(|away| away > AGREED * fwhm) {
-        return Err("the walls of wide vessels do not agree on it");
+    match median(&mut { away }) {
+        Some(away) if fwhm <= high - margin && away <= AGREED * fwhm => {
+            // Sections share walls and noise, so that more of them do not make the median as much surer.
+            Ok([fwhm, (1.4826 * away).max(LEAST_SPREAD * fwhm)])
+        }
+        _ => Err("the walls of wide vessels do not agree on it"),
     }
-    Ok(fwhm)
 }
 
 /// Round, free sections that are wide, evenly along the vessel.

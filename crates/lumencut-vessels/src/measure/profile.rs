@@ -3,11 +3,15 @@
 use glam::{DVec2, DVec3};
 
 use super::contour::inscribed;
+use super::ellipse::Ellipse;
 use super::fit::Fit;
-use super::flags::LEFT_OUT;
+use super::flags::{CALCIUM, LEFT_OUT, METAL};
+use super::parts::Parts;
 use super::place::Place;
 use super::scale::Scale;
 use super::sections::{Section, center};
+use super::wall::Wall;
+use super::wall_level::WallSource;
 
 /// Where the width of the point spread is from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,6 +30,17 @@ pub enum Source {
     },
 }
 
+/// The point spread of a scanner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointSpread {
+    /// Its full width at half maximum (mm).
+    pub fwhm: f64,
+    /// The standard deviation of that (mm); 0 where it was given.
+    pub deviation: f64,
+    /// Where it is from.
+    pub source: Source,
+}
+
 /// The lumen of a vessel by arc length. What could not be measured is NaN.
 #[derive(Clone, Debug)]
 pub struct Profile {
@@ -39,6 +54,12 @@ pub struct Profile {
     pub area: Vec<f64>,
     /// The standard deviation of the diameter of a circle of the same area (mm).
     pub uncertainty: Vec<f64>,
+    /// What that is made of (mm).
+    pub uncertainty_parts: Vec<Parts>,
+    /// The thickness of the wall and its standard deviation (mm); NaN where it is not told apart.
+    pub wall: Vec<[f64; 2]>,
+    /// The diameter of a circle of the area that the wall encloses, and its standard deviation (mm); NaN where the wall is.
+    pub diameter_outer: Vec<[f64; 2]>,
     /// What there is to know of each section; see [`super::flags`].
     pub flags: Vec<u32>,
     /// The middle of the lumen (mm, LPS); the vessel's point where there is none.
@@ -59,8 +80,12 @@ pub struct Profile {
     pub noise: f64,
     /// The full width at half maximum of the point spread (mm).
     pub fwhm: f64,
+    /// The standard deviation of that (mm); 0 where it was given.
+    pub fwhm_deviation: f64,
     /// Where that is from.
     pub fwhm_source: Source,
+    /// Whether walls were told apart from what surrounds the vessel, and by which level.
+    pub wall_source: WallSource,
     /// The points of the vessel's places (mm, LPS).
     pub on_vessel: Vec<DVec3>,
 }
@@ -72,7 +97,8 @@ impl Profile {
         sections: &[Section],
         scale: &Scale,
         noise: f64,
-        fwhm: (f64, Source),
+        spread: PointSpread,
+        wall_source: WallSource,
     ) -> Self {
         let number = |of: &dyn Fn(&Fit) -> f64| -> Vec<f64> {
             sections.iter().map(|section| section.fit.as_ref().map_or(f64::NAN, of)).collect()
@@ -87,6 +113,12 @@ impl Profile {
             diameter_max: number(&|fit| axis(fit, 1)),
             area: number(&|fit| fit.ellipse.area()),
             uncertainty: number(&|fit| fit.uncertainty),
+            uncertainty_parts: sections
+                .iter()
+                .map(|section| section.fit.map_or(Parts::unknown(), |fit| fit.parts))
+                .collect(),
+            wall: sections.iter().map(wall).collect(),
+            diameter_outer: sections.iter().map(outer).collect(),
             flags: sections.iter().map(|section| section.flags).collect(),
             normal: places.iter().map(|place| place.normal).collect(),
             axes: places.iter().map(|place| place.axes).collect(),
@@ -102,8 +134,10 @@ impl Profile {
                 .collect(),
             on_vessel: places.iter().map(|place| place.origin).collect(),
             noise,
-            fwhm: fwhm.0,
-            fwhm_source: fwhm.1,
+            fwhm: spread.fwhm,
+            fwhm_deviation: spread.deviation,
+            fwhm_source: spread.source,
+            wall_source,
             arc_length,
             center,
             contour,
@@ -155,6 +189,34 @@ impl Profile {
     pub fn counts(&self, n: usize) -> bool {
         self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
     }
+}
+
+/// A wall is told where the standard deviation of the logarithm of its thickness is at most this.
+const WALL_TOLD: f64 = 0.35;
+
+/// What is thicker (mm) is no wall, but a thrombus or another tissue.
+const THICKEST_TOLD: f64 = 3.0;
+
+/// Beside these the thickness of the wall is not told.
+const WALL_HIDDEN: u32 = LEFT_OUT | CALCIUM | METAL;
+
+/// The thickness of the wall of a section and its standard deviation (mm).
+fn wall(section: &Section) -> [f64; 2] {
+    let told = section.fit.and_then(|fit| fit.wall);
+    let is_told = |wall: &Wall| wall.log_thickness[1] <= WALL_TOLD && wall.thickness() < THICKEST_TOLD;
+    let told = told.filter(|wall| is_told(wall) && section.flags & WALL_HIDDEN == 0);
+    told.map_or([f64::NAN; 2], |wall| [wall.thickness(), wall.thickness() * wall.log_thickness[1]])
+}
+
+/// The diameter of a circle of the area within the wall of a section, and its standard deviation (mm).
+fn outer(section: &Section) -> [f64; 2] {
+    let [thickness, unsure] = wall(section);
+    section.fit.map_or([f64::NAN; 2], |fit| {
+        let around = Ellipse { mean: fit.ellipse.mean + thickness, ..fit.ellipse };
+        let is_told = thickness.is_finite();
+        let diameter = if is_told { around.equivalent_diameter() } else { f64::NAN };
+        [diameter, (2.0 * unsure).hypot(fit.uncertainty)]
+    })
 }
 
 /// The shorter and the longer half axis of a lumen (mm, LPS).

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::flags::{LEFT_OUT, RECENTERED};
 use super::measuring::{MeasureRequest, measure_under, point_spread_of};
 use super::profile::Profile;
+use super::wall_level::WallRequest;
 use super::watched::watched;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;
@@ -46,7 +47,7 @@ pub fn measured_radii(
     if let Some(progress) = progress {
         progress.expect_views(tree.len());
     }
-    let request = MeasureRequest { step, fwhm, tree, stop };
+    let request = MeasureRequest { step, fwhm, wall: WallRequest::Automatic, tree, stop };
     let fwhm = point_spread_of(volume, &request)?;
     let measured = |vessel: &Vessel| {
         watched(progress, (vessel, step), stop, |stop| {

@@ -1,19 +1,22 @@
 //! The sections of a vessel: looked at, fitted, and fitted again with what all of them tell of each other.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::blur::Blur;
 use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
 use super::ellipse::{Boundary, Ellipse, Whitening};
-use super::fit::{Expected, Fit};
+use super::fit::Fit;
 use super::flags::{AT_LIMIT, IRREGULAR, METAL, NO_EDGE, RECENTERED};
-use super::obstacles::{Obstacles, flags_of};
+use super::model::{Model, ThreeLevels};
+use super::obstacles::flags_of;
+use super::parts::Parts;
 use super::place::Place;
 use super::pooled::Level;
-use super::rays::{Look, RAYS, Rays, direction};
+use super::rays::{Look, Rays, direction};
 use super::rough::Rough;
-use super::slab::{Samples, Window};
+use super::texture::Texture;
+use super::wall::KnownWall;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
@@ -24,15 +27,8 @@ pub const BRIGHT: (f64, f64) = (0.35, 5.0);
 /// Values rise by this share of the contrast, and by this multiple of the noise, where a neighbour begins.
 const RISE: (f64, f64) = (0.2, 4.0);
 
-/// How far beyond the wall voxels count, in widths of the blur.
-const BEYOND: f64 = 1.5;
-
 /// How far beyond the wall rays are followed (mm, and widths of the blur).
 const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
-
-/// Semi-axes differ by this share of their mean, by and large; in lumens as narrow as the blur, whose shape cannot be seen,
-/// by less.
-const STRETCH: (f64, f64) = (0.4, 0.06);
 
 /// Diameters below this multiple of the point spread are at the limit.
 pub const LIMIT: f64 = 1.5;
@@ -40,21 +36,11 @@ pub const LIMIT: f64 = 1.5;
 /// Walls that lie off the ellipse by this share are irregular.
 const ROUGH_WALL: f64 = 0.12;
 
-/// The wall must be free in this share of all directions, or else it is not fitted.
-const LEAST_FREE: f64 = 0.35;
-
 /// Below this multiple of the noise there is no contrast.
 pub const LEAST_CONTRAST: f64 = 2.0;
 
 /// Where the blur is not taken into account diameters are unsure by this share of its width.
 const UNSURE: f64 = 0.5;
-
-/// The level of a lumen is seen within this share of its radius, where the blur leaves this share of its peak.
-const MIDDLE: f64 = 1.0 / 3.0;
-const LEAST_PEAK: f64 = 0.95;
-
-/// How far that lies from the level (standard deviation): as a share, and as a share of the noise of a voxel.
-const SEEN: (f64, f64) = (0.02, 0.33);
 
 /// The noise before it is known, as a share.
 const FIRST_NOISE: f64 = 0.1;
@@ -67,6 +53,20 @@ pub struct Bench<'a, 'v> {
     pub blur: Blur,
     /// The point spread alone (FWHM, mm).
     pub fwhm: f64,
+    /// The wall, where it is told apart from the surroundings.
+    pub wall: Option<KnownWall>,
+    /// What makes diameters unsure besides what sections tell themselves, where that is asked.
+    pub doubt: Option<Doubt>,
+}
+
+/// What makes all diameters of a scan unsure.
+pub struct Doubt {
+    /// The texture of its noise.
+    pub texture: Texture,
+    /// Its blur with a point spread that is wider by its standard deviation; None where it is known.
+    pub wider: Option<Blur>,
+    /// The wall that may be there where it is not told apart from the surroundings.
+    pub wall: Option<KnownWall>,
 }
 
 /// What is known of a section before it is fitted.
@@ -78,10 +78,13 @@ pub struct Known {
     pub lumen: Level,
     /// The noise of a voxel, as a share, where it is known.
     pub noise: Option<f64>,
+    /// The wall, where the other sections tell more of it than is known of all walls.
+    pub wall: Option<KnownWall>,
 }
 
 impl Known {
-    fn noise(&self) -> f64 {
+    /// The noise of a voxel, as a share, or what it is taken for.
+    pub fn noise(&self) -> f64 {
         self.noise.unwrap_or(FIRST_NOISE)
     }
 }
@@ -111,6 +114,8 @@ impl Section {
         }
         if let Some(fit) = &mut self.fit {
             fit.ellipse = fit.ellipse.scaled(by);
+            fit.parts = fit.parts.scaled(by);
+            fit.uncertainty *= by;
         }
     }
 }
@@ -148,75 +153,14 @@ impl Bench<'_, '_> {
                 ellipse: Ellipse::circle(rough.center, rough.radius),
                 lumen: [rough.lumen.max(0.8), 0.5],
                 noise: None,
+                wall: None,
             };
             Ok(self.fit(place, &known))
         };
         places.par_iter().zip(rough).map(fit).collect()
     }
 
-    /// The fit of a section, without what is in its way; None where too much is, or no ellipse fits.
-    pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
-        self.fit_blurred(place, known, &self.blur)
-    }
-
-    /// The fit of a section to the same voxels as [`Self::fit`], by another blur.
-    pub fn fit_blurred(&self, place: &Place, known: &Known, blur: &Blur) -> Option<Fit> {
-        let width = self.blur.width(place);
-        let ellipse = &known.ellipse;
-        let look = self.look(place, known);
-        let rays = self.rays.all(place, ellipse.center, &look);
-        let obstacles = Obstacles::new(&rays, ellipse.center, width);
-        if obstacles.free < LEAST_FREE {
-            return None;
-        }
-        let [short, long] = ellipse.semi_axes();
-        let window = Window {
-            center: ellipse.center,
-            reach: 1.1 * long + BEYOND * width,
-            wall: [ellipse.mean, 1.3 * width + 0.6 * (long - short)],
-        };
-        let voxels = self.rays.voxels;
-        let samples =
-            Samples::gather(voxels, &self.rays.scale, place, &window, |point| obstacles.keeps(point));
-        let whitening = Whitening::new(blur.of_voxels(place));
-        let seen = self.level_seen(place, known, |point| obstacles.keeps(point));
-        let expected = Expected {
-            // Where a wall is sharp an ellipse too small and a level too high may fit it as well: what is seen decides.
-            lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
-            background: [0.0, 0.5],
-            stretch: stretch(2.0 * ellipse.mean, width),
-            noise: known.noise(),
-            is_guessed: known.noise.is_none(),
-        };
-        let fit = Fit::new(&samples, whitening, ellipse, &expected)?;
-        Some(Fit { free: obstacles.free, ..fit })
-    }
-
-    /// The level that is seen in the middle of a lumen, where it is wide enough to show it, of the points that may be kept.
-    fn level_seen(&self, place: &Place, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
-        let ellipse = &known.ellipse;
-        let peak =
-            Boundary::new(ellipse, Whitening::new(self.blur.interpolated(place))).value(ellipse.center);
-        if peak < LEAST_PEAK {
-            return None;
-        }
-        let mut values: Vec<f64> = (0..RAYS)
-            .map(|n| {
-                let share = MIDDLE * ((n % 4) as f64 / 3.0);
-                ellipse.center + direction(n) * (share * ellipse.radius_towards(direction(n)))
-            })
-            .filter(|point| keep(*point))
-            .map(|point| self.rays.at(place, point))
-            .filter(|value| value.is_finite())
-            .collect();
-        if values.len() < RAYS / 2 {
-            return None;
-        }
-        let deviation = SEEN.0.hypot(SEEN.1 * known.noise()) + 1.0 - peak;
-        median(&mut values).map(|seen| [seen / peak, deviation])
-    }
-
-    fn look(&self, place: &Place, known: &Known) -> Look {
+    pub(super) fn look(&self, place: &Place, known: &Known) -> Look {
         let width = self.blur.width(place);
         let noise = known.noise();
         let is_bright_lumen = self.rays.scale.contrast > 0.0;
@@ -246,10 +190,19 @@ impl Bench<'_, '_> {
         let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
         // Where the lumen is narrow its peak is lower than its level.
         let level = 0.5 * boundary.value(ellipse.center);
-        let half = fit.background + level * (fit.lumen[0] - fit.background);
+        let beside = fit.wall.map_or(fit.background, |wall| wall.level[0]);
+        let half = beside + level * (fit.lumen[0] - beside);
         let look = Look { levels: [half; 2], ..self.look(place, &Known { ellipse, ..*known }) };
         let rays = self.rays.all(place, ellipse.center, &look);
-        let walls = wall(&ellipse, &boundary, &rays, level);
+        let walls = match fit.wall {
+            None => wall(&ellipse, |x, y| boundary.blurred(x, y).value, &rays, level),
+            Some(own) => {
+                let levels = [fit.lumen[0], fit.background];
+                let model =
+                    ThreeLevels::of(&ellipse, &own, levels, Whitening::new(self.blur.interpolated(place)));
+                wall(&ellipse, |x, y| model.modelled(x, y).share, &rays, half)
+            }
+        };
         let mut flags = flags_of(&rays, |n| ellipse.radius_towards(direction(n)), width);
         let diameter = ellipse.equivalent_diameter();
         if diameter > 2.0 * width && irregularity(&ellipse, &walls) > ROUGH_WALL {
@@ -277,8 +230,10 @@ impl Bench<'_, '_> {
             ellipse,
             lumen: known.lumen,
             background: 0.0,
+            wall: None,
             missed: f64::NAN,
             uncertainty: UNSURE * width,
+            parts: Parts { point_spread: UNSURE * width, ..Parts::default() },
             free: 0.0,
         };
         let contour = points(place, known.ellipse.center, &walls);
@@ -293,12 +248,6 @@ impl Bench<'_, '_> {
         let limit = if ellipse.equivalent_diameter() < LIMIT * self.fwhm { AT_LIMIT } else { 0 };
         recentered | limit
     }
-}
-
-/// How far semi-axes differ from their mean by and large, as a share of it.
-fn stretch(diameter: f64, width: f64) -> f64 {
-    let seen = ((diameter / width - 1.0) / 1.0).clamp(0.0, 1.0);
-    STRETCH.1 + seen * (STRETCH.0 - STRETCH.1)
 }
 
 /// The noise of a voxel as a share: the median of what fits miss.

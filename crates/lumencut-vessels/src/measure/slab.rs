@@ -35,12 +35,18 @@ pub struct Samples {
     pub share: Vec<[f32; FAN]>,
     /// How much they count: the more, the nearer to the plane.
     pub weight: Vec<[f32; FAN]>,
+    /// The voxels that they are, counted from the first one of the window.
+    pub voxel: Vec<[[i16; 3]; FAN]>,
     /// How many they are.
     pub count: usize,
 }
 
-/// A voxel: place, share and weight.
-type Sample = [f32; 4];
+/// A voxel: its place, share and weight, and which it is.
+#[derive(Clone, Copy, Default)]
+struct Sample {
+    numbers: [f32; 4],
+    voxel: [i16; 3],
+}
 
 impl Samples {
     /// The voxels of a window that may be kept.
@@ -74,7 +80,10 @@ impl Samples {
                         DVec3::new(f64::from(first[0] + i), f64::from(first[1] + j), f64::from(first[2] + k));
                     let share = scale.share(f64::from(voxels.at_index(voxel)));
                     let is_near = (length - window.wall[0]).abs() <= window.wall[1];
-                    let sample = [point.x as f32, point.y as f32, share as f32, weight as f32];
+                    let sample = Sample {
+                        numbers: [point.x as f32, point.y as f32, share as f32, weight as f32],
+                        voxel: [i, j, k].map(|n| n as i16),
+                    };
                     if weight > 0.0 && share.is_finite() {
                         found[usize::from(!is_near)].push(sample);
                     }
@@ -88,10 +97,12 @@ impl Samples {
         let mut all = thinned(near, MOST[0]);
         all.append(&mut thinned(far, MOST[1]));
         let count = all.len();
-        all.resize(count.next_multiple_of(FAN), [0.0; 4]);
-        let column =
-            |part: usize| all.chunks_exact(FAN).map(|c| std::array::from_fn(|l| c[l][part])).collect();
-        Self { x: column(0), y: column(1), share: column(2), weight: column(3), count }
+        all.resize(count.next_multiple_of(FAN), Sample::default());
+        let column = |part: usize| {
+            all.chunks_exact(FAN).map(|c| std::array::from_fn(|l| c[l].numbers[part])).collect()
+        };
+        let voxel = all.chunks_exact(FAN).map(|c| std::array::from_fn(|l| c[l].voxel)).collect();
+        Self { x: column(0), y: column(1), share: column(2), weight: column(3), voxel, count }
     }
 }
 

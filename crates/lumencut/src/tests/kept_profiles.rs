@@ -4,6 +4,8 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::Voxels;
 use lumencut_phantom::Phantom;
 use lumencut_vessels::measure::measuring::measure;
+use lumencut_vessels::measure::profile::Source;
+use lumencut_vessels::measure::wall_level::WallRequest;
 
 use super::*;
 
@@ -29,7 +31,13 @@ fn a_profile_is_measured_once() {
         let first = kept.of(1, vessel, scan, &asking(None, &go_on)).expect("a profile");
         let never = || true;
         assert_eq!(kept.of(1, vessel, scan, &asking(None, &never)).expect("what was kept"), first);
-        let request = MeasureRequest { step: 1.0, fwhm: None, tree: scan.tree, stop: &go_on };
+        let request = MeasureRequest {
+            step: 1.0,
+            fwhm: None,
+            wall: WallRequest::Automatic,
+            tree: scan.tree,
+            stop: &go_on,
+        };
         let anew = measure(scan.volume, vessel, &request).expect("a profile");
         let found = kept.kept(first);
         assert_eq!((found.fwhm, &found.area), (anew.fwhm, &anew.area));

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use lumencut_vessels::measure::flags::{BRANCH, CALCIUM};
+use lumencut_vessels::measure::parts::Parts;
 use lumencut_vessels::measure::profile::{Profile, Source};
+use lumencut_vessels::measure::wall_level::WallSource;
 
 /// A tube of 60 mm, 8 mm wide and 4 mm around its middle, with calcium at 20 mm and a branch over its last 10 mm.
 pub fn tube() -> Profile {
@@ -20,6 +22,9 @@ pub fn tube() -> Profile {
         diameter_max: numbers(&|at| 1.1 * diameter(at)),
         area: numbers(&|at| std::f64::consts::PI * diameter(at).powi(2) / 4.0),
         uncertainty: vec![0.1; count],
+        uncertainty_parts: vec![Parts::default(); count],
+        wall: vec![[f64::NAN; 2]; count],
+        diameter_outer: vec![[f64::NAN; 2]; count],
         flags: at.iter().map(|at| flags(*at)).collect(),
         center: at.iter().map(|at| DVec3::Z * *at).collect(),
         normal: vec![DVec3::Z; count],
@@ -30,7 +35,9 @@ pub fn tube() -> Profile {
         levels: vec![[300.0, 50.0]; count],
         noise: 10.0,
         fwhm: 1.2,
+        fwhm_deviation: 0.0,
         fwhm_source: Source::Given,
+        wall_source: WallSource::NotAsked,
         on_vessel: at.iter().map(|at| DVec3::Z * *at).collect(),
         arc_length: at,
     }

@@ -40,8 +40,8 @@ fn what_is_expected_pulls_by_its_weight() {
     // 4 (x - 1)² + (x - 6)² / 0.5² is least in the middle.
     let found = minimum([0.0], 20, |[x]: &[f64; 1]| {
         let mut normal = Normal::zero();
-        normal.expect(0, 1.0 - x, 0.5);
-        normal.expect(0, 6.0 - x, 0.5);
+        normal.expect(&[1.0], 1.0 - x, 0.5);
+        normal.expect(&[1.0], 6.0 - x, 0.5);
         Some(normal)
     });
     assert!((found.unwrap().at[0] - 3.5).abs() < 1e-6);

@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::parts::Parts;
 use super::profile::{Profile, Source};
+use super::wall_level::WallSource;
 
 /// A profile of circles of these diameters and uncertainties (mm), 0.5 mm apart.
 pub fn profile(sections: &[[f64; 2]]) -> Profile {
@@ -17,6 +19,9 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
         diameter_max: diameter,
         area: numbers(&|[diameter, _]| PI * diameter * diameter / 4.0),
         uncertainty: numbers(&|[_, uncertainty]| *uncertainty),
+        uncertainty_parts: vec![Parts::default(); count],
+        wall: vec![[f64::NAN; 2]; count],
+        diameter_outer: vec![[f64::NAN; 2]; count],
         flags: vec![0; count],
         center: vec![DVec3::ZERO; count],
         normal: vec![DVec3::Z; count],
@@ -27,7 +32,9 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
         levels: vec![[300.0, 50.0]; count],
         noise: 10.0,
         fwhm: 1.0,
+        fwhm_deviation: 0.0,
         fwhm_source: Source::Given,
+        wall_source: WallSource::NotAsked,
         on_vessel: vec![DVec3::ZERO; count],
     }
 }

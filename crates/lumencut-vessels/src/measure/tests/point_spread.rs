@@ -4,7 +4,10 @@ const RANGE: [f64; 2] = [0.3, 3.0];
 
 #[test]
 fn the_median_of_estimates_that_agree_is_taken() {
-    assert_eq!(agreed(&mut [1.1, 0.9, 1.0, 3.0, 1.0], RANGE), Ok(1.0));
+    let [fwhm, deviation] = agreed(&mut [1.1, 0.9, 1.0, 3.0, 1.0], RANGE).unwrap();
+    assert_eq!(fwhm, 1.0);
+    // The median distance of 0.1, as that of a normal distribution.
+    assert!((deviation - 0.14826).abs() < 1e-9);
 }
 
 #[test]

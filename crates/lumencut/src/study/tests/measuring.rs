@@ -7,6 +7,7 @@ use lumencut_core::vessel_tree::Vessel;
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
 use lumencut_vessels::measure::measuring::{MeasureRequest, measure};
+use lumencut_vessels::measure::wall_level::WallRequest;
 use serde_json::{Value as Json, json};
 
 use super::*;
@@ -244,8 +245,12 @@ fn listed(line: usize) -> ListedLine {
 /// The first vessel of a tree, measured without the study.
 fn measured_by_core(study: &Study, tree: &[Vessel]) -> Profile {
     let volume = study.content.held.as_ref().expect("a volume").volume().expect("a volume");
-    measure(&volume, &tree[0], &MeasureRequest { step: 0.5, fwhm: None, tree, stop: &go_on })
-        .expect("a profile")
+    measure(
+        &volume,
+        &tree[0],
+        &MeasureRequest { step: 0.5, fwhm: None, wall: WallRequest::Automatic, tree, stop: &go_on },
+    )
+    .expect("a profile")
 }
 
 #[test]

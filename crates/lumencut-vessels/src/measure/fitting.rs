@@ -1,0 +1,133 @@
+//! The fit of a section: which voxels count, and what is expected of them.
+
+use glam::DVec2;
+
+use super::blur::Blur;
+use super::ellipse::{Boundary, Whitening};
+use super::fit::{Expected, Fit, Unsure};
+use super::obstacles::Obstacles;
+use super::place::Place;
+use super::pooled::Level;
+use super::rays::{RAYS, direction};
+use super::sections::{Bench, Known};
+use super::slab::{Samples, Window};
+use super::texture::Pairs;
+use super::wall::KnownWall;
+use lumencut_core::math::statistics::median;
+
+/// How far beyond the wall voxels count, in widths of the blur.
+const BEYOND: f64 = 1.5;
+
+/// Semi-axes differ by this share of their mean, by and large; in lumens as narrow as the blur, whose shape cannot be seen,
+/// by less.
+const STRETCH: (f64, f64) = (0.4, 0.06);
+
+/// The wall must be free in this share of all directions, or else it is not fitted.
+const LEAST_FREE: f64 = 0.35;
+
+/// The level of a lumen is seen within this share of its radius, where the blur leaves this share of its peak.
+const MIDDLE: f64 = 1.0 / 3.0;
+const LEAST_PEAK: f64 = 0.95;
+
+/// How far that lies from the level (standard deviation): as a share, and as a share of the noise of a voxel.
+const SEEN: (f64, f64) = (0.02, 0.33);
+
+/// The voxels of a section without what is in the way.
+struct Cleared {
+    samples: Samples,
+    obstacles: Obstacles,
+}
+
+impl Bench<'_, '_> {
+    /// The fit of a section, without what is in its way; None where too much is, or no ellipse fits.
+    pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
+        self.fit_blurred(place, known, &self.blur)
+    }
+
+    /// The fit of a section to the same voxels as [`Self::fit`], by another blur.
+    pub fn fit_blurred(&self, place: &Place, known: &Known, blur: &Blur) -> Option<Fit> {
+        let cleared = self.cleared(place, known)?;
+        let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
+        let wider = self.doubt.as_ref().and_then(|doubt| doubt.wider);
+        let unsure = self.doubt.as_ref().map(|doubt| Unsure {
+            texture: &doubt.texture,
+            wider: wider.map(|wider| Whitening::new(wider.of_voxels(place))),
+            wall: doubt.wall,
+        });
+        let expected = Expected {
+            // Where a wall is sharp an ellipse too small and a level too high may fit it as well: what is seen decides.
+            lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
+            background: [0.0, 0.5],
+            stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),
+            noise: known.noise(),
+            is_guessed: known.noise.is_none(),
+            wall: self.wall_of(known),
+            unsure: unsure.as_ref(),
+        };
+        let whitening = Whitening::new(blur.of_voxels(place));
+        let fit = Fit::new(&cleared.samples, whitening, &known.ellipse, &expected)?;
+        Some(Fit { free: cleared.obstacles.free, ..fit })
+    }
+
+    /// The pairs of voxels of a section whose fit is known, by what they miss.
+    pub fn pairs(&self, place: &Place, known: &Known, fit: &Fit) -> Option<Pairs> {
+        let samples = self.cleared(place, known)?.samples;
+        let missing = fit.missing(&samples, Whitening::new(self.blur.of_voxels(place)));
+        Some(Pairs::new(&samples, &missing, known.noise() as f32))
+    }
+
+    fn wall_of(&self, known: &Known) -> Option<KnownWall> {
+        self.wall.map(|wall| known.wall.unwrap_or(wall))
+    }
+
+    /// The voxels of a section without what is in the way; None where too much is.
+    fn cleared(&self, place: &Place, known: &Known) -> Option<Cleared> {
+        let width = self.blur.width(place);
+        let ellipse = &known.ellipse;
+        let rays = self.rays.all(place, ellipse.center, &self.look(place, known));
+        let obstacles = Obstacles::new(&rays, ellipse.center, width);
+        if obstacles.free < LEAST_FREE {
+            return None;
+        }
+        let [short, long] = ellipse.semi_axes();
+        let around = self.wall_of(known).map_or(0.0, |wall| wall.log_thickness(ellipse)[0].exp());
+        let window = Window {
+            center: ellipse.center,
+            reach: 1.1 * long + BEYOND * width + 1.5 * around,
+            wall: [ellipse.mean + 0.5 * around, 1.3 * width + 0.6 * (long - short) + 0.5 * around],
+        };
+        let keep = |point| obstacles.keeps(point);
+        let samples = Samples::gather(self.rays.voxels, &self.rays.scale, place, &window, keep);
+        Some(Cleared { samples, obstacles })
+    }
+
+    /// The level that is seen in the middle of a lumen, where it is wide enough to show it, of the points that may be kept.
+    fn level_seen(&self, place: &Place, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
+        let ellipse = &known.ellipse;
+        let peak =
+            Boundary::new(ellipse, Whitening::new(self.blur.interpolated(place))).value(ellipse.center);
+        if peak < LEAST_PEAK {
+            return None;
+        }
+        let mut values: Vec<f64> = (0..RAYS)
+            .map(|n| {
+                let share = MIDDLE * ((n % 4) as f64 / 3.0);
+                ellipse.center + direction(n) * (share * ellipse.radius_towards(direction(n)))
+            })
+            .filter(|point| keep(*point))
+            .map(|point| self.rays.at(place, point))
+            .filter(|value| value.is_finite())
+            .collect();
+        if values.len() < RAYS / 2 {
+            return None;
+        }
+        let deviation = SEEN.0.hypot(SEEN.1 * known.noise()) + 1.0 - peak;
+        median(&mut values).map(|seen| [seen / peak, deviation])
+    }
+}
+
+/// How far semi-axes differ from their mean by and large, as a share of it.
+fn stretch(diameter: f64, width: f64) -> f64 {
+    let seen = ((diameter / width - 1.0) / 1.0).clamp(0.0, 1.0);
+    STRETCH.1 + seen * (STRETCH.0 - STRETCH.1)
+}

@@ -1,0 +1,183 @@
+//! What a scanner shows of a section: the lumen, its wall where it is told apart, and the surroundings, each of its own level.
+
+use glam::DVec2;
+
+use super::ellipse::{Blurred, Boundary, Ellipse, SHAPE, Whitening};
+use super::wall::Wall;
+use lumencut_core::math::lanes::FAN;
+
+/// Where the levels of the lumen and of its surroundings stand among the parameters, after those of the ellipse.
+pub const LUMEN: usize = SHAPE;
+/// See [`LUMEN`].
+pub const BACKGROUND: usize = SHAPE + 1;
+
+/// The number of parameters without a wall.
+pub const PLAIN: usize = SHAPE + 2;
+
+/// Where the logarithm of the wall's thickness (mm), its level, and the shares of the surroundings by direction stand.
+pub const THICKNESS: usize = PLAIN;
+/// See [`THICKNESS`].
+pub const WALL: usize = PLAIN + 1;
+/// See [`THICKNESS`].
+pub const SECTORS: usize = PLAIN + 2;
+
+/// The cosine and the sine of the direction, and those of twice the direction: surroundings differ from side to side.
+pub const HARMONICS: usize = 4;
+
+/// The number of parameters with a wall.
+pub const WALLED: usize = SECTORS + HARMONICS;
+
+/// Walls are this thin and this thick (mm): what is thicker is no wall, but a thrombus or another tissue.
+const THINNEST: f64 = 0.2;
+const THICKEST: f64 = 3.3;
+
+/// The shares of a section at sixteen places, and their derivatives by the parameters.
+pub struct Modelled<const N: usize> {
+    /// The shares.
+    pub share: [f32; FAN],
+    /// The derivatives, in the order of the parameters.
+    pub by: [[f32; FAN]; N],
+}
+
+/// A section with `N` parameters under a blur.
+pub trait Model<const N: usize>: Sized + Sync {
+    /// The section with these parameters. Directions are those from `origin` (mm).
+    fn new(at: &[f64; N], ellipse: &Ellipse, whitening: Whitening, origin: DVec2) -> Self;
+
+    /// Whether a section may have these parameters.
+    fn allows(_: &[f64; N]) -> bool {
+        true
+    }
+
+    /// Its shares at sixteen places (mm).
+    fn modelled(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Modelled<N>;
+}
+
+/// A lumen of one level in surroundings of another one.
+pub struct TwoLevels {
+    boundary: Boundary,
+    lumen: f32,
+    background: f32,
+}
+
+impl TwoLevels {
+    /// The section of a lumen, of these levels of lumen and surroundings.
+    pub fn of(ellipse: &Ellipse, [lumen, background]: [f64; 2], whitening: Whitening) -> Self {
+        let [lumen, background] = [lumen, background].map(|level| level as f32);
+        Self { boundary: Boundary::new(ellipse, whitening), lumen, background }
+    }
+}
+
+impl Model<PLAIN> for TwoLevels {
+    fn new(at: &[f64; PLAIN], ellipse: &Ellipse, whitening: Whitening, _: DVec2) -> Self {
+        Self::of(ellipse, [at[LUMEN], at[BACKGROUND]], whitening)
+    }
+
+    #[inline(always)]
+    fn modelled(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Modelled<PLAIN> {
+        let blurred = self.boundary.blurred(x, y);
+        let contrast = self.lumen - self.background;
+        let mut all = Modelled { share: [0.0; FAN], by: [[0.0; FAN]; PLAIN] };
+        for a in 0..SHAPE {
+            for l in 0..FAN {
+                all.by[a][l] = contrast * blurred.slopes[a][l];
+            }
+        }
+        for l in 0..FAN {
+            all.by[LUMEN][l] = blurred.value[l];
+            all.by[BACKGROUND][l] = 1.0 - blurred.value[l];
+            all.share[l] = self.background + contrast * blurred.value[l];
+        }
+        all
+    }
+}
+
+/// A lumen and a wall around it, which is as thick all around, in surroundings that differ from side to side.
+pub struct ThreeLevels {
+    inner: Boundary,
+    outer: Boundary,
+    origin: [f32; 2],
+    lumen: f32,
+    wall: f32,
+    thickness: f32,
+    background: f32,
+    sectors: [f32; HARMONICS],
+}
+
+impl ThreeLevels {
+    /// The section of a lumen with a wall, of these levels of lumen and surroundings.
+    pub fn of(ellipse: &Ellipse, wall: &Wall, [lumen, background]: [f64; 2], whitening: Whitening) -> Self {
+        let mut at = [0.0; WALLED];
+        at[..SHAPE].copy_from_slice(&ellipse.parameters());
+        (at[LUMEN], at[BACKGROUND]) = (lumen, background);
+        (at[THICKNESS], at[WALL]) = (wall.log_thickness[0], wall.level[0]);
+        at[SECTORS..].copy_from_slice(&wall.sectors);
+        Self::new(&at, ellipse, whitening, wall.origin)
+    }
+
+    /// By how much the surroundings differ at a place from what they are by and large, for a share of 1 in each harmonic.
+    #[inline(always)]
+    fn harmonics(&self, x: f32, y: f32) -> [f32; HARMONICS] {
+        let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
+        // In the very middle, where nothing is seen of the surroundings, there is no direction.
+        let length = (dx * dx + dy * dy + 1e-6).sqrt();
+        let (cos, sin) = (dx / length, dy / length);
+        [cos, sin, cos * cos - sin * sin, 2.0 * cos * sin]
+    }
+}
+
+impl Model<WALLED> for ThreeLevels {
+    fn new(at: &[f64; WALLED], ellipse: &Ellipse, whitening: Whitening, origin: DVec2) -> Self {
+        let thickness = at[THICKNESS].exp();
+        let around = Ellipse { mean: ellipse.mean + thickness, ..*ellipse };
+        Self {
+            inner: Boundary::new(ellipse, whitening),
+            outer: Boundary::new(&around, whitening),
+            origin: origin.as_vec2().to_array(),
+            lumen: at[LUMEN] as f32,
+            wall: at[WALL] as f32,
+            thickness: thickness as f32,
+            background: at[BACKGROUND] as f32,
+            sectors: std::array::from_fn(|h| at[SECTORS + h] as f32),
+        }
+    }
+
+    fn allows(at: &[f64; WALLED]) -> bool {
+        (THINNEST.ln()..=THICKEST.ln()).contains(&at[THICKNESS])
+    }
+
+    #[inline(always)]
+    fn modelled(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Modelled<WALLED> {
+        let inner = self.inner.blurred(x, y);
+        let outer = self.outer.blurred(x, y);
+        let Blurred { value: within, slopes: inwards } = inner;
+        let Blurred { value: enclosed, slopes: outwards } = outer;
+        let mut all = Modelled { share: [0.0; FAN], by: [[0.0; FAN]; WALLED] };
+        let mut background = [0.0; FAN];
+        for l in 0..FAN {
+            let harmonics = self.harmonics(x[l], y[l]);
+            background[l] = self.background;
+            for h in 0..HARMONICS {
+                background[l] += self.sectors[h] * harmonics[h];
+                all.by[SECTORS + h][l] = (1.0 - enclosed[l]) * harmonics[h];
+            }
+        }
+        for a in 0..SHAPE {
+            for l in 0..FAN {
+                all.by[a][l] =
+                    (self.lumen - self.wall) * inwards[a][l] + (self.wall - background[l]) * outwards[a][l];
+            }
+        }
+        for l in 0..FAN {
+            all.by[LUMEN][l] = within[l];
+            all.by[WALL][l] = enclosed[l] - within[l];
+            all.by[BACKGROUND][l] = 1.0 - enclosed[l];
+            // The mean of the semi-axes grows as the thickness does.
+            all.by[THICKNESS][l] = (self.wall - background[l]) * outwards[2][l] * self.thickness;
+            all.share[l] = self.lumen * within[l]
+                + self.wall * (enclosed[l] - within[l])
+                + background[l] * (1.0 - enclosed[l]);
+        }
+        all
+    }
+}

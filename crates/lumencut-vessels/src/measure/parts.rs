@@ -1,0 +1,87 @@
+//! What the standard deviation of a diameter is made of.
+
+/// What the standard deviation of a diameter is made of (mm). The sum of the squares is the square of that.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Parts {
+    /// The noise.
+    pub noise: f64,
+    /// The width of the point spread; with the sign by which a wider one changes the diameter.
+    pub point_spread: f64,
+    /// The level and the thickness of the wall; with the sign by which a brighter one changes the diameter.
+    pub wall: f64,
+    /// The level of the lumen.
+    pub lumen: f64,
+    /// What is not as the model has it: uneven surroundings, and lumens that are no ellipses.
+    pub surroundings: f64,
+}
+
+impl Parts {
+    /// Those of a diameter that is not known.
+    pub fn unknown() -> Self {
+        Self::default().map(|_| f64::NAN)
+    }
+
+    /// All of them together.
+    pub fn total(&self) -> f64 {
+        let Self { noise, point_spread, wall, lumen, surroundings } = self;
+        [noise, point_spread, wall, lumen, surroundings].map(|part| part * part).iter().sum::<f64>().sqrt()
+    }
+
+    /// The parts of a diameter that is so many times as large.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        self.map(|part| part * by)
+    }
+
+    fn map(&self, each: impl Fn(f64) -> f64) -> Self {
+        Self {
+            noise: each(self.noise),
+            point_spread: each(self.point_spread),
+            wall: each(self.wall),
+            lumen: each(self.lumen),
+            surroundings: each(self.surroundings),
+        }
+    }
+}
+
+/// One of the parts of a standard deviation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// [`Parts::noise`].
+    Noise,
+    /// [`Parts::point_spread`].
+    PointSpread,
+    /// [`Parts::wall`].
+    Wall,
+    /// [`Parts::lumen`].
+    Lumen,
+    /// [`Parts::surroundings`].
+    Surroundings,
+}
+
+impl Part {
+    /// All of them, in the order of tables.
+    pub const ALL: [Self; 5] = [Self::Noise, Self::PointSpread, Self::Wall, Self::Lumen, Self::Surroundings];
+
+    /// The name in files and programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Noise => "noise",
+            Self::PointSpread => "point_spread",
+            Self::Wall => "wall",
+            Self::Lumen => "lumen_level",
+            Self::Surroundings => "surroundings",
+        }
+    }
+
+    /// This one of some parts (mm, with its sign).
+    pub fn of(self, parts: &Parts) -> f64 {
+        match self {
+            Self::Noise => parts.noise,
+            Self::PointSpread => parts.point_spread,
+            Self::Wall => parts.wall,
+            Self::Lumen => parts.lumen,
+            Self::Surroundings => parts.surroundings,
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! What a model misses at samples, and the sums that its fit needs, as kernels.
+
+use super::least_squares::Normal;
+use super::model::{Model, Modelled};
+use super::slab::Samples;
+use lumencut_core::math::lanes::{FAN, Kernel};
+
+/// The sums over all samples as a kernel.
+pub struct Sums<'a, M, const N: usize> {
+    /// The samples.
+    pub samples: &'a Samples,
+    /// How much each of them counts.
+    pub kept: &'a [[f32; FAN]],
+    /// What they are compared with.
+    pub model: &'a M,
+}
+
+impl<M: Model<N>, const N: usize> Kernel for Sums<'_, M, N> {
+    type Output = Normal<N>;
+
+    #[inline(always)]
+    fn run(self) -> Normal<N> {
+        let Self { samples, kept, model } = self;
+        let mut cost = [0.0; FAN];
+        let mut slope = [[0.0; FAN]; N];
+        let mut matrix = [[[0.0; FAN]; N]; N];
+        for n in 0..samples.x.len() {
+            let Modelled { share, by } = model.modelled(&samples.x[n], &samples.y[n]);
+            let mut missing = [0.0; FAN];
+            for l in 0..FAN {
+                missing[l] = samples.share[n][l] - share[l];
+            }
+            for l in 0..FAN {
+                cost[l] += kept[n][l] * missing[l] * missing[l];
+            }
+            for a in 0..N {
+                let mut weighted = [0.0; FAN];
+                for l in 0..FAN {
+                    weighted[l] = kept[n][l] * by[a][l];
+                    slope[a][l] += weighted[l] * missing[l];
+                }
+                for b in 0..=a {
+                    for l in 0..FAN {
+                        matrix[a][b][l] += weighted[l] * by[b][l];
+                    }
+                }
+            }
+        }
+        let sum = |lanes: &[f32; FAN]| lanes.iter().map(|lane| f64::from(*lane)).sum::<f64>();
+        Normal {
+            cost: sum(&cost),
+            slope: std::array::from_fn(|a| sum(&slope[a])),
+            matrix: std::array::from_fn(|a| std::array::from_fn(|b| sum(&matrix[a.max(b)][a.min(b)]))),
+        }
+    }
+}
+
+/// What each sample misses, as a kernel.
+pub struct Missing<'a, M, const N: usize> {
+    /// The samples.
+    pub samples: &'a Samples,
+    /// What they are compared with.
+    pub model: &'a M,
+}
+
+impl<M: Model<N>, const N: usize> Kernel for Missing<'_, M, N> {
+    type Output = Vec<[f32; FAN]>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<[f32; FAN]> {
+        let Self { samples, model } = self;
+        let mut all = Vec::with_capacity(samples.x.len());
+        for n in 0..samples.x.len() {
+            let share = model.modelled(&samples.x[n], &samples.y[n]).share;
+            all.push(std::array::from_fn(|l| samples.share[n][l] - share[l]));
+        }
+        all
+    }
+}
+
+/// How much each sample moves a combination of the parameters, as a kernel.
+pub struct Moves<'a, M, const N: usize> {
+    /// The samples.
+    pub samples: &'a Samples,
+    /// How much each of them counts.
+    pub kept: &'a [[f32; FAN]],
+    /// What they are compared with.
+    pub model: &'a M,
+    /// The combination's share in each of the products of the derivatives.
+    pub towards: [f32; N],
+}
+
+impl<M: Model<N>, const N: usize> Kernel for Moves<'_, M, N> {
+    type Output = Vec<[f32; FAN]>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<[f32; FAN]> {
+        let Self { samples, kept, model, towards } = self;
+        let mut all = Vec::with_capacity(samples.x.len());
+        for n in 0..samples.x.len() {
+            let by = model.modelled(&samples.x[n], &samples.y[n]).by;
+            let mut moves = [0.0; FAN];
+            for a in 0..N {
+                for l in 0..FAN {
+                    moves[l] += towards[a] * by[a][l];
+                }
+            }
+            for l in 0..FAN {
+                moves[l] *= kept[n][l];
+            }
+            all.push(moves);
+        }
+        all
+    }
+}

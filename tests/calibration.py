@@ -1,0 +1,182 @@
+"""Whether what measuring tells of its own uncertainty holds, in scenes drawn from what it takes as known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from calibration_scenes import FAT, MUSCLE, Scene
+from lumencut import Flag, measure
+
+Floats = npt.NDArray[np.float64]
+Draw = np.random.Generator
+
+#: A section with one of these is not judged.
+MARKED = Flag.AT_LIMIT | Flag.BRANCH | Flag.CALCIUM | Flag.METAL | Flag.NEIGHBOR | Flag.OUTSIDE | Flag.NO_EDGE
+
+
+def _artery(draw: Draw, narrowest: float = 1.8, widest: float = 8.0) -> dict[str, float]:
+    """A lumen and a wall as arteries have them."""
+    diameter = float(np.exp(draw.uniform(np.log(narrowest), np.log(widest))))
+    return {
+        "diameter": diameter,
+        "wall": float(draw.normal(45, 25)),
+        "thickness": float(0.45 * diameter**0.5 * np.exp(draw.normal(0, 0.3))),
+        "lumen": float(draw.uniform(280, 450)),
+        "noise": float(draw.uniform(12, 28)),
+        "seed": int(draw.integers(1 << 30)),
+    }
+
+
+def _tissue(draw: Draw) -> Scene:
+    artery = _artery(draw)
+    artery["wall"] = float(draw.normal(45, 10))
+    return Scene(**artery, around=(artery["wall"],), kernel=0.0)
+
+
+def _fat(draw: Draw) -> Scene:
+    return Scene(**_artery(draw), around=(draw.normal(FAT, 12),))
+
+
+def _muscle(draw: Draw) -> Scene:
+    return Scene(**_artery(draw), around=(draw.normal(MUSCLE, 10),))
+
+
+def _both(draw: Draw) -> Scene:
+    return Scene(**_artery(draw), around=(draw.normal(FAT, 12), draw.normal(MUSCLE, 10)), patches=15)
+
+
+def _smooth(draw: Draw) -> Scene:
+    return Scene(**_artery(draw, 2.4), around=(draw.normal(FAT, 12),), fwhm=1.2, kernel=1.1)
+
+
+def _sharp(draw: Draw) -> Scene:
+    return Scene(**_artery(draw, 1.4), around=(draw.normal(FAT, 12),), fwhm=0.65, kernel=-0.5)
+
+
+def _ellipse(draw: Draw) -> Scene:
+    return Scene(**_artery(draw, 3.0), around=(draw.normal(FAT, 12),), stretch=draw.uniform(1.2, 1.8))
+
+
+def _bend(draw: Draw) -> Scene:
+    artery = _artery(draw, 2.0, 6.0)
+    return Scene(**artery, around=(draw.normal(FAT, 12),), bend=draw.uniform(12, 30))
+
+
+def _voxels(draw: Draw) -> Scene:
+    side = float(np.exp(draw.uniform(np.log(0.3), np.log(1.5))))
+    fwhm = side * draw.uniform(1.2, 1.8)
+    artery = _artery(draw, 2.0 * fwhm, max(8.0, 3.0 * fwhm))
+    return Scene(**artery, around=(draw.normal(FAT, 12),), spacing=(side, side, side), fwhm=fwhm)
+
+
+def _stenosis(draw: Draw) -> Scene:
+    artery = _artery(draw, 4.0, 6.0)
+    percent = draw.uniform(20, 60)
+    return Scene(**artery, around=(draw.normal(FAT, 12),), stenosis=percent, stenosis_length=14)
+
+
+def _estimated(draw: Draw) -> Scene:
+    return Scene(**_artery(draw, 5.0, 9.0), around=(draw.normal(FAT, 12),), fwhm=draw.uniform(0.7, 1.2))
+
+
+def _assumed(draw: Draw) -> Scene:
+    fwhm = 0.6 * max(draw.normal(1, 0.2), 0.4)
+    return Scene(**_artery(draw, 1.0, 1.6), around=(draw.normal(FAT, 12),), fwhm=fwhm)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Scenes of one kind."""
+
+    name: str
+    scene: Callable[[Draw], Scene]
+    is_fwhm_given: bool = True
+
+
+KINDS = (
+    Kind("even tissue, white noise", _tissue),
+    Kind("fat", _fat),
+    Kind("muscle", _muscle),
+    Kind("fat and muscle, patches", _both),
+    Kind("smooth kernel", _smooth),
+    Kind("sharp kernel", _sharp),
+    Kind("ellipses", _ellipse),
+    Kind("bends", _bend),
+    Kind("voxels of 0.3 to 1.5 mm", _voxels),
+    Kind("stenoses", _stenosis),
+    Kind("FWHM estimated", _estimated, is_fwhm_given=False),
+    Kind("FWHM assumed", _assumed, is_fwhm_given=False),
+)
+
+
+@dataclass
+class Told:
+    """What is told of one kind against what is true: errors and standard deviations of each scene (mm)."""
+
+    name: str
+    errors: list[Floats]
+    told: list[Floats]
+    true: list[Floats]
+
+    def within(self, deviations: float) -> tuple[float, float, float]:
+        """The share of sections within this number of told standard deviations (percent).
+
+        Behind it stand the ends of its 95 % interval when scenes are drawn anew.
+        """
+        hits = np.array(
+            [
+                [np.sum(np.abs(e) <= deviations * s), len(e)]
+                for e, s in zip(self.errors, self.told, strict=True)
+            ]
+        )
+        draw = np.random.default_rng(1)
+        picks = draw.integers(len(hits), size=(2000, len(hits)))
+        shares = 100 * hits[picks, 0].sum(axis=1) / hits[picks, 1].sum(axis=1)
+        low, high = np.quantile(shares, [0.025, 0.975])
+        return float(100 * hits[:, 0].sum() / hits[:, 1].sum()), float(low), float(high)
+
+
+def calibrated(kind: Kind, count: int) -> Told:
+    """What is told of this number of scenes of a kind, the same ones each time."""
+    draw = np.random.default_rng(sum(kind.name.encode()))
+    told = Told(kind.name, [], [], [])
+    for _ in range(count):
+        scene = kind.scene(draw)
+        profile = measure(scene.volume(), scene.vessel(), fwhm=scene.fwhm if kind.is_fwhm_given else None)
+        judged = (profile.flags & (MARKED if kind.name != "FWHM assumed" else MARKED & ~Flag.AT_LIMIT)) == 0
+        true = scene.diameter_at(profile.arc_length - profile.arc_length[-1] / 2)
+        if judged.any():
+            told.errors.append((profile.diameter_equivalent - true)[judged])
+            told.told.append(profile.uncertainty[judged])
+            told.true.append(true[judged])
+    return told
+
+
+def table(count: int) -> str:
+    """The table of all kinds."""
+    lines = [
+        "| scenes | sections | bias (mm) | worst scene (mm) | told (mm) | within 1 told | within 2 told |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for kind in KINDS:
+        told = calibrated(kind, count)
+        one, two = told.within(1), told.within(2)
+        errors = np.concatenate(told.errors)
+        worst = max(told.errors, key=lambda e: abs(e.mean())).mean()
+        shares = [f"{share:.0f} % ({low:.0f} to {high:.0f})" for share, low, high in (one, two)]
+        lines.append(
+            f"| {kind.name} ({len(told.errors)}) | {len(errors)} | {errors.mean():+.3f} | {worst:+.2f} "
+            f"| {np.median(np.concatenate(told.told)):.3f} | {shares[0]} | {shares[1]} |"
+        )
+        print(lines[-1], flush=True)
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    import sys
+
+    table(int(sys.argv[1]) if len(sys.argv) > 1 else 24)
