@@ -17,6 +17,7 @@ mod measuring;
 mod phantom;
 mod picking;
 mod placement;
+mod point_spread;
 mod pool;
 mod profile_files;
 mod ranges;
@@ -49,8 +50,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<kept_profiles::KeptProfiles>()?;
     module.add_class::<measuring::Profile>()?;
     module.add_class::<measuring::Stenosis>()?;
-    module.add_class::<measuring::PointSpread>()?;
-    module.add_function(wrap_pyfunction!(measuring::point_spread, module)?)?;
+    module.add_class::<point_spread::PointSpread>()?;
+    module.add_function(wrap_pyfunction!(point_spread::point_spread, module)?)?;
     module.add_class::<marked::Grade>()?;
     module.add_function(wrap_pyfunction!(marked::grade, module)?)?;
     module.add_class::<renderer::Renderer>()?;

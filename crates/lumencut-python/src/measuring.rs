@@ -25,8 +25,8 @@ use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 
 use crate::errors::to_python;
+use crate::point_spread::KnownSpread;
 use crate::pool;
-use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 use crate::watching::told_while;
@@ -56,38 +56,6 @@ fn defaults() -> [(&'static str, f64); 4] {
 /// The lumen of one vessel by arc length.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Profile(pub Arc<profile::Profile>);
-
-/// The point spread of a scan, and where it is from.
-#[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct PointSpread(profile::PointSpread);
-
-/// A point spread that is known before a vessel is measured.
-#[derive(FromPyObject)]
-pub enum KnownSpread {
-    /// Its full width at half maximum (mm).
-    Width(f64),
-    /// As a tree told it.
-    OfTree(Py<PointSpread>),
-}
-
-/// The point spread that the vessels of a tree tell for all that is measured along them.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)]
-pub fn point_spread<'py>(
-    py: Python<'py>,
-    volume: VolumeArgument<'py>,
-    tree: Vec<VesselArrays<'py>>,
-    step: f64,
-) -> PyResult<PointSpread> {
-    let borrowed = volume.borrow()?;
-    let volume = volume.volume(&borrowed)?;
-    let tree = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
-    interruptible(py, None, |stop| {
-        let request = MeasureRequest { step, fwhm: None, wall: WallRequest::Automatic, tree: &tree, stop };
-        pool::install(|| measuring::point_spread_of(&volume, &request))?.map_err(to_python)
-    })
-    .map(PointSpread)
-}
 
 /// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree: under a point spread that is known,
 /// as its width (mm) or as the tree told it, or under the one that the vessel itself tells. While it runs, `told` is called now and

@@ -36,6 +36,7 @@ pub mod terms;
 pub mod texture;
 pub mod wall;
 pub mod wall_level;
+pub mod wall_pool;
 pub mod watched;
 
 #[cfg(test)]

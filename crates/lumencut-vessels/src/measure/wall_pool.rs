@@ -1,0 +1,102 @@
+//! The walls of a vessel by all of its sections: one level, and a thickness that is even along the vessel.
+
+use super::ellipse::Ellipse;
+use super::fit::Fit;
+use super::pooled::Level;
+use super::wall::{KnownWall, Wall, beforehand};
+
+/// Thickness is even along the vessel over about this distance (mm), and differs by this (a logarithm) all the same.
+const EVEN: (f64, f64) = (10.0, 0.1);
+
+/// The level differs by this share of the contrast along the vessel, however well it is known.
+const LEAST_LEVEL: f64 = 0.01;
+
+/// Sections up to these distances (mm) from each other tell one thing, not several: of the level, as what the model does not know
+/// of a wall is alike along a stretch of it, and of the thickness, as they share voxels.
+const SHARED: [f64; 2] = [5.0, 2.0];
+
+/// Walls are told apart where they are in this share of the sections.
+const APART: f64 = 1.0 / 3.0;
+
+/// What all sections tell of the wall at each of them, by their arc lengths (mm). What they tell has a variance that is larger
+/// by `inflation` than that of independent noise.
+pub fn pooled(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, inflation: f64) -> Vec<KnownWall> {
+    let [level_apart, apart] = SHARED.map(|length| independent(at, length) / inflation);
+    let walls: Vec<(f64, Ellipse, Wall)> = at
+        .iter()
+        .zip(fits)
+        .filter_map(|(at, fit)| fit.and_then(|fit| Some((*at, fit.ellipse, fit.wall?))))
+        .collect();
+    let mut level = Told::new(known.level);
+    for (_, _, wall) in &walls {
+        level.add(wall.level, known.level, level_apart);
+    }
+    let [mean, deviation] = level.level();
+    let level = [mean, deviation.max(LEAST_LEVEL)];
+    let thickness = |here: f64, lumen: &Ellipse| {
+        let first = beforehand(lumen);
+        let mut told = Told::new(first);
+        let (mut slopes, mut shares) = (0.0, f64::MIN_POSITIVE);
+        for (there, other, wall) in &walls {
+            let weight = (-(there - here).abs() / EVEN.0).exp() * apart;
+            // What is told is by how much the wall is thicker than the width of its own lumen says.
+            let [mean, deviation] = wall.log_thickness_at(level[0]);
+            told.add([mean - beforehand(other)[0] + first[0], deviation], first, weight);
+            let share = weight / deviation.powi(2);
+            (slopes, shares) = (slopes + share * wall.slope, shares + share);
+        }
+        let [mean, deviation] = told.level();
+        ([mean, deviation.max(EVEN.1)], slopes / shares)
+    };
+    at.iter()
+        .zip(fits)
+        .map(|(at, fit)| {
+            let told = fit.map(|fit| thickness(*at, &fit.ellipse));
+            let slope = told.map_or(0.0, |(_, slope)| slope);
+            KnownWall { level, log_thickness: told.map(|(thickness, _)| thickness), slope }
+        })
+        .collect()
+}
+
+/// Whether a wall is told apart from what surrounds the vessel: where it is as bright, nothing shows where it ends.
+pub fn is_apart(known: &KnownWall, pooled: &[KnownWall], fits: &[Option<Fit>]) -> bool {
+    let is_apart = |(wall, fit): (&KnownWall, &Option<Fit>)| {
+        fit.map(|fit| (wall.level[0] - fit.background).abs() > known.level[1])
+    };
+    let all: Vec<bool> = pooled.iter().zip(fits).filter_map(is_apart).collect();
+    all.iter().filter(|is| **is).count() as f64 >= APART * all.len() as f64
+}
+
+/// The share of a section that its neighbours do not tell as well.
+fn independent(at: &[f64], shared: f64) -> f64 {
+    let length = at.last().zip(at.first()).map_or(0.0, |(last, first)| last - first);
+    let step = length / (at.len().max(2) - 1) as f64;
+    (step / shared).min(1.0)
+}
+
+/// Means and precisions that are added up.
+struct Told {
+    precision: f64,
+    weighted: f64,
+}
+
+impl Told {
+    fn new([mean, deviation]: Level) -> Self {
+        let precision = 1.0 / (deviation * deviation);
+        Self { precision, weighted: mean * precision }
+    }
+
+    /// Adds what a section told beyond what was known before, as the share `weight`.
+    fn add(&mut self, told: Level, before: Level, weight: f64) {
+        let [after, prior] = [told, before].map(Self::new);
+        let precision = (after.precision - prior.precision).max(0.0);
+        if precision > 0.0 {
+            self.precision += weight * precision;
+            self.weighted += weight * (after.weighted - prior.weighted);
+        }
+    }
+
+    fn level(&self) -> Level {
+        [self.weighted / self.precision, (1.0 / self.precision).sqrt()]
+    }
+}
