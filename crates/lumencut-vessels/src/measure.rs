@@ -17,6 +17,7 @@ pub mod levels;
 pub mod measuring;
 pub mod model;
 pub mod obstacles;
+pub mod parameters;
 pub mod parts;
 pub mod place;
 pub mod point_spread;

@@ -4,9 +4,8 @@ use std::marker::PhantomData;
 
 use super::ellipse::{Boundary, Ellipse, SHAPE, Whitening};
 use super::least_squares::{Minimum, Normal, minimum, solved, variance};
-use super::model::{
-    BACKGROUND, HARMONICS, LUMEN, Model, PLAIN, SECTORS, THICKNESS, ThreeLevels, TwoLevels, WALL, WALLED,
-};
+use super::model::{Model, ThreeLevels, TwoLevels};
+use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED};
 use super::parts::Parts;
 use super::slab::Samples;
 use super::sums::{Missing, Moves, Sums};

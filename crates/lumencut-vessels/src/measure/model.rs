@@ -3,29 +3,9 @@
 use glam::DVec2;
 
 use super::ellipse::{Blurred, Boundary, Ellipse, SHAPE, Whitening};
+use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED};
 use super::wall::Wall;
 use lumencut_core::math::lanes::FAN;
-
-/// Where the levels of the lumen and of its surroundings stand among the parameters, after those of the ellipse.
-pub const LUMEN: usize = SHAPE;
-/// See [`LUMEN`].
-pub const BACKGROUND: usize = SHAPE + 1;
-
-/// The number of parameters without a wall.
-pub const PLAIN: usize = SHAPE + 2;
-
-/// Where the logarithm of the wall's thickness (mm), its level, and the shares of the surroundings by direction stand.
-pub const THICKNESS: usize = PLAIN;
-/// See [`THICKNESS`].
-pub const WALL: usize = PLAIN + 1;
-/// See [`THICKNESS`].
-pub const SECTORS: usize = PLAIN + 2;
-
-/// The cosine and the sine of the direction, and those of twice the direction: surroundings differ from side to side.
-pub const HARMONICS: usize = 4;
-
-/// The number of parameters with a wall.
-pub const WALLED: usize = SECTORS + HARMONICS;
 
 /// Walls are this thin and this thick (mm): what is thicker is no wall, but a thrombus or another tissue.
 const THINNEST: f64 = 0.2;

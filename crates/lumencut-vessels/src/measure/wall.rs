@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::ellipse::Ellipse;
 use super::least_squares::{Minimum, solved};
-use super::model::{HARMONICS, SECTORS, THICKNESS as LOG_THICKNESS, WALL, WALLED};
+use super::parameters::{HARMONICS, SECTORS, THICKNESS as LOG_THICKNESS, WALL, WALLED};
 use super::pooled::Level;
 use super::scale::Scale;
 use super::terms::unit;
