@@ -95,6 +95,7 @@ __all__ = [
     "marked_places",
     "measure",
     "measured_radii",
+    "not_suggested_places",
     "panned",
     "part_name",
     "path",
@@ -395,6 +396,7 @@ def measured_radii(
     fwhm: float | None = None,
     told: Callable[[int, int], object] | None = None,
 ) -> list[tuple[npt.NDArray[np.float64] | None, int, int]]: ...
+def not_suggested_places(profile: Profile, at: float | None, references: Sequence[float]) -> list[str]: ...
 def panned(camera: Any, right: float, up: float) -> dict[str, Any]: ...
 def picture(value: npt.NDArray[np.float32], settings: Settings) -> npt.NDArray[np.uint8]: ...
 def placement(

@@ -8,8 +8,8 @@ from enum import IntFlag
 class Flag(IntFlag):
     """What there is to know of a section; sections keep their numbers whatever is set.
 
-    Sections with `BRANCH`, `OUTSIDE` or `NO_EDGE` are left out of what is narrowest, widest or suggested, and
-    of references.
+    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE` or `RESTLESS_LINE` are left out of what is narrowest, widest
+    or suggested, and of references.
     """
 
     #: The diameter is below 1.5 times the width (FWHM) of the point spread.
@@ -30,3 +30,5 @@ class Flag(IntFlag):
     RECENTERED = 128
     #: The wall is far from an ellipse.
     IRREGULAR = 256
+    #: The centerline turns by more than 75° within one diameter, as no vessel does.
+    RESTLESS_LINE = 512

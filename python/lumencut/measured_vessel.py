@@ -107,13 +107,19 @@ class MeasuredVessel:
         return self.number, self.vessel.name, self.profile._core, self._grade
 
     @property
+    def _not_suggested(self) -> tuple[str, ...]:
+        """Why no place is suggested beside those that are marked; nothing where a reference is marked."""
+        marked = [mark.arc_length for mark in self.marks if not mark.is_suggestion]
+        at = marked[0] if marked else None
+        return () if len(marked) > 1 else self.profile.not_suggested(at)
+
+    @property
     def told(self) -> list[str]:
         """What there is to say of it, in lines: each percentage with its method, its references and mm."""
         lines = [] if self._grade is None else self._grade.lines
         if self.stenosis is not None:
             return lines
-        places = [str(mark) for mark in self.marks] or ["no section counts: see the flags"]
-        return [*places, *lines]
+        return [*map(str, self.marks), *self._not_suggested, *lines]
 
 
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:

@@ -264,13 +264,25 @@ class Profile(ProfileOutputs):
         return Stenosis(graded)
 
     def narrowest(self) -> Spot | None:
-        """Return where the vessel is narrowest, of the sections that count: a suggestion, not a finding.
+        """Return where the vessel is narrowest, of the sections that are safe: a suggestion, not a finding.
 
-        Sections whose uncertainty is more than a third of their diameter are passed over unless all are so:
-        between the struts of a stent a fit can hold on to a gap that is no lumen.
+        A section is safe that counts, has no flag `METAL`, `CALCIUM` or `RECENTERED`, whose uncertainty is at
+        most a third of its diameter, and that lies more than one diameter from a change of lumen and from a
+        flap. None where no section is safe; :meth:`not_suggested` says why.
         """
         found = self._core.narrowest()
         return None if found is None else Spot(*found)
+
+    def not_suggested(self, at: float | None = None) -> tuple[str, ...]:
+        """Return why no place is suggested, a sentence each; empty where places are suggested.
+
+        Parameters
+        ----------
+        at : float, optional
+            The place for which references are suggested (mm of arc length); without it the narrowest one.
+        """
+        place = None if at is None else number(MeasuringError, "place on the vessel", at)
+        return tuple(_lumencut.not_suggested_places(self._core, place, []))
 
     def widest(self) -> Spot | None:
         """Return the place of the longest diameter of all sections that count, and that diameter.

@@ -101,6 +101,18 @@ test('the stenosis passes its reference, and is not graded with one that lies wi
   await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
 });
 
+test('a place and a reference are marked at the section that is shown', async () => {
+  await tube.nothingMarked();
+  await tube.row('reference-1').getByRole('button', { name: 'reference after' }).click();
+  const at = await tube.arcLength('reference-1');
+  await tube.button(`Mark a reference at ${at.toFixed(1)} mm`).click();
+  await expect(tube.row('reference-1')).not.toContainText('(suggestion)');
+  await expect(tube.row('reference-1')).toContainText(`at ${at.toFixed(1)} mm`);
+  await tube.row('place-0').getByRole('button', { name: 'narrowest place' }).click();
+  await tube.button(`Mark the place at ${PYTHON.narrowest[0].toFixed(1)} mm`).click();
+  await expect(tube.stenosis()).toContainText('% of the diameter');
+});
+
 test('by keys a reference passes the stenosis too, and stays the one that has the focus', async () => {
   await tube.nothingMarked();
   const steps = (await tube.arcLength('reference-1')) - (await tube.arcLength('place-0'));

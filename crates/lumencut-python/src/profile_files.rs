@@ -2,6 +2,7 @@
 
 use lumencut::measure::stretch::CArm;
 use lumencut::measure_words;
+use lumencut::not_suggested;
 use lumencut::profile_marks::{Mark, Measured, marks};
 use lumencut::profile_record::{self, Asked, NOTICE};
 use lumencut::profile_table;
@@ -100,6 +101,13 @@ fn parts_of(marks: &[Mark]) -> Vec<MarkParts> {
 #[allow(clippy::needless_pass_by_value)]
 pub fn marked_places(profile: &Profile, marked: MarkedParts) -> PyResult<Vec<MarkParts>> {
     Ok(parts_of(&marked.marked()?.places(&profile.0)))
+}
+
+/// Why the narrowest place, or any reference, is not suggested beside what a reader marked (arc lengths, mm): a sentence each.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn not_suggested_places(profile: &Profile, at: Option<f64>, references: Vec<f64>) -> Vec<String> {
+    not_suggested::not_suggested(&profile.0, at, &references)
 }
 
 /// Places to look at.

@@ -1,7 +1,7 @@
 //! The flags of sections as readers meet them: one table of names, words, meanings and colours for every host.
 
 use lumencut_vessels::measure::flags::{
-    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED,
+    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE,
 };
 use serde::Serialize;
 
@@ -35,7 +35,7 @@ const fn look(
 }
 
 /// Every flag, in the order in which plots and tables have them.
-pub const FLAGS: [FlagLook; 9] = [
+pub const FLAGS: [FlagLook; 10] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
         ["at limit", "the diameter is below 1.5 FWHM: little is left of it in the picture"],
@@ -76,6 +76,11 @@ pub const FLAGS: [FlagLook; 9] = [
         ("IRREGULAR", IRREGULAR),
         ["irregular", "the wall is far from an ellipse: shortest and longest diameter say little"],
         ["#6b8e23", "#a4c957"],
+    ),
+    look(
+        ("RESTLESS_LINE", RESTLESS_LINE),
+        ["restless line", "the centerline turns by more than 75° within one diameter, as no vessel does"],
+        ["#1f5fbf", "#7fb2ff"],
     ),
 ];
 

@@ -19,6 +19,7 @@ pub mod measure_words;
 pub mod mends;
 pub mod method;
 pub mod misplaced;
+pub mod not_suggested;
 pub mod placement;
 pub mod places;
 mod populations;

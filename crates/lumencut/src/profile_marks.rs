@@ -201,7 +201,7 @@ pub fn offered_references(
 }
 
 /// The place of a stenosis: the marked one, or the narrowest one.
-fn main_place(profile: &Profile, at: Option<f64>) -> Option<f64> {
+pub(crate) fn main_place(profile: &Profile, at: Option<f64>) -> Option<f64> {
     at.or_else(|| profile.narrowest().map(|spot| spot.at))
 }
 

@@ -7,6 +7,7 @@ use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
 
 use crate::measure_words::{of_doubts, of_flags, of_source};
+use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Mark, Measured, marks};
 use crate::profile_table::columns;
 
@@ -142,6 +143,7 @@ impl From<&Mark> for Place {
 struct Suggestions {
     narrowest: Option<Place>,
     references: Vec<Place>,
+    not_suggested: Vec<String>,
 }
 
 impl Suggestions {
@@ -149,7 +151,8 @@ impl Suggestions {
         // Suggested places are sections that count.
         let found = marks(profile, None, &[]).unwrap_or_default();
         let narrowest = found.first().map(Place::from);
-        Self { narrowest, references: found.iter().skip(1).map(Place::from).collect() }
+        let references = found.iter().skip(1).map(Place::from).collect();
+        Self { narrowest, references, not_suggested: not_suggested(profile, None, &[]) }
     }
 }
 

@@ -1,15 +1,18 @@
 /** The marked and suggested places of a vessel with their numbers, and the widest place. */
 import type { Profile } from '../core/messages';
+import type { VesselMarks } from '../edit/document';
 import { moveTo } from '../link/along';
-import { currentPlaces } from './current';
-import { confirm, remove } from './editing';
+import * as store from '../state/store';
+import { currentMarks, currentPlaces } from './current';
+import { confirm, markHere, remove } from './editing';
 import { meanings } from './flags';
 import type { Place } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
-import { area, mm, NOTHING, placeName, spread } from './words';
+import { area, mm, NOTHING, placeName, spread, told } from './words';
 
 export function PlacesTable({ profile }: { readonly profile: Profile }) {
+  const marks = currentMarks.value;
   const places = currentPlaces.value.filter(({ kind }) => kind === 'place' || kind === 'reference');
   const { widest } = profile;
   const doubts = widest ? sectionNumbers(profile, widest.at).flags : [];
@@ -28,8 +31,39 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
           {doubts.length > 0 && <small>{doubts.join(', ')}</small>}
         </div>
       )}
-      {!profile.counts.some(Boolean) && <p>No section counts: see the flags.</p>}
+      {marks && marks.at === null && marks.references.length === 0 && (
+        <NotSuggested reasons={profile.not_suggested} />
+      )}
+      {marks && <MarkButtons marks={marks} />}
     </section>
+  );
+}
+
+/** Why no place is suggested. */
+function NotSuggested({ reasons }: { readonly reasons: readonly string[] }) {
+  return reasons.length > 0 ? (
+    <p class="refused" data-testid="not-suggested">
+      {reasons.map(told).join(' ')}
+    </p>
+  ) : null;
+}
+
+/** Marks where the section is that is shown: what is not suggested is not out of reach. */
+function MarkButtons({ marks }: { readonly marks: VesselMarks }) {
+  const here = `at ${mm(store.pickedPlace.value, 1)}`;
+  return (
+    <div class="mark-here">
+      {marks.at === null && (
+        <button type="button" class="small" onClick={() => markHere('place')}>
+          {`Mark the place ${here}`}
+        </button>
+      )}
+      {marks.references.length < 2 && (
+        <button type="button" class="small" onClick={() => markHere('reference')}>
+          {`Mark a reference ${here}`}
+        </button>
+      )}
+    </div>
   );
 }
 

@@ -3,6 +3,7 @@ import { batch, signal } from '@preact/signals';
 import { type Document, NO_MARKS, type VesselMarks } from '../edit/document';
 import { change, document_, endPreview, preview } from '../edit/history';
 import { moveTo } from '../link/along';
+import { pickedPlace } from '../state/store';
 import { answers, comparedPlaces, currentMarks, currentProfile, currentVessel } from './current';
 import { allConfirmed, moved, type Place, placeAfter, removed, taken } from './marks';
 import { snapped } from './sections';
@@ -70,6 +71,15 @@ export function putBack(): void {
     isCrossed.value = drag.wasCrossed;
     preview(drag.document);
     drag = null;
+  }
+}
+
+/** Marks the place of a stenosis, or a reference of it, at the section that is shown. */
+export function markHere(kind: 'place' | 'reference'): void {
+  const profile = currentProfile.value;
+  if (profile) {
+    const at = snapped(profile, pickedPlace.value);
+    changeMarks(`mark the ${kind}`, (marks) => taken(marks, { kind, slot: 0, at, isSuggestion: true }));
   }
 }
 

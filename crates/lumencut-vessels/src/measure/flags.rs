@@ -18,6 +18,8 @@ pub const NO_EDGE: u32 = 1 << 6;
 pub const RECENTERED: u32 = 1 << 7;
 /// The lumen is far from an ellipse.
 pub const IRREGULAR: u32 = 1 << 8;
+/// The line turns more sharply than a vessel does.
+pub const RESTLESS_LINE: u32 = 1 << 9;
 
 /// Sections with any of these are left out of what is largest, narrowest or suggested.
-pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE;
+pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RESTLESS_LINE;

@@ -15,6 +15,7 @@ use super::point_spread::{NARROW, SharpEdges, Told, estimated};
 use super::pooled::Level;
 use super::profile::{PointSpread, Profile, Source};
 use super::rays::Rays;
+use super::restless::flag_restless;
 use super::rough::Rough;
 use super::scale::Scale;
 use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
@@ -261,6 +262,7 @@ impl Looked {
         let variance: Vec<f64> =
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &at, &variance);
+        flag_restless(&self.places, &mut sections);
         let noise = noise * self.scale.contrast.abs();
         Ok(Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source))
     }

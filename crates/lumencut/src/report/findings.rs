@@ -5,6 +5,7 @@ use lumencut_vessels::measure::profile::Profile;
 use super::markup::paragraph;
 use super::{Shown, VesselPage};
 use crate::measure_words::{of_c_arm, of_doubts, of_stenosis};
+use crate::not_suggested::not_suggested;
 use crate::profile_marks::Grade;
 use crate::text::fixed;
 
@@ -24,7 +25,7 @@ pub fn findings(shown: &Shown, vessel: &VesselPage) -> String {
             let group = group.iter().map(|group| format!("Group of the field: {group}"));
             text += &paragraphs("", &group.collect::<Vec<_>>());
         }
-        None => {}
+        None => text += &paragraphs("", &not_suggested(vessel.measured.profile, None, &[])),
     }
     for words in lengths(shown, vessel) {
         text += &paragraph("", &words);

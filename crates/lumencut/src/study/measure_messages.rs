@@ -2,6 +2,7 @@
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_source, of_stenosis};
+use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Marked};
 use crate::profile_record::Asked;
 use glam::DVec3;
@@ -70,6 +71,8 @@ pub struct ProfileMessage {
     narrowest: Option<SpotMessage>,
     /// The longest diameter; none also where an odd outline or a branch may be what makes it so.
     widest: Option<SpotMessage>,
+    /// Why no narrowest place, or no reference of it, is suggested: a sentence each.
+    not_suggested: Vec<String>,
 }
 
 impl From<&Profile> for ProfileMessage {
@@ -89,6 +92,7 @@ impl From<&Profile> for ProfileMessage {
             fwhm_source: of_source(&profile.fwhm_source),
             narrowest: profile.narrowest().map(SpotMessage::from),
             widest: profile.offered_widest().map(SpotMessage::from),
+            not_suggested: not_suggested(profile, None, &[]),
         }
     }
 }

@@ -13,14 +13,14 @@ fn told(at: Option<f64>, references: &[f64]) -> Vec<String> {
 
 #[test]
 fn where_nothing_is_marked_all_places_are_offered() {
-    assert_eq!(told(None, &[]), ["narrowest place 26.5?", "reference 18.5?", "reference 36?"]);
+    assert_eq!(told(None, &[]), ["narrowest place 26.5?", "reference 18?", "reference 36?"]);
 }
 
 #[test]
 fn beside_one_reference_another_one_is_offered_on_the_other_side() {
     assert_eq!(told(Some(30.0), &[40.0]), ["marked place 30", "reference 22?", "reference 40"]);
     assert_eq!(told(Some(30.0), &[12.0]), ["marked place 30", "reference 12", "reference 38?"]);
-    assert_eq!(told(None, &[45.0]), ["narrowest place 26.5?", "reference 18.5?", "reference 45"]);
+    assert_eq!(told(None, &[45.0]), ["narrowest place 26.5?", "reference 18?", "reference 45"]);
 }
 
 #[test]

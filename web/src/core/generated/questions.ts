@@ -414,6 +414,8 @@ export type Profile = {
   readonly narrowest: Spot | null;
   /** The longest diameter; none also where an odd outline or a branch may be what makes it so. */
   readonly widest: Spot | null;
+  /** Why no narrowest place, or no reference of it, is suggested: a sentence each. */
+  readonly not_suggested: ReadonlyArray<string>;
 };
 
 /** What is open. */

@@ -1,4 +1,5 @@
-use super::super::flags::CALCIUM;
+use super::super::flags::{CALCIUM, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE};
+use super::super::hindrances::UNSURE;
 use super::super::made_profile::profile;
 use super::*;
 
@@ -24,11 +25,29 @@ fn a_narrow_lumen_that_is_sure_is_suggested() {
 }
 
 #[test]
-fn where_none_is_sure_all_count() {
+fn where_nothing_is_safe_none_is_suggested_and_the_reason_is_known() {
     let mut sections = vec![[2.0, 0.8]; 9];
     sections[3..6].fill([1.5, 0.8]);
-    assert_eq!(narrowest(&sections), [1.5, 1.5]);
+    let unsure = profile(&sections);
+    assert_eq!((unsure.narrowest(), unsure.none_safe()), (None, Some(UNSURE)));
+    let mut stent = profile(&[[8.0, 0.1]; 9]);
+    stent.flags.fill(METAL);
+    stent.flags[4] = NO_EDGE | NEIGHBOR;
+    assert_eq!((stent.narrowest(), stent.none_safe()), (None, Some(METAL | NO_EDGE)));
+    stent.flags[7] = 0;
+    assert_eq!((stent.narrowest().map(|spot| spot.at), stent.none_safe()), (Some(3.5), None));
     assert!(profile(&[[f64::NAN, f64::NAN]; 4]).narrowest().is_none());
+}
+
+#[test]
+fn the_narrowest_place_is_never_one_that_is_flagged_or_unsafe() {
+    for flags in [METAL, CALCIUM, NO_EDGE, BRANCH, OUTSIDE, RECENTERED, RESTLESS_LINE, NEIGHBOR | IRREGULAR] {
+        let mut made = profile(&[[8.0, 0.1]; 120]);
+        made.area[40] = 3.0;
+        made.flags[40] = flags;
+        let spot = made.narrowest().expect("a safe place");
+        assert_eq!(spot.diameter, 8.0, "{flags}");
+    }
 }
 
 /// A vessel of 12 mm that becomes one of 8 mm at a branch 20 mm from its beginning, with a narrowing at 35 mm.
@@ -57,6 +76,45 @@ fn where_no_reference_lies_before_a_branch_it_is_passed() {
     profile.flags[38..60].fill(BRANCH);
     let [before, after] = profile.suggested_references(35.0).expect("a place on it");
     assert_eq!((before.map(|spot| spot.diameter), after), (Some(12.0), None));
+}
+
+/// A vessel of 8 mm with a narrowing of 4 mm at 30 mm, that is `beyond` mm wide from 45 mm on.
+fn stepped(beyond: f64) -> Profile {
+    let width = |n: usize| match n {
+        58..63 => 4.0,
+        0..90 => 8.0,
+        _ => beyond,
+    };
+    profile(&(0..160).map(|n| [width(n), 0.1]).collect::<Vec<_>>())
+}
+
+fn diameters(profile: &Profile, at: f64) -> [Option<f64>; 2] {
+    profile.suggested_references(at).expect("a place on it").map(|spot| spot.map(|spot| spot.diameter))
+}
+
+#[test]
+fn no_step_of_the_calibre_lies_between_a_place_and_its_reference() {
+    // Most of the vessel on that side is wider: it was offered before.
+    assert_eq!(diameters(&stepped(12.0), 30.0), [Some(8.0), Some(8.0)]);
+    // Where there is no other place, the step is passed.
+    let mut made = stepped(12.0);
+    made.flags[..88].fill(CALCIUM);
+    assert_eq!(diameters(&made, 30.0), [None, Some(12.0)]);
+}
+
+#[test]
+fn no_reference_is_narrower_than_the_place() {
+    let made = profile(&(0..120).map(|n| [if n < 60 { 6.0 } else { 4.8 }, 0.1]).collect::<Vec<_>>());
+    assert_eq!(diameters(&made, 28.0), [Some(6.0), None]);
+}
+
+#[test]
+fn no_reference_is_offered_where_something_hinders() {
+    for flags in [METAL, CALCIUM, RECENTERED, NEIGHBOR | IRREGULAR] {
+        let mut made = stepped(8.0);
+        made.flags[..58].fill(flags);
+        assert_eq!(diameters(&made, 30.0)[0], None, "{flags}");
+    }
 }
 
 /// The place of the longest diameter that is offered, where that of 9 mm is at 10 mm and a section at `at` mm has `flags`.

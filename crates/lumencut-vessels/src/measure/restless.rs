@@ -1,0 +1,42 @@
+//! Where a line turns more sharply than a vessel does, as at a hook of its end or a jump from one vessel to the next: its sections
+//! run into each other within the lumen.
+
+use super::flags::RESTLESS_LINE;
+use super::place::Place;
+use super::sections::Section;
+use lumencut_core::math::statistics::median;
+
+/// A line is restless where its direction turns by more than this within one diameter (degrees). At 115° the bend would be as
+/// sharp as its inner wall allows; lines of real vessels turn by up to 70°.
+pub const SHARP: f64 = 75.0;
+
+/// Flags the sections around which the line is restless, within the median diameter of the vessel.
+pub fn flag_restless(places: &[Place], sections: &mut [Section]) {
+    let widths = sections.iter().filter_map(|section| section.fit.as_ref());
+    let mut widths: Vec<f64> = widths.map(|fit| fit.ellipse.equivalent_diameter()).collect();
+    let Some(diameter) = median(&mut widths) else { return };
+    for (section, turn) in sections.iter_mut().zip(turns(places, diameter)) {
+        if turn > SHARP {
+            section.flags |= RESTLESS_LINE;
+        }
+    }
+}
+
+/// By how much the direction turns in all within half of a length (mm) to both sides of each place (degrees).
+fn turns(places: &[Place], within: f64) -> Vec<f64> {
+    let mut turned = vec![0.0];
+    for two in places.windows(2) {
+        let so_far = turned.last().copied().unwrap_or(0.0);
+        turned.push(so_far + two[0].normal.angle_between(two[1].normal).to_degrees());
+    }
+    let ends = |at: f64| {
+        let first = places.partition_point(|place| place.at < at - 0.5 * within);
+        let behind = places.partition_point(|place| place.at <= at + 0.5 * within);
+        turned[behind.max(1) - 1] - turned[first.min(places.len() - 1)]
+    };
+    places.iter().map(|place| ends(place.at)).collect()
+}
+
+#[cfg(test)]
+#[path = "tests/restless.rs"]
+mod tests;
