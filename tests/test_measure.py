@@ -8,7 +8,7 @@ import pytest
 import lumencut
 from lumencut import Flag, Vessel, VesselTree, Volume, measure
 from lumencut.profile import Profile
-from measure_scenes import FWHM, LUMEN, TISSUE, Grid, Tube, narrowed, round_tube
+from measure_scenes import FWHM, LUMEN, PARTS, TISSUE, Grid, Tube, blurred, narrowed, round_tube
 
 EVEN = (0.4, 0.4, 0.4)
 
@@ -179,6 +179,44 @@ def test_calcium_in_the_wall_is_no_lumen():
     profile = measure(tube.volume(Grid.even(EVEN, box(tube, 24))), tube.vessel(20), fwhm=FWHM)
     assert (profile.flags & Flag.CALCIUM > 0).mean() > 0.9
     assert abs(bias(profile, 4.0)) < 8
+
+
+@pytest.mark.parametrize(
+    ("away", "reach", "value"), [(2.4, 0.8, 164.0), (0.0, 3.0, 155.0), (-1.0, 2.0, 155.0)]
+)
+def test_what_is_brighter_than_lumen_by_more_than_its_noise_is_no_lumen(away, reach, value):
+    # Dense plaque over 6 mm in a scan of 8 bits without HU: at the wall, through all of the lumen, across it.
+    grid = Grid.even((0.5, 0.5, 0.5), (14, 14, 42))
+    x, y, z = grid.points(PARTS)
+    share = np.clip(0.5 - (np.hypot(x, y) - 3) * PARTS / 0.5, 0, 1)
+    inside = (np.abs(z) < 3) & (np.hypot(x - away, y) < reach) & (np.hypot(x, y) < 3.2)
+    values = blurred(np.where(inside, value, 5 + 115 * share), (0.5 / PARTS,) * 3, 0.9)
+    noisy = grid.volume(values, 3, 1.5)
+    scan = Volume(np.clip(np.round(noisy.array), 0, 255).astype(np.uint8), world_from_index=grid.affine)
+    z = np.linspace(-19, 19, 77)
+    profile = measure(scan, Vessel(np.stack([0 * z, 0 * z, z], axis=1)))
+    within = np.abs(profile.arc_length - 19) <= 2
+    assert (profile.flags[within] & (Flag.CALCIUM | Flag.METAL) > 0).all()
+    # Beside it there is lumen alone.
+    beside = np.abs(profile.arc_length - 19) > 5
+    assert (profile.flags[beside] == 0).all()
+
+
+def test_contrast_medium_that_mixes_and_an_edge_that_is_enhanced_are_lumen():
+    grid = Grid.even((0.5, 0.5, 0.5), (14, 14, 42))
+    x, y, z = grid.points(PARTS)
+    share = np.clip(0.5 - (np.hypot(x, y) - 3) * PARTS / 0.5, 0, 1)
+    step = (0.5 / PARTS,) * 3
+    values = blurred(5 + 115 * (1 + 0.15 * np.tanh(z / 10)) * share, step, 0.9)
+    # A sharp kernel overshoots at edges.
+    sharp = values + (values - blurred(values, step, 1.8))
+    along = np.linspace(-19, 19, 77)
+    for scanned in (values, sharp):
+        profile = measure(
+            grid.volume(scanned, 3, 1.5), Vessel(np.stack([0 * along, 0 * along, along], axis=1))
+        )
+        assert (profile.flags == 0).all()
+        assert abs(bias(profile, 6.0)) < 1.5
 
 
 def test_a_stent_is_metal():

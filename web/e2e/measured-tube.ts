@@ -96,15 +96,29 @@ export class MeasuredTube {
   /** The stenosis at 30 mm, with references at 10 and 50 mm, moved there by keys alone. */
   async marked(): Promise<void> {
     await this.nothingMarked();
-    await this.handle('narrowest place', 'in the profile').focus();
-    await this.viewer.press(...Array<string>(5).fill('ArrowLeft'));
-    await expect(this.row('place-0')).toContainText('at 30.0 mm');
-    await this.handle('reference before', 'in the CPR').focus();
-    await this.viewer.press('Shift+ArrowLeft', 'Shift+ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'ArrowLeft');
-    await this.handle('reference after', 'on the vessel').focus();
-    await this.viewer.press('Shift+ArrowDown', 'Shift+ArrowDown', 'ArrowRight', 'ArrowDown', 'ArrowDown');
-    await expect(this.row('reference-0')).toContainText('at 10.0 mm');
-    await expect(this.row('reference-1')).toContainText('at 50.0 mm');
+    await this.movedByKeys('place-0', this.handle('narrowest place', 'in the profile'), 30, 'Right');
+    await this.movedByKeys('reference-0', this.handle('reference before', 'in the CPR'), 10, 'Right');
+    await this.movedByKeys('reference-1', this.handle('reference after', 'on the vessel'), 50, 'Down');
+  }
+
+  /** Moves a place to an arc length with arrow keys, of which one leads along the vessel. */
+  private async movedByKeys(
+    row: string,
+    handle: Locator,
+    to: number,
+    ahead: 'Right' | 'Down',
+  ): Promise<void> {
+    const steps = Math.round(2 * (to - (await this.arcLength(row))));
+    const back = { Right: 'Left', Down: 'Up' }[ahead];
+    const key = `Arrow${steps < 0 ? back : ahead}`;
+    const count = Math.abs(steps);
+    const keys = [
+      ...Array<string>(Math.floor(count / 10)).fill(`Shift+${key}`),
+      ...Array<string>(count % 10).fill(key),
+    ];
+    await handle.focus();
+    await this.viewer.press(...keys);
+    await expect(this.row(row)).toContainText(`at ${to.toFixed(1)} mm`);
   }
 
   /** The text that is saved by a button of the menu "Save". */

@@ -22,7 +22,7 @@ use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
 /// What is brighter than lumen by this share of the contrast, and by this multiple of the noise, is not lumen.
-pub const BRIGHT: (f64, f64) = (0.35, 5.0);
+pub const BRIGHT: (f64, f64) = (0.15, 5.0);
 
 /// Values rise by this share of the contrast, and by this multiple of the noise, where a neighbour begins.
 const RISE: (f64, f64) = (0.2, 4.0);
