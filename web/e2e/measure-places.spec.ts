@@ -17,7 +17,8 @@ test('measuring begins at the narrowest place, with the section and with the cro
 
 test('places are suggested, and nothing is graded before a reader marks one', async () => {
   await tube.nothingMarked();
-  const [at, diameter] = PYTHON.narrowest;
+  const [at] = PYTHON.narrowest;
+  const [diameter] = PYTHON.diameter;
   await expect(tube.row('place-0')).toContainText(`${diameter.toFixed(2)} ± `);
   await expect(tube.row('place-0')).toContainText(` at ${at.toFixed(1)} mm`);
   for (const [slot, [place]] of PYTHON.references.entries()) {
@@ -43,7 +44,10 @@ test('each place can be dragged in the profile, the CPR and on the vessel, and m
       await expect(tube.handle(`${name}, ${at} mm`, where)).toBeVisible();
     }
   };
-  await tube.dragBy(tube.handle('narrowest place', 'in the profile'), [await tube.pixels(-2.5), 0]);
+  await tube.dragBy(tube.handle('narrowest place', 'in the profile'), [
+    await tube.pixels(30 - PYTHON.narrowest[0]),
+    0,
+  ]);
   await three('marked place', '30.0');
   await tube.dragBy(tube.handle('reference before', 'in the CPR'), [await tube.pixels(-11.5), 12]);
   await three('reference before', '10.0');

@@ -60,6 +60,7 @@ def measured() -> None:
         "ecst": str(profile.stenosis(30.0, None, "ecst", 9.0)),
         "area": str(profile.stenosis(30.0, (10.0, 50.0), "area")),
         "narrowest": profile.narrowest(),
+        "diameter": profile.diameter_at(profile.narrowest()[0]),
         "references": profile.suggested_references(profile.narrowest()[0]),
         "widest": profile.widest(),
         "aorta": stretches(),
