@@ -28,6 +28,14 @@ class Stenosis:
         return self._numbers[0]
 
     @property
+    def percent_uncertainty(self) -> float:
+        """The standard deviation of the percentage, in percent; NaN where nothing tells it.
+
+        What is wrong of the point spread or of the wall is wrong at the place and its reference together.
+        """
+        return self._numbers[5]
+
+    @property
     def at(self) -> float:
         """The place of the stenosis: an arc length on the vessel (mm)."""
         return self._numbers[1]

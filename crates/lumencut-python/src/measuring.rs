@@ -283,10 +283,11 @@ pub struct Stenosis(pub stenosis::Stenosis);
 
 #[pymethods]
 impl Stenosis {
-    /// Percent, place, diameter, uncertainty and reference (mm).
-    fn numbers(&self) -> (f64, f64, f64, f64, f64) {
+    /// Percent, place, diameter, uncertainty and reference (mm), and the uncertainty of the percentage.
+    fn numbers(&self) -> (f64, f64, f64, f64, f64, f64) {
         let graded = &self.0;
-        (graded.percent, graded.at, graded.diameter, graded.uncertainty, graded.reference)
+        let unsure = graded.percent_uncertainty;
+        (graded.percent, graded.at, graded.diameter, graded.uncertainty, graded.reference, unsure)
     }
 
     /// Arc length and diameter of each reference (mm).

@@ -27,12 +27,21 @@ pub fn of_stenosis(graded: &Stenosis) -> String {
     };
     format!(
         "{} % {what} ({method}): {} ± {} mm at {} mm, {against} {} mm{places}",
-        fixed(graded.percent, 0),
+        of_percent(graded.percent, graded.percent_uncertainty),
         fixed(graded.diameter, 2),
         fixed(graded.uncertainty, 2),
         fixed(graded.at, 1),
         fixed(graded.reference, 2),
     )
+}
+
+/// A percentage with its standard deviation, where that is known: rounded upwards, as nothing is sure to less than 1 %.
+fn of_percent(percent: f64, uncertainty: f64) -> String {
+    if uncertainty.is_finite() {
+        format!("{} ± {}", fixed(percent, 0), fixed(uncertainty.ceil().max(1.0), 0))
+    } else {
+        fixed(percent, 0)
+    }
 }
 
 fn places(references: &[[f64; 2]]) -> String {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
 
-use crate::measure_words::{of_doubts, of_flags, of_source};
+use crate::measure_words::{of_doubts, of_flags, of_source, of_wall};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Mark, Measured, marks};
 use crate::profile_table::columns;
@@ -95,7 +95,9 @@ impl VesselRecord {
 #[derive(Serialize)]
 struct ProfileRecord {
     fwhm_mm: f64,
+    fwhm_uncertainty_mm: f64,
     fwhm_source: String,
+    wall_source: String,
     noise: f64,
     length_mm: f64,
     longest_diameter: Option<Longest>,
@@ -111,7 +113,9 @@ impl ProfileRecord {
         };
         Self {
             fwhm_mm: profile.fwhm,
+            fwhm_uncertainty_mm: profile.fwhm_deviation,
             fwhm_source: of_source(&profile.fwhm_source),
+            wall_source: of_wall(&profile.wall_source),
             noise: profile.noise,
             length_mm: profile.length(),
             longest_diameter: profile.offered_widest().map(longest),
@@ -196,6 +200,7 @@ impl Serialize for Sections {
 #[derive(Serialize)]
 struct StenosisRecord {
     percent: f64,
+    percent_uncertainty: f64,
     method: &'static str,
     at_mm: f64,
     diameter_mm: f64,
@@ -212,6 +217,7 @@ impl StenosisRecord {
         let place = |[at, diameter]: &[f64; 2]| Place { arc_length_mm: *at, diameter_mm: *diameter };
         Some(Self {
             percent: graded.percent,
+            percent_uncertainty: graded.percent_uncertainty,
             method: graded.method.name(),
             at_mm: graded.at,
             diameter_mm: graded.diameter,

@@ -1,8 +1,9 @@
 //! Profiles as a table: CSV with one line for each section.
 
+use lumencut_vessels::measure::parts::Part;
 use lumencut_vessels::measure::profile::Profile;
 
-use crate::measure_words::{of_doubts, of_flags, of_source, of_stenosis};
+use crate::measure_words::{of_doubts, of_flags, of_source, of_stenosis, of_wall};
 use crate::profile_marks::{Grade, Measured};
 use crate::text::rounded;
 
@@ -13,7 +14,7 @@ const DIGITS: usize = 7;
 type Same = Vec<(&'static str, String)>;
 
 /// A profile between columns that are the same in all its lines.
-struct Part<'a> {
+struct Block<'a> {
     before: Same,
     profile: &'a Profile,
     behind: Same,
@@ -24,6 +25,8 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     let centers = |axis: usize| profile.center.iter().map(|point| point[axis]).collect();
     let normals = |axis: usize| profile.normal.iter().map(|normal| normal[axis]).collect();
     let levels = |which: usize| profile.levels.iter().map(|levels| levels[which]).collect();
+    let part = |part: Part| profile.uncertainty_parts.iter().map(|parts| part.of(parts).abs()).collect();
+    let both = |values: &[[f64; 2]], which: usize| values.iter().map(|both| both[which]).collect();
     vec![
         ("arc_length_mm", profile.arc_length.clone()),
         ("diameter_equivalent_mm", profile.diameter_equivalent()),
@@ -41,27 +44,36 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
         ("normal_z_lps", normals(2)),
         ("lumen_level", levels(0)),
         ("background_level", levels(1)),
+        ("uncertainty_noise_mm", part(Part::Noise)),
+        ("uncertainty_point_spread_mm", part(Part::PointSpread)),
+        ("uncertainty_wall_mm", part(Part::Wall)),
+        ("uncertainty_lumen_level_mm", part(Part::Lumen)),
+        ("uncertainty_surroundings_mm", part(Part::Surroundings)),
+        ("wall_mm", both(&profile.wall, 0)),
+        ("wall_uncertainty_mm", both(&profile.wall, 1)),
+        ("diameter_outer_mm", both(&profile.diameter_outer, 0)),
+        ("diameter_outer_uncertainty_mm", both(&profile.diameter_outer, 1)),
     ]
 }
 
 /// A profile as a table, a line for each section after the line of the names. Numbers have seven digits, and what could not be
 /// measured is empty.
 pub fn profile_csv(profile: &Profile) -> String {
-    csv_text(&[Part { before: Same::new(), profile, behind: Same::new() }])
+    csv_text(&[Block { before: Same::new(), profile, behind: Same::new() }])
 }
 
 /// Vessels as one table: the columns of [`profile_csv`] between those that say which vessel it is and what is told of the place
 /// that a reader marked on it.
 pub fn vessels_csv(vessels: &[Measured]) -> String {
-    let parts: Vec<Part> = vessels
+    let blocks: Vec<Block> = vessels
         .iter()
         .map(|one| {
             let name = one.name.clone().unwrap_or_default();
             let before = vec![("vessel", one.id.clone()), ("name", name)];
-            Part { before, profile: one.profile, behind: told(one.grade) }
+            Block { before, profile: one.profile, behind: told(one.grade) }
         })
         .collect();
-    csv_text(&parts)
+    csv_text(&blocks)
 }
 
 /// What is told of a marked place; empty where none is marked.
@@ -74,15 +86,16 @@ fn told(grade: Option<&Grade>) -> Same {
     ]
 }
 
-fn csv_text(parts: &[Part]) -> String {
+fn csv_text(blocks: &[Block]) -> String {
     let names = |same: &Same| same.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
     let values = |same: &Same| same.iter().map(|(_, value)| value.clone()).collect::<Vec<_>>();
     let mut text = String::new();
-    for (number, Part { before, profile, behind }) in parts.iter().enumerate() {
+    for (number, Block { before, profile, behind }) in blocks.iter().enumerate() {
         let found = columns(profile);
         if number == 0 {
             let own = found.iter().map(|(name, _)| (*name).to_owned());
-            let last = ["counts", "flags", "fwhm_mm", "fwhm_source"].map(str::to_owned);
+            let last = ["counts", "flags", "fwhm_mm", "fwhm_uncertainty_mm", "fwhm_source", "wall_source"]
+                .map(str::to_owned);
             write_line(&mut text, names(before).into_iter().chain(own).chain(last).chain(names(behind)));
         }
         for n in 0..profile.len() {
@@ -95,13 +108,15 @@ fn csv_text(parts: &[Part]) -> String {
 }
 
 /// What stands behind the numbers of a section.
-fn words(profile: &Profile, n: usize) -> [String; 4] {
+fn words(profile: &Profile, n: usize) -> [String; 6] {
     let counts = if profile.counts(n) { "yes" } else { "no" };
     [
         counts.to_owned(),
         of_flags(profile.flags[n]).join("; "),
         rounded(profile.fwhm, DIGITS),
+        rounded(profile.fwhm_deviation, DIGITS),
         of_source(&profile.fwhm_source),
+        of_wall(&profile.wall_source),
     ]
 }
 

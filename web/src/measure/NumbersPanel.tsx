@@ -24,6 +24,7 @@ export function NumbersPanel() {
       )}
       <RulersPart />
       {profile && <Blur fwhm={profile.fwhm} source={profile.fwhm_source} />}
+      {profile && <p data-testid="walls">{`Walls: ${profile.wall_source}.`}</p>}
     </div>
   );
 }

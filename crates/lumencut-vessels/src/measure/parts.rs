@@ -21,6 +21,18 @@ impl Parts {
         Self::default().map(|_| f64::NAN)
     }
 
+    /// Each part together with that of another diameter.
+    #[must_use]
+    pub fn with(&self, other: &Self, both: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            noise: both(self.noise, other.noise),
+            point_spread: both(self.point_spread, other.point_spread),
+            wall: both(self.wall, other.wall),
+            lumen: both(self.lumen, other.lumen),
+            surroundings: both(self.surroundings, other.surroundings),
+        }
+    }
+
     /// All of them together.
     pub fn total(&self) -> f64 {
         let Self { noise, point_spread, wall, lumen, surroundings } = self;
@@ -83,5 +95,35 @@ impl Part {
             Self::Lumen => parts.lumen,
             Self::Surroundings => parts.surroundings,
         }
+    }
+}
+
+/// The standard deviation of a sum of diameters of one vessel, each times a weight. Its point spread, its wall and the level of its
+/// lumen are the same everywhere, so that what is wrong of them is wrong at all places together; noise and surroundings are not.
+pub fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
+    let together =
+        |part: Part| diameters.iter().map(|(weight, parts)| weight * part.of(parts)).sum::<f64>().powi(2);
+    let apart =
+        |part: Part| diameters.iter().map(|(weight, parts)| (weight * part.of(parts)).powi(2)).sum::<f64>();
+    let square: f64 = Part::ALL
+        .into_iter()
+        .map(|part| match part {
+            Part::Noise | Part::Surroundings => apart(part),
+            Part::PointSpread | Part::Wall | Part::Lumen => together(part),
+        })
+        .sum();
+    square.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_everywhere_is_not_wrong_of_a_difference() {
+        let parts = Parts { noise: 0.03, point_spread: -0.1, wall: 0.2, lumen: 0.05, surroundings: 0.04 };
+        let same = deviation_of_sum(&[(1.0, parts), (-1.0, parts)]);
+        assert!((same - 0.05 * 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((deviation_of_sum(&[(1.0, parts)]) - parts.total()).abs() < 1e-12);
     }
 }

@@ -11,6 +11,7 @@
 use std::f64::consts::PI;
 
 use super::flags::BRANCH;
+use super::parts::{Parts, deviation_of_sum};
 use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::LinePlace;
@@ -72,6 +73,8 @@ pub struct Doubts {
 pub struct Stenosis {
     /// By how much it is narrower, 0 to 100: of the diameter, or of the area.
     pub percent: f64,
+    /// The standard deviation of that.
+    pub percent_uncertainty: f64,
     /// Its place, an arc length (mm).
     pub at: f64,
     /// Its diameter, of a circle of the same area (mm).
@@ -122,7 +125,18 @@ impl Profile {
         let left = if method == Method::Area { share * share } else { share };
         let percent = 100.0 * (1.0 - left);
         let doubts = self.doubts(at, method, &compared.reference);
-        Ok(Stenosis { percent, at, diameter, uncertainty, reference, references, method, doubts })
+        let percent_uncertainty = self.percent_uncertainty(at, method, share, &references) / reference;
+        Ok(Stenosis {
+            percent,
+            percent_uncertainty,
+            at,
+            diameter,
+            uncertainty,
+            reference,
+            references,
+            method,
+            doubts,
+        })
     }
 
     /// The diameter at an arc length (mm), between sections, and its standard deviation (mm).
@@ -142,6 +156,31 @@ impl Profile {
             ));
         }
         Ok((diameter, place.between(ends.map(|n| self.uncertainty[n]))))
+    }
+
+    /// What the standard deviation of the diameter at an arc length (mm) is made of, between sections.
+    pub fn uncertainty_at(&self, at: f64) -> Parts {
+        let place = LinePlace::at(&self.arc_length, at);
+        let [a, b] =
+            [place.segment, (place.segment + 1).min(self.len() - 1)].map(|n| &self.uncertainty_parts[n]);
+        a.with(b, |a, b| place.between([a, b]))
+    }
+
+    /// The standard deviation of a percentage, times the diameter of the reference (mm): `share` is what is left of that.
+    fn percent_uncertainty(&self, at: f64, method: Method, share: f64, references: &[[f64; 2]]) -> f64 {
+        let place = self.uncertainty_at(at);
+        let known: Vec<(f64, Parts)> = match (method, references) {
+            (Method::Ecst, _) => Vec::new(),
+            (_, [[a, _], [b, _]]) => {
+                let weight = (at - a) / (b - a);
+                vec![(1.0 - weight, self.uncertainty_at(*a)), (weight, self.uncertainty_at(*b))]
+            }
+            _ => references.iter().map(|[place, _]| (1.0, self.uncertainty_at(*place))).collect(),
+        };
+        let all: Vec<(f64, Parts)> =
+            known.into_iter().map(|(weight, parts)| (-share * weight, parts)).chain([(1.0, place)]).collect();
+        let by_area = if method == Method::Area { 2.0 * share } else { 1.0 };
+        100.0 * by_area * deviation_of_sum(&all)
     }
 
     /// The median diameter around an arc length (mm), of the sections that count.

@@ -6,7 +6,7 @@ use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::Method;
 
 use super::{Shown, VesselPage, flag_rows};
-use crate::measure_words::{of_method, of_source};
+use crate::measure_words::{of_method, of_source, of_wall};
 use crate::text::{fixed, rounded, shortest};
 
 /// How to read the numbers.
@@ -41,12 +41,13 @@ pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
     let profile = vessel.measured.profile;
     let counted = (0..profile.len()).filter(|n| profile.counts(*n)).count();
     format!(
-        "Measured by Lumencut {}. Settings: {}. FWHM of the point spread {}, {}. {} sections, of which {counted} count; \
+        "Measured by Lumencut {}. Settings: {}. FWHM of the point spread {}, {}. Walls: {}. {} sections, of which {counted} count; \
          flags: {}. {}",
         env!("CARGO_PKG_VERSION"),
         settings(shown),
         shown.length(profile.fwhm, 2),
         shown.spoken(&of_source(&profile.fwhm_source)),
+        of_wall(&profile.wall_source),
         profile.len(),
         flags(profile),
         contrast(profile),

@@ -1,7 +1,7 @@
 //! What was measured, as the page and its worker tell it each other: the types of `web/src/core/measuring.ts`.
 
 use crate::flag_table::{FLAGS, FlagLook};
-use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_source, of_stenosis};
+use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Marked};
 use crate::profile_record::Asked;
@@ -67,6 +67,8 @@ pub struct ProfileMessage {
     fwhm: f64,
     /// How it was found: `given`, `estimated on …`, `assumed: …`.
     fwhm_source: String,
+    /// The level that walls were expected to have, or why they were not told apart.
+    wall_source: String,
     /// A suggestion, not a finding.
     narrowest: Option<SpotMessage>,
     /// The longest diameter; none also where an odd outline or a branch may be what makes it so.
@@ -90,6 +92,7 @@ impl From<&Profile> for ProfileMessage {
             center: arrays(&profile.center),
             fwhm: profile.fwhm,
             fwhm_source: of_source(&profile.fwhm_source),
+            wall_source: of_wall(&profile.wall_source),
             narrowest: profile.narrowest().map(SpotMessage::from),
             widest: profile.offered_widest().map(SpotMessage::from),
             not_suggested: not_suggested(profile, None, &[]),
@@ -173,11 +176,14 @@ impl From<Option<Grade>> for GradeMessage {
 struct StenosisMessage {
     /// How much narrower it is than the reference.
     percent: f64,
+    /// The standard deviation of `percent`.
+    #[cfg_attr(test, ts(type = "number | null"))]
+    percent_uncertainty: f64,
     /// Its place (mm).
     at: f64,
     /// mm
     diameter: f64,
-    /// The standard deviation of `percent`.
+    /// The standard deviation of `diameter` (mm).
     #[cfg_attr(test, ts(type = "number | null"))]
     uncertainty: f64,
     /// What it is compared with, in the unit of the method.
@@ -201,6 +207,7 @@ impl StenosisMessage {
         let spot = |[at, diameter]: &[f64; 2]| SpotMessage { at: *at, diameter: *diameter };
         Some(Self {
             percent: stenosis.percent,
+            percent_uncertainty: stenosis.percent_uncertainty,
             at: stenosis.at,
             diameter: stenosis.diameter,
             uncertainty: stenosis.uncertainty,

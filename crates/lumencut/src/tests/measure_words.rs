@@ -4,6 +4,7 @@ use lumencut_vessels::measure::flags::{AT_LIMIT, BRANCH, CALCIUM, NO_EDGE};
 fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
     Stenosis {
         percent: 58.4,
+        percent_uncertainty: 1.6,
         at: 41.25,
         diameter: 2.084,
         uncertainty: 0.06,
@@ -18,15 +19,15 @@ fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
 fn a_stenosis_is_told_with_method_and_references() {
     assert_eq!(
         of_stenosis(&graded(Method::Nascet, vec![[20.0, 5.1], [60.04, 4.9]])),
-        "58 % of the diameter (NASCET): 2.08 ± 0.06 mm at 41.2 mm, reference 5.00 mm at 20.0 mm, 60.0 mm"
+        "58 ± 2 % of the diameter (NASCET): 2.08 ± 0.06 mm at 41.2 mm, reference 5.00 mm at 20.0 mm, 60.0 mm"
     );
     assert_eq!(
         of_stenosis(&graded(Method::Area, vec![[20.0, 5.1]])),
-        "58 % of the area (area): 2.08 ± 0.06 mm at 41.2 mm, reference 5.00 mm at 20.0 mm"
+        "58 ± 2 % of the area (area): 2.08 ± 0.06 mm at 41.2 mm, reference 5.00 mm at 20.0 mm"
     );
     assert_eq!(
         of_stenosis(&graded(Method::Ecst, vec![[20.0, 5.1]])),
-        "58 % of the diameter (ECST): 2.08 ± 0.06 mm at 41.2 mm, assumed original 5.00 mm"
+        "58 ± 2 % of the diameter (ECST): 2.08 ± 0.06 mm at 41.2 mm, assumed original 5.00 mm"
     );
 }
 

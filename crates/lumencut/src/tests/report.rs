@@ -75,7 +75,7 @@ fn a_picture_that_is_not_base64_is_refused() {
 #[test]
 fn a_percentage_has_its_method_and_references_and_what_makes_it_doubtful() {
     let text = html_of(&shown(), &marked(Some(30.0), &[20.0, 55.0]));
-    assert!(text.contains("<p class=\"finding\">50 % of the diameter (NASCET): 4.00 ± "));
+    assert!(text.contains("<p class=\"finding\">50 ± 2 % of the diameter (NASCET): 4.00 ± "));
     let doubts = text.matches("<p class=\"doubt\">").count();
     assert_eq!(doubts, 2, "flags of the places, and a branch between");
     assert!(text.contains("marked place</td><td>30.0</td><td>4.00 ± 0.10</td><td>3.60</td>"));
@@ -161,7 +161,7 @@ fn how_it_was_measured_is_told() {
     let settings = vec![["view".to_owned(), "CSR".to_owned()]];
     let text = html_of(&Shown { asked, settings, ..shown() }, &marked(None, &[]));
     let words = "Settings: step 0.5 mm; FWHM 1.2 mm; window W 700 L 300; reference 10.0 mm and 50.0 mm; view CSR. \
-                 FWHM of the point spread 1.20 mm, given. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
+                 FWHM of the point spread 1.20 mm, given. Walls: not told apart, as asked. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
                  Contrast to noise 25, contrast 250 in the unit of the volume.";
     assert!(text.contains(words), "{text}");
     assert!(text.contains(NOTICE));

@@ -22,7 +22,7 @@ pub fn tube() -> Profile {
         diameter_max: numbers(&|at| 1.1 * diameter(at)),
         area: numbers(&|at| std::f64::consts::PI * diameter(at).powi(2) / 4.0),
         uncertainty: vec![0.1; count],
-        uncertainty_parts: vec![Parts::default(); count],
+        uncertainty_parts: vec![Parts { noise: 0.1, ..Parts::default() }; count],
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
         flags: at.iter().map(|at| flags(*at)).collect(),

@@ -410,6 +410,8 @@ export type Profile = {
   readonly fwhm: number;
   /** How it was found: `given`, `estimated on …`, `assumed: …`. */
   readonly fwhm_source: string;
+  /** The level that walls were expected to have, or why they were not told apart. */
+  readonly wall_source: string;
   /** A suggestion, not a finding. */
   readonly narrowest: Spot | null;
   /** The longest diameter; none also where an odd outline or a branch may be what makes it so. */
@@ -554,11 +556,13 @@ export type Spot = {
 export type Stenosis = {
   /** How much narrower it is than the reference. */
   readonly percent: number;
+  /** The standard deviation of `percent`. */
+  readonly percent_uncertainty: number | null;
   /** Its place (mm). */
   readonly at: number;
   /** mm */
   readonly diameter: number;
-  /** The standard deviation of `percent`. */
+  /** The standard deviation of `diameter` (mm). */
   readonly uncertainty: number | null;
   /** What it is compared with, in the unit of the method. */
   readonly reference: number;

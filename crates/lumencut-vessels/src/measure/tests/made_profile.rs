@@ -19,7 +19,10 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
         diameter_max: diameter,
         area: numbers(&|[diameter, _]| PI * diameter * diameter / 4.0),
         uncertainty: numbers(&|[_, uncertainty]| *uncertainty),
-        uncertainty_parts: vec![Parts::default(); count],
+        uncertainty_parts: sections
+            .iter()
+            .map(|[_, uncertainty]| Parts { noise: *uncertainty, ..Parts::default() })
+            .collect(),
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
         flags: vec![0; count],

@@ -123,7 +123,10 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
         graded(json!({"at": 18.0, "references": [5.0, 31.0], "group": "carotid"})).expect("a stenosis");
     let percent = whole["percent"].as_f64().expect("a number");
     assert!((percent - 60.0).abs() < 0.7, "{percent}");
-    assert!(whole["words"].as_str().expect("words").starts_with("60 % of the diameter (NASCET): "));
+    assert!(
+        whole["words"].as_str().expect("words").starts_with("60 ± 1 % of the diameter (NASCET): "),
+        "{whole}"
+    );
     assert!(whole["group"].as_str().expect("a group").starts_with("50 to 69 %"));
     let area = graded(json!({"at": 18.0, "references": [31.0], "method": "area"})).expect("a stenosis");
     assert!((area["percent"].as_f64().expect("a number") - 84.0).abs() < 0.7);
@@ -366,7 +369,7 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 1 + counts[0] + counts[1]);
     assert!(lines[0].starts_with("vessel,name,arc_length_mm,"));
-    assert!(lines[0].ends_with(",fwhm_source,stenosis,doubts,not_graded"));
+    assert!(lines[0].ends_with(",fwhm_source,wall_source,stenosis,doubts,not_graded"));
     assert!(lines[1..].iter().all(|line| line.ends_with(",,,Mark a reference: where the vessel is normal.")));
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
     // Of several vessels no single place was asked for.
