@@ -49,7 +49,7 @@ def test_two_references_are_weighted_by_their_distances():
 
 def test_no_percentage_without_method_reference_and_mm(half):
     text = str(half.stenosis(30, 45))
-    for part in ("50 %", "NASCET", "of the diameter", "mm at 30.0 mm", "reference", "45.0 mm"):
+    for part in ("50 ± 1 %", "NASCET", "of the diameter", "mm at 30.0 mm", "reference", "45.0 mm"):
         assert part in text
     assert "area" in str(half.stenosis(30, 45, "area"))
 
