@@ -57,7 +57,9 @@ def test_each_page_says_what_it_is_of_and_what_it_is_not(page):
 
 def test_no_percentage_without_method_references_and_mm(page):
     lines = [line for line in page.words if "%" in line]
-    graded = r"\d+ ± \d+ % of the diameter \(NASCET\): [\d.]+ ± [\d.]+ mm at 30\.0 mm, reference [\d.]+ mm at .* mm"
+    graded = (
+        r"\d+ ± \d+ % of the diameter \(NASCET\): [\d.]+ ± [\d.]+ mm at 30\.0 mm, reference [\d.]+ mm at .*"
+    )
     group = r"Group of the field: 50 to 69 % \(groups of NASCET, .*\)"
     assert len(lines) == 2
     assert re.fullmatch(graded, lines[0])

@@ -41,8 +41,10 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "center": profile.center.tolist(),
         "fwhm": profile.fwhm,
         "fwhm_source": profile.fwhm_source,
+        "wall_source": profile.wall_source,
         "narrowest": None if narrowest is None else {"at": narrowest[0], "diameter": narrowest[1]},
         "widest": None if widest is None else {"at": widest[0], "diameter": widest[1]},
+        "not_suggested": list(profile.not_suggested()),
     }
 
 
