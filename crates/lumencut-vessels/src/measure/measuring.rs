@@ -43,6 +43,10 @@ const DEFAULT_FWHM: f64 = 1.2;
 /// The standard deviation of a point spread that is assumed, as a share of it.
 const ASSUMED: f64 = 0.2;
 
+/// Whether walls are told apart is said by this number of sections, whose noise is correlated as this inflation of variances has it.
+const WALL_SECTIONS: usize = 48;
+const CORRELATED: f64 = 4.0;
+
 /// The texture of the noise is told by this number of sections.
 const TEXTURE: usize = 32;
 
@@ -207,8 +211,24 @@ impl Looked {
         Ok(Self { scale, wall, wall_source, places, rough: tamed(&rough) })
     }
 
+    /// The wall that may be there where it is not told apart, as it is as bright as its surroundings: some of the sections say so
+    /// under a point spread (FWHM, mm).
+    fn hidden_wall(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<KnownWall>> {
+        let Some(known) = self.wall else { return Ok(None) };
+        let every = self.places.len().div_ceil(WALL_SECTIONS).max(1);
+        let places: Vec<Place> = self.places.iter().copied().step_by(every).collect();
+        let rough: Vec<Option<Rough>> = self.rough.iter().copied().step_by(every).collect();
+        let fits = bench(voxels, self.scale, self.wall, fwhm).first_fits(&places, &rough, stop)?;
+        let at: Vec<f64> = places.iter().map(|place| place.at).collect();
+        let told = pooled(&at, &fits, &known, CORRELATED);
+        let hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
+        Ok(hidden.filter(|_| !is_apart(&known, &told, &fits)))
+    }
+
     fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
-        let bench = bench(voxels, self.scale, self.wall, assumed(voxels));
+        let hidden = self.hidden_wall(voxels, assumed(voxels), stop)?;
+        let wall = self.wall.filter(|_| hidden.is_none());
+        let bench = bench(voxels, self.scale, wall, assumed(voxels));
         let fits = bench.first_fits(&self.places, &self.rough, stop)?;
         estimated(&bench, voxels.world_from_index.matrix3, &self.places, &fits, stop)
     }
@@ -221,16 +241,11 @@ impl Looked {
         spread: PointSpread,
     ) -> Result<Profile> {
         let stop = request.stop;
-        let mut bench = bench(voxels, self.scale, self.wall, spread.fwhm);
-        let mut all = self.all_sections(&bench, stop)?;
-        let (mut hidden, mut wall_source) = (None, self.wall_source);
-        if let Some((known, told)) = bench.wall.zip(all.walls.as_ref())
-            && !is_apart(&known, told, &all.fits)
-        {
-            hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
-            (bench.wall, wall_source) = (None, WallSource::AsBright);
-            all = self.all_sections(&bench, stop)?;
-        }
+        let hidden = self.hidden_wall(voxels, spread.fwhm, stop)?;
+        let wall_source = if hidden.is_some() { WallSource::AsBright } else { self.wall_source };
+        let wall = self.wall.filter(|_| hidden.is_none());
+        let mut bench = bench(voxels, self.scale, wall, spread.fwhm);
+        let all = self.all_sections(&bench, stop)?;
         let wider = (spread.deviation > 0.0)
             .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
         let AllSections { fits, noise, lumen, walls, texture } = all;
