@@ -55,7 +55,7 @@ pub struct Unsure<'a> {
 }
 
 /// Surroundings differ from side to side by these shares (standard deviations), in the order of the harmonics.
-const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15];
+const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15, 0.1, 0.1];
 
 /// The centre stays within this number of radii of where it began, and the size within these shares of that.
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);

@@ -43,9 +43,8 @@ const DEFAULT_FWHM: f64 = 1.2;
 /// The standard deviation of a point spread that is assumed, as a share of it.
 const ASSUMED: f64 = 0.2;
 
-/// Whether walls are told apart is said by this number of sections, whose noise is correlated as this inflation of variances has it.
+/// Whether walls are told apart is said by this number of sections.
 const WALL_SECTIONS: usize = 48;
-const CORRELATED: f64 = 4.0;
 
 /// The texture of the noise is told by this number of sections.
 const TEXTURE: usize = 32;
@@ -218,9 +217,12 @@ impl Looked {
         let every = self.places.len().div_ceil(WALL_SECTIONS).max(1);
         let places: Vec<Place> = self.places.iter().copied().step_by(every).collect();
         let rough: Vec<Option<Rough>> = self.rough.iter().copied().step_by(every).collect();
-        let fits = bench(voxels, self.scale, self.wall, fwhm).first_fits(&places, &rough, stop)?;
-        let at: Vec<f64> = places.iter().map(|place| place.at).collect();
-        let told = pooled(&at, &fits, &known, CORRELATED);
+        let some = Self { places, rough, ..*self };
+        let bench = bench(voxels, self.scale, self.wall, fwhm);
+        let fits = bench.first_fits(&some.places, &some.rough, stop)?;
+        let inflation = some.inflation(&bench, &some.texture(&bench, &fits, noise(&fits), stop)?);
+        let at: Vec<f64> = some.places.iter().map(|place| place.at).collect();
+        let told = pooled(&at, &fits, &known, inflation);
         let hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
         Ok(hidden.filter(|_| !is_apart(&known, &told, &fits)))
     }
@@ -291,12 +293,16 @@ impl Looked {
         }
         let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
         let texture = self.texture(bench, &fits, noise, stop)?;
-        let sides = bench.rays.voxels.world_from_index.matrix3;
-        let inflation =
-            self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)));
+        let inflation = self.inflation(bench, &texture);
         let at: Vec<f64> = self.places.iter().map(|place| place.at).collect();
         let walls = bench.wall.map(|known| pooled(&at, &fits, &known, inflation));
         Ok(AllSections { fits, noise, lumen, walls, texture })
+    }
+
+    /// By how much what walls tell varies more than with independent noise.
+    fn inflation(&self, bench: &Bench, texture: &Texture) -> f64 {
+        let sides = bench.rays.voxels.world_from_index.matrix3;
+        self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)))
     }
 
     /// The texture of the noise, from what fits miss.

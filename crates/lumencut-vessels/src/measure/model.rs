@@ -102,7 +102,8 @@ impl ThreeLevels {
         // In the very middle, where nothing is seen of the surroundings, there is no direction.
         let length = (dx * dx + dy * dy + 1e-6).sqrt();
         let (cos, sin) = (dx / length, dy / length);
-        [cos, sin, cos * cos - sin * sin, 2.0 * cos * sin]
+        let (cos_2, sin_2) = (cos * cos - sin * sin, 2.0 * cos * sin);
+        [cos, sin, cos_2, sin_2, cos * cos_2 - sin * sin_2, sin * cos_2 + cos * sin_2]
     }
 }
 

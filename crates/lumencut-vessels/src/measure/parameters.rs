@@ -17,8 +17,8 @@ pub const WALL: usize = PLAIN + 1;
 /// See [`THICKNESS`].
 pub const SECTORS: usize = PLAIN + 2;
 
-/// The cosine and the sine of the direction, and those of twice the direction: surroundings differ from side to side.
-pub const HARMONICS: usize = 4;
+/// The cosine and the sine of the direction, of twice and of three times it: surroundings differ from side to side.
+pub const HARMONICS: usize = 6;
 
 /// The number of parameters with a wall.
 pub const WALLED: usize = SECTORS + HARMONICS;
