@@ -18,7 +18,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page site test lint format settings types fuzz bench bench-gpu bench-dicom compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: help demo page site test lint format settings types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -66,6 +66,9 @@ bench: develop tools ## Measure this machine, VTK beside it; prints tables, keep
 	$(BIN)/python benches/trace.py
 	$(BIN)/python benches/trace_mask.py
 	$(BIN)/python benches/trace_from.py
+
+calibration: develop ## See whether the uncertainty of measured diameters holds, in 288 scenes; prints a table.
+	PYTHONPATH=tests $(BIN)/python tests/calibration.py 24
 
 bench-gpu: toolchain ## Measure the GPU, this machine's CPU beside it; QUICK=--quick for slow ones.
 	cargo bench --locked --package lumencut-gpu --bench stages -- $(QUICK)
