@@ -116,11 +116,11 @@ test('a ruler measures between two clicks; its ends can be dragged, and it can b
 
 test('another width of the point spread is reckoned with, and said', async () => {
   const blur = tube.viewer.page.getByRole('region', { name: 'Blur of the scan' });
-  await expect(blur).toContainText('estimated on');
+  await expect(blur).toContainText('assumed: ');
   await blur.getByLabel('Give it').fill('0.6');
   await blur.getByLabel('Give it').press('Enter');
   await expect(blur).toContainText(', given.');
   await blur.getByLabel('Give it').fill('');
   await blur.getByLabel('Give it').press('Enter');
-  await expect(blur).toContainText('estimated on');
+  await expect(blur).toContainText('assumed: ');
 });

@@ -19,7 +19,7 @@ test('the table and the JSON are those of Python', async () => {
   );
   const told = JSON.parse(await tube.saved('Numbers of measured vessels (JSON)'));
   expect(told.vessels[0].stenosis.method).toBe('nascet');
-  expect(PYTHON.nascet).toContain(`${told.vessels[0].stenosis.percent.toFixed(0)} % of the diameter`);
+  expect(PYTHON.nascet).toContain(`${told.vessels[0].stenosis.percent.toFixed(0)} ± 1 % of the diameter`);
 });
 
 /** A line of the table in which coordinates that are 0 but for rounding are 0: the last digits of those differ by the compiler. */

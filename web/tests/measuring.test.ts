@@ -75,7 +75,7 @@ async function answers(engine: Asked, line: number, length: number, { at, refere
     references: graded?.references.map((spot) => spot.at),
     percent: graded?.percent,
     // A percentage and its doubts are one line in Python.
-    words: [graded?.words, ...(graded?.doubts ?? [])].join(graded?.doubts.length ? '. ' : ''),
+    words: [graded?.words, graded?.doubts.join(' ')].filter(Boolean).join('. '),
     doubts: await engine.ask('doubts', { line, compared: { at, references, method: 'area' } }),
     suggested: spots.map((spot) => spot && { arc_length: spot.at, diameter: spot.diameter }),
     diameter_at: [diameter, uncertainty],
