@@ -10,7 +10,7 @@ use super::parts::Parts;
 use super::slab::Samples;
 use super::sums::{Missing, Moves, Sums};
 use super::terms::{Term, unit};
-use super::texture::Texture;
+use super::texture::{Texture, independent_variance};
 use super::wall::{KnownWall, Wall};
 use lumencut_core::math::lanes::{FAN, Isa, dispatch};
 use lumencut_core::math::statistics::median;
@@ -89,9 +89,9 @@ impl Fit {
         start: &Ellipse,
         expected: &Expected,
     ) -> Option<Self> {
-        let levels = [Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)];
         let Some(known) = expected.wall else {
-            let work = Work::<TwoLevels, PLAIN>::new(samples, whitening, start, expected, levels.to_vec());
+            let terms = vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)];
+            let work = Work::<TwoLevels, PLAIN>::new(samples, whitening, start, expected, terms);
             let (minimum, missed, parts) = work.done()?;
             return Self::of(&minimum, missed, parts);
         };
@@ -211,9 +211,12 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         let kernel =
             Moves { samples: self.samples, kept: &self.kept, model: &model, towards: towards_shares };
         let moves = dispatch(Isa::widest(), kernel);
-        let independent = Texture::white();
-        let texture = expected.unsure.map_or(&independent, |unsure| unsure.texture);
-        let noise = expected.noise * texture.variance(self.samples, &moves).sqrt();
+        let variance = match expected.unsure {
+            Some(unsure) => unsure.texture.variance(self.samples, &moves),
+            // Fits that only lead to others are many: their noise counts as independent.
+            None => independent_variance(&moves),
+        };
+        let noise = expected.noise * variance.sqrt();
         // What misses more than noise does says that the lumen is no ellipse, or the surroundings are not even.
         let excess = (missed / expected.noise).max(1.0);
         let wall = match expected.unsure.and_then(|unsure| unsure.wall) {

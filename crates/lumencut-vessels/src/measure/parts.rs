@@ -7,7 +7,7 @@ pub struct Parts {
     pub noise: f64,
     /// The width of the point spread; with the sign by which a wider one changes the diameter.
     pub point_spread: f64,
-    /// The level and the thickness of the wall; with the sign by which a brighter one changes the diameter.
+    /// The level and the thickness of the wall.
     pub wall: f64,
     /// The level of the lumen.
     pub lumen: f64,
@@ -39,7 +39,7 @@ impl Parts {
         [noise, point_spread, wall, lumen, surroundings].map(|part| part * part).iter().sum::<f64>().sqrt()
     }
 
-    /// The parts of a diameter that is so many times as large.
+    /// The parts of a diameter that is larger by this factor.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
         self.map(|part| part * by)

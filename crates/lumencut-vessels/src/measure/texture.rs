@@ -81,6 +81,11 @@ fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     (apart[0] < FAR && apart[1] < FAR && apart[2] < FAR).then_some(apart)
 }
 
+/// The variance of the sum of independent noise of variance 1, each sample weighed by `weights`.
+pub fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
+    weights.iter().flatten().map(|weight| f64::from(weight * weight)).sum()
+}
+
 impl Texture {
     /// Noise that is independent in all voxels.
     pub fn white() -> Self {

@@ -1,7 +1,7 @@
 //! The wall of a vessel: what is known of it beforehand, and what the sections of a vessel tell of it together.
 //!
-//! An artery is lumen, wall and, mostly, fat. Half of the way from the lumen to the fat lies in the wall, so that a lumen without
-//! one is taken for too wide, by 3 mm for 3.5. The level of walls in CT is about that of soft tissue.
+//! An artery is lumen, wall and, mostly, fat. Half of the way from the lumen to the fat lies in the wall, so that without a
+//! wall a lumen of 3 mm is measured as 3.5 mm. The level of walls in CT is about that of soft tissue.
 
 use glam::DVec2;
 
