@@ -15,8 +15,10 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// The quads side by side and the rows of a thread's tile.
+/// The quads side by side and the rows of a thread's tile on software, where what a thread reads should serve many pixels.
 pub(crate) const TILE: [usize; 2] = [1, 4];
+/// The same on hardware, which needs many threads: a picture has too few larger tiles to keep it busy.
+pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];
 /// The pixels of a quad, the tiles of a group of threads, and how many of them lie side by side.
 pub(crate) const QUAD: usize = 4;
 pub(crate) const TILES: usize = 64;
@@ -45,7 +47,7 @@ pub(crate) struct CutSurfaceStages {
 impl CutSurfaceStages {
     /// Compiles the stages.
     pub fn new(device: &Device) -> Self {
-        let [across, rows] = TILE;
+        let [across, rows] = tile_of(device);
         let tile = [("ACROSS", across as f64), ("ROWS", rows as f64)];
         Self {
             projection: Stage::new(device, "math/projection", &[]),
@@ -112,7 +114,7 @@ impl CutSurfaceStages {
         let DepthRules { is_own, lumen_first, has_sheet } = rules;
         let [own, lumen, sheet] = [is_own, lumen_first, has_sheet].map(usize::from);
         self.depth[own][lumen][sheet].get_or_insert_with(|| {
-            let [across, rows] = TILE.map(|n| n as f64);
+            let [across, rows] = tile_of(device).map(|n| n as f64);
             let [lumen_first, has_sheet] = [lumen_first, has_sheet].map(|is| f64::from(u8::from(is)));
             let constants =
                 [("ACROSS", across), ("ROWS", rows), ("LUMEN_FIRST", lumen_first), ("HAS_SHEET", has_sheet)];
@@ -143,6 +145,11 @@ impl DepthRules {
             has_sheet: Table::has_sheet(settings, images),
         }
     }
+}
+
+/// The tile of a thread on a GPU.
+fn tile_of(device: &Device) -> [usize; 2] {
+    if device.description().is_software { TILE } else { TILE_ON_HARDWARE }
 }
 
 /// The size of a dispatch of at least `groups` groups, in rows no longer than one allows.

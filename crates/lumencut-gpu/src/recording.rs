@@ -7,6 +7,7 @@ use lumencut_core::error::Error;
 use lumencut_core::error::Result;
 use lumencut_core::frame::Timing;
 use lumencut_core::stop::Stop;
+use rayon::prelude::*;
 use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, MapMode};
 
 use crate::device::Device;
@@ -35,10 +36,14 @@ pub(crate) struct Results {
 
 impl Results {
     /// The numbers of the buffer that was asked for as the `n`th.
-    pub fn numbers<T: Pod>(&self, n: usize) -> Vec<T> {
-        self.view
-            .as_ref()
-            .map_or_else(Vec::new, |all| bytemuck::pod_collect_to_vec(&all[self.places[n].clone()]))
+    pub fn numbers<T: Pod + Send + Sync>(&self, n: usize) -> Vec<T> {
+        let Some(all) = &self.view else { return Vec::new() };
+        let bytes = &all[self.places[n].clone()];
+        // A large picture takes longer to copy than to compute: several threads touch the new memory.
+        match bytemuck::try_cast_slice(bytes) {
+            Ok(numbers) => numbers.par_iter().with_min_len(1 << 16).copied().collect(),
+            Err(_) => bytemuck::pod_collect_to_vec(bytes),
+        }
     }
 }
 

@@ -13,6 +13,9 @@ pub const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
 /// Whether a search for hardware has found none; it does not appear later.
 static IS_BARE: AtomicBool = AtomicBool::new(false);
 
+/// Whether this process is a fork of one that had a GPU.
+static IS_FORKED: AtomicBool = AtomicBool::new(false);
+
 /// What a scene is to be computed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
@@ -91,6 +94,8 @@ fn share(device: Arc<Device>, choice: Choice) -> Arc<Device> {
         if let Some(opened) = shared.as_ref().filter(|opened| opened.will_do(choice)) {
             return Arc::clone(&opened.device);
         }
+        IS_FORKED
+            .fetch_or(shared.as_ref().is_some_and(|opened| opened.process != process()), Ordering::Relaxed);
         // Dropping the parent's would wait for a GPU that does not listen to this process.
         std::mem::forget(shared.take_if(|opened| opened.process != process()));
         *shared = Some(Opened { process: process(), device: Arc::clone(&device) });
@@ -124,6 +129,15 @@ pub fn forget(failed: &Device) {
     with_shared(|shared| {
         drop(shared.take_if(|opened| std::ptr::eq(Arc::as_ptr(&opened.device), failed)));
     });
+}
+
+/// The error of a GPU, with what mends it in a forked process: some drivers serve only the process that found the GPU.
+pub(crate) fn explained(error: Error) -> Error {
+    if IS_FORKED.load(Ordering::Relaxed) {
+        return error
+            .mend("start processes by 'spawn' instead of 'fork': this driver serves no forked process");
+    }
+    error
 }
 
 /// The number of this process; a page of a browser is the only one.

@@ -48,7 +48,7 @@ impl<'a> Placed<'a> {
 }
 
 /// Runs a recording and gives an image of it.
-pub fn finish<T: bytemuck::Pod>(mut recording: Recording, image: &Buffer) -> Vec<T> {
+pub fn finish<T: bytemuck::Pod + Send + Sync>(mut recording: Recording, image: &Buffer) -> Vec<T> {
     recording.read(image, image.size());
     super::finish(recording).numbers(0)
 }
