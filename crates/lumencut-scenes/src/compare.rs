@@ -2,15 +2,13 @@
 
 use lumencut_core::frame::Frame;
 
-use crate::tolerances::{COLOR, COLOR_LEAP, DEPTH, FILTER_SIDE, MOST_TOGETHER, NEIGHBOURHOOD, TIE_PIXELS};
+use crate::tolerances::{COLOR, COLOR_LEAP, DEPTH, MOST_TOGETHER, NEIGHBOURHOOD};
 
 /// What differs between two frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Differences {
     /// The share of pixels whose depths are further apart than [`DEPTH`] says.
     pub depths: f64,
-    /// The longer side of the box around the pixels whose depths differ; 0 where none does.
-    pub depth_span: usize,
     /// The largest difference in any of the four channels.
     pub largest_color: u8,
     /// The share of pixels with a channel further apart than [`COLOR`] says.
@@ -47,7 +45,6 @@ pub fn compare(a: &Frame, b: &Frame) -> Differences {
     let mut found = Differences::default();
     let mut neighbourhoods = vec![0; width.div_ceil(NEIGHBOURHOOD) * height.div_ceil(NEIGHBOURHOOD)];
     let [mut depths, mut colors, mut leaps] = [0; 3];
-    let (mut low, mut end) = ([width, height], [0; 2]);
     for p in 0..pixels {
         let other_depth = !a.depth().is_empty() && !DEPTH.is_same(a.depth()[p], b.depth()[p]);
         let channel = |c: usize| a.image[p][c].abs_diff(b.image[p][c]);
@@ -55,9 +52,6 @@ pub fn compare(a: &Frame, b: &Frame) -> Differences {
         found.largest_color = found.largest_color.max(color);
         found.vessels += usize::from(!a.vessel.is_empty() && a.vessel[p] != b.vessel[p]);
         depths += usize::from(other_depth);
-        for (axis, at) in [p % width, p / width].into_iter().enumerate().filter(|_| other_depth) {
-            (low[axis], end[axis]) = (low[axis].min(at), end[axis].max(at + 1));
-        }
         let (is_other, leaps_far) = (f32::from(color) > COLOR.apart, f32::from(color) > COLOR_LEAP.apart);
         colors += usize::from(is_other);
         leaps += usize::from(leaps_far);
@@ -66,15 +60,8 @@ pub fn compare(a: &Frame, b: &Frame) -> Differences {
     }
     [found.depths, found.colors, found.leaps, found.vessel_share] =
         [depths, colors, leaps, found.vessels].map(|n| n as f64 / pixels as f64);
-    found.depth_span = (0..2).map(|axis| end[axis].saturating_sub(low[axis])).max().unwrap_or(0);
     found.together = neighbourhoods.into_iter().max().unwrap_or(0);
     found
-}
-
-/// Whether all depths that differ can come from one pixel where two pieces cost the same: the depth filter spreads it over
-/// its window, which is more than a share of a small picture.
-fn is_one_tie(found: &Differences, size: [usize; 2]) -> bool {
-    found.depth_span <= FILTER_SIDE && size[0] * size[1] >= TIE_PIXELS
 }
 
 /// Refuses frames that differ by more than rounding.
@@ -83,7 +70,7 @@ fn is_one_tie(found: &Differences, size: [usize; 2]) -> bool {
 /// As [`compare`], and for what differs.
 pub fn assert_equal(a: &Frame, b: &Frame) {
     let found = compare(a, b);
-    assert!(found.depths <= DEPTH.share || is_one_tie(&found, a.size()), "depths: {found:?}");
+    assert!(found.depths <= DEPTH.share, "depths: {found:?}");
     assert!(found.vessel_share <= DEPTH.share, "vessels: {found:?}");
     assert!(found.colors <= COLOR.share, "colours: {found:?}");
     assert!(found.leaps <= COLOR_LEAP.share, "colours far apart: {found:?}");
@@ -136,26 +123,6 @@ mod tests {
     }
 
     const SIZE: [usize; 2] = [200, 160];
-
-    #[test]
-    fn depths_of_one_tie_are_allowed_within_the_filters_window_alone() {
-        let size = [96, 80];
-        let at = |frame: &mut Frame, pixels: &[usize]| {
-            pixels.iter().for_each(|p| depth_of(frame)[*p] += 0.05);
-        };
-        // Nine pixels in a square of three: more than a thousandth of the picture.
-        let square: Vec<usize> = (0..9).map(|n| (40 + n / 3) * 96 + 50 + n % 3).collect();
-        let (a, mut b) = (frame(size), frame(size));
-        at(&mut b, &square);
-        assert!(compare(&a, &b).depths > DEPTH.share);
-        assert_eq!((compare(&a, &b).depth_span, refused(&a, &b)), (3, None));
-        // One of them as far away as the filter does not reach.
-        let apart = [&square[..8], &[40 * 96 + 57]].concat();
-        refuses("depths", size, |b| at(b, &apart));
-        // In a picture that is hardly larger than the window.
-        let small: Vec<usize> = (0..3).collect();
-        refuses("depths", [17, 17], |b| at(b, &small));
-    }
 
     #[test]
     fn rounding_is_no_difference() {

@@ -52,12 +52,6 @@ pub const NEIGHBOURHOOD: usize = 8;
 /// than the smallest vessel covers.
 pub const MOST_TOGETHER: usize = 16;
 
-/// The side of the depth filter's window (pixels).
-pub const FILTER_SIDE: usize = 7;
-
-/// The pixels of the smallest picture in which one tie may differ: twenty windows of the depth filter.
-pub const TIE_PIXELS: usize = 20 * FILTER_SIDE * FILTER_SIDE;
-
 /// Depths of whole frames (mm), and vessels: a thousandth of a mm is far below a voxel, and where two pieces cost the
 /// same the last digit decides, which happens along the thin lines where zones meet.
 pub const DEPTH: Tolerance = Tolerance::new(1e-3, 1e-3);

@@ -80,6 +80,8 @@ impl Opened {
 /// [`ErrorKind::Device`] where there is none of that kind, or none that can be used.
 pub async fn open(choice: Choice) -> Result<Arc<Device>> {
     let shared = with_shared(|shared| {
+        IS_FORKED
+            .fetch_or(shared.as_ref().is_some_and(|opened| opened.process != process()), Ordering::Relaxed);
         shared.as_ref().filter(|opened| opened.will_do(choice)).map(|opened| Arc::clone(&opened.device))
     });
     match shared {
@@ -94,8 +96,6 @@ fn share(device: Arc<Device>, choice: Choice) -> Arc<Device> {
         if let Some(opened) = shared.as_ref().filter(|opened| opened.will_do(choice)) {
             return Arc::clone(&opened.device);
         }
-        IS_FORKED
-            .fetch_or(shared.as_ref().is_some_and(|opened| opened.process != process()), Ordering::Relaxed);
         // Dropping the parent's would wait for a GPU that does not listen to this process.
         std::mem::forget(shared.take_if(|opened| opened.process != process()));
         *shared = Some(Opened { process: process(), device: Arc::clone(&device) });
