@@ -44,17 +44,21 @@ impl Pairs {
                 }
             }
         }
-        for (n, (voxel, miss)) in each.iter().enumerate() {
-            for (other, beside) in &each[n..] {
-                match apart(*voxel, *other) {
-                    Some([i, j, k]) => {
-                        all.products[i][j][k] += miss * beside;
-                        all.count[i][j][k] += 1.0;
-                    }
-                    None => all.far = [all.far[0] + miss * beside, all.far[1] + 1.0],
-                }
-            }
+        let (mut sum, mut near) = (0.0, [0.0; 2]);
+        for (_, miss) in &each {
+            sum += miss;
+            all.products[0][0][0] += miss * miss;
+            all.count[0][0][0] += 1.0;
         }
+        let squares = all.products[0][0][0];
+        for_near_pairs(&mut each, |[i, j, k], miss, beside| {
+            all.products[i][j][k] += miss * beside;
+            all.count[i][j][k] += 1.0;
+            near = [near[0] + miss * beside, near[1] + 1.0];
+        });
+        // All pairs of two are half of what the square of the sum has beyond the squares; those that are not near are far.
+        let number = each.len() as f64;
+        all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
     }
 
@@ -71,6 +75,27 @@ impl Pairs {
             }
         }
         self
+    }
+}
+
+/// Visits every two of some samples in voxels that are not far apart, each pair once: how far they are apart along each axis, and
+/// what belongs to either. Along the axis on which they lie farthest apart the samples are put in order, so that most of those
+/// that are far apart are never looked at.
+fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut([usize; 3], T, T)) {
+    let extent = |axis: usize| {
+        let along = || samples.iter().map(move |(voxel, _)| voxel[axis]);
+        along().max().unwrap_or(0).abs_diff(along().min().unwrap_or(0))
+    };
+    let axis = (0..3).max_by_key(|axis| extent(*axis)).unwrap_or(0);
+    samples.sort_by_key(|(voxel, _)| voxel[axis]);
+    for (n, (voxel, value)) in samples.iter().enumerate() {
+        let after = &samples[n + 1..];
+        let near = after.partition_point(|(other, _)| usize::from(other[axis].abs_diff(voxel[axis])) < FAR);
+        for (other, beside) in &after[..near] {
+            if let Some(apart) = apart(*voxel, *other) {
+                visit(apart, *value, *beside);
+            }
+        }
     }
 }
 
@@ -150,21 +175,47 @@ impl Texture {
     /// The variance of the sum of noise of variance 1, each sample weighed by `weights`; at least that of independent noise
     /// times a tenth.
     pub fn variance(&self, samples: &Samples, weights: &[[f32; FAN]]) -> f64 {
-        let each: Vec<([i16; 3], f32)> = weights
+        let mut each: Vec<([i16; 3], f32)> = weights
             .iter()
             .zip(&samples.voxel)
             .flat_map(|(weights, voxels)| voxels.iter().copied().zip(weights.iter().copied()))
             .filter(|(_, weight)| *weight != 0.0)
             .collect();
-        let (mut own, mut both) = (0.0, 0.0);
-        for (n, (voxel, weight)) in each.iter().enumerate() {
-            own += f64::from(weight * weight);
-            for (other, beside) in &each[n + 1..] {
-                if let Some([i, j, k]) = apart(*voxel, *other) {
-                    both += f64::from(weight * beside * self.correlation[i][j][k]);
+        let own = independent_variance(weights);
+        let mut both = 0.0;
+        for_near_pairs(&mut each, |[i, j, k], weight, beside| {
+            both += f64::from(weight * beside * self.correlation[i][j][k]);
+        });
+        (own + 2.0 * both).max(0.1 * own)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_pairs_are_those_of_a_search_of_all() {
+        let mut state = 7u32;
+        let mut next = |most: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) % most
+        };
+        for extent in [[1, 1, 1], [3, 40, 9], [25, 4, 2], [12, 12, 60]] {
+            let mut samples: Vec<([i16; 3], u32)> =
+                (0..300).map(|n| (extent.map(|most| next(most) as i16 - 7), n)).collect();
+            let mut expected = Vec::new();
+            for (n, (voxel, a)) in samples.iter().enumerate() {
+                for (other, b) in &samples[n + 1..] {
+                    expected.extend(apart(*voxel, *other).map(|apart| (*a.min(b), *a.max(b), apart)));
                 }
             }
+            let mut found = Vec::new();
+            for_near_pairs(&mut samples, |apart, a, b| found.push((a.min(b), a.max(b), apart)));
+            expected.sort_unstable();
+            found.sort_unstable();
+            assert!(!expected.is_empty());
+            assert_eq!(found, expected, "{extent:?}");
         }
-        (own + 2.0 * both).max(0.1 * own)
     }
 }
