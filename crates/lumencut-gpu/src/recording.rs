@@ -7,7 +7,6 @@ use lumencut_core::error::Error;
 use lumencut_core::error::Result;
 use lumencut_core::frame::Timing;
 use lumencut_core::stop::Stop;
-use rayon::prelude::*;
 use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, MapMode};
 
 use crate::device::Device;
@@ -37,13 +36,7 @@ pub(crate) struct Results {
 impl Results {
     /// The numbers of the buffer that was asked for as the `n`th.
     pub fn numbers<T: Pod + Send + Sync>(&self, n: usize) -> Vec<T> {
-        let Some(all) = &self.view else { return Vec::new() };
-        let bytes = &all[self.places[n].clone()];
-        // A large picture takes longer to copy than to compute: several threads touch the new memory.
-        match bytemuck::try_cast_slice(bytes) {
-            Ok(numbers) => numbers.par_iter().with_min_len(1 << 16).copied().collect(),
-            Err(_) => bytemuck::pod_collect_to_vec(bytes),
-        }
+        self.view.as_ref().map_or_else(Vec::new, |all| copied(&all[self.places[n].clone()]))
     }
 }
 
@@ -172,6 +165,24 @@ impl<'a> Recording<'a> {
             device.check()
         }
     }
+}
+
+/// The numbers of some bytes. A large picture takes longer to copy than to compute, as all of the memory is new: several threads
+/// touch it.
+#[cfg(not(target_arch = "wasm32"))]
+fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
+    use rayon::prelude::*;
+
+    match bytemuck::try_cast_slice(bytes) {
+        Ok(numbers) => numbers.par_iter().with_min_len(1 << 16).copied().collect(),
+        Err(_) => bytemuck::pod_collect_to_vec(bytes),
+    }
+}
+
+/// The numbers of some bytes; the worker of a page has one thread.
+#[cfg(target_arch = "wasm32")]
+fn copied<T: Pod>(bytes: &[u8]) -> Vec<T> {
+    bytemuck::pod_collect_to_vec(bytes)
 }
 
 /// The time between each stage's two ticks; the passes of one stage in a row count together.

@@ -87,7 +87,7 @@ fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut(
         along().max().unwrap_or(0).abs_diff(along().min().unwrap_or(0))
     };
     let axis = (0..3).max_by_key(|axis| extent(*axis)).unwrap_or(0);
-    samples.sort_by_key(|(voxel, _)| voxel[axis]);
+    samples.sort_unstable_by_key(|(voxel, _)| voxel[axis]);
     for (n, (voxel, value)) in samples.iter().enumerate() {
         let after = &samples[n + 1..];
         let near = after.partition_point(|(other, _)| usize::from(other[axis].abs_diff(voxel[axis])) < FAR);
