@@ -62,20 +62,20 @@ fn measure(device: &Arc<Device>, phantom: &Phantom, side: usize, frames: usize) 
     let (mut gpu, mut cpu) = (GpuRenderer::new(Arc::clone(device)), CpuRenderer::default());
     let plain = Settings { context: None, ..Settings::default() };
     let mida = Settings::default();
-    let mut on_gpu = |settings: &Settings, images: ImageSet| {
+    let mut on_gpu = |settings: &Settings, images: ImageSet| -> Result<StageTimes> {
         let request = Request { images, ..Request::new(&camera, settings) };
         let mut render = || pollster::block_on(gpu.render(&scene, &request));
         raise_clock(device, &mut render)?;
-        Ok::<_, Box<dyn Error>>(stage_medians(frames, render)?)
+        Ok(stage_medians(frames, render)?)
     };
-    let (on_gpu_plain, mut gpu_mida) = (on_gpu(&plain, ASKED)?, on_gpu(&mida, ASKED)?);
     let picture = on_gpu(&mida, ImageSet::of(&[Image::Picture]))?;
+    let (gpu, mut gpu_mida) = (on_gpu(&plain, ASKED)?, on_gpu(&mida, ASKED)?);
     gpu_mida.insert(PICTURE_ALONE, picture["frame"]);
     let mut on_cpu = |settings: &Settings| {
         let request = Request { images: ASKED, ..Request::new(&camera, settings) };
         stage_medians(frames, || cpu.render(&scene, &request))
     };
-    Ok(Measured { gpu: on_gpu_plain, gpu_mida, cpu: on_cpu(&plain)?, cpu_mida: on_cpu(&mida)? })
+    Ok(Measured { gpu, gpu_mida, cpu: on_cpu(&plain)?, cpu_mida: on_cpu(&mida)? })
 }
 
 /// Milliseconds, where they were measured.

@@ -16,7 +16,7 @@ use crate::stage::Stage;
 use crate::view::groups;
 
 /// The quads side by side and the rows of a thread's tile on software, where what a thread reads should serve many pixels.
-pub(crate) const TILE: [usize; 2] = [1, 4];
+pub(crate) const TILE_ON_SOFTWARE: [usize; 2] = [1, 4];
 /// The same on hardware, which needs many threads: a picture has too few larger tiles to keep it busy.
 pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];
 /// The pixels of a quad, the tiles of a group of threads, and how many of them lie side by side.
@@ -149,7 +149,7 @@ impl DepthRules {
 
 /// The tile of a thread on a GPU.
 fn tile_of(device: &Device) -> [usize; 2] {
-    if device.description().is_software { TILE } else { TILE_ON_HARDWARE }
+    if device.description().is_software { TILE_ON_SOFTWARE } else { TILE_ON_HARDWARE }
 }
 
 /// The size of a dispatch of at least `groups` groups, in rows no longer than one allows.

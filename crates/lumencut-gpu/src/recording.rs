@@ -167,8 +167,7 @@ impl<'a> Recording<'a> {
     }
 }
 
-/// The numbers of some bytes. A large picture takes longer to copy than to compute, as all of the memory is new: several threads
-/// touch it.
+/// The numbers of some bytes. One thread takes longer to copy a large picture than a GPU takes to compute it.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
     use rayon::prelude::*;

@@ -305,7 +305,7 @@ impl Gpu {
         if has_failed && let Some(renderer) = self.renderer.take() {
             devices::forget(renderer.device());
         }
-        outcome.map_err(|error| if has_failed { devices::explained(error) } else { error })
+        outcome
     }
 
     /// A forked process cannot use, or free, what its parent has on the GPU.

@@ -13,8 +13,8 @@ pub const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
 /// Whether a search for hardware has found none; it does not appear later.
 static IS_BARE: AtomicBool = AtomicBool::new(false);
 
-/// Whether this process is a fork of one that had a GPU.
-static IS_FORKED: AtomicBool = AtomicBool::new(false);
+/// What mends it where a forked process cannot open the GPU that its parent has: some drivers serve the parent alone.
+const SPAWN: &str = "start processes by 'spawn' instead of 'fork': this driver serves no forked process";
 
 /// What a scene is to be computed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,14 +79,17 @@ impl Opened {
 /// # Errors
 /// [`ErrorKind::Device`] where there is none of that kind, or none that can be used.
 pub async fn open(choice: Choice) -> Result<Arc<Device>> {
-    let shared = with_shared(|shared| {
-        IS_FORKED
-            .fetch_or(shared.as_ref().is_some_and(|opened| opened.process != process()), Ordering::Relaxed);
-        shared.as_ref().filter(|opened| opened.will_do(choice)).map(|opened| Arc::clone(&opened.device))
+    let (shared, is_forked) = with_shared(|shared| {
+        let device =
+            shared.as_ref().filter(|opened| opened.will_do(choice)).map(|opened| Arc::clone(&opened.device));
+        (device, shared.as_ref().is_some_and(|opened| opened.process != process()))
     });
     match shared {
         Some(device) => Ok(device),
-        None => Ok(share(Arc::new(Device::open(choice).await?), choice)),
+        None => match Device::open(choice).await {
+            Err(error) if is_forked => Err(error.mend(SPAWN)),
+            opened => Ok(share(Arc::new(opened?), choice)),
+        },
     }
 }
 
@@ -129,15 +132,6 @@ pub fn forget(failed: &Device) {
     with_shared(|shared| {
         drop(shared.take_if(|opened| std::ptr::eq(Arc::as_ptr(&opened.device), failed)));
     });
-}
-
-/// The error of a GPU, with what mends it in a forked process: some drivers serve only the process that found the GPU.
-pub(crate) fn explained(error: Error) -> Error {
-    if IS_FORKED.load(Ordering::Relaxed) {
-        return error
-            .mend("start processes by 'spawn' instead of 'fork': this driver serves no forked process");
-    }
-    error
 }
 
 /// The number of this process; a page of a browser is the only one.

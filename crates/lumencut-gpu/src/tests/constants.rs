@@ -239,9 +239,10 @@ fn a_constant_within_a_function_is_refused() {
 fn the_tile_fits_the_arrays_of_a_thread() {
     let shaders = in_shaders(SHADERS);
     let most = |constant| shaders[&name("math/tile", constant)][0] as usize;
-    for [across, rows] in [cut_surface::TILE, cut_surface::TILE_ON_HARDWARE] {
-        assert!(
-            across <= most("MAX_ACROSS") && rows <= most("MAX_ROWS") && across * rows <= most("MAX_QUADS")
-        );
+    let fits = |[across, rows]: [usize; 2]| {
+        across <= most("MAX_ACROSS") && rows <= most("MAX_ROWS") && across * rows <= most("MAX_QUADS")
+    };
+    for tile in [cut_surface::TILE_ON_SOFTWARE, cut_surface::TILE_ON_HARDWARE] {
+        assert!(fits(tile), "{tile:?}");
     }
 }
