@@ -1,15 +1,17 @@
 //! Vessels measured: without the GIL, and stopped by Ctrl-C.
 
+use std::slice;
 use std::sync::Arc;
 
 use glam::DVec3;
 use lumencut::flag_table::{FLAGS, FlagLook};
 use lumencut::measure::cross_section::{CrossSection, section_place};
 use lumencut::measure::groups::Territory;
-use lumencut::measure::measuring::{self, MeasureRequest};
+use lumencut::measure::measuring;
 use lumencut::measure::parts::Part;
 use lumencut::measure::profile;
 use lumencut::measure::radii;
+use lumencut::measure::request::MeasureRequest;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
 use lumencut::measure::wall_level::WallRequest;
@@ -100,7 +102,8 @@ pub fn measure<'py>(
         if let Some(progress) = progress {
             progress.expect_views(1);
         }
-        pool::install(|| counted(progress, (&vessel, step), stop, measured))?.map_err(to_python)
+        pool::install(|| counted(progress, (slice::from_ref(&vessel), step), stop, measured))?
+            .map_err(to_python)
     })?;
     Ok(Profile(Arc::new(profile)))
 }

@@ -1,7 +1,8 @@
 //! The point spread of a scan, found once for all that is measured along a tree.
 
-use lumencut::measure::measuring::{self, MeasureRequest};
+use lumencut::measure::measuring;
 use lumencut::measure::profile;
+use lumencut::measure::request::MeasureRequest;
 use lumencut::measure::wall_level::WallRequest;
 use pyo3::prelude::*;
 

@@ -1,7 +1,10 @@
 //! The voxels of a volume as numbers, whatever their type and wherever their grid lies.
 
+use std::sync::OnceLock;
+
 use glam::{DAffine3, DVec3};
 
+use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::sampling::Grid;
 use lumencut_core::volume::{Real, Volume, Voxel};
 use lumencut_core::with_voxels;
@@ -12,8 +15,12 @@ pub trait VoxelSource: Sync {
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
     /// The value at a continuous index, trilinear; NaN more than half a voxel beyond the outermost centres.
     fn at(&self, index: DVec3) -> f32;
-    /// Appends `count` values at steps of `stride` from `start` on, counted on from those that are there.
-    fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>);
+    /// The value of a voxel that is there.
+    fn voxel(&self, voxel: [i32; 3]) -> f32;
+    /// Appends sixteen values at steps of `stride` from `start` on, counted on from those that are there.
+    fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>);
+    /// Whether a value of every so many rows along i, the first one among them, is below a limit.
+    fn goes_below(&self, limit: f32, every: usize) -> bool;
 }
 
 /// A volume as tracing reads it: its voxels and the way from them to the world and back.
@@ -30,7 +37,15 @@ pub struct Voxels<'a> {
     /// What distances of samples are told in: the smallest side, but at least a quarter of the middle one (mm). So the number of
     /// samples does not grow with how uneven voxels are.
     pub sampling_side: f64,
+    /// Whether anything is negative as in CT, where that was asked.
+    negative: OnceLock<bool>,
 }
+
+/// A volume in HU has values below this one: fat or air.
+const NEGATIVE: f32 = -20.0;
+
+/// About the most voxels that are looked at for that.
+const MOST_VOXELS: usize = 400_000;
 
 /// The least distance of samples, as a share of the middle one of the three sides of a voxel.
 const LEAST_OF_MIDDLE: f64 = 0.25;
@@ -57,6 +72,7 @@ impl<'a> Voxels<'a> {
             sampling_side: volume
                 .smallest_side()
                 .max(LEAST_OF_MIDDLE * middle_side(volume.world_from_index())),
+            negative: OnceLock::new(),
         }
     }
 
@@ -70,14 +86,25 @@ impl<'a> Voxels<'a> {
         self.source.at(self.index_from_world.transform_point3(place))
     }
 
+    /// The value of a voxel, which must be there.
+    pub fn voxel(&self, voxel: [i32; 3]) -> f32 {
+        self.source.voxel(voxel)
+    }
+
     /// The value at a continuous index, trilinear; NaN outside.
     pub fn at_index(&self, index: DVec3) -> f32 {
         self.source.at(index)
     }
 
     /// Appends values along a line in index space, as [`VoxelSource::along`] does.
-    pub fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {
-        self.source.along(start, stride, count, values);
+    pub fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
+        self.source.along(start, stride, values);
+    }
+
+    /// Whether the volume has values that are as negative as fat and air are in HU, in rows evenly over it.
+    pub fn has_negative(&self) -> bool {
+        let voxels: usize = self.size.iter().product();
+        *self.negative.get_or_init(|| self.source.goes_below(NEGATIVE, voxels.div_ceil(MOST_VOXELS).max(1)))
     }
 
     /// The voxel nearest to a world position, where one is there.
@@ -162,8 +189,51 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
         self.grid.trilinear_single(self.voxels, index)
     }
 
-    fn along(&self, start: DVec3, stride: DVec3, count: usize, values: &mut Vec<f32>) {
-        let first = values.len();
-        values.extend((first..first + count).map(|n| self.at(start + stride * n as f64)));
+    #[inline]
+    fn voxel(&self, voxel: [i32; 3]) -> f32 {
+        self.voxels[(0..3).map(|a| voxel[a] as usize * self.strides[a]).sum::<usize>()].real().to_f32()
+    }
+
+    fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
+        let kernel = Along { voxels: self.voxels, grid: &self.grid, start, stride, first: values.len() };
+        values.extend(dispatch(Isa::widest(), kernel));
+    }
+
+    fn goes_below(&self, limit: f32, every: usize) -> bool {
+        let ([nx, ny, nz], [si, sj, sk]) = (self.size, self.strides);
+        (0..ny * nz).step_by(every).any(|row| {
+            let first = row % ny * sj + row / ny * sk;
+            (0..nx).any(|i| self.voxels[first + i * si].real().to_f32() < limit)
+        })
     }
 }
+
+/// Sixteen values along a line, as a kernel.
+struct Along<'a, T> {
+    voxels: &'a [T],
+    grid: &'a Grid,
+    start: DVec3,
+    stride: DVec3,
+    /// The number of the first one.
+    first: usize,
+}
+
+impl<T: Voxel> Kernel for Along<'_, T> {
+    type Output = [f32; FAN];
+
+    #[inline(always)]
+    fn run(self) -> [f32; FAN] {
+        let [start, stride] = [self.start, self.stride].map(|vector| vector.to_array());
+        let mut index = [[0.0; FAN]; 3];
+        for a in 0..3 {
+            for l in 0..FAN {
+                index[a][l] = start[a] + stride[a] * (self.first + l) as f64;
+            }
+        }
+        self.grid.trilinear_single_lanes(self.voxels, &index)
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/voxels.rs"]
+mod tests;

@@ -10,8 +10,9 @@ use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut_vessels::measure::measuring::{MeasureRequest, measure, point_spread_of};
+use lumencut_vessels::measure::measuring::{TreeMeasuring, measure, point_spread_of};
 use lumencut_vessels::measure::profile::{Profile, Source};
+use lumencut_vessels::measure::request::MeasureRequest;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
 use lumencut_vessels::measure::wall_level::WallRequest;
 
@@ -85,6 +86,29 @@ fn a_point_spread_that_nobody_waited_for_is_not_told() {
             MeasureRequest { step: 0.5, fwhm: None, wall: WallRequest::Automatic, tree: &tree, stop: &stop };
         let told = point_spread_of(&volume, &request);
         assert_eq!(told.map_err(|error| error.kind), Err(ErrorKind::Interrupted), "{questions} questions");
+    }
+}
+
+#[test]
+fn vessels_of_a_tree_are_measured_as_by_themselves() {
+    let values = slices(&tilted());
+    let affine = DAffine3::from_scale(DVec3::splat(SIDE));
+    let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
+    let vessel = |ends: [f64; 2], radius| {
+        let points = ends.map(|z| DVec3::new(9.2, 8.9, z)).to_vec();
+        Vessel::new(points, Some(vec![radius; 2])).unwrap()
+    };
+    let tree = [vessel([2.0, 8.0], 2.0), vessel([8.0, 15.0], 2.5)];
+    for wall in [WallRequest::Automatic, WallRequest::Level([30.0, 10.0]), WallRequest::Off] {
+        let request = MeasureRequest { step: 0.5, fwhm: None, wall, tree: &tree, stop: &|| false };
+        let measuring = TreeMeasuring::new(&volume, &request).unwrap();
+        let spread = measuring.point_spread().unwrap();
+        assert_eq!(spread, point_spread_of(&volume, &request).unwrap());
+        for (n, vessel) in tree.iter().enumerate() {
+            let alone = measure(&volume, vessel, &request).unwrap();
+            let among = measuring.profile(n, spread.clone(), &|| false).unwrap();
+            assert_eq!((among.area, among.uncertainty), (alone.area, alone.uncertainty), "{wall:?}");
+        }
     }
 }
 

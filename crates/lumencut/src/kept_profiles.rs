@@ -6,8 +6,9 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
-use lumencut_vessels::measure::measuring::{MeasureRequest, measure_under, point_spread_of};
+use lumencut_vessels::measure::measuring::{measure_under, point_spread_of};
 use lumencut_vessels::measure::profile::{PointSpread, Profile};
+use lumencut_vessels::measure::request::MeasureRequest;
 use lumencut_vessels::measure::wall_level::WallRequest;
 
 /// A volume and the tree in it. Both decide what is measured: profiles that were kept are those of other ones no longer.

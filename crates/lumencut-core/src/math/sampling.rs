@@ -124,6 +124,23 @@ impl Grid {
         voxels: &[T],
         p: &[[[f64; FAN]; 3]; N],
     ) -> [[f32; FAN]; N] {
+        self.interpolated_lanes(voxels, p, |number| number)
+    }
+
+    /// [`Grid::trilinear_single`] at sixteen indices, given axis by axis.
+    #[inline(always)]
+    pub fn trilinear_single_lanes<T: Voxel>(&self, voxels: &[T], p: &[[f64; FAN]; 3]) -> [f32; FAN] {
+        let [values] = self.interpolated_lanes(voxels, &[*p], Real::to_f32);
+        values
+    }
+
+    #[inline(always)]
+    fn interpolated_lanes<T: Voxel, R: Real, const N: usize>(
+        &self,
+        voxels: &[T],
+        p: &[[[f64; FAN]; 3]; N],
+        number: impl Fn(T::Real) -> R,
+    ) -> [[f32; FAN]; N] {
         let mut offset = [[0; FAN]; N];
         let mut weight = [[[0.0; FAN]; 3]; N];
         let mut outside = [[false; FAN]; N];
@@ -132,7 +149,8 @@ impl Grid {
                 let (last, low, stride) = (self.last[a], self.low[a] as i32, self.strides[a]);
                 for l in 0..FAN {
                     let c = p[n][a][l];
-                    outside[n][l] |= (c < -0.5) | (c > last + 0.5);
+                    // What is no number lies nowhere.
+                    outside[n][l] |= !((c >= -0.5) & (c <= last + 0.5));
                     let c = if c > 0.0 { c } else { 0.0 };
                     let c = if c < last { c } else { last };
                     let floor = (c as i32).min(low);
@@ -145,8 +163,9 @@ impl Grid {
         let mut value = [[0.0; FAN]; N];
         for n in 0..N {
             for l in 0..FAN {
-                let weights = [0, 1, 2].map(|a| T::Real::from_weight(weight[n][a][l]));
-                let inside = interpolate(|r| T::ends(rows[r][n][l]).into(), weights).to_f32();
+                let weights = [0, 1, 2].map(|a| R::from_weight(weight[n][a][l]));
+                let ends = |r: usize| <[T::Real; 2]>::from(T::ends(rows[r][n][l])).map(&number);
+                let inside = interpolate(ends, weights).to_f32();
                 value[n][l] = if outside[n][l] { f32::NAN } else { inside };
             }
         }

@@ -2,29 +2,61 @@
 
 use glam::{DVec2, DVec3};
 
-use super::ellipse::Ellipse;
+use super::ellipse::{Boundary, Ellipse};
+use super::model::{Model, ThreeLevels};
 use super::place::Place;
 use super::rays::{RAYS, Ray, direction};
-use lumencut_core::math::lanes::FAN;
+use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
 /// A ray tells the wall where it is off the ellipse by no more than this share of the way there, or by this length (mm).
 const FARTHEST: (f64, f64) = (0.5, 0.5);
 
+/// What a fit says of places.
+pub trait Shares: Sync {
+    /// The shares at sixteen places (mm), for kernels.
+    fn shares(&self, x: &[f32; FAN], y: &[f32; FAN]) -> [f32; FAN];
+}
+
+impl Shares for Boundary {
+    #[inline(always)]
+    fn shares(&self, x: &[f32; FAN], y: &[f32; FAN]) -> [f32; FAN] {
+        self.blurred(x, y).value
+    }
+}
+
+impl Shares for ThreeLevels {
+    #[inline(always)]
+    fn shares(&self, x: &[f32; FAN], y: &[f32; FAN]) -> [f32; FAN] {
+        self.modelled(x, y).share
+    }
+}
+
+/// What a fit says of sixteen places (mm), as a kernel.
+struct SharesAt<'a, S> {
+    shares: &'a S,
+    x: &'a [f32; FAN],
+    y: &'a [f32; FAN],
+}
+
+impl<S: Shares> Kernel for SharesAt<'_, S> {
+    type Output = [f32; FAN];
+
+    #[inline(always)]
+    fn run(self) -> [f32; FAN] {
+        self.shares.shares(self.x, self.y)
+    }
+}
+
 /// The wall at each ray (mm from the centre of the ellipse): where the volume crosses a level along a ray, less what `values`, what
 /// the fit says of places, cross it off the boundary of the ellipse. Where a ray does not tell, it is that of the ellipse.
-pub fn wall(
-    ellipse: &Ellipse,
-    values: impl Fn(&[f32; FAN], &[f32; FAN]) -> [f32; FAN],
-    rays: &[Ray],
-    level: f64,
-) -> Vec<f64> {
+pub fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level: f64) -> Vec<f64> {
     let walls: Vec<f64> = (0..RAYS)
         .map(|n| {
             let own = ellipse.radius_towards(direction(n));
             let ray = &rays[n];
             let told = ray.edge.filter(|edge| *edge < ray.limit).and_then(|edge| {
-                let blurred = crossing(&values, ellipse.center, direction(n), level, own)?;
+                let blurred = crossing(values, ellipse.center, direction(n), level, own)?;
                 Some(own + edge - blurred)
             });
             let most = (FARTHEST.0 * own).max(FARTHEST.1);
@@ -67,20 +99,15 @@ fn within_rim([begins, ends]: [f64; 2], width: f64) -> f64 {
 }
 
 /// Where the blurred ellipse crosses a level along a ray (mm), looked for around its boundary.
-fn crossing(
-    values: impl Fn(&[f32; FAN], &[f32; FAN]) -> [f32; FAN],
-    center: DVec2,
-    direction: DVec2,
-    level: f64,
-    own: f64,
-) -> Option<f64> {
+fn crossing(shares: &impl Shares, center: DVec2, direction: DVec2, level: f64, own: f64) -> Option<f64> {
     let reach = 0.6 * own + 0.4;
     let first = (own - reach).max(0.0);
     let step = (own + reach - first) / (FAN - 1) as f64;
     let at = |n: usize| first + n as f64 * step;
     let x = std::array::from_fn(|n| (center.x + direction.x * at(n)) as f32);
     let y = std::array::from_fn(|n| (center.y + direction.y * at(n)) as f32);
-    let values = values(&x, &y).map(f64::from);
+    let kernel = SharesAt { shares, x: &x, y: &y };
+    let values = dispatch(Isa::widest(), kernel).map(f64::from);
     let n = (1..FAN).find(|n| values[*n] < level && values[n - 1] >= level)?;
     Some(at(n) - step * (level - values[n]) / (values[n - 1] - values[n]))
 }

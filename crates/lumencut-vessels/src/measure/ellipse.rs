@@ -6,6 +6,7 @@
 //! Weideman 2014, doi:10.1137/130932132). The derivatives by the shape are Gaussians along the same boundary.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::OnceLock;
 
 use glam::{DMat2, DVec2};
 
@@ -19,6 +20,10 @@ pub const SHAPE: usize = 5;
 const NODE_DISTANCE: f64 = 1.3;
 
 const FEWEST_NODES: usize = 12;
+
+/// The square of the distance from which on a node moves nothing (standard deviations of the blur): its bell is then 1e-14, far
+/// below what a number in single precision holds beside those of nearer nodes.
+const FAR_AWAY: f32 = 64.0;
 
 /// More nodes are never needed for a lumen (its radius is then 40 times the blur).
 const MOST_NODES: usize = 400;
@@ -142,8 +147,7 @@ impl Boundary {
         let count = (needed.ceil() as usize).clamp(FEWEST_NODES, MOST_NODES);
         let share = 1.0 / count as f64;
         let scale = whitening.determinant() * share;
-        let nodes = (0..count).map(|n| {
-            let (sin, cos) = (TAU * n as f64 * share).sin_cos();
+        let nodes = circle(count).iter().map(|&(sin, cos)| {
             let place = matrix * DVec2::new(cos, sin);
             let tangent = matrix * DVec2::new(-sin, cos);
             let outwards = |way: DVec2| (way.perp_dot(tangent) * scale) as f32;
@@ -178,10 +182,27 @@ impl Boundary {
         }
         let mut sum = Blurred { value: [0.0; FAN], slopes: [[0.0; FAN]; SHAPE] };
         for node in &self.nodes {
+            let mut squares = [0.0; FAN];
+            let mut is_near = false;
             for l in 0..FAN {
                 let dx = node.place[0] - place[0][l];
                 let dy = node.place[1] - place[1][l];
-                let square = dx * dx + dy * dy;
+                squares[l] = dx * dx + dy * dy;
+                is_near |= squares[l] < FAR_AWAY;
+            }
+            if !is_near {
+                // The bell is nothing beside 1.
+                for l in 0..FAN {
+                    let dx = node.place[0] - place[0][l];
+                    let dy = node.place[1] - place[1][l];
+                    sum.value[l] += 1.0 / squares[l] * (dx * node.tangent[1] - dy * node.tangent[0]);
+                }
+                continue;
+            }
+            for l in 0..FAN {
+                let dx = node.place[0] - place[0][l];
+                let dy = node.place[1] - place[1][l];
+                let square = squares[l];
                 let bell = exponential(-0.5 * square);
                 let near = 0.5 + square * (-0.125 + square * (1.0 / 48.0));
                 let far = (1.0 - bell) / square;
@@ -201,6 +222,16 @@ impl Boundary {
     pub fn value(&self, place: DVec2) -> f64 {
         f64::from(self.blurred(&[place.x as f32; FAN], &[place.y as f32; FAN]).value[0])
     }
+}
+
+/// The sine and the cosine at places around a circle.
+type Circle = Box<[(f64, f64)]>;
+
+/// The sine and the cosine at a number of places evenly around a circle, at most [`MOST_NODES`]: found once for each number of them.
+fn circle(count: usize) -> &'static [(f64, f64)] {
+    static CIRCLES: [OnceLock<Circle>; MOST_NODES + 1] = [const { OnceLock::new() }; MOST_NODES + 1];
+    let share = 1.0 / count as f64;
+    CIRCLES[count].get_or_init(|| (0..count).map(|n| (TAU * n as f64 * share).sin_cos()).collect())
 }
 
 /// By how much a matrix makes vectors longer, at most: its larger singular value.

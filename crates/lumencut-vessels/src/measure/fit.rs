@@ -10,7 +10,7 @@ use super::parts::Parts;
 use super::slab::Samples;
 use super::sums::{Missing, Moves, Sums};
 use super::terms::{Term, unit};
-use super::texture::{Texture, independent_variance};
+use super::texture::Texture;
 use super::wall::{KnownWall, Wall};
 use lumencut_core::math::lanes::{FAN, Isa, dispatch};
 use lumencut_core::math::statistics::median;
@@ -73,7 +73,7 @@ pub struct Fit {
     pub wall: Option<Wall>,
     /// What the samples miss, as a root of the mean square and as a share: the noise, where the lumen is an ellipse.
     pub missed: f64,
-    /// The standard deviation of the diameter of a circle of the same area (mm).
+    /// The standard deviation of the diameter of a circle of the same area (mm); NaN where it was not asked.
     pub uncertainty: f64,
     /// What that is made of.
     pub parts: Parts,
@@ -90,18 +90,11 @@ impl Fit {
         expected: &Expected,
     ) -> Option<Self> {
         let Some(known) = expected.wall else {
-            let terms = vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)];
-            let work = Work::<TwoLevels, PLAIN>::new(samples, whitening, start, expected, terms);
+            let work = Work::<TwoLevels, PLAIN>::new(samples, whitening, start, expected, plain(expected));
             let (minimum, missed, parts) = work.done()?;
             return Self::of(&minimum, missed, parts);
         };
-        let [lumen, background] =
-            [Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)];
-        let level = Term::one(WALL, known.level);
-        let thickness =
-            Term::one(THICKNESS, known.log_thickness(start)).less(WALL, known.slope, known.level[0]);
-        let sides = SIDES.into_iter().enumerate().map(|(h, side)| Term::one(SECTORS + h, [0.0, side]));
-        let terms = [lumen, background, level, thickness].into_iter().chain(sides).collect();
+        let terms = walled(expected, &known, start);
         let (minimum, missed, parts) =
             Work::<ThreeLevels, WALLED>::new(samples, whitening, start, expected, terms).done()?;
         let wall = Wall::new(&minimum, start.center)?;
@@ -122,6 +115,26 @@ impl Fit {
         })
     }
 
+    /// What samples miss under the fit that begins with an ellipse, as [`Fit::missed`]; None where [`Fit::new`] has none.
+    pub fn missed_by(
+        samples: &Samples,
+        whitening: Whitening,
+        start: &Ellipse,
+        expected: &Expected,
+    ) -> Option<f64> {
+        match expected.wall {
+            None => Work::<TwoLevels, PLAIN>::new(samples, whitening, start, expected, plain(expected))
+                .weighed()
+                .map(|(_, missed)| missed),
+            Some(known) => {
+                let terms = walled(expected, &known, start);
+                Work::<ThreeLevels, WALLED>::new(samples, whitening, start, expected, terms)
+                    .weighed()
+                    .map(|(_, missed)| missed)
+            }
+        }
+    }
+
     /// What samples miss under a blur.
     pub fn missing(&self, samples: &Samples, whitening: Whitening) -> Vec<[f32; FAN]> {
         let levels = [self.lumen[0], self.background];
@@ -135,6 +148,21 @@ impl Fit {
     pub fn boundary(&self, whitening: Whitening) -> Boundary {
         Boundary::new(&self.ellipse, whitening)
     }
+}
+
+/// What is expected of the levels of a lumen in even surroundings.
+fn plain<const N: usize>(expected: &Expected) -> Vec<Term<N>> {
+    vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)]
+}
+
+/// The same of a lumen with a wall, in surroundings that differ from side to side.
+fn walled(expected: &Expected, known: &KnownWall, start: &Ellipse) -> Vec<Term<WALLED>> {
+    let mut terms = plain(expected);
+    terms.push(Term::one(WALL, known.level));
+    let thickness = Term::one(THICKNESS, known.log_thickness(start));
+    terms.push(thickness.less(WALL, known.slope, known.level[0]));
+    terms.extend(SIDES.into_iter().enumerate().map(|(h, side)| Term::one(SECTORS + h, [0.0, side])));
+    terms
 }
 
 /// What samples miss of a model.
@@ -182,9 +210,9 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Self { samples, whitening, expected, start, terms, kept: samples.weight.clone(), model: PhantomData }
     }
 
-    /// The parameters that fit best, what the samples miss then, and what the diameter is unsure by; None where there are too
-    /// few samples.
-    fn done(mut self) -> Option<(Minimum<N>, f64, Parts)> {
+    /// The parameters that fit best before samples are weighed by how much they miss, and how much they miss then; None where
+    /// there are too few samples.
+    fn weighed(&mut self) -> Option<([f64; N], f64)> {
         if self.samples.count < 2 * N {
             return None;
         }
@@ -195,13 +223,22 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         at[..SHAPE].copy_from_slice(&self.start.parameters());
         let first = minimum(at, STEPS[0], |at| self.evaluate(at))?;
         let missed = self.weigh(&first.at)?;
-        let last = minimum(first.at, STEPS[1], |at| self.evaluate(at))?;
-        let parts = self.parts(&last, missed)?;
+        Some((first.at, missed))
+    }
+
+    /// The parameters that fit best, what the samples miss then, and what the diameter is unsure by, where that is asked.
+    fn done(mut self) -> Option<(Minimum<N>, f64, Parts)> {
+        let (first, missed) = self.weighed()?;
+        let last = minimum(first, STEPS[1], |at| self.evaluate(at))?;
+        let parts = match self.expected.unsure {
+            Some(unsure) => self.parts(&last, missed, unsure)?,
+            None => Parts::unknown(),
+        };
         Some((last, missed, parts))
     }
 
     /// What makes the diameter unsure: each sample moves it by its noise, and each expectation by how wrong it may be.
-    fn parts(&self, minimum: &Minimum<N>, missed: f64) -> Option<Parts> {
+    fn parts(&self, minimum: &Minimum<N>, missed: f64, unsure: &Unsure) -> Option<Parts> {
         let ellipse = Ellipse::from_parameters(&minimum.at)?;
         let towards = solved(&minimum.normal.matrix, &diameter_by(&ellipse))?;
         let expected = self.expected;
@@ -211,20 +248,14 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         let kernel =
             Moves { samples: self.samples, kept: &self.kept, model: &model, towards: towards_shares };
         let moves = dispatch(Isa::widest(), kernel);
-        let variance = match expected.unsure {
-            Some(unsure) => unsure.texture.variance(self.samples, &moves),
-            // Fits that only lead to others are many: their noise counts as independent.
-            None => independent_variance(&moves),
-        };
-        let noise = expected.noise * variance.sqrt();
+        let noise = expected.noise * unsure.texture.variance(self.samples, &moves).sqrt();
         // What misses more than noise does says that the lumen is no ellipse, or the surroundings are not even.
         let excess = (missed / expected.noise).max(1.0);
-        let wall = match expected.unsure.and_then(|unsure| unsure.wall) {
+        let wall = match unsure.wall {
             Some(hidden) => self.moved(&moves, &model, &self.with_wall(&minimum.at, &ellipse, &hidden)),
             None => self.expectations(&towards, |n| n == WALL || n == THICKNESS),
         };
-        let wider = expected.unsure.and_then(|unsure| unsure.wider);
-        let point_spread = wider.map_or(0.0, |wider| {
+        let point_spread = unsure.wider.map_or(0.0, |wider| {
             let blurred = M::new(&minimum.at, &ellipse, wider, self.start.center);
             self.moved(&moves, &model, &blurred)
         });

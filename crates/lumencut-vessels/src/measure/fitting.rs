@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::blur::Blur;
-use super::ellipse::{Boundary, Whitening};
+use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::{Expected, Fit, Unsure};
 use super::obstacles::Obstacles;
 use super::place::Place;
@@ -38,22 +38,42 @@ struct Cleared {
     obstacles: Obstacles,
 }
 
+/// A section that is ready to be fitted under one blur or another.
+pub struct Ready {
+    place: Place,
+    start: Ellipse,
+    cleared: Cleared,
+    expected: Expected<'static>,
+}
+
+impl Ready {
+    /// What the voxels of the section miss of its fit under a blur, as [`Fit::missed`]; None where no ellipse fits.
+    pub fn missed(&self, blur: &Blur) -> Option<f64> {
+        let whitening = Whitening::new(blur.of_voxels(&self.place));
+        Fit::missed_by(&self.cleared.samples, whitening, &self.start, &self.expected)
+    }
+}
+
 impl Bench<'_, '_> {
     /// The fit of a section, without what is in its way; None where too much is, or no ellipse fits.
     pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
-        self.fit_blurred(place, known, &self.blur)
-    }
-
-    /// The fit of a section to the same voxels as [`Self::fit`], by another blur.
-    pub fn fit_blurred(&self, place: &Place, known: &Known, blur: &Blur) -> Option<Fit> {
-        let cleared = self.cleared(place, known)?;
-        let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
+        let ready = self.ready(place, known)?;
         let wider = self.doubt.as_ref().and_then(|doubt| doubt.wider);
         let unsure = self.doubt.as_ref().map(|doubt| Unsure {
             texture: &doubt.texture,
             wider: wider.map(|wider| Whitening::new(wider.of_voxels(place))),
             wall: doubt.wall,
         });
+        let expected = Expected { unsure: unsure.as_ref(), ..ready.expected };
+        let whitening = Whitening::new(self.blur.of_voxels(place));
+        let fit = Fit::new(&ready.cleared.samples, whitening, &known.ellipse, &expected)?;
+        Some(Fit { free: ready.cleared.obstacles.free, ..fit })
+    }
+
+    /// What makes a section ready to be fitted; None where too much is in its way.
+    pub fn ready(&self, place: &Place, known: &Known) -> Option<Ready> {
+        let cleared = self.cleared(place, known)?;
+        let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
             // Where a wall is sharp an ellipse too small and a level too high may fit it as well: what is seen decides.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
@@ -62,11 +82,9 @@ impl Bench<'_, '_> {
             noise: known.noise(),
             is_guessed: known.noise.is_none(),
             wall: self.wall_of(known),
-            unsure: unsure.as_ref(),
+            unsure: None,
         };
-        let whitening = Whitening::new(blur.of_voxels(place));
-        let fit = Fit::new(&cleared.samples, whitening, &known.ellipse, &expected)?;
-        Some(Fit { free: cleared.obstacles.free, ..fit })
+        Some(Ready { place: *place, start: known.ellipse, cleared, expected })
     }
 
     /// The pairs of voxels of a section whose fit is known, by what they miss.

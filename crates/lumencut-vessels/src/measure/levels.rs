@@ -58,7 +58,8 @@ fn together(bench: &Bench, places: &[Place], fits: &[Option<Fit>], stop: Stop) -
                 go_on(stop)?;
                 let known =
                     Known { ellipse: fit.ellipse, lumen: [level, 0.005], noise: Some(noise), wall: None };
-                Ok(bench.fit(place, &known).map_or(0.0, |fit| fit.missed * fit.missed))
+                let missed = bench.ready(place, &known).and_then(|ready| ready.missed(&bench.blur));
+                Ok(missed.map_or(0.0, |missed| missed * missed))
             })
             .collect::<Result<_>>()?;
         Ok(costs.iter().sum())

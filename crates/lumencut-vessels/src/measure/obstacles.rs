@@ -29,6 +29,8 @@ const OPEN: f64 = 1.6;
 pub struct Obstacles {
     center: DVec2,
     limit: [f64; RAYS],
+    /// The least of these.
+    nearest: f64,
     /// The share of all directions in which nothing is in the way of the wall.
     pub free: f64,
 }
@@ -39,7 +41,7 @@ impl Obstacles {
         let mut edges: Vec<f64> = rays.iter().filter_map(|ray| ray.edge).collect();
         let middle = median(&mut edges).unwrap_or(f64::INFINITY);
         let own: Vec<f64> = rays.iter().map(|ray| limit(ray, middle, width)).collect();
-        let mut all = Self { center, limit: [f64::INFINITY; RAYS], free: 0.0 };
+        let mut all = Self { center, limit: [f64::INFINITY; RAYS], nearest: f64::INFINITY, free: 0.0 };
         for (n, &limit) in own.iter().enumerate() {
             if !limit.is_finite() {
                 continue;
@@ -52,6 +54,7 @@ impl Obstacles {
                 *there = there.min(limit);
             }
         }
+        all.nearest = all.limit.iter().copied().fold(f64::INFINITY, f64::min);
         let is_free = |limit: &&f64| **limit > middle + 0.5 * width;
         all.free = all.limit.iter().filter(is_free).count() as f64 / RAYS as f64;
         all
@@ -60,9 +63,13 @@ impl Obstacles {
     /// Whether a voxel counts.
     pub fn keeps(&self, point: DVec2) -> bool {
         let away = point - self.center;
+        let length = away.length();
+        if length <= self.nearest {
+            return true;
+        }
         let turn = away.y.atan2(away.x).rem_euclid(TAU) / TAU;
         let ray = (turn * RAYS as f64).round() as usize % RAYS;
-        away.length() <= self.limit[ray]
+        length <= self.limit[ray]
     }
 }
 

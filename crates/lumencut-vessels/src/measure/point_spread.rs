@@ -99,10 +99,8 @@ pub fn estimated(
             let Some(fit) = fits[*n] else { return Ok(None) };
             let known =
                 Known { ellipse: fit.ellipse, lumen: [fit.lumen[0], 0.5], noise: Some(noise), wall: None };
-            let cost = |fwhm: f64| {
-                let fit = bench.fit_blurred(&places[*n], &known, &Blur::new(fwhm, sides));
-                fit.map(|fit| fit.missed).ok_or(())
-            };
+            let Some(ready) = bench.ready(&places[*n], &known) else { return Ok(None) };
+            let cost = |fwhm: f64| ready.missed(&Blur::new(fwhm, sides)).ok_or(());
             let widest = high.min(SHARE * 2.0 * fit.ellipse.semi_axes()[0]);
             Ok(least([low, widest], ROUNDS, cost).ok())
         })

@@ -2,9 +2,12 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
+
 use super::flags::{LEFT_OUT, RECENTERED};
-use super::measuring::{MeasureRequest, measure_under, point_spread_of};
+use super::measuring::TreeMeasuring;
 use super::profile::Profile;
+use super::request::MeasureRequest;
 use super::wall_level::WallRequest;
 use super::watched::watched;
 use lumencut_core::error::{ErrorKind, Result};
@@ -45,16 +48,12 @@ pub fn measured_radii(
     progress: Option<&Progress>,
 ) -> Result<Vec<Radii>> {
     if let Some(progress) = progress {
-        progress.expect_views(tree.len());
+        progress.expect_views(1);
     }
     let request = MeasureRequest { step, fwhm, wall: WallRequest::Automatic, tree, stop };
-    let fwhm = point_spread_of(volume, &request)?;
-    let measured = |vessel: &Vessel| {
-        watched(progress, (vessel, step), stop, |stop| {
-            measure_under(fwhm.clone(), volume, vessel, &MeasureRequest { stop, ..request })
-        })
-    };
-    let radii = |vessel: &Vessel| match measured(vessel) {
+    let measuring = TreeMeasuring::new(volume, &request)?;
+    let spread = measuring.point_spread()?;
+    let radii = |(n, vessel): (usize, &Vessel), stop: Stop| match measuring.profile(n, spread.clone(), stop) {
         Ok(profile) => Ok(of_profile(vessel, &profile)),
         Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
             let kept = vessel.points().len();
@@ -62,7 +61,9 @@ pub fn measured_radii(
         }
         Err(error) => Err(error),
     };
-    tree.iter().map(radii).collect()
+    watched(progress, (tree, step), stop, |stop| {
+        tree.par_iter().enumerate().map(|vessel| radii(vessel, stop)).collect()
+    })
 }
 
 /// The radii at the points of a vessel, of circles with the measured areas.

@@ -1,12 +1,14 @@
 //! The lumen along rays across a vessel: where it ends, and what is in the way.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3};
 
 use super::place::Place;
 use super::scale::Scale;
 use crate::voxels::Voxels;
+use lumencut_core::math::lanes::FAN;
 
 /// The rays of a section, each the point of a contour.
 pub const RAYS: usize = 64;
@@ -55,7 +57,9 @@ pub struct Look {
 
 /// The direction of a ray in the plane.
 pub fn direction(ray: usize) -> DVec2 {
-    DVec2::from_angle(TAU * ray as f64 / RAYS as f64)
+    static ALL: LazyLock<[DVec2; RAYS]> =
+        LazyLock::new(|| std::array::from_fn(|n| DVec2::from_angle(TAU * n as f64 / RAYS as f64)));
+    ALL[ray]
 }
 
 /// The volume as shares along lines.
@@ -147,9 +151,6 @@ fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
     [begins.max(0.0), crossing(inner, false).1]
 }
 
-/// How many samples of a ray are taken at a time.
-const TOGETHER: usize = 16;
-
 /// The samples of a ray as shares, taken where they are first needed; NaN outside the volume.
 struct Samples<'a, 'v> {
     rays: &'a Rays<'a, 'v>,
@@ -163,12 +164,12 @@ impl<'a, 'v> Samples<'a, 'v> {
         let index = &rays.voxels.index_from_world;
         let start = index.transform_point3(place.point(center));
         let stride = index.transform_vector3(place.point(direction) - place.origin) * rays.step();
-        Self { rays, start, stride, values: Vec::with_capacity(2 * TOGETHER) }
+        Self { rays, start, stride, values: Vec::with_capacity(2 * FAN) }
     }
 
     fn at(&mut self, n: usize) -> f64 {
         while n >= self.values.len() {
-            self.rays.voxels.along(self.start, self.stride, TOGETHER, &mut self.values);
+            self.rays.voxels.along(self.start, self.stride, &mut self.values);
         }
         self.rays.scale.share(f64::from(self.values[n]))
     }

@@ -8,7 +8,7 @@ use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
 use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::Fit;
 use super::flags::{AT_LIMIT, IRREGULAR, METAL, NO_EDGE, RECENTERED};
-use super::model::{Model, ThreeLevels};
+use super::model::ThreeLevels;
 use super::obstacles::flags_of;
 use super::parts::Parts;
 use super::place::Place;
@@ -195,12 +195,12 @@ impl Bench<'_, '_> {
         let look = Look { levels: [half; 2], ..self.look(place, &Known { ellipse, ..*known }) };
         let rays = self.rays.all(place, ellipse.center, &look);
         let walls = match fit.wall {
-            None => wall(&ellipse, |x, y| boundary.blurred(x, y).value, &rays, level),
+            None => wall(&ellipse, &boundary, &rays, level),
             Some(own) => {
                 let levels = [fit.lumen[0], fit.background];
                 let model =
                     ThreeLevels::of(&ellipse, &own, levels, Whitening::new(self.blur.interpolated(place)));
-                wall(&ellipse, |x, y| model.modelled(x, y).share, &rays, half)
+                wall(&ellipse, &model, &rays, half)
             }
         };
         let mut flags = flags_of(&rays, |n| ellipse.radius_towards(direction(n)), width);

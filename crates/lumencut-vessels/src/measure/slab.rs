@@ -3,7 +3,7 @@
 //! A vessel that goes straight on looks the same everywhere along itself, so that each voxel shows the blurred section at its
 //! own place: nothing is interpolated, and the noise of neighbours stays independent.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::place::Place;
 use super::scale::Scale;
@@ -76,9 +76,8 @@ impl Samples {
                         continue;
                     }
                     let weight = 1.0 - (z + n * dz).abs() / thickness;
-                    let voxel =
-                        DVec3::new(f64::from(first[0] + i), f64::from(first[1] + j), f64::from(first[2] + k));
-                    let share = scale.share(f64::from(voxels.at_index(voxel)));
+                    let value = voxels.voxel([first[0] + i, first[1] + j, first[2] + k]);
+                    let share = scale.share(f64::from(value));
                     let is_near = (length - window.wall[0]).abs() <= window.wall[1];
                     let sample = Sample {
                         numbers: [point.x as f32, point.y as f32, share as f32, weight as f32],

@@ -6,7 +6,7 @@
 use glam::{DMat3, DVec3};
 
 use super::slab::Samples;
-use lumencut_core::math::lanes::FAN;
+use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 
 /// Noise is taken as independent from this number of voxels on.
 const FAR: usize = 5;
@@ -82,12 +82,7 @@ impl Pairs {
 /// what belongs to either. Along the axis on which they lie farthest apart the samples are put in order, so that most of those
 /// that are far apart are never looked at.
 fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut([usize; 3], T, T)) {
-    let extent = |axis: usize| {
-        let along = || samples.iter().map(move |(voxel, _)| voxel[axis]);
-        along().max().unwrap_or(0).abs_diff(along().min().unwrap_or(0))
-    };
-    let axis = (0..3).max_by_key(|axis| extent(*axis)).unwrap_or(0);
-    samples.sort_unstable_by_key(|(voxel, _)| voxel[axis]);
+    let axis = put_in_order(samples);
     for (n, (voxel, value)) in samples.iter().enumerate() {
         let after = &samples[n + 1..];
         let near = after.partition_point(|(other, _)| usize::from(other[axis].abs_diff(voxel[axis])) < FAR);
@@ -99,11 +94,97 @@ fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut(
     }
 }
 
+/// Puts samples in order along the axis on which they lie farthest apart, which is told.
+fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
+    let extent = |axis: usize| {
+        let along = || samples.iter().map(move |(voxel, _)| voxel[axis]);
+        along().max().unwrap_or(0).abs_diff(along().min().unwrap_or(0))
+    };
+    let axis = (0..3).max_by_key(|axis| extent(*axis)).unwrap_or(0);
+    samples.sort_unstable_by_key(|(voxel, _)| voxel[axis]);
+    axis
+}
+
 /// How far two voxels are apart along each axis; None where that is far.
 #[inline(always)]
 fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     let apart: [usize; 3] = std::array::from_fn(|n| usize::from(a[n].abs_diff(b[n])));
     (apart[0] < FAR && apart[1] < FAR && apart[2] < FAR).then_some(apart)
+}
+
+/// The cells of a texture in one row, filled up to a power of two.
+const CELLS: usize = 128;
+
+/// Where pairs find that they are far apart: behind the cells of the texture.
+const FAR_CELL: i32 = (FAR * FAR * FAR) as i32;
+
+/// The sum over all near pairs of the product of their weights and of how alike their noise is, as a kernel.
+struct NearProducts {
+    /// The samples in order along the first of their axes, and sixteen that are far from all of them.
+    voxel: [Vec<i32>; 3],
+    weight: Vec<f32>,
+    correlation: [f32; CELLS],
+    count: usize,
+}
+
+impl NearProducts {
+    fn new(samples: &mut [([i16; 3], f32)], correlation: &[[[f32; FAR]; FAR]; FAR]) -> Self {
+        const AWAY: i32 = 1 << 20;
+        let axis = put_in_order(samples);
+        let axes = [axis, (axis + 1) % 3, (axis + 2) % 3];
+        let behind = || std::iter::repeat_n(AWAY, FAN);
+        let voxel = axes
+            .map(|axis| samples.iter().map(|(voxel, _)| i32::from(voxel[axis])).chain(behind()).collect());
+        let weight = samples.iter().map(|(_, weight)| *weight).chain([0.0; FAN]).collect();
+        let mut cells = [0.0; CELLS];
+        for i in 0..FAR {
+            for j in 0..FAR {
+                for k in 0..FAR {
+                    let steps = [i, j, k];
+                    cells[axes.iter().fold(0, |cell, axis| cell * FAR + steps[*axis])] = correlation[i][j][k];
+                }
+            }
+        }
+        Self { voxel, weight, correlation: cells, count: samples.len() }
+    }
+}
+
+impl Kernel for NearProducts {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        const FARTHEST: i32 = FAR as i32 - 1;
+        let Self { voxel, weight, correlation, count } = self;
+        let mut sum = [0.0; FAN];
+        for n in 0..count {
+            let here = [0, 1, 2].map(|axis| voxel[axis][n]);
+            let mut first = n + 1;
+            while voxel[0][first] - here[0] <= FARTHEST {
+                let mut cell = [0; FAN];
+                let mut is_far = [false; FAN];
+                for axis in 0..3 {
+                    let there = &voxel[axis][first..first + FAN];
+                    for l in 0..FAN {
+                        let apart = (there[l] - here[axis]).abs();
+                        is_far[l] |= apart > FARTHEST;
+                        cell[l] = cell[l] * FAR as i32 + apart;
+                    }
+                }
+                let beside = &weight[first..first + FAN];
+                for l in 0..FAN {
+                    let cell = if is_far[l] { FAR_CELL } else { cell[l] };
+                    let alike = correlation[cell as usize % CELLS];
+                    sum[l] += f64::from(weight[n] * beside[l] * alike);
+                }
+                first += FAN;
+                if first >= count {
+                    break;
+                }
+            }
+        }
+        sum.iter().sum()
+    }
 }
 
 /// The variance of the sum of independent noise of variance 1, each sample weighed by `weights`.
@@ -182,40 +263,11 @@ impl Texture {
             .filter(|(_, weight)| *weight != 0.0)
             .collect();
         let own = independent_variance(weights);
-        let mut both = 0.0;
-        for_near_pairs(&mut each, |[i, j, k], weight, beside| {
-            both += f64::from(weight * beside * self.correlation[i][j][k]);
-        });
+        let both = dispatch(Isa::widest(), NearProducts::new(&mut each, &self.correlation));
         (own + 2.0 * both).max(0.1 * own)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn near_pairs_are_those_of_a_search_of_all() {
-        let mut state = 7u32;
-        let mut next = |most: u32| {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 16) % most
-        };
-        for extent in [[1, 1, 1], [3, 40, 9], [25, 4, 2], [12, 12, 60]] {
-            let mut samples: Vec<([i16; 3], u32)> =
-                (0..300).map(|n| (extent.map(|most| next(most) as i16 - 7), n)).collect();
-            let mut expected = Vec::new();
-            for (n, (voxel, a)) in samples.iter().enumerate() {
-                for (other, b) in &samples[n + 1..] {
-                    expected.extend(apart(*voxel, *other).map(|apart| (*a.min(b), *a.max(b), apart)));
-                }
-            }
-            let mut found = Vec::new();
-            for_near_pairs(&mut samples, |apart, a, b| found.push((a.min(b), a.max(b), apart)));
-            expected.sort_unstable();
-            found.sort_unstable();
-            assert!(!expected.is_empty());
-            assert_eq!(found, expected, "{extent:?}");
-        }
-    }
-}
+#[path = "tests/texture.rs"]
+mod tests;

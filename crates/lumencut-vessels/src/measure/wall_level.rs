@@ -10,12 +10,6 @@ use lumencut_core::limits::Limits;
 /// The level of a wall in CT (HU) and its standard deviation: that of soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
-/// A volume in HU has values below this one: fat or air.
-const BELOW: f32 = -20.0;
-
-/// The most voxels that are looked at for that.
-const MOST_VOXELS: usize = 400_000;
-
 /// In HU contrast medium lies above the first of these, and what surrounds a vessel between the other two.
 const LUMEN: f64 = 80.0;
 const AROUND: [f64; 2] = [-400.0, 400.0];
@@ -100,16 +94,8 @@ pub fn expected(
 /// are in CT.
 fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
     let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
-    around && scale.value(1.0) > LUMEN && scale.share(CT_WALL[0]) <= 1.0 - BELOW_LUMEN && has_negative(voxels)
-}
-
-fn has_negative(voxels: &Voxels) -> bool {
-    let [nx, ny, nz] = voxels.size;
-    // Rows, evenly over the volume, each as a whole.
-    let rows = ny * nz;
-    let every = (rows * nx).div_ceil(MOST_VOXELS).max(1);
-    (0..rows).step_by(every).any(|row| {
-        let [j, k] = [row % ny, row / ny].map(|n| n as f64);
-        (0..nx).any(|i| voxels.at_index(glam::DVec3::new(i as f64, j, k)) < BELOW)
-    })
+    around
+        && scale.value(1.0) > LUMEN
+        && scale.share(CT_WALL[0]) <= 1.0 - BELOW_LUMEN
+        && voxels.has_negative()
 }

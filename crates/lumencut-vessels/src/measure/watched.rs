@@ -9,20 +9,22 @@ use lumencut_core::vessel_tree::Vessel;
 /// About how often a section is looked at while a vessel is measured.
 const PASSES: f64 = 3.0;
 
-/// Measures one of the vessels that `progress` expects, in sections `step` mm apart, and tells how far that is. `measure` is given
-/// what it has to ask whether to stop.
+/// Measures vessels, in sections `step` mm apart, as one of the views that `progress` expects, and tells how far that is. `measure`
+/// is given what it has to ask whether to stop.
 ///
 /// # Errors
 /// Those of `measure`.
 pub fn watched<T>(
     progress: Option<&Progress>,
-    (vessel, step): (&Vessel, f64),
+    (vessels, step): (&[Vessel], f64),
     stop: Stop,
     measure: impl FnOnce(Stop) -> Result<T>,
 ) -> Result<T> {
     let Some(progress) = progress else { return measure(stop) };
-    let length: f64 = vessel.points().windows(2).map(|ends| ends[0].distance(ends[1])).sum();
-    progress.begin_view(std::iter::once(1), (PASSES * (1.0 + length / step)) as usize);
+    let length =
+        |vessel: &Vessel| -> f64 { vessel.points().windows(2).map(|ends| ends[0].distance(ends[1])).sum() };
+    let sections: f64 = vessels.iter().map(|vessel| 1.0 + length(vessel) / step).sum();
+    progress.begin_view(std::iter::once(1), (PASSES * sections) as usize);
     progress.begin_stage(1);
     let asked = || {
         progress.begin_pixels(1);

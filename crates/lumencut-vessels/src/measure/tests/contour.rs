@@ -38,7 +38,7 @@ fn rays_that_see_the_blurred_ellipse_tell_its_own_wall() {
             }
         })
         .collect();
-    for (n, wall) in wall(&ellipse, |x, y| boundary.blurred(x, y).value, &rays, level).iter().enumerate() {
+    for (n, wall) in wall(&ellipse, &boundary, &rays, level).iter().enumerate() {
         let own = ellipse.radius_towards(direction(n));
         assert!((wall - own).abs() < 0.01, "{n}: {wall} instead of {own}");
     }

@@ -125,3 +125,21 @@ fn half_axes_end_where_the_boundary_is_nearest_and_farthest() {
     let [across, along] = Ellipse::circle(DVec2::ZERO, 2.0).half_axes();
     assert!((across.length() - 2.0).abs() < 1e-12 && (along.length() - 2.0).abs() < 1e-12);
 }
+
+#[test]
+fn nodes_far_away_count_as_much_as_those_of_one_place_alone() {
+    // Sixteen places near one side of a wide lumen, so that its other side is far from all of them.
+    let boundary = Boundary::new(&Ellipse::circle(DVec2::ZERO, 9.0), whitening());
+    let x: [f32; FAN] = std::array::from_fn(|n| 8.0 + 0.15 * n as f32);
+    let together = boundary.blurred(&x, &[0.2; FAN]);
+    for l in 0..FAN {
+        let mut beside = x;
+        // With a place on the other side its nodes are near to one of the sixteen.
+        beside[(l + 1) % FAN] = -9.0;
+        let apart = boundary.blurred(&beside, &[0.2; FAN]);
+        assert_eq!(together.value[l], apart.value[l]);
+        for (slope, slopes) in together.slopes.iter().zip(&apart.slopes) {
+            assert!((slope[l] - slopes[l]).abs() < 1e-12, "{} {}", slope[l], slopes[l]);
+        }
+    }
+}

@@ -143,9 +143,6 @@ impl Probe<'_, '_> {
     }
 }
 
-/// How many samples of a ray are taken at a time.
-const SAMPLES: usize = 8;
-
 /// The samples of a ray, taken where they are first needed.
 struct Ray<'a, 'v> {
     voxels: &'a Voxels<'v>,
@@ -157,7 +154,7 @@ struct Ray<'a, 'v> {
 impl Ray<'_, '_> {
     fn value(&mut self, n: usize) -> f64 {
         while n >= self.values.len() {
-            self.voxels.along(self.start, self.stride, SAMPLES, &mut self.values);
+            self.voxels.along(self.start, self.stride, &mut self.values);
         }
         f64::from(self.values[n])
     }

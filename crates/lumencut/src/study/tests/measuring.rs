@@ -6,7 +6,8 @@ use glam::{DMat2, DVec2, DVec3};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut_vessels::measure::measuring::{MeasureRequest, measure};
+use lumencut_vessels::measure::measuring::measure;
+use lumencut_vessels::measure::request::MeasureRequest;
 use lumencut_vessels::measure::wall_level::WallRequest;
 use serde_json::{Value as Json, json};
 

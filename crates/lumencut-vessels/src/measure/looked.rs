@@ -1,0 +1,298 @@
+//! A vessel in a volume: its scale, its lumen by and large, the levels, and then each section.
+
+use std::sync::OnceLock;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::along::sharpen;
+use super::blur::Blur;
+use super::branches::{Lumen, meets};
+use super::ellipse::Ellipse;
+use super::fit::Fit;
+use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
+use super::levels::lumen_levels;
+use super::place::{Place, Track, known_radius};
+use super::point_spread::{Told, estimated};
+use super::pooled::Level;
+use super::profile::{PointSpread, Profile};
+use super::rays::Rays;
+use super::request::MeasureRequest;
+use super::restless::flag_restless;
+use super::rough::Rough;
+use super::scale::Scale;
+use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
+use super::slab::thickness;
+use super::texture::{Pairs, Texture};
+use super::wall::KnownWall;
+use super::wall_level::{WallSource, expected};
+use super::wall_pool::{is_apart, pooled};
+use crate::voxels::Voxels;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::statistics::median;
+use lumencut_core::stop::{Stop, go_on};
+use lumencut_core::vessel_tree::Vessel;
+
+/// Without any other knowledge the point spread is assumed to be this wide (sides of a voxel).
+pub const DEFAULT_FWHM: f64 = 1.2;
+
+/// Whether walls are told apart is said by this number of sections.
+const WALL_SECTIONS: usize = 48;
+
+/// The texture of the noise is told by this number of sections.
+const TEXTURE: usize = 32;
+
+/// How far from its vessel a lumen is looked for (mm), at least.
+const SEARCH: f64 = 3.0;
+
+/// The widest lumen (mm from its middle to its wall).
+const WIDEST: f64 = 45.0;
+
+/// The fits of sections by themselves under a point spread, and the wall that may be there where it is not told apart.
+#[derive(Clone)]
+struct FirstFits {
+    fwhm: f64,
+    hidden: Option<KnownWall>,
+    fits: Vec<Option<Fit>>,
+}
+
+/// What the sections of a vessel tell by themselves and together.
+struct AllSections {
+    fits: Vec<Option<Fit>>,
+    noise: f64,
+    lumen: Vec<Level>,
+    walls: Option<Vec<KnownWall>>,
+    texture: Texture,
+}
+
+/// A vessel before it is fitted.
+pub struct Looked {
+    scale: Scale,
+    wall: Option<KnownWall>,
+    wall_source: WallSource,
+    places: Vec<Place>,
+    rough: Vec<Option<Rough>>,
+    /// The fits under the point spread that is assumed before it is known; it often stays so.
+    first: OnceLock<FirstFits>,
+}
+
+impl Looked {
+    /// Looks at a vessel of a volume.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for an invalid step or
+    /// wall, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
+    pub fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
+        let first = Track::new(vessel, None)?.places(request.step)?;
+        let known = known_radius(vessel);
+        let scale = Scale::of(voxels, &first, known)?;
+        let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
+        let widest = known.map_or(WIDEST, |radius| (3.0 * radius + 5.0).min(WIDEST));
+        let search = known.unwrap_or(0.0).max(SEARCH);
+        let bench = bench(voxels, scale, wall, assumed(voxels));
+        let rough = bench.rough(&first, search, widest, request.stop)?;
+        let mut radii: Vec<f64> = rough.iter().flatten().map(|rough| rough.radius).collect();
+        let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
+        let places = Track::new(vessel, Some(radius))?.places(request.step)?;
+        Ok(Self { scale, wall, wall_source, places, rough: tamed(&rough), first: OnceLock::new() })
+    }
+
+    /// The fits of all sections by themselves under a point spread (FWHM, mm). Some of them say first whether walls are told
+    /// apart: where they are as bright as their surroundings, all are fitted without.
+    fn first_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
+        let mut bench = bench(voxels, self.scale, self.wall, fwhm);
+        let Some(known) = self.wall else {
+            let fits = bench.first_fits(&self.places, &self.rough, stop)?;
+            return Ok(FirstFits { fwhm, hidden: None, fits });
+        };
+        let every = self.places.len().div_ceil(WALL_SECTIONS).max(1);
+        let some = self.part(|n| n % every == 0);
+        let fits = bench.first_fits(&some.places, &some.rough, stop)?;
+        if let Some(hidden) = some.hidden_wall(&bench, &known, &fits, stop)? {
+            bench.wall = None;
+            let fits = bench.first_fits(&self.places, &self.rough, stop)?;
+            return Ok(FirstFits { fwhm, hidden: Some(hidden), fits });
+        }
+        let others = self.part(|n| n % every != 0);
+        let (mut these, mut those) =
+            (fits.into_iter(), bench.first_fits(&others.places, &others.rough, stop)?.into_iter());
+        let merged = (0..self.places.len()).map(|n| if n % every == 0 { these.next() } else { those.next() });
+        Ok(FirstFits { fwhm, hidden: None, fits: merged.map(Option::flatten).collect() })
+    }
+
+    /// What sections are looked at with under a point spread (FWHM, mm): without walls where they are hidden.
+    fn bench<'a, 'v>(&self, voxels: &'a Voxels<'v>, fwhm: f64, hidden: Option<KnownWall>) -> Bench<'a, 'v> {
+        bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
+    }
+
+    /// The same vessel with some of its sections, by their numbers.
+    fn part(&self, is_one: impl Fn(usize) -> bool) -> Self {
+        let kept = || (0..self.places.len()).filter(|n| is_one(*n));
+        Self {
+            places: kept().map(|n| self.places[n]).collect(),
+            rough: kept().map(|n| self.rough[n]).collect(),
+            first: OnceLock::new(),
+            ..*self
+        }
+    }
+
+    /// The wall that may be there where it is not told apart, as it is as bright as its surroundings.
+    fn hidden_wall(
+        &self,
+        bench: &Bench,
+        known: &KnownWall,
+        fits: &[Option<Fit>],
+        stop: Stop,
+    ) -> Result<Option<KnownWall>> {
+        let inflation = self.inflation(bench, &self.texture(bench, fits, noise(fits), stop)?);
+        let told = pooled(&self.arc_lengths(), fits, known, inflation);
+        let hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
+        Ok(hidden.filter(|_| !is_apart(known, &told, fits)))
+    }
+
+    /// Where the sections are (mm).
+    fn arc_lengths(&self) -> Vec<f64> {
+        self.places.iter().map(|place| place.at).collect()
+    }
+
+    /// The point spread that the vessel tells.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Interrupted`].
+    pub fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
+        let first = self.first_fits(voxels, assumed(voxels), stop)?;
+        let FirstFits { hidden, fits, .. } = self.first.get_or_init(|| first);
+        let bench = self.bench(voxels, assumed(voxels), *hidden);
+        estimated(&bench, voxels.world_from_index.matrix3, &self.places, fits, stop)
+    }
+
+    /// The profile of the vessel that was looked at, under a point spread.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for a vessel without a lumen, [`ErrorKind::Interrupted`].
+    pub fn profile(
+        &self,
+        voxels: &Voxels,
+        vessel: &Vessel,
+        request: &MeasureRequest,
+        spread: PointSpread,
+    ) -> Result<Profile> {
+        let stop = request.stop;
+        let kept = self.first.get().filter(|first| first.fwhm == spread.fwhm);
+        let found =
+            kept.map_or_else(|| self.first_fits(voxels, spread.fwhm, stop), |first| Ok(first.clone()));
+        let FirstFits { hidden, fits, .. } = found?;
+        let mut bench = self.bench(voxels, spread.fwhm, hidden);
+        let wall_source = if hidden.is_some() { WallSource::AsBright } else { self.wall_source };
+        let all = self.all_sections(&bench, fits, stop)?;
+        let wider = (spread.deviation > 0.0)
+            .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
+        let AllSections { fits, noise, lumen, walls, texture } = all;
+        bench.doubt = Some(Doubt { texture, wider, wall: hidden });
+        let others = Lumen::of_others(request.tree, vessel);
+        let section = |n: usize| {
+            go_on(stop)?;
+            let place = &self.places[n];
+            let rough = self.rough[n].map(|rough| Ellipse::circle(rough.center, rough.radius));
+            let mut section = match fits[n].map(|fit| fit.ellipse).or(rough) {
+                Some(ellipse) => {
+                    let wall = walls.as_ref().map(|walls| walls[n]);
+                    bench.section(place, &Known { ellipse, lumen: lumen[n], noise: Some(noise), wall })
+                }
+                None => Section::none(),
+            };
+            section.flags |= self.branch(n, section.fit.as_ref(), &others);
+            if voxels.at(place.origin).is_nan() {
+                section.flags |= OUTSIDE;
+            }
+            Ok(section)
+        };
+        let mut sections: Vec<Section> =
+            (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
+        if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
+            return Err(no_lumen(&self.scale));
+        }
+        let variance: Vec<f64> =
+            self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
+        sharpen(&mut sections, &self.arc_lengths(), &variance);
+        flag_restless(&self.places, &mut sections);
+        let noise = noise * self.scale.contrast.abs();
+        Ok(Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source))
+    }
+
+    /// What the sections tell together, from their fits by themselves.
+    fn all_sections(&self, bench: &Bench, fits: Vec<Option<Fit>>, stop: Stop) -> Result<AllSections> {
+        let noise = noise(&fits);
+        if LEAST_CONTRAST * noise > 1.0 {
+            return Err(no_lumen(&self.scale));
+        }
+        let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
+        let texture = self.texture(bench, &fits, noise, stop)?;
+        let inflation = self.inflation(bench, &texture);
+        let walls = bench.wall.map(|known| pooled(&self.arc_lengths(), &fits, &known, inflation));
+        Ok(AllSections { fits, noise, lumen, walls, texture })
+    }
+
+    /// By how much what walls tell varies more than with independent noise.
+    fn inflation(&self, bench: &Bench, texture: &Texture) -> f64 {
+        let sides = bench.rays.voxels.world_from_index.matrix3;
+        self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)))
+    }
+
+    /// The texture of the noise, from what fits miss.
+    fn texture(&self, bench: &Bench, fits: &[Option<Fit>], noise: f64, stop: Stop) -> Result<Texture> {
+        let every = fits.len().div_ceil(TEXTURE).max(1);
+        let some: Vec<usize> = (0..fits.len()).step_by(every).collect();
+        let pairs = |n: &usize| {
+            go_on(stop)?;
+            let Some(fit) = &fits[*n] else { return Ok(None) };
+            let known = Known { ellipse: fit.ellipse, lumen: fit.lumen, noise: Some(noise), wall: None };
+            Ok(bench.pairs(&self.places[*n], &known, fit))
+        };
+        let found: Vec<Option<Pairs>> = some.par_iter().map(pairs).collect::<Result<_>>()?;
+        let all = found.into_iter().flatten().reduce(|all, pairs| all.with(&pairs));
+        Ok(all.map_or_else(Texture::white, |all| Texture::of(&all)))
+    }
+
+    /// The flag of a section within the lumen of another vessel.
+    fn branch(&self, n: usize, fit: Option<&Fit>, others: &[Lumen]) -> u32 {
+        let Some(fit) = fit else { return 0 };
+        let place = &self.places[n];
+        let is_met = meets(place, center(place, fit), fit.ellipse.mean, others);
+        if is_met { BRANCH } else { 0 }
+    }
+}
+
+fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, fwhm: f64) -> Bench<'a, 'v> {
+    let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
+    Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
+}
+
+/// The point spread where nothing is known of it (FWHM, mm): by the middle one of the three sides of a voxel.
+pub fn assumed(voxels: &Voxels) -> f64 {
+    let sides = voxels.world_from_index.matrix3;
+    let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
+    DEFAULT_FWHM * median(&mut lengths).unwrap_or_default()
+}
+
+fn no_lumen(scale: &Scale) -> Error {
+    let [lumen, outside] = [scale.value(1.0), scale.outside];
+    let found = format!("no wall around it: {lumen:.4} on the vessel and {outside:.4} beside it");
+    let expected = "a lumen around the points of the vessel";
+    let mend = "centerlines must lie in the lumen, or within its radius of it";
+    Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
+}
+
+/// Rough lumens that are far wider than those around them are given their radius: rays leave the lumen where a branch begins.
+fn tamed(rough: &[Option<Rough>]) -> Vec<Option<Rough>> {
+    /// Sections to both sides, and how much wider than them is far wider.
+    const AROUND: (usize, f64) = (6, 1.5);
+    (0..rough.len())
+        .map(|n| {
+            let around = &rough[n.saturating_sub(AROUND.0)..(n + AROUND.0 + 1).min(rough.len())];
+            let mut radii: Vec<f64> = around.iter().flatten().map(|one| one.radius).collect();
+            let middle = median(&mut radii)?;
+            rough[n].map(|one| Rough { radius: one.radius.min(AROUND.1 * middle), ..one })
+        })
+        .collect()
+}
