@@ -235,7 +235,14 @@ class Tracer:
 class KeptProfiles:
     def __new__(cls) -> KeptProfiles: ...
     def profile(
-        self, volume: Any, tree: list[_Arrays], measured: _Arrays, step: float, fwhm: float | None = None
+        self,
+        volume: Any,
+        tree: list[_Arrays],
+        measured: _Arrays,
+        step: float,
+        fwhm: float | None = None,
+        wall: tuple[float, float] | None = None,
+        told: Callable[[int, int], object] | None = None,
     ) -> Profile: ...
 
 @final
@@ -394,6 +401,7 @@ def measured_radii(
     vessels: list[_Arrays],
     step: float,
     fwhm: float | None = None,
+    wall: tuple[float, float] | None = None,
     told: Callable[[int, int], object] | None = None,
 ) -> list[tuple[npt.NDArray[np.float64] | None, int, int]]: ...
 def not_suggested_places(profile: Profile, at: float | None, references: Sequence[float]) -> list[str]: ...
@@ -406,7 +414,9 @@ def placement(
     known: Mapping[str, str | None],
     volume: Any,
 ) -> dict[str, Any]: ...
-def point_spread(volume: Any, tree: list[_Arrays], step: float) -> PointSpread: ...
+def point_spread(
+    volume: Any, tree: list[_Arrays], step: float, wall: tuple[float, float] | None = None
+) -> PointSpread: ...
 def positions(camera: Any, depth: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]: ...
 def profile_csv(profile: Profile) -> str: ...
 def profile_json(profile: Profile) -> str: ...

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import number
+from lumencut._wall_level import Wall, wall_level
 from lumencut._wording import counted
 from lumencut.errors import SettingsError
 from lumencut.volume_files.memory import as_volume
@@ -22,6 +23,7 @@ def measured_radii(
     vessels: list[tuple[_Floats, _Floats | None]],
     step: float,
     fwhm: float | None,
+    wall: Wall,
     progress: Callable[[int, int], object] | None,
 ) -> tuple[list[_Floats | None], list[str]]:
     """Return the radii of each vessel, and a sentence for each vessel that was not measured as a whole."""
@@ -30,6 +32,7 @@ def measured_radii(
         vessels,
         number(SettingsError, "step", step),
         None if fwhm is None else number(SettingsError, "fwhm", fwhm),
+        wall_level(wall),
         progress,
     )
     notes = [

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, SupportsIndex
 
 from lumencut import _lumencut
 from lumencut._checks import number
+from lumencut._wall_level import Wall, wall_level
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.profile import Profile
 from lumencut.vessel import Vessel
@@ -18,8 +20,8 @@ class Measurements:
     """The measured vessels of one volume and tree: each is measured when it is first asked for, and kept.
 
     The point spread is estimated once, from the vessels of the tree, and is the same for all of them, as in
-    the viewer. What was measured holds for this volume, tree, step and width of the point spread; for others
-    make another object.
+    the viewer. What was measured holds for this volume, tree, step, wall and width of the point spread; for
+    others make another object.
 
     >>> measurements = lumencut.Measurements(volume, tree)
     >>> measurements.profile("LAD").narrowest()
@@ -34,11 +36,14 @@ class Measurements:
         The distance of sections (mm), at most.
     fwhm : float, optional
         The full width at half maximum of the scanner's point spread (mm), as for :func:`lumencut.measure`.
+    wall : pair of float or "off", optional
+        The level of walls, as for :func:`lumencut.measure`.
 
     Raises
     ------
     SettingsError
-        For a step or a width that is not a number; values out of range are refused by :meth:`profile`.
+        For a step, a width or a wall that is not a number; values out of range are refused by
+        :meth:`profile`.
     VesselTreeError
         For another kind of tree.
     VolumeError
@@ -46,7 +51,13 @@ class Measurements:
     """
 
     def __init__(
-        self, volume: Volume | Any, tree: VesselTree, step: float = 0.5, fwhm: float | None = None
+        self,
+        volume: Volume | Any,
+        tree: VesselTree,
+        step: float = 0.5,
+        fwhm: float | None = None,
+        *,
+        wall: Wall = None,
     ) -> None:
         if not isinstance(tree, VesselTree):
             raise VesselTreeError("tree of the measurements", type(tree).__name__, "a VesselTree")
@@ -54,6 +65,7 @@ class Measurements:
         self._tree = tree
         self._step = number(SettingsError, "step", step)
         self._fwhm = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
+        self._wall = wall_level(wall)
         self._kept = _lumencut.KeptProfiles()
 
     @property
@@ -66,7 +78,12 @@ class Measurements:
         """The vessels."""
         return self._tree
 
-    def profile(self, vessel: SupportsIndex | str | Vessel) -> Profile:
+    def profile(
+        self,
+        vessel: SupportsIndex | str | Vessel,
+        *,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> Profile:
         """Return the profile of a vessel, measured where it was not asked for before.
 
         Parameters
@@ -74,6 +91,8 @@ class Measurements:
         vessel : int, str or Vessel
             The id or the name of a vessel of the tree, or another vessel, such as one that
             :meth:`VesselTree.path` made of several.
+        progress : callable, optional
+            Called now and then with how much is done and how much there is to do.
 
         Returns
         -------
@@ -85,7 +104,7 @@ class Measurements:
         MeasuringError
             For a vessel outside the volume, or without a lumen around it.
         SettingsError
-            For a step or a width of the point spread that is out of range.
+            For a step, a wall or a width of the point spread that is out of range.
         VesselTreeError
             For an id or a name that not exactly one vessel of the tree has, or a vessel without length.
         KeyboardInterrupt
@@ -93,8 +112,9 @@ class Measurements:
         """
         asked = vessel if isinstance(vessel, Vessel) else self._tree.path([vessel])
         arrays = [(one.points, one.radius) for one in self._tree]
-        core = self._kept.profile(self._volume, arrays, (asked.points, asked.radius), self._step, self._fwhm)
-        return Profile(core)
+        measured = (asked.points, asked.radius)
+        how = (self._step, self._fwhm, self._wall)
+        return Profile(self._kept.profile(self._volume, arrays, measured, *how, progress))
 
     def __repr__(self) -> str:
         return f"Measurements({self._volume!r}, {self._tree!r})"

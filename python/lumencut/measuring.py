@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import choice, number, numbers
+from lumencut._checks import number
+from lumencut._wall_level import Wall, wall_level
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.profile import Profile
 from lumencut.vessel import Vessel
@@ -29,7 +30,7 @@ def measure(
     fwhm: float | None = None,
     *,
     tree: VesselTree | None = None,
-    wall: tuple[float, float] | Literal["off"] | None = None,
+    wall: Wall = None,
     progress: Progress | None = None,
 ) -> Profile:
     """Measure the lumen of a vessel in sections across it.
@@ -92,31 +93,25 @@ def measure(
     grid, along = as_volume(volume), number(SettingsError, "step", step)
     given = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
     others = None if tree is None else [(one.points, one.radius) for one in tree]
-    spread = given if others is None or given is not None else _point_spread(grid, tree, others, along)
+    level = wall_level(wall)
+    if others is None or given is not None:
+        spread: float | _lumencut.PointSpread | None = given
+    else:
+        spread = _point_spread(grid, tree, others, along, level)
     measured = (vessel.points, vessel.radius)
-    return Profile(_lumencut.measure(grid, measured, along, spread, others, _wall(wall), progress))
-
-
-def _wall(wall: tuple[float, float] | Literal["off"] | None) -> tuple[float, float] | None:
-    """The level of walls for the core, whose standard deviation of 0 says that they are not told apart."""
-    if wall is None:
-        return None
-    if isinstance(wall, str):
-        choice(SettingsError, "wall", wall, ("off",), " or a level and its standard deviation")
-        return (0.0, 0.0)
-    level, deviation = numbers(SettingsError, "wall", wall, (2,))
-    if not deviation > 0:
-        expected = 'a standard deviation above 0, or "off"'
-        raise SettingsError("wall", f"{level} ± {deviation}", expected)
-    return (float(level), float(deviation))
+    return Profile(_lumencut.measure(grid, measured, along, spread, others, level, progress))
 
 
 def _point_spread(
-    volume: Volume, tree: VesselTree | None, arrays: list[Any], step: float
+    volume: Volume,
+    tree: VesselTree | None,
+    arrays: list[Any],
+    step: float,
+    wall: tuple[float, float] | None,
 ) -> _lumencut.PointSpread:
     """The point spread that a tree tells in a volume, found once for all that is measured along it."""
-    found, name = volume._point_spreads, f"step {step}"
-    return found.once(volume._voxels, name, tree, lambda: _lumencut.point_spread(volume, arrays, step))
+    found, name = volume._point_spreads, f"step {step}, wall {wall}"
+    return found.once(volume._voxels, name, tree, lambda: _lumencut.point_spread(volume, arrays, step, wall))
 
 
 @dataclass(frozen=True)

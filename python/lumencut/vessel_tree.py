@@ -14,6 +14,7 @@ from lumencut._checks import integers, number
 from lumencut._measured_radii import measured_radii
 from lumencut._values import Value
 from lumencut._vessel_edits import joined, parts_of
+from lumencut._wall_level import Wall
 from lumencut._wording import counted, listed
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel import Vessel
@@ -117,6 +118,7 @@ class VesselTree(Value):
         step: float = 0.5,
         fwhm: float | None = None,
         *,
+        wall: Wall = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> VesselTree:
         """Return the tree with radii measured in a volume, those of circles with the area of the lumen.
@@ -132,19 +134,21 @@ class VesselTree(Value):
             The distance of sections (mm), at most.
         fwhm : float, optional
             As for :func:`lumencut.measure`; where not given, the widest vessel that tells it does so for all.
+        wall : pair of float or "off", optional
+            The level of walls, as for :func:`lumencut.measure`.
         progress : callable, optional
             Called now and then with how much is done and how much there is to do.
 
         Raises
         ------
         SettingsError
-            For an invalid step or width of the point spread.
+            For an invalid step, wall or width of the point spread.
         VolumeError
             For what is no volume.
         KeyboardInterrupt
             After Ctrl-C.
         """
-        found, notes = measured_radii(volume, self._arrays(), step, fwhm, progress)
+        found, notes = measured_radii(volume, self._arrays(), step, fwhm, wall, progress)
         measured = VesselTree(
             Vessel(vessel.points, radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
             for vessel, radius in zip(self._vessels, found, strict=True)

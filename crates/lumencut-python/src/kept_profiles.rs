@@ -1,17 +1,20 @@
 //! Profiles of the vessels of one scan, each measured once.
 
+use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lumencut::kept_profiles::{Asking, KeptProfiles as Core, Scan};
+use lumencut::measure::watched::watched as counted;
 use lumencut::vessel_tree::Vessel;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::measuring::Profile;
 use crate::pool;
-use crate::renderer::interruptible;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
+use crate::wall_request::wall_request;
+use crate::watching::told_while;
 
 /// The profiles of one volume and tree.
 #[pyclass(frozen, module = "lumencut._lumencut")]
@@ -24,9 +27,10 @@ impl KeptProfiles {
         Self(Mutex::new(Core::default()))
     }
 
-    /// The profile of a vessel, its points (n, 3) and radii (n,), measured where it was not asked for like this before.
-    #[pyo3(signature = (volume, tree, measured, step, fwhm=None))]
-    #[allow(clippy::needless_pass_by_value)]
+    /// The profile of a vessel, its points (n, 3) and radii (n,), measured where it was not asked for like this before. While it
+    /// runs, `told` is called as that of [`crate::measuring::measure`].
+    #[pyo3(signature = (volume, tree, measured, step, fwhm=None, wall=None, told=None))]
+    #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn profile<'py>(
         &self,
         py: Python<'py>,
@@ -35,16 +39,25 @@ impl KeptProfiles {
         measured: VesselArrays<'py>,
         step: f64,
         fwhm: Option<f64>,
+        wall: Option<[f64; 2]>,
+        told: Option<Py<PyAny>>,
     ) -> PyResult<Profile> {
         let borrowed = volume.borrow()?;
         let volume = &volume.volume(&borrowed)?;
         let tree = &tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
         let vessel = &vessel_of(&measured)?;
-        interruptible(py, None, |stop| {
+        told_while(py, told.as_ref(), |stop, progress| {
+            if let Some(progress) = progress {
+                progress.expect_views(1);
+            }
             let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             let kept = &mut *kept;
-            let asking = Asking { step, fwhm, stop };
-            let found = pool::install(|| kept.of(vessel.clone(), vessel, Scan { volume, tree }, &asking))?;
+            let found = pool::install(|| {
+                counted(progress, (slice::from_ref(vessel), step), stop, |stop| {
+                    let asking = Asking { step, fwhm, wall: wall_request(wall), stop };
+                    kept.of(vessel.clone(), vessel, Scan { volume, tree }, &asking)
+                })
+            })?;
             found.map(|number| Profile(Arc::clone(kept.kept(number)))).map_err(to_python)
         })
     }

@@ -31,6 +31,7 @@ mod tree;
 mod values;
 mod views;
 mod volume;
+mod wall_request;
 mod watching;
 mod windows;
 mod write_centerlines;

@@ -14,7 +14,6 @@ use lumencut::measure::radii;
 use lumencut::measure::request::MeasureRequest;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
-use lumencut::measure::wall_level::WallRequest;
 use lumencut::measure::watched::watched as counted;
 use lumencut::measure_words;
 use lumencut::named::Named;
@@ -31,6 +30,7 @@ use crate::point_spread::KnownSpread;
 use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
+use crate::wall_request::wall_request;
 use crate::watching::told_while;
 
 /// The flags of sections (name, bit, word, meaning, and the colours on paper and on a dark screen of each), the methods of
@@ -79,12 +79,7 @@ pub fn measure<'py>(
     let volume = volume.volume(&borrowed)?;
     let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let vessel = vessel_of(&measured)?;
-    // A standard deviation of 0 says that there is no wall.
-    let wall = match wall {
-        None => WallRequest::Automatic,
-        Some([_, 0.0]) => WallRequest::Off,
-        Some(level) => WallRequest::Level(level),
-    };
+    let wall = wall_request(wall);
     let fwhm = match spread {
         Some(KnownSpread::Width(fwhm)) => Some(fwhm),
         _ => None,
@@ -363,7 +358,7 @@ type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
 /// The measured radii of the vessels of a tree, each of points (n, 3) and radii (n,). While it runs, `told` is called as that of
 /// [`measure`].
 #[pyfunction]
-#[pyo3(signature = (volume, vessels, step, fwhm=None, told=None))]
+#[pyo3(signature = (volume, vessels, step, fwhm=None, wall=None, told=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub fn measured_radii<'py>(
     py: Python<'py>,
@@ -371,13 +366,15 @@ pub fn measured_radii<'py>(
     vessels: Vec<VesselArrays<'py>>,
     step: f64,
     fwhm: Option<f64>,
+    wall: Option<[f64; 2]>,
     told: Option<Py<PyAny>>,
 ) -> PyResult<Vec<RadiusParts<'py>>> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let tree = vessels.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let found = told_while(py, told.as_ref(), |stop, progress| {
-        let radii = || radii::measured_radii(&volume, &tree, (step, fwhm), stop, progress);
+        let request = MeasureRequest { step, fwhm, wall: wall_request(wall), tree: &tree, stop };
+        let radii = || radii::measured_radii(&volume, &request, progress);
         pool::install(radii)?.map_err(to_python)
     })?;
     let parts = found.into_iter().map(|radii| {

@@ -27,14 +27,16 @@ pub struct Asking<'a> {
     pub step: f64,
     /// The width of the point spread (mm), where it is given; without it the tree tells it.
     pub fwhm: Option<f64>,
+    /// The level of walls.
+    pub wall: WallRequest,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
 }
 
 /// The profiles that are kept, by what their host calls a vessel.
 pub struct KeptProfiles<K> {
-    /// The point spread that the tree tells, for all of its vessels.
-    told: Option<PointSpread>,
+    /// The point spread that the tree tells, for all of its vessels, by the level of walls that was asked for.
+    told: Vec<(WallRequest, PointSpread)>,
     kept: Vec<Kept<K>>,
 }
 
@@ -43,12 +45,13 @@ struct Kept<K> {
     of: K,
     step: f64,
     fwhm: Option<f64>,
+    wall: WallRequest,
     profile: Arc<Profile>,
 }
 
 impl<K> Default for KeptProfiles<K> {
     fn default() -> Self {
-        Self { told: None, kept: Vec::new() }
+        Self { told: Vec::new(), kept: Vec::new() }
     }
 }
 
@@ -58,15 +61,16 @@ impl<K: PartialEq> KeptProfiles<K> {
     /// # Errors
     /// Those of [`lumencut_vessels::measure::measuring::measure`].
     pub fn of(&mut self, key: K, vessel: &Vessel, scan: Scan, asking: &Asking) -> Result<usize> {
-        let Asking { step, fwhm, stop } = *asking;
-        let is_asked = |kept: &Kept<K>| kept.of == key && kept.step == step && kept.fwhm == fwhm;
+        let Asking { step, fwhm, wall, stop } = *asking;
+        let is_asked =
+            |kept: &Kept<K>| kept.of == key && kept.step == step && kept.fwhm == fwhm && kept.wall == wall;
         if let Some(found) = self.kept.iter().position(is_asked) {
             return Ok(found);
         }
-        let request = MeasureRequest { step, fwhm, wall: WallRequest::Automatic, tree: scan.tree, stop };
+        let request = MeasureRequest { step, fwhm, wall, tree: scan.tree, stop };
         let spread = self.spread(scan.volume, &request)?;
         let profile = Arc::new(measure_under(spread, scan.volume, vessel, &request)?);
-        self.kept.push(Kept { of: key, step, fwhm, profile });
+        self.kept.push(Kept { of: key, step, fwhm, wall, profile });
         Ok(self.kept.len() - 1)
     }
 
@@ -85,11 +89,11 @@ impl<K: PartialEq> KeptProfiles<K> {
         if request.fwhm.is_some() {
             return point_spread_of(volume, request);
         }
-        if let Some(told) = &self.told {
+        if let Some((_, told)) = self.told.iter().find(|(wall, _)| *wall == request.wall) {
             return Ok(told.clone());
         }
         let told = point_spread_of(volume, request)?;
-        self.told = Some(told.clone());
+        self.told.push((request.wall, told.clone()));
         Ok(told)
     }
 }

@@ -12,7 +12,7 @@ import click
 from lumencut.cli import options
 from lumencut.cli.measure_outputs import check_outputs, write_outputs
 from lumencut.cli.mistakes import check_files, check_reading
-from lumencut.cli.parameters import PLACES, joined_places
+from lumencut.cli.parameters import PLACES, WALL, joined_places
 from lumencut.cli.report import bar, say, verbose_option, warn
 from lumencut.cli.scene import read_files, scene_from
 from lumencut.cli.vessels import named_vessels, path_option
@@ -61,6 +61,15 @@ _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
     metavar="MM",
     help="The full width at half maximum of the scanner's point spread (mm); default: estimated where the "
     "vessel is wide, else assumed, and said which; a session file may give one.",
+)
+@click.option(
+    "--wall",
+    type=WALL,
+    metavar=f"auto|off|{WALL.name}",
+    default="auto",
+    show_default=True,
+    help="The level of the walls of vessels and its deviation, in the unit of the volume; 'auto' takes "
+    "45,25 where the volume is in HU, and no wall elsewhere; with 'off' no wall is told apart.",
 )
 @click.option("--at", type=float, metavar="MM", help="The place of a stenosis: its arc length on the vessel.")
 @click.option(
@@ -173,7 +182,8 @@ def _measured(
         for number, (ids, vessel) in enumerate(vessels, 1):
             try:
                 part = partial(_tell, told, number - 1, len(vessels))
-                profile = library(voxels, vessel, chosen["step"], fwhm, tree=tree, progress=part)
+                how = {"tree": tree, "wall": chosen["wall"], "progress": part}
+                profile = library(voxels, vessel, chosen["step"], fwhm, **how)
                 if marked.at is not None:
                     _refuse(profile, marked.at, marked)
                 found.append(MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked)))

@@ -59,6 +59,22 @@ class Places(_Type):
         return places
 
 
+class WallOption(Parts):
+    """The level of walls and its standard deviation, no wall, or what the volume says."""
+
+    def __init__(self) -> None:
+        super().__init__("LEVEL,DEVIATION", ",", float)
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
+        """Return the two numbers, "off", or None for what the volume says."""
+        if value in ("auto", "off"):
+            return None if value == "auto" else value
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter:
+            self.fail(f"{value!r} is not of the form {self.name}, such as 45,25, nor auto or off", param, ctx)
+
+
 def joined_places(
     ctx: click.Context, param: click.Parameter, given: tuple[tuple[float, ...], ...]
 ) -> tuple[float, ...] | None:
@@ -179,6 +195,7 @@ class Transfer(_Type):
 VECTOR = Parts("X,Y,Z", ",", float)
 SIZE = Parts("WIDTHxHEIGHT", "x", int)
 PLACES = Places()
+WALL = WallOption()
 WINDOW = WindowOption(WINDOW_NAMES)
 RGB = Color("RRGGBB", (3,))
 RGBA = Color("RRGGBB[AA]", (3, 4))

@@ -8,7 +8,6 @@ use super::flags::{LEFT_OUT, RECENTERED};
 use super::measuring::TreeMeasuring;
 use super::profile::Profile;
 use super::request::MeasureRequest;
-use super::wall_level::WallRequest;
 use super::watched::watched;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;
@@ -38,20 +37,18 @@ pub struct Radii {
 /// for all.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] for an invalid step or point spread, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
+/// [`ErrorKind::Settings`] for an invalid step, wall or point spread, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
 /// keeps its radii.
 pub fn measured_radii(
     volume: &Volume,
-    tree: &[Vessel],
-    (step, fwhm): (f64, Option<f64>),
-    stop: Stop,
+    request: &MeasureRequest,
     progress: Option<&Progress>,
 ) -> Result<Vec<Radii>> {
     if let Some(progress) = progress {
         progress.expect_views(1);
     }
-    let request = MeasureRequest { step, fwhm, wall: WallRequest::Automatic, tree, stop };
-    let measuring = TreeMeasuring::new(volume, &request)?;
+    let MeasureRequest { step, tree, stop, .. } = *request;
+    let measuring = TreeMeasuring::new(volume, request)?;
     let spread = measuring.point_spread()?;
     let radii = |(n, vessel): (usize, &Vessel), stop: Stop| match measuring.profile(n, spread.clone(), stop) {
         Ok(profile) => Ok(of_profile(vessel, &profile)),

@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use lumencut_core::stop::Stop;
 use lumencut_vessels::measure::measuring::STEP;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::wall_level::WallRequest;
 
 use crate::kept_profiles::{self, KeptProfiles, Scan};
 use crate::study::content::{Content, NamedTree};
@@ -41,7 +42,12 @@ impl Profiles {
         let number = listed.iter().position(|own| *own == line);
         let not_shown = || wrong("number", line.to_string(), "one of the lines that are shown");
         let number = number.ok_or_else(not_shown)?;
-        let asking = kept_profiles::Asking { step: STEP, fwhm: asking.fwhm, stop: asking.stop };
+        let asking = kept_profiles::Asking {
+            step: STEP,
+            fwhm: asking.fwhm,
+            wall: WallRequest::Automatic,
+            stop: asking.stop,
+        };
         Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &asking)?)
     }
 

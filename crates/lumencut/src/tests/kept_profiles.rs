@@ -19,7 +19,7 @@ fn with_junction(look: impl FnOnce(Scan)) {
 }
 
 fn asking<'a>(fwhm: Option<f64>, stop: Stop<'a>) -> Asking<'a> {
-    Asking { step: 1.0, fwhm, stop }
+    Asking { step: 1.0, fwhm, wall: WallRequest::Automatic, stop }
 }
 
 #[test]

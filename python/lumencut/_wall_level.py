@@ -1,0 +1,31 @@
+"""The level of the walls of vessels, as a caller gives it."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from lumencut._checks import choice, numbers
+from lumencut.errors import SettingsError
+
+#: A level and its standard deviation in the unit of the volume, no wall, or, in CT, that of soft tissue.
+Wall: TypeAlias = tuple[float, float] | Literal["off"] | None
+
+
+def wall_level(wall: Wall) -> tuple[float, float] | None:
+    """Return the level of walls for the core: with a standard deviation of 0 they are not told apart.
+
+    Raises
+    ------
+    SettingsError
+        For another word, or a level or a standard deviation that is invalid.
+    """
+    if wall is None:
+        return None
+    if isinstance(wall, str):
+        choice(SettingsError, "wall", wall, ("off",), " or a level and its standard deviation")
+        return (0.0, 0.0)
+    level, deviation = numbers(SettingsError, "wall", wall, (2,))
+    if not deviation > 0:
+        expected = 'a standard deviation above 0, or "off"'
+        raise SettingsError("wall", f"{level} ± {deviation}", expected)
+    return (float(level), float(deviation))
