@@ -195,8 +195,15 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
     }
 
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
-        let kernel = Along { voxels: self.voxels, grid: &self.grid, start, stride, first: values.len() };
-        values.extend(dispatch(Isa::widest(), kernel));
+        let first = values.len();
+        // Lanes for each type of voxels are more than a page should load.
+        let is_number = start.is_finite() && stride.is_finite();
+        if cfg!(target_arch = "wasm32") || !is_number {
+            values.extend((first..first + FAN).map(|n| self.at(start + stride * n as f64)));
+        } else {
+            let kernel = Along { voxels: self.voxels, grid: &self.grid, start, stride, first };
+            values.extend(dispatch(Isa::widest(), kernel));
+        }
     }
 
     fn goes_below(&self, limit: f32, every: usize) -> bool {

@@ -127,7 +127,7 @@ impl Grid {
         self.interpolated_lanes(voxels, p, |number| number)
     }
 
-    /// [`Grid::trilinear_single`] at sixteen indices, given axis by axis.
+    /// [`Grid::trilinear_single`] at sixteen indices, given axis by axis, all of them numbers.
     #[inline(always)]
     pub fn trilinear_single_lanes<T: Voxel>(&self, voxels: &[T], p: &[[f64; FAN]; 3]) -> [f32; FAN] {
         let [values] = self.interpolated_lanes(voxels, &[*p], Real::to_f32);
@@ -149,8 +149,7 @@ impl Grid {
                 let (last, low, stride) = (self.last[a], self.low[a] as i32, self.strides[a]);
                 for l in 0..FAN {
                     let c = p[n][a][l];
-                    // What is no number lies nowhere.
-                    outside[n][l] |= !((c >= -0.5) & (c <= last + 0.5));
+                    outside[n][l] |= (c < -0.5) | (c > last + 0.5);
                     let c = if c > 0.0 { c } else { 0.0 };
                     let c = if c < last { c } else { last };
                     let floor = (c as i32).min(low);

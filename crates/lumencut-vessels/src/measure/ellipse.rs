@@ -170,8 +170,10 @@ impl Boundary {
         }
     }
 
-    /// The blurred ellipse at sixteen places (mm).
-    #[inline(always)]
+    /// The blurred ellipse at sixteen places (mm). A page loads it once, as it has one instruction set; elsewhere it is compiled
+    /// into each kernel.
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
         let [xx, xy, yy] = self.whitening;
         let mut place = [[0.0; FAN]; 2];

@@ -1,7 +1,6 @@
 //! What a vessel's lumen and its surroundings look like, by and large.
 
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::place::Place;
 use crate::voxels::Voxels;
@@ -109,7 +108,6 @@ fn scatter(voxels: &Voxels, places: &[Place], lumen: f64) -> f64 {
 fn rings(voxels: &Voxels, places: &[Place], step: f64, count: usize) -> Vec<Option<f64>> {
     let every = places.len().div_ceil(MOST_PLACES);
     (0..=count)
-        .into_par_iter()
         .map(|n| {
             let mut values = Vec::new();
             for place in places.iter().step_by(every) {

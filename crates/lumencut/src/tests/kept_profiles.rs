@@ -5,7 +5,7 @@ use lumencut_core::volume::Voxels;
 use lumencut_phantom::Phantom;
 use lumencut_vessels::measure::measuring::measure;
 use lumencut_vessels::measure::profile::Source;
-use lumencut_vessels::measure::wall_level::WallRequest;
+use lumencut_vessels::measure::wall_level::{WallRequest, WallSource};
 
 use super::*;
 
@@ -52,10 +52,14 @@ fn what_is_asked_for_in_another_way_is_measured_anew() {
         kept.of(0, &scan.tree[0], scan, &asking(None, &go_on)).expect("a profile");
         let never = || true;
         let finer = Asking { step: 0.5, ..asking(None, &never) };
-        for asking in [finer, asking(Some(1.0), &never)] {
+        let without_wall = Asking { wall: WallRequest::Off, ..asking(None, &never) };
+        for asking in [finer, without_wall, asking(Some(1.0), &never)] {
             let error = kept.of(0, &scan.tree[0], scan, &asking).expect_err("it was stopped");
             assert_eq!(error.kind, ErrorKind::Interrupted);
         }
+        let without_wall = Asking { wall: WallRequest::Off, ..asking(None, &go_on) };
+        let told = kept.of(0, &scan.tree[0], scan, &without_wall).expect("a profile");
+        assert_eq!(kept.kept(told).wall_source, WallSource::NotAsked);
         let given = kept.of(0, &scan.tree[0], scan, &asking(Some(1.0), &go_on)).expect("a profile");
         assert_eq!((kept.kept(given).fwhm, &kept.kept(given).fwhm_source), (1.0, &Source::Given));
     });
