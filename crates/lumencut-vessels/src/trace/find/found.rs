@@ -1,0 +1,49 @@
+//! What has been found: vessels in parts that hang together, with what makes them doubtful.
+
+use crate::trace::find::track::TrackDoubt;
+use crate::trace::lines::centerline::Centerline;
+
+/// The vessels of a scan.
+#[derive(Clone, Debug)]
+pub struct Trees {
+    /// The vessels, part by part, the most important part first; within a part the root first.
+    pub vessels: Vec<FoundVessel>,
+    /// The usual level of vessels, how far that lies above their surroundings, and the noise, in the unit of the volume.
+    pub level: f64,
+    /// See `level`.
+    pub contrast: f64,
+    /// See `level`.
+    pub noise: f64,
+}
+
+/// A vessel that was found.
+#[derive(Clone, Debug)]
+pub struct FoundVessel {
+    /// Its points, radii and confidence, from the root outwards.
+    pub line: Centerline,
+    /// Which part it belongs to, 0 for the most important one.
+    pub part: usize,
+    /// How sure it is that this is a vessel, 0 to 1.
+    pub confidence: f64,
+    /// Why it is doubtful; none where it is sure.
+    pub doubt: Option<TrackDoubt>,
+}
+
+/// From this confidence on a vessel is sure.
+pub const SURE: f64 = 0.7;
+
+impl TrackDoubt {
+    /// The doubt in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::BrightSides => "it is bright on most sides: bone?",
+            Self::Flat => "it is flat, like a plate of bone",
+            Self::Uneven => "it is uneven inside, like marrow",
+            Self::PaleAndWide => "it is wide and paler than the vessels, like an organ",
+            Self::Short => "it is short",
+            Self::Rough => "its width changes from place to place",
+            Self::Faint => "its contrast is low",
+            Self::Open => "few of its walls are seen",
+        }
+    }
+}
