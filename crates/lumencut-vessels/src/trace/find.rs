@@ -1,15 +1,23 @@
 //! All vessels of an angiography, without a seed: tubes are found first, judged, linked into trees, and ranked.
 
 pub mod bone;
+pub mod candidates;
+pub mod confidence;
+pub mod flux;
 pub mod found;
+pub mod grid;
 pub mod links;
+pub mod paint;
+pub mod pyramid;
 pub mod scan;
+pub mod section;
 pub mod track;
+pub mod tracker;
+pub mod tubes;
+pub mod vessel_level;
 pub mod whole_vessels;
 
 use crate::trace::find::found::{FoundVessel, Trees};
-use crate::trace::find::scan::Scan;
-use crate::trace::find::track::Track;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::progress::Progress;
@@ -32,15 +40,11 @@ pub struct FindRequest<'a> {
 /// [`lumencut_core::error::ErrorKind::Tracing`] where no vessel is found; [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
-    let (scan, tracks) = tubes(voxels, request)?;
+    let Some((scan, tracks)) = tubes::tubes(voxels, request.smallest_radius, request.stop)? else {
+        return Ok(Trees { vessels: Vec::new(), level: 0.0, contrast: 0.0, noise: 0.0 });
+    };
     let tracks = bone::judged(&scan, tracks, request.stop)?;
     let links = links::between(&scan, &tracks, request.stop)?;
     let vessels: Vec<FoundVessel> = whole_vessels::of(&scan, &tracks, &links, request)?;
     Ok(Trees { vessels, level: scan.level, contrast: scan.contrast, noise: scan.noise })
-}
-
-/// The tubes of a volume, and what is known of its vessels and its noise.
-fn tubes<'v>(voxels: &'v Voxels<'v>, _request: &FindRequest) -> Result<(Scan<'v>, Vec<Track>)> {
-    let scan = Scan { voxels, side: voxels.smallest_side, lowest: 0.0, level: 0.0, contrast: 0.0, noise: 0.0 };
-    Ok((scan, Vec::new()))
 }

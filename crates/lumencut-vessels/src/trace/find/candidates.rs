@@ -1,0 +1,242 @@
+//! Candidates: places where the flux of the gradient and a cross-section both show a tube.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::trace::find::flux::{FluxOf, HALO, RADII, Responses, gains};
+use crate::trace::find::pyramid::{Level, Pyramid};
+use crate::trace::find::section::{Section, across, median_of};
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
+
+/// The size of the boxes of voxels whose flux is found together.
+const TILE: [usize; 3] = [64, 24, 24];
+
+/// A response is at least this many times the noise, and this part of the usual contrast of vessels.
+const NOISES: f64 = 3.5;
+const OF_CONTRAST: f64 = 0.15;
+
+/// The contrast of a section is at least this many times the noise, and this part of the usual contrast of vessels.
+const SECTION_NOISES: f64 = 3.0;
+const SECTION_OF_CONTRAST: f64 = 0.2;
+
+/// What a section of a candidate must show: more closure and more rays with contrast than this, and a radius within these times
+/// that of the flux.
+const LEAST_CLOSURE: f64 = 0.65;
+const LEAST_CONTRAST_SHARE: f64 = 0.6;
+const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
+
+/// A section moves less than this many radii towards its middle, or this many where it is wider than two voxels.
+const MOST_SHIFT: f64 = 1.0;
+const MOST_WIDE_SHIFT: f64 = 1.5;
+const WIDE: f64 = 2.0;
+
+/// How often a section moves to its middle, and how narrow it may become (voxels of the finest level).
+const ROUNDS: usize = 3;
+const LEAST_RADIUS: f64 = 0.5;
+
+/// About how many voxels are looked at for the noise, what share of them is the brightest, and how far the values of white noise
+/// lie from the mean of their neighbours, in the median.
+const NOISE_SAMPLES: usize = 60_000;
+const BRIGHTEST: f64 = 0.4;
+const MEDIAN_OF_NOISE: f64 = 0.66;
+
+/// A place where a tube may begin. Lengths are in voxels of the finest level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The middle of its section.
+    pub place: DVec3,
+    /// Its direction (unit vector).
+    pub direction: DVec3,
+    /// Its radius.
+    pub radius: f64,
+    /// The response of the flux, a contrast in the unit of the volume.
+    pub response: f64,
+    /// The radius of the ball of that response.
+    pub flux_radius: f64,
+}
+
+/// The least that a tube must have, in the unit of the volume.
+#[derive(Clone, Copy, Debug)]
+pub struct Floors {
+    /// The noise of the finest level that is looked at.
+    pub noise: f64,
+    /// The usual contrast of vessels; 0 where that is not known yet.
+    pub contrast: f64,
+}
+
+impl Floors {
+    /// The least contrast of a section.
+    pub fn of_section(&self) -> f64 {
+        (SECTION_NOISES * self.noise).max(SECTION_OF_CONTRAST * self.contrast)
+    }
+}
+
+/// The candidates of all levels from level `first` on, the most promising first.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn candidates(pyramid: &Pyramid, first: usize, floors: &Floors, stop: Stop) -> Result<Vec<Candidate>> {
+    let mut found = Vec::new();
+    let last = pyramid.levels.len() - 1;
+    for (number, level) in pyramid.levels.iter().enumerate().skip(first) {
+        let radii: &[usize] = match () {
+            () if number == first && number == last => &[0, 1, 2, 3],
+            () if number == first => &[0, 1, 2],
+            () if number == last => &[1, 2, 3],
+            () => &[1, 2],
+        };
+        let noise = if number == first { floors.noise } else { noise(level) };
+        let limits: Vec<(usize, f32, f32)> = radii
+            .iter()
+            .map(|&radius| {
+                let gain = gains()[radius];
+                let least = (NOISES * noise * f64::from(gain.noise)).max(OF_CONTRAST * floors.contrast);
+                // A step of the voxels' numbers is the least that can be seen at all.
+                (radius, gain.factor, (least as f32 / level.unit).max(1.0))
+            })
+            .collect();
+        let tiles = tiles(level.size);
+        let of_level: Vec<Vec<Candidate>> = tiles
+            .into_par_iter()
+            .map(|tile| {
+                go_on(stop)?;
+                let seen = peaks(level, tile, &limits);
+                Ok(seen.into_iter().filter_map(|peak| judged(pyramid, first, peak, floors)).collect())
+            })
+            .collect::<Result<_>>()?;
+        found.extend(of_level.into_iter().flatten());
+    }
+    let promise = |c: &Candidate| {
+        let most = if floors.contrast > 0.0 { c.response.min(floors.contrast) } else { c.response };
+        most * c.flux_radius.sqrt()
+    };
+    found.sort_by(|a, b| promise(b).total_cmp(&promise(a)));
+    Ok(found)
+}
+
+/// The standard deviation of the noise of a level, from how far its brighter voxels lie from their neighbours.
+pub fn noise(level: &Level) -> f64 {
+    let [nx, ny, nz] = level.size;
+    if level.size.iter().any(|n| *n < 3) {
+        return 0.0;
+    }
+    let inner = (nx - 2) * (ny - 2) * (nz - 2);
+    let step = inner.div_ceil(NOISE_SAMPLES) | 1;
+    let mut samples: Vec<(u16, f64)> = (0..inner)
+        .into_par_iter()
+        .step_by(step)
+        .map(|n| {
+            let (i, j, k) = (n % (nx - 2), n / (nx - 2) % (ny - 2), n / ((nx - 2) * (ny - 2)));
+            let mut sum = 0.0;
+            for row in 0..9 {
+                let start = i + (j + row % 3) * nx + (k + row / 3) * nx * ny;
+                sum += level.voxels[start..start + 3].iter().map(|v| f64::from(*v)).sum::<f64>();
+            }
+            let own = level.voxels[(i + 1) + (j + 1) * nx + (k + 1) * nx * ny];
+            (own, (f64::from(own) - sum / 27.0).abs())
+        })
+        .collect();
+    let darker = ((1.0 - BRIGHTEST) * samples.len() as f64) as usize;
+    samples.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut away: Vec<f64> = samples[darker..].iter().map(|sample| sample.1).collect();
+    median_of(&mut away) / MEDIAN_OF_NOISE * f64::from(level.unit)
+}
+
+/// The first voxels of the boxes of a level.
+fn tiles(size: [usize; 3]) -> Vec<[usize; 3]> {
+    let counts: [usize; 3] = std::array::from_fn(|a| size[a].div_ceil(TILE[a]));
+    (0..counts.iter().product())
+        .map(|n| {
+            let tile = [n % counts[0], n / counts[0] % counts[1], n / (counts[0] * counts[1])];
+            std::array::from_fn(|a| tile[a] * TILE[a])
+        })
+        .collect()
+}
+
+/// The voxels of a box whose response is the greatest across their direction.
+fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<Candidate> {
+    let size: [usize; 3] = std::array::from_fn(|a| TILE[a].min(level.size[a] - first[a]));
+    let least = radii.iter().map(|(_, _, least)| *least).fold(f32::MAX, f32::min);
+    let Some(values) = values(level, first, size.map(|n| n + 2 * HALO), least) else { return Vec::new() };
+    let responses = FluxOf { values, size: size.map(|n| n + 2 * HALO), radii }.responses();
+    let mut found = Vec::new();
+    for k in 0..size[2] {
+        for j in 0..size[1] {
+            for i in 0..size[0] {
+                // The box of the responses has one voxel more on each side.
+                let voxel = [i + 1, j + 1, k + 1];
+                let number = responses.number(voxel);
+                if responses.strongest[number] <= 0.0 {
+                    continue;
+                }
+                let direction = DVec3::from_array(responses.direction(voxel));
+                if is_peak(&responses, voxel, direction) {
+                    let place = [first[0] + i, first[1] + j, first[2] + k].map(|n| n as f64 * level.side);
+                    let radius = RADII[usize::from(responses.radius[number])] * level.side;
+                    let response = f64::from(responses.strongest[number] * level.unit);
+                    let place = DVec3::from_array(place);
+                    found.push(Candidate { place, direction, radius, response, flux_radius: radius });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The values of a box, those beyond the level being the nearest in it; none where no two of them differ by the least response.
+fn values(level: &Level, first: [usize; 3], size: [usize; 3], least: f32) -> Option<Vec<f32>> {
+    let [nx, ny, nz] = level.size;
+    let at = |n: usize, first: usize, count: usize| (first + n).saturating_sub(HALO).min(count - 1);
+    let mut values = Vec::with_capacity(size.iter().product());
+    let (mut low, mut high) = (u16::MAX, 0);
+    for k in 0..size[2] {
+        for j in 0..size[1] {
+            let row = (at(j, first[1], ny) + at(k, first[2], nz) * ny) * nx;
+            for i in 0..size[0] {
+                let value = level.voxels[row + at(i, first[0], nx)];
+                (low, high) = (low.min(value), high.max(value));
+                values.push(f32::from(value));
+            }
+        }
+    }
+    (f32::from(high.saturating_sub(low)) >= least).then_some(values)
+}
+
+/// Whether no neighbour across the direction has a greater response; of equal ones the first voxel is the peak.
+fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
+    let own = responses.number(voxel);
+    let strength = responses.strongest[own];
+    let plane = across(direction);
+    (0..8).all(|n| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(n) / 8.0).sin_cos();
+        let step = (plane[0] * cos + plane[1] * sin).round();
+        let beside = std::array::from_fn(|a| (voxel[a] as f64 + step[a]) as usize);
+        let number = responses.number(beside);
+        let other = responses.strongest[number];
+        number == own || strength > other || (strength == other && own < number)
+    })
+}
+
+/// A peak whose section is that of a tube, moved to its middle.
+fn judged(pyramid: &Pyramid, first: usize, peak: Candidate, floors: &Floors) -> Option<Candidate> {
+    let most = if peak.radius >= WIDE { MOST_WIDE_SHIFT } else { MOST_SHIFT } * peak.radius;
+    let look = |place: DVec3, radius: f64| {
+        Section::look(pyramid.level_for(radius, first), place, peak.direction, radius)
+    };
+    let (mut place, mut radius) = (peak.place, peak.radius);
+    let mut section = look(place, radius);
+    for _ in 1..ROUNDS {
+        place += section.shift;
+        radius = section.radius.max(LEAST_RADIUS);
+        if place.distance(peak.place) >= most {
+            return None;
+        }
+        section = look(place, radius);
+    }
+    let is_tube = section.closure > LEAST_CLOSURE
+        && section.contrast_share > LEAST_CONTRAST_SHARE
+        && section.contrast > floors.of_section()
+        && (RADIUS_RATIO[0]..RADIUS_RATIO[1]).contains(&(section.radius / peak.radius));
+    is_tube.then(|| Candidate { place: place + section.shift, radius: section.radius, ..peak })
+}

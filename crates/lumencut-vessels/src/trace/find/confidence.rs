@@ -1,0 +1,167 @@
+//! How sure a track is to be a vessel: parts that each speak for or against one, weighed together.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::trace::find::pyramid::Pyramid;
+use crate::trace::find::section::{across, median_of};
+use crate::trace::find::track::{TrackDoubt, TrackPoint};
+use crate::voxels::Voxels;
+
+/// What the usual vessels of a scan are like, in the unit of the volume.
+#[derive(Clone, Copy, Debug)]
+pub struct UsualVessels {
+    /// Their level.
+    pub level: f64,
+    /// Their contrast.
+    pub contrast: f64,
+}
+
+/// The exponent of the whole, and the least that a part counts.
+const POWER: f64 = 0.6;
+const LEAST: f64 = 0.02;
+
+/// The ring around the lumen: from so many radii and voxels to so many.
+const RING_FROM: [f64; 2] = [1.25, 0.7];
+const RING_TO: [f64; 2] = [2.05, 2.0];
+const RAYS: usize = 16;
+const SAMPLES: usize = 4;
+
+/// The most sections of a track that are looked at.
+const MOST_SECTIONS: usize = 60;
+
+/// A tube counts as wide from so many voxels of radius on, and wholly from so many.
+const WIDE: [f64; 2] = [2.5, 5.5];
+
+/// How far rays look for bone: so many radii and voxels; what is brighter than the usual level by this part of the contrast.
+const BONE_REACH: [f64; 2] = [1.5, 1.5];
+const BONE: f64 = 0.4;
+const BRIGHT_INSIDE: f64 = 0.5;
+/// A wide tube whose inside lies within these parts of the contrast of the usual level may have bright walls: stents.
+const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
+
+/// What is known of a track beside its points.
+struct Around {
+    /// The share of directions that are dark, and the quartile range of their means over the contrast, in the median.
+    dark: f64,
+    even: f64,
+    /// The contrast to the ring's median over the usual one.
+    contrast: f64,
+    /// The share of rays that meet bone.
+    bone: f64,
+    /// The raw level inside.
+    inside: f64,
+}
+
+/// A value between 0 and 1 as it passes from one limit to another.
+fn ramp(value: f64, from: f64, to: f64) -> f64 {
+    ((value - from) / (to - from)).clamp(0.0, 1.0)
+}
+
+/// How sure a track is, 0 to 1, and what speaks against it most. Its points are in voxels of the finest level.
+pub fn confidence(
+    pyramid: &Pyramid,
+    voxels: &Voxels,
+    points: &[TrackPoint],
+    usual: &UsualVessels,
+) -> (f64, Option<TrackDoubt>) {
+    let good: Vec<&TrackPoint> = points.iter().filter(|point| point.is_good).collect();
+    if good.is_empty() {
+        return (0.0, Some(TrackDoubt::Open));
+    }
+    let radius = median_of(&mut good.iter().map(|point| point.radius).collect::<Vec<_>>());
+    let around = around(pyramid, voxels, &good, usual);
+    let wide = ramp(radius, WIDE[0], WIDE[1]);
+    let length: f64 = points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
+    let closure = good.iter().map(|point| point.closure).sum::<f64>() / good.len() as f64;
+    let share = good.len() as f64 / points.len() as f64;
+    let parts = [
+        (ramp(around.dark, 0.60 - 0.1 * wide, 0.85 - 0.1 * wide), 1.0, TrackDoubt::BrightSides),
+        (ramp(-around.even, -(0.75 + 0.3 * wide), -0.30), 1.0, TrackDoubt::BrightSides),
+        (ramp(closure, 0.75, 0.90), 0.7, TrackDoubt::Open),
+        (ramp(around.contrast, 0.12, 0.37), 0.7, TrackDoubt::Faint),
+        (ramp(length / radius, 2.0, 8.0), 0.5, TrackDoubt::Short),
+        (ramp(-rough(&good, radius), -0.25, -0.15), 0.7, TrackDoubt::Rough),
+        (no_bone(&around, wide, usual), 1.0, TrackDoubt::BrightSides),
+        (ramp(share, 0.5, 0.8), 0.5, TrackDoubt::Open),
+    ];
+    let weighed = parts.map(|(part, weight, doubt)| (weight * part.max(LEAST).ln(), doubt));
+    let sum: f64 = weighed.iter().map(|(part, _)| part).sum();
+    let worst = weighed.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(part, _)| *part < 0.0);
+    ((POWER * sum).exp(), worst.map(|(_, doubt)| doubt))
+}
+
+/// The standard deviation of the steps of the radius, over the radius.
+fn rough(good: &[&TrackPoint], radius: f64) -> f64 {
+    let steps: Vec<f64> = good.windows(2).map(|pair| pair[1].radius - pair[0].radius).collect();
+    if steps.is_empty() {
+        return 0.0;
+    }
+    let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+    let square = steps.iter().map(|step| (step - mean).powi(2)).sum::<f64>() / steps.len() as f64;
+    square.sqrt() / radius
+}
+
+/// How much speaks against bone, whose inside or walls are brighter than vessels.
+fn no_bone(around: &Around, wide: f64, usual: &UsualVessels) -> f64 {
+    let bright = ramp(-around.bone, -0.75, -0.40);
+    let away = (around.inside - usual.level).abs() / usual.contrast;
+    let excused = wide * ramp(-away, -STENT_INSIDE[1], -STENT_INSIDE[0]);
+    let too_bright = (around.inside - usual.level) / usual.contrast;
+    let inside = 1.0 - ramp(too_bright, BRIGHT_INSIDE, 2.0 * BRIGHT_INSIDE);
+    inside * bright.max(excused)
+}
+
+/// What is around a track, in the median of some of its sections.
+fn around(pyramid: &Pyramid, voxels: &Voxels, good: &[&TrackPoint], usual: &UsualVessels) -> Around {
+    let step = good.len().div_ceil(MOST_SECTIONS);
+    let mut parts: [Vec<f64>; 5] = std::array::from_fn(|_| Vec::with_capacity(MOST_SECTIONS));
+    for point in good.iter().step_by(step) {
+        let section = of_section(pyramid, voxels, point, usual);
+        for (part, value) in parts.iter_mut().zip(section) {
+            part.push(value);
+        }
+    }
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let (dark, bone) = (mean(&parts[0]), mean(&parts[3]));
+    let [even, contrast, inside] = [1, 2, 4].map(|n: usize| median_of(&mut parts[n]));
+    Around { dark, even, contrast, bone, inside }
+}
+
+/// The five numbers of [`Around`] at one section.
+fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &UsualVessels) -> [f64; 5] {
+    let level = pyramid.level_for(point.radius, 0);
+    let plane = across(point.direction);
+    let [from, to] = [RING_FROM, RING_TO].map(|[radii, more]| radii * point.radius + more * level.side);
+    let raw = |place: DVec3| f64::from(voxels.at(pyramid.grid.world(place)));
+    let bone = usual.level + BONE * usual.contrast;
+    let reach = BONE_REACH[0] * point.radius + BONE_REACH[1] * level.side;
+    let (mut means, mut meeting) = ([0.0; RAYS], 0);
+    for (n, mean) in means.iter_mut().enumerate() {
+        let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
+        let ray = plane[0] * cos + plane[1] * sin;
+        for m in 0..SAMPLES {
+            let length = from + (to - from) * (m as f64 + 0.5) / SAMPLES as f64;
+            *mean += f64::from(level.at(point.place + ray * length)) / SAMPLES as f64;
+        }
+        let samples = (reach / 0.5).ceil().max(1.0) as usize;
+        meeting += usize::from(
+            (1..=samples).any(|m| raw(point.place + ray * (reach * m as f64 / samples as f64)) > bone),
+        );
+    }
+    let dark = means.iter().filter(|mean| **mean < point.level - 0.5 * point.contrast).count();
+    means.sort_unstable_by(f64::total_cmp);
+    let even = (means[3 * RAYS / 4] - means[RAYS / 4]) / point.contrast;
+    let mut inside: Vec<f64> = (0..6)
+        .map(|n| {
+            let (sin, cos) = (TAU * f64::from(n) / 6.0).sin_cos();
+            raw(point.place + (plane[0] * cos + plane[1] * sin) * (0.4 * point.radius))
+        })
+        .chain([raw(point.place)])
+        .filter(|value| value.is_finite())
+        .collect();
+    let inside = if inside.is_empty() { point.level } else { median_of(&mut inside) };
+    let contrast = (point.level - means[RAYS / 2]) / usual.contrast;
+    [dark as f64 / RAYS as f64, even, contrast, meeting as f64 / RAYS as f64, inside]
+}

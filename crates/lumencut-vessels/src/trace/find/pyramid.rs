@@ -1,0 +1,201 @@
+//! The volume in isotropic voxels, clamped, at full size, half of it, a quarter and so on: vessels of all widths are a few
+//! voxels wide somewhere in it.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::trace::find::grid::Grid;
+use crate::voxels::Voxels;
+use lumencut_core::error::Result;
+use lumencut_core::math::lanes::FAN;
+use lumencut_core::stop::{Stop, go_on};
+
+/// Voxels are halved while a vessel of this many of them is narrower than the widest one (mm), and while the volume has so many
+/// along each axis.
+const VOXELS_OF_WIDEST: f64 = 3.2;
+const WIDEST: f64 = 18.0;
+const LEAST_SIZE: usize = 10;
+
+/// A Gaussian of 0.8 voxels, before every second voxel is taken.
+const HALVING: [f32; 3] = [0.495_4, 0.226_7, 0.025_6];
+
+/// The largest number that a voxel of a level holds.
+const FULL: f32 = 65_535.0;
+
+/// The volume at one size.
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// The number of voxels along each axis.
+    pub size: [usize; 3],
+    /// The side of its voxels, in voxels of the finest level.
+    pub side: f64,
+    /// The values, from 0 for the lowest to 65535 for the highest one, the first axis fastest.
+    pub voxels: Vec<u16>,
+    /// What 0 stands for, and what each step of 1 adds, in the unit of the volume.
+    pub lowest: f32,
+    /// See `lowest`.
+    pub unit: f32,
+}
+
+/// The levels, the finest first.
+#[derive(Debug)]
+pub struct Pyramid {
+    /// Where the voxels of the finest level lie.
+    pub grid: Grid,
+    /// The levels.
+    pub levels: Vec<Level>,
+}
+
+impl Level {
+    /// The value at a place in the grid of the finest level, trilinear; beyond the outermost voxels theirs.
+    #[inline]
+    pub fn at(&self, place: DVec3) -> f32 {
+        let scale = 1.0 / self.side;
+        let (mut first, mut share) = ([0_usize; 3], [0.0_f32; 3]);
+        for a in 0..3 {
+            let last = (self.size[a] - 1) as f64;
+            let along = (place[a] * scale).clamp(0.0, last);
+            let low = (along as usize).min(self.size[a].saturating_sub(2));
+            (first[a], share[a]) = (low, (along - low as f64) as f32);
+        }
+        let [sj, sk] = [self.size[0], self.size[0] * self.size[1]];
+        let base = first[0] + first[1] * sj + first[2] * sk;
+        let di = usize::from(self.size[0] > 1);
+        let [dj, dk] = [if self.size[1] > 1 { sj } else { 0 }, if self.size[2] > 1 { sk } else { 0 }];
+        let value = |offset: usize| f32::from(self.voxels[base + offset]);
+        let line = |offset: usize| {
+            let (a, b) = (value(offset), value(offset + di));
+            a + (b - a) * share[0]
+        };
+        let plane = |offset: usize| {
+            let (a, b) = (line(offset), line(offset + dj));
+            a + (b - a) * share[1]
+        };
+        let (a, b) = (plane(0), plane(dk));
+        self.lowest + self.unit * (a + (b - a) * share[2])
+    }
+
+    /// The same level with no value above `highest`.
+    fn clamp(&mut self, highest: f64) {
+        let most = ((highest as f32 - self.lowest) / self.unit).clamp(0.0, FULL) as u16;
+        self.voxels.par_iter_mut().for_each(|voxel| *voxel = (*voxel).min(most));
+    }
+
+    /// The level of half its size.
+    fn halved(&self) -> Self {
+        let [nx, ny, nz] = self.size;
+        let [mx, my, mz] = self.size.map(|n| n.div_ceil(2));
+        let mut flat = vec![0_u16; mx * my * nz];
+        flat.par_chunks_mut(mx * my).enumerate().for_each(|(k, slice)| {
+            let source = &self.voxels[k * nx * ny..][..nx * ny];
+            let mut rows = vec![0.0_f32; nx];
+            for (j, out) in slice.chunks_mut(mx).enumerate() {
+                let taken = taps(2 * j, ny);
+                rows.fill(0.0);
+                for (weight, y) in taken {
+                    for (sum, value) in rows.iter_mut().zip(&source[y * nx..][..nx]) {
+                        *sum += weight * f32::from(*value);
+                    }
+                }
+                for (i, value) in out.iter_mut().enumerate() {
+                    let sum: f32 = taps(2 * i, nx).iter().map(|(weight, x)| weight * rows[*x]).sum();
+                    *value = (sum + 0.5) as u16;
+                }
+            }
+        });
+        let mut voxels = vec![0_u16; mx * my * mz];
+        voxels.par_chunks_mut(mx * my).enumerate().for_each(|(k, slice)| {
+            let taken = taps(2 * k, nz).map(|(weight, z)| (weight, &flat[z * mx * my..][..mx * my]));
+            for (n, value) in slice.iter_mut().enumerate() {
+                let sum: f32 = taken.iter().map(|(weight, plane)| weight * f32::from(plane[n])).sum();
+                *value = (sum + 0.5) as u16;
+            }
+        });
+        Self { size: [mx, my, mz], side: 2.0 * self.side, voxels, lowest: self.lowest, unit: self.unit }
+    }
+}
+
+/// The weights of the five voxels around one, and where they lie; those at the edge stand for what is beyond it.
+fn taps(center: usize, count: usize) -> [(f32, usize); 5] {
+    let at = |shift: isize| center.saturating_add_signed(shift).min(count - 1);
+    [
+        (HALVING[2], at(-2)),
+        (HALVING[1], at(-1)),
+        (HALVING[0], at(0)),
+        (HALVING[1], at(1)),
+        (HALVING[2], at(2)),
+    ]
+}
+
+impl Pyramid {
+    /// The levels of a volume over a grid, whose values are clamped to a range.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    pub fn new(voxels: &Voxels, grid: Grid, range: [f64; 2], stop: Stop) -> Result<Self> {
+        let finest = finest(voxels, &grid, range, stop)?;
+        let mut pyramid = Self { grid, levels: vec![finest] };
+        pyramid.halve(stop)?;
+        Ok(pyramid)
+    }
+
+    /// The same levels with no value above `highest`.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    pub fn clamp(&mut self, highest: f64, stop: Stop) -> Result<()> {
+        self.levels.truncate(1);
+        self.levels[0].clamp(highest);
+        self.halve(stop)
+    }
+
+    /// Makes the coarser levels from the finest one.
+    fn halve(&mut self, stop: Stop) -> Result<()> {
+        loop {
+            go_on(stop)?;
+            let last = &self.levels[self.levels.len() - 1];
+            let is_wide = VOXELS_OF_WIDEST * self.grid.side * last.side >= WIDEST;
+            if is_wide || last.size.iter().any(|n| n.div_ceil(2) < LEAST_SIZE) {
+                return Ok(());
+            }
+            let next = last.halved();
+            self.levels.push(next);
+        }
+    }
+
+    /// The level at which a tube of a radius (voxels of the finest level) is looked at, from level `first` on: the finest
+    /// where it is narrower than four voxels.
+    pub fn level_for(&self, radius: f64, first: usize) -> &Level {
+        let last = self.levels.len() - 1;
+        let number = (first.min(last)..last).find(|n| radius < WIDE * self.levels[*n].side).unwrap_or(last);
+        &self.levels[number]
+    }
+}
+
+/// A tube of this radius (voxels) is looked at on the next level.
+const WIDE: f64 = 4.0;
+
+/// The volume over the grid, clamped to a range; what is no number is the lowest value.
+fn finest(voxels: &Voxels, grid: &Grid, [lowest, highest]: [f64; 2], stop: Stop) -> Result<Level> {
+    let [nx, ny, nz] = grid.size;
+    let unit = ((highest - lowest) as f32 / FULL).max(f32::MIN_POSITIVE);
+    let index_from_grid = voxels.index_from_world * grid.world_from_grid;
+    let (stride, lowest) = (index_from_grid.matrix3.x_axis, lowest as f32);
+    let mut made = vec![0_u16; nx * ny * nz];
+    made.par_chunks_mut(nx).enumerate().try_for_each(|(row, values)| {
+        if row % 64 == 0 {
+            go_on(stop)?;
+        }
+        let start = index_from_grid.transform_point3(DVec3::new(0.0, (row % ny) as f64, (row / ny) as f64));
+        let mut samples = Vec::with_capacity(nx + FAN);
+        while samples.len() < nx {
+            voxels.along(start, stride, &mut samples);
+        }
+        for (value, sample) in values.iter_mut().zip(&samples) {
+            // What is no number becomes 0.
+            *value = ((sample - lowest) / unit).round() as u16;
+        }
+        Ok(())
+    })?;
+    Ok(Level { size: grid.size, side: 1.0, voxels: made, lowest, unit })
+}

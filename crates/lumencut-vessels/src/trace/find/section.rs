@@ -1,0 +1,148 @@
+//! A cross-section of a tube with its own level: where the lumen ends along rays, and where its middle lies.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::trace::find::pyramid::Level;
+
+/// The number of rays; opposite ones make pairs.
+const RAYS: usize = 24;
+
+/// How far apart samples along a ray are (voxels of the level).
+const STEP: f64 = 0.5;
+
+/// Rays reach so many radii and so many voxels more.
+const REACH_RADII: f64 = 1.6;
+const REACH_VOXELS: f64 = 2.0;
+
+/// A wall lies where half of the contrast of its ray is lost, or half of this part of the whole contrast where that is more.
+const LEAST_OF_CONTRAST: f64 = 0.4;
+
+/// A wall counts between this many radii less a quarter of a voxel, and this many radii more half a voxel.
+const NEAR_WALL: f64 = 0.55;
+const FAR_WALL: f64 = 1.6;
+
+/// What a cross-section shows. Lengths are in voxels of the finest level, values in the unit of the volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// The level of the lumen.
+    pub level: f64,
+    /// How far it lies above the tissue around it.
+    pub contrast: f64,
+    /// The median distance of its walls.
+    pub radius: f64,
+    /// The way from the place that was looked at to the middle of the lumen.
+    pub shift: DVec3,
+    /// The share of rays with a wall about one radius away.
+    pub closure: f64,
+    /// The share of rays along which at least half of the contrast is lost.
+    pub contrast_share: f64,
+}
+
+/// Two unit vectors across a direction.
+pub fn across(direction: DVec3) -> [DVec3; 2] {
+    let first = direction.any_orthonormal_vector();
+    [first, direction.cross(first)]
+}
+
+/// The median of some values, which are sorted for it; of an even number the lower one of the middle.
+pub fn median_of(values: &mut [f64]) -> f64 {
+    let middle = (values.len() - 1) / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+impl Section {
+    /// Looks at a tube of about a radius across its direction.
+    pub fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
+        let plane = across(direction);
+        let lumen = lumen(level, place, plane, radius);
+        let count = ((REACH_RADII * radius / level.side + REACH_VOXELS) / STEP).ceil() as usize;
+        let rays = Rays::cast(level, place, plane, count);
+        let mut darkest = rays.darkest;
+        let contrast = lumen - median_of(&mut darkest);
+        let walls: [f64; RAYS] = std::array::from_fn(|n| {
+            let own = (lumen - rays.darkest[n]).min(contrast).max(LEAST_OF_CONTRAST * contrast);
+            rays.wall(n, lumen, lumen - 0.5 * own)
+        });
+        let mut sorted = walls;
+        let found = median_of(&mut sorted);
+        let shift = shift(&walls, plane, radius);
+        let near = NEAR_WALL * found - 0.25 * level.side;
+        let far = FAR_WALL * found + 0.5 * level.side;
+        let share =
+            |holds: &dyn Fn(usize) -> bool| (0..RAYS).filter(|n| holds(*n)).count() as f64 / RAYS as f64;
+        Self {
+            level: lumen,
+            contrast,
+            radius: found,
+            shift,
+            closure: share(&|n| walls[n] >= near && walls[n] <= far && walls[n] < rays.reach),
+            contrast_share: share(&|n| lumen - rays.darkest[n] >= 0.5 * contrast),
+        }
+    }
+}
+
+/// The median of samples within half a radius.
+fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
+    let mut values = [f64::from(level.at(place)); 13];
+    for n in 0..12 {
+        let (sin, cos) = (TAU * n as f64 / 6.0).sin_cos();
+        let length = if n < 6 { 0.5 } else { 0.25 } * radius;
+        values[n + 1] = f64::from(level.at(place + (plane[0] * cos + plane[1] * sin) * length));
+    }
+    median_of(&mut values)
+}
+
+/// The values along all rays.
+struct Rays {
+    values: Vec<f32>,
+    count: usize,
+    /// How far apart samples are, and how far rays reach (voxels of the finest level).
+    step: f64,
+    reach: f64,
+    /// The smallest value along each ray.
+    darkest: [f64; RAYS],
+}
+
+impl Rays {
+    fn cast(level: &Level, place: DVec3, plane: [DVec3; 2], count: usize) -> Self {
+        let step = STEP * level.side;
+        let mut values = Vec::with_capacity(RAYS * count);
+        let mut darkest = [0.0; RAYS];
+        for (n, darkest) in darkest.iter_mut().enumerate() {
+            let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
+            let stride = (plane[0] * cos + plane[1] * sin) * step;
+            let mut least = f32::MAX;
+            for m in 1..=count {
+                let value = level.at(place + stride * m as f64);
+                least = least.min(value);
+                values.push(value);
+            }
+            *darkest = f64::from(least);
+        }
+        Self { values, count, step, reach: step * count as f64, darkest }
+    }
+
+    /// Where a ray that begins at `start` first falls below a value; its reach where it nowhere does.
+    fn wall(&self, ray: usize, start: f64, below: f64) -> f64 {
+        let values = &self.values[ray * self.count..][..self.count];
+        let Some(n) = values.iter().position(|value| f64::from(*value) < below) else { return self.reach };
+        let before = if n == 0 { start } else { f64::from(values[n - 1]) };
+        let drop = before - f64::from(values[n]);
+        let share = if drop > 0.0 { ((before - below) / drop).clamp(0.0, 1.0) } else { 0.0 };
+        (n as f64 + share) * self.step
+    }
+}
+
+/// The way to the middle: the mean of the differences of opposite walls, at most half a radius.
+fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
+    let pairs = RAYS / 2;
+    let mut sum = DVec3::ZERO;
+    for n in 0..pairs {
+        let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
+        sum += (plane[0] * cos + plane[1] * sin) * (walls[n] - walls[n + pairs]);
+    }
+    // Directions over half a circle see half of a shift each, on the average.
+    (sum / pairs as f64).clamp_length_max(0.5 * radius)
+}

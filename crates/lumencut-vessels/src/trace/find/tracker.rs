@@ -1,0 +1,225 @@
+//! The tracker: from a candidate both ways along the tube, with a lumen whose level, contrast and radius run along.
+
+use glam::DVec3;
+
+use crate::trace::find::candidates::{Candidate, Floors};
+use crate::trace::find::paint::{Paint, Painted};
+use crate::trace::find::pyramid::Pyramid;
+use crate::trace::find::section::Section;
+use crate::trace::find::track::TrackPoint;
+
+/// A step is this part of the radius, at most so many voxels of the level and at least half a voxel of the finest one.
+const STEP: f64 = 0.45;
+const LONGEST_STEP: f64 = 1.5;
+const SHORTEST_STEP: f64 = 0.5;
+
+/// How often a section moves to its middle at each step.
+const ROUNDS: usize = 2;
+
+/// What a good section has: closure and rays with contrast at least so much, a radius within these factors of the one before (and
+/// so many voxels more or less), and a shift of at most so many radii and voxels.
+const LEAST_CLOSURE: f64 = 0.6;
+const LEAST_CONTRAST_SHARE: f64 = 0.6;
+const NARROWER: [f64; 2] = [0.6, 0.3];
+const WIDER: [f64; 2] = [1.5, 0.3];
+const MOST_SHIFT: [f64; 2] = [0.6, 0.4];
+
+/// The widest lumen (mm).
+const WIDEST: f64 = 22.0;
+
+/// The level of a good section differs by less than this part of the running contrast, and its contrast is more than this part
+/// of it, and more than so many times the noise.
+const LEVEL: f64 = 0.45;
+const CONTRAST: f64 = 0.45;
+const NOISES: f64 = 3.0;
+
+/// How much a section changes the running level and contrast, and the running radius.
+const OF_LEVEL: f64 = 0.15;
+const OF_RADIUS: f64 = 0.3;
+
+/// The direction is that of the chord of so many radii and voxels.
+const CHORD: [f64; 2] = [1.2, 1.0];
+
+/// A gap is at most so many radii, or so many voxels where that is more; it counts twice where the value is darker than the
+/// running level by more than this part of the contrast.
+const GAP_RADII: f64 = 2.2;
+const GAP_VOXELS: f64 = 3.0;
+const DARK: f64 = 0.6;
+
+/// A track ends in one that is not darker by more than this part of its contrast.
+pub const DARKER: f64 = 0.35;
+
+/// The most steps each way.
+const MOST_STEPS: usize = 20_000;
+
+/// A track has come back to itself where it is within this many radii of a point that lies so many radii behind along it.
+const RETURNED: f64 = 0.8;
+const BEHIND: f64 = 4.0;
+
+/// What a track is followed in. Lengths are in voxels of the finest level.
+pub struct Tracker<'a> {
+    /// The levels.
+    pub pyramid: &'a Pyramid,
+    /// The number of the finest level that is looked at.
+    pub first: usize,
+    /// What is painted.
+    pub paint: &'a Paint,
+    /// The levels of the tracks that are painted.
+    pub levels: &'a [f64],
+    /// The least that a tube must have.
+    pub floors: Floors,
+}
+
+/// What runs along a track.
+#[derive(Clone, Copy)]
+struct Running {
+    place: DVec3,
+    direction: DVec3,
+    radius: f64,
+    level: f64,
+    contrast: f64,
+}
+
+impl Tracker<'_> {
+    /// The points of the track through a candidate, in voxels of the finest level; none where its section is not good.
+    pub fn track(&self, from: &Candidate) -> Option<Vec<TrackPoint>> {
+        let section = self.look(from.place, from.direction, from.radius);
+        let contrast = section.contrast;
+        if contrast <= self.floors.of_section() || section.closure < LEAST_CLOSURE {
+            return None;
+        }
+        let place = from.place + section.shift;
+        let start = Running {
+            place,
+            direction: from.direction,
+            radius: section.radius,
+            level: section.level,
+            contrast,
+        };
+        let turned = Running { direction: -from.direction, ..start };
+        let mut points = self.follow(turned, &[]);
+        points.reverse();
+        for point in &mut points {
+            point.direction = -point.direction;
+        }
+        points.push(point(&start, &section, true));
+        let behind: Vec<DVec3> = points.iter().map(|point| point.place).collect();
+        points.extend(self.follow(start, &behind));
+        Some(points)
+    }
+
+    fn look(&self, place: DVec3, direction: DVec3, radius: f64) -> Section {
+        Section::look(self.pyramid.level_for(radius, self.first), place, direction, radius)
+    }
+
+    /// The side of the finest voxels that are looked at.
+    fn side(&self) -> f64 {
+        self.pyramid.levels[self.first].side
+    }
+
+    /// The points of a track one way, the first one being a step from where it begins.
+    fn follow(&self, mut running: Running, before: &[DVec3]) -> Vec<TrackPoint> {
+        let mut points: Vec<TrackPoint> = Vec::new();
+        let mut way: Vec<DVec3> = before.to_vec();
+        way.push(running.place);
+        let (mut gap, mut sure) = (0.0, 0);
+        for _ in 0..MOST_STEPS {
+            let level = self.pyramid.level_for(running.radius, self.first);
+            let step =
+                (STEP * running.radius).min(LONGEST_STEP * level.side).max(SHORTEST_STEP * self.side());
+            let ahead = running.place + running.direction * step;
+            if !self.pyramid.grid.holds(ahead) || self.ends_in(ahead, &running) {
+                break;
+            }
+            let (place, section) = self.centered(ahead, &running);
+            if self.is_good(&section, place, ahead, &running) {
+                running = self.moved(running, place, &section, &way);
+                points.push(point(&running, &section, true));
+                (gap, sure) = (0.0, points.len());
+                if has_returned(&way, &running, step) {
+                    break;
+                }
+            } else {
+                let is_dark = section.level < running.level - DARK * running.contrast;
+                gap += if is_dark { 2.0 * step } else { step };
+                if gap > (GAP_RADII * running.radius).max(GAP_VOXELS * self.side()) {
+                    break;
+                }
+                running.place = ahead;
+                points.push(point(&running, &section, false));
+            }
+            way.push(running.place);
+        }
+        points.truncate(sure);
+        points
+    }
+
+    /// Whether a place lies in the lumen of another track that is not darker.
+    fn ends_in(&self, place: DVec3, running: &Running) -> bool {
+        match self.paint.at(place) {
+            Painted::Lumen(track) => self.levels[track as usize] >= running.level - DARKER * running.contrast,
+            Painted::Empty | Painted::Rejected => false,
+        }
+    }
+
+    /// The section at a place, moved to its middle.
+    fn centered(&self, ahead: DVec3, running: &Running) -> (DVec3, Section) {
+        let mut place = ahead;
+        let mut section = self.look(place, running.direction, running.radius);
+        for _ in 1..ROUNDS {
+            place += section.shift;
+            section = self.look(place, running.direction, section.radius.max(SHORTEST_STEP));
+        }
+        (place + section.shift, section)
+    }
+
+    fn is_good(&self, section: &Section, place: DVec3, ahead: DVec3, running: &Running) -> bool {
+        let side = self.side();
+        let radius = section.radius;
+        section.closure >= LEAST_CLOSURE
+            && section.contrast_share >= LEAST_CONTRAST_SHARE
+            && radius > NARROWER[0] * running.radius - NARROWER[1] * side
+            && radius < WIDER[0] * running.radius + WIDER[1] * side
+            && radius * self.pyramid.grid.side < WIDEST
+            && place.distance(ahead) < MOST_SHIFT[0] * running.radius + MOST_SHIFT[1] * side
+            && (section.level - running.level).abs() < LEVEL * running.contrast
+            && section.contrast > (CONTRAST * running.contrast).max(NOISES * self.floors.noise)
+    }
+
+    /// What runs along, after a good section.
+    fn moved(&self, running: Running, place: DVec3, section: &Section, way: &[DVec3]) -> Running {
+        let reach = CHORD[0] * running.radius + CHORD[1] * self.side();
+        let from = way.iter().rev().find(|point| point.distance(place) >= reach).or(way.first());
+        let chord = from.map_or(DVec3::ZERO, |from| (place - *from).normalize_or_zero());
+        // What was seen behind a first point, where the track came the other way, says nothing of what is ahead.
+        let chord = if chord.dot(running.direction) > 0.0 { chord } else { DVec3::ZERO };
+        let toward = |old: f64, new: f64, share: f64| old + share * (new - old);
+        Running {
+            place,
+            direction: (running.direction + chord).normalize_or(running.direction),
+            radius: toward(running.radius, section.radius, OF_RADIUS),
+            level: toward(running.level, section.level, OF_LEVEL),
+            contrast: toward(running.contrast, section.contrast, OF_LEVEL),
+        }
+    }
+}
+
+/// A point of a track.
+fn point(running: &Running, section: &Section, is_good: bool) -> TrackPoint {
+    TrackPoint {
+        place: running.place,
+        direction: running.direction,
+        radius: running.radius,
+        level: if is_good { section.level } else { running.level },
+        contrast: if is_good { section.contrast } else { running.contrast },
+        closure: section.closure,
+        is_good,
+    }
+}
+
+/// Whether a track has come back to where it has been.
+fn has_returned(way: &[DVec3], running: &Running, step: f64) -> bool {
+    let near = (BEHIND * running.radius / step).ceil() as usize + 4;
+    let far = way.len().saturating_sub(near);
+    way[..far].iter().any(|point| point.distance(running.place) < RETURNED * running.radius)
+}

@@ -1,0 +1,65 @@
+//! The usual level and contrast of the vessels of a scan, from tubes that are found without knowing it.
+
+use crate::trace::find::section::median_of;
+use crate::trace::find::track::TrackPoint;
+
+/// Tubes that tell the level: at least so wide (voxels of the finest level), so closed, with a contrast of so many times the noise,
+/// and so many radii long. Where there is none such, the narrower and shorter ones tell it.
+const LEAST_RADIUS: f64 = 2.0;
+const LEAST_CLOSURE: f64 = 0.85;
+const NOISES: f64 = 6.0;
+const LEAST_LENGTH: f64 = 4.0;
+
+/// Levels are alike within this part of the contrast.
+const KERNEL: f64 = 0.2;
+
+/// Tubes wider than this count no more (voxels of the finest level).
+const WIDEST: f64 = 10.0;
+
+/// A tube as it tells the level.
+#[derive(Clone, Copy, Debug)]
+struct Tube {
+    level: f64,
+    contrast: f64,
+    weight: f64,
+}
+
+/// The usual level of vessels and their contrast: the most frequent ones of the tubes, by length, width and contrast. None
+/// without tubes.
+pub fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
+    let strict: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
+    let tubes = if strict.is_empty() {
+        tracks.iter().filter_map(|points| tube(points, noise, false)).collect()
+    } else {
+        strict
+    };
+    let density = |center: &Tube| -> f64 {
+        let alike = |other: &Tube| {
+            let away = (other.level - center.level) / (KERNEL * center.contrast);
+            other.weight * (-0.5 * away * away).exp()
+        };
+        tubes.iter().map(alike).sum()
+    };
+    let densities: Vec<f64> = tubes.iter().map(density).collect();
+    let best = (0..tubes.len()).max_by(|&a, &b| densities[a].total_cmp(&densities[b]).then(b.cmp(&a)))?;
+    let near = |tube: &&Tube| (tube.level - tubes[best].level).abs() <= KERNEL * tubes[best].contrast;
+    let alike: Vec<Tube> = tubes.iter().filter(near).copied().collect();
+    let weight: f64 = alike.iter().map(|tube| tube.weight).sum();
+    let mean = |of: fn(&Tube) -> f64| alike.iter().map(|tube| of(tube) * tube.weight).sum::<f64>() / weight;
+    Some([mean(|tube| tube.level), mean(|tube| tube.contrast)])
+}
+
+/// What the points of a track tell of the level; none where they are too short, narrow or open for it.
+fn tube(points: &[TrackPoint], noise: f64, is_strict: bool) -> Option<Tube> {
+    let good = || points.iter().filter(|point| point.is_good);
+    let median = |of: fn(&TrackPoint) -> f64| {
+        let mut values: Vec<f64> = good().map(of).collect();
+        (!values.is_empty()).then(|| median_of(&mut values))
+    };
+    let (radius, level, contrast) = (median(|p| p.radius)?, median(|p| p.level)?, median(|p| p.contrast)?);
+    let closure = good().map(|point| point.closure).sum::<f64>() / good().count() as f64;
+    let length: f64 = points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
+    let is_clear = radius >= LEAST_RADIUS && length >= LEAST_LENGTH * radius && contrast >= NOISES * noise;
+    let tells = closure >= LEAST_CLOSURE && (is_clear || !is_strict);
+    tells.then(|| Tube { level, contrast, weight: length * radius.min(WIDEST) * contrast })
+}
