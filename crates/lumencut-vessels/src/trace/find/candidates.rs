@@ -1,11 +1,13 @@
 //! Candidates: places where the flux of the gradient and a cross-section both show a tube.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::flux::{FluxOf, HALO, RADII, Responses, gains};
 use crate::trace::find::pyramid::{Level, Pyramid};
-use crate::trace::find::section::{Section, across, median_of};
+use crate::trace::find::section::{Section, across, quartile_of};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
@@ -36,10 +38,11 @@ const ROUNDS: usize = 3;
 const LEAST_RADIUS: f64 = 0.5;
 
 /// About how many voxels are looked at for the noise, what share of them is the brightest, and how far the values of white noise
-/// lie from the mean of their neighbours, in the median.
+/// lie from the mean of their neighbours, at the
+/// first quartile: what lies farther may be an edge.
 const NOISE_SAMPLES: usize = 60_000;
 const BRIGHTEST: f64 = 0.4;
-const MEDIAN_OF_NOISE: f64 = 0.66;
+const QUARTILE_OF_NOISE: f64 = 0.313;
 
 /// A place where a tube may begin. Lengths are in voxels of the finest level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +57,10 @@ pub struct Candidate {
     pub response: f64,
     /// The radius of the ball of that response.
     pub flux_radius: f64,
+    /// The share of rays of its section that meet a wall about one radius away, and that lose half of the contrast.
+    pub closure: f64,
+    /// See `closure`.
+    pub contrast_share: f64,
 }
 
 /// The least that a tube must have, in the unit of the volume.
@@ -72,14 +79,20 @@ impl Floors {
     }
 }
 
-/// The candidates of all levels from level `first` on, the most promising first.
+/// The candidates of the levels that are looked at, the most promising first.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn candidates(pyramid: &Pyramid, first: usize, floors: &Floors, stop: Stop) -> Result<Vec<Candidate>> {
+pub fn candidates(
+    pyramid: &Pyramid,
+    looked_at: &Range<usize>,
+    floors: &Floors,
+    stop: Stop,
+) -> Result<Vec<Candidate>> {
     let mut found = Vec::new();
-    let last = pyramid.levels.len() - 1;
-    for (number, level) in pyramid.levels.iter().enumerate().skip(first) {
+    let (first, last) = (looked_at.start, looked_at.end - 1);
+    for number in looked_at.clone() {
+        let level = &pyramid.levels[number];
         let radii: &[usize] = match () {
             () if number == first && number == last => &[0, 1, 2, 3],
             () if number == first => &[0, 1, 2],
@@ -102,7 +115,7 @@ pub fn candidates(pyramid: &Pyramid, first: usize, floors: &Floors, stop: Stop) 
             .map(|tile| {
                 go_on(stop)?;
                 let seen = peaks(level, tile, &limits);
-                Ok(seen.into_iter().filter_map(|peak| judged(pyramid, first, peak, floors)).collect())
+                Ok(seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect())
             })
             .collect::<Result<_>>()?;
         found.extend(of_level.into_iter().flatten());
@@ -137,10 +150,15 @@ pub fn noise(level: &Level) -> f64 {
             (own, (f64::from(own) - sum / 27.0).abs())
         })
         .collect();
+    // Voxels at the lowest value are clamped: they show no noise.
+    samples.retain(|sample| sample.0 > 0);
+    if samples.is_empty() {
+        return 0.0;
+    }
     let darker = ((1.0 - BRIGHTEST) * samples.len() as f64) as usize;
     samples.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut away: Vec<f64> = samples[darker..].iter().map(|sample| sample.1).collect();
-    median_of(&mut away) / MEDIAN_OF_NOISE * f64::from(level.unit)
+    quartile_of(&mut away) / QUARTILE_OF_NOISE * f64::from(level.unit)
 }
 
 /// The first voxels of the boxes of a level.
@@ -176,7 +194,15 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
                     let radius = RADII[usize::from(responses.radius[number])] * level.side;
                     let response = f64::from(responses.strongest[number] * level.unit);
                     let place = DVec3::from_array(place);
-                    found.push(Candidate { place, direction, radius, response, flux_radius: radius });
+                    found.push(Candidate {
+                        place,
+                        direction,
+                        radius,
+                        response,
+                        flux_radius: radius,
+                        closure: 0.0,
+                        contrast_share: 0.0,
+                    });
                 }
             }
         }
@@ -219,10 +245,15 @@ fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
 }
 
 /// A peak whose section is that of a tube, moved to its middle.
-fn judged(pyramid: &Pyramid, first: usize, peak: Candidate, floors: &Floors) -> Option<Candidate> {
+fn judged(
+    pyramid: &Pyramid,
+    looked_at: &Range<usize>,
+    peak: Candidate,
+    floors: &Floors,
+) -> Option<Candidate> {
     let most = if peak.radius >= WIDE { MOST_WIDE_SHIFT } else { MOST_SHIFT } * peak.radius;
     let look = |place: DVec3, radius: f64| {
-        Section::look(pyramid.level_for(radius, first), place, peak.direction, radius)
+        Section::look(pyramid.level_for(radius, looked_at), place, peak.direction, radius)
     };
     let (mut place, mut radius) = (peak.place, peak.radius);
     let mut section = look(place, radius);
@@ -238,5 +269,12 @@ fn judged(pyramid: &Pyramid, first: usize, peak: Candidate, floors: &Floors) -> 
         && section.contrast_share > LEAST_CONTRAST_SHARE
         && section.contrast > floors.of_section()
         && (RADIUS_RATIO[0]..RADIUS_RATIO[1]).contains(&(section.radius / peak.radius));
-    is_tube.then(|| Candidate { place: place + section.shift, radius: section.radius, ..peak })
+    let Section { closure, contrast_share, .. } = section;
+    is_tube.then(|| Candidate {
+        place: place + section.shift,
+        radius: section.radius,
+        closure,
+        contrast_share,
+        ..peak
+    })
 }

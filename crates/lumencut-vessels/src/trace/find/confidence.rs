@@ -131,7 +131,7 @@ fn around(pyramid: &Pyramid, voxels: &Voxels, good: &[&TrackPoint], usual: &Usua
 
 /// The five numbers of [`Around`] at one section.
 fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &UsualVessels) -> [f64; 5] {
-    let level = pyramid.level_for(point.radius, 0);
+    let level = pyramid.level_for(point.radius, &pyramid.all());
     let plane = across(point.direction);
     let [from, to] = [RING_FROM, RING_TO].map(|[radii, more]| radii * point.radius + more * level.side);
     let raw = |place: DVec3| f64::from(voxels.at(pyramid.grid.world(place)));

@@ -1,13 +1,15 @@
 //! The volume in isotropic voxels, clamped, at full size, half of it, a quarter and so on: vessels of all widths are a few
 //! voxels wide somewhere in it.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::grid::Grid;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
-use lumencut_core::math::lanes::FAN;
+use lumencut_core::math::lanes::{FAN, larger, smaller};
 use lumencut_core::stop::{Stop, go_on};
 
 /// Voxels are halved while a vessel of this many of them is narrower than the widest one (mm), and while the volume has so many
@@ -75,6 +77,41 @@ impl Level {
         self.lowest + self.unit * (a + (b - a) * share[2])
     }
 
+    /// The values at some places in voxels of this level, trilinear; beyond the outermost voxels theirs.
+    #[inline(always)]
+    pub fn at_lanes<const N: usize>(&self, places: &[[f32; N]; 3]) -> [f32; N] {
+        let (mut first, mut share) = ([0_u32; N], [[0.0_f32; N]; 3]);
+        let strides = [1, self.size[0], self.size[0] * self.size[1]];
+        for a in 0..3 {
+            let last = (self.size[a] - 1) as f32;
+            // The last voxel but one has one beside it; a level of one voxel has none, and is held twice in `steps`.
+            let most = last.max(1.0) - 1.0;
+            for n in 0..N {
+                let along = larger(smaller(places[a][n], last), 0.0);
+                let low = smaller(along.floor(), most);
+                share[a][n] = along - low;
+                first[n] += low as u32 * strides[a] as u32;
+            }
+        }
+        let steps: [usize; 3] = std::array::from_fn(|a| if self.size[a] > 1 { strides[a] } else { 0 });
+        let line = |offset: usize| -> [f32; N] {
+            let mut values = [[0.0_f32; N]; 2];
+            for n in 0..N {
+                let place = first[n] as usize + offset;
+                values[0][n] = f32::from(self.voxels[place]);
+                values[1][n] = f32::from(self.voxels[place + steps[0]]);
+            }
+            between(&values[0], &values[1], &share[0])
+        };
+        let near = between(&line(0), &line(steps[1]), &share[1]);
+        let far = between(&line(steps[2]), &line(steps[1] + steps[2]), &share[1]);
+        let mut made = between(&near, &far, &share[2]);
+        for value in &mut made {
+            *value = self.lowest + self.unit * *value;
+        }
+        made
+    }
+
     /// The same level with no value above `highest`.
     fn clamp(&mut self, highest: f64) {
         let most = ((highest as f32 - self.lowest) / self.unit).clamp(0.0, FULL) as u16;
@@ -113,6 +150,16 @@ impl Level {
         });
         Self { size: [mx, my, mz], side: 2.0 * self.side, voxels, lowest: self.lowest, unit: self.unit }
     }
+}
+
+/// What lies between two numbers, lane by lane.
+#[inline(always)]
+fn between<const N: usize>(from: &[f32; N], to: &[f32; N], share: &[f32; N]) -> [f32; N] {
+    let mut made = [0.0; N];
+    for n in 0..N {
+        made[n] = from[n] + (to[n] - from[n]) * share[n];
+    }
+    made
 }
 
 /// The weights of the five voxels around one, and where they lie; those at the edge stand for what is beyond it.
@@ -154,7 +201,7 @@ impl Pyramid {
         loop {
             go_on(stop)?;
             let last = &self.levels[self.levels.len() - 1];
-            let is_wide = VOXELS_OF_WIDEST * self.grid.side * last.side >= WIDEST;
+            let is_wide = VOXELS_OF_WIDEST * self.grid.side * 2.0 * last.side >= WIDEST;
             if is_wide || last.size.iter().any(|n| n.div_ceil(2) < LEAST_SIZE) {
                 return Ok(());
             }
@@ -163,12 +210,17 @@ impl Pyramid {
         }
     }
 
-    /// The level at which a tube of a radius (voxels of the finest level) is looked at, from level `first` on: the finest
+    /// The level at which a tube of a radius (voxels of the finest level) is looked at, of those that are looked at: the finest
     /// where it is narrower than four voxels.
-    pub fn level_for(&self, radius: f64, first: usize) -> &Level {
-        let last = self.levels.len() - 1;
-        let number = (first.min(last)..last).find(|n| radius < WIDE * self.levels[*n].side).unwrap_or(last);
+    pub fn level_for(&self, radius: f64, looked_at: &Range<usize>) -> &Level {
+        let last = looked_at.end - 1;
+        let number = (looked_at.start..last).find(|n| radius < WIDE * self.levels[*n].side).unwrap_or(last);
         &self.levels[number]
+    }
+
+    /// All levels.
+    pub fn all(&self) -> Range<usize> {
+        0..self.levels.len()
     }
 }
 

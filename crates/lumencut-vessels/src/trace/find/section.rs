@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::trace::find::pyramid::Level;
+use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
 /// The number of rays; opposite ones make pairs.
 const RAYS: usize = 24;
@@ -52,6 +53,12 @@ pub fn median_of(values: &mut [f64]) -> f64 {
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
+/// The first quartile of some values, which are sorted for it.
+pub fn quartile_of(values: &mut [f64]) -> f64 {
+    let quarter = (values.len() - 1) / 4;
+    *values.select_nth_unstable_by(quarter, f64::total_cmp).1
+}
+
 impl Section {
     /// Looks at a tube of about a radius across its direction.
     pub fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
@@ -96,8 +103,8 @@ fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
 
 /// The values along all rays.
 struct Rays {
-    values: Vec<f32>,
-    count: usize,
+    /// The values, the rays side by side, step by step.
+    values: Vec<[f32; RAYS]>,
     /// How far apart samples are, and how far rays reach (voxels of the finest level).
     step: f64,
     reach: f64,
@@ -107,31 +114,62 @@ struct Rays {
 
 impl Rays {
     fn cast(level: &Level, place: DVec3, plane: [DVec3; 2], count: usize) -> Self {
-        let step = STEP * level.side;
-        let mut values = Vec::with_capacity(RAYS * count);
-        let mut darkest = [0.0; RAYS];
-        for (n, darkest) in darkest.iter_mut().enumerate() {
+        let mut strides = [[0.0; RAYS]; 3];
+        for n in 0..RAYS {
             let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
-            let stride = (plane[0] * cos + plane[1] * sin) * step;
-            let mut least = f32::MAX;
-            for m in 1..=count {
-                let value = level.at(place + stride * m as f64);
-                least = least.min(value);
-                values.push(value);
+            let ray = (plane[0] * cos + plane[1] * sin) * STEP;
+            for a in 0..3 {
+                strides[a][n] = ray[a] as f32;
             }
-            *darkest = f64::from(least);
         }
-        Self { values, count, step, reach: step * count as f64, darkest }
+        let start = (place / level.side).to_array().map(|c| c as f32);
+        let values = dispatch(Isa::widest(), Sampled { level, start, strides, count });
+        let mut darkest = [f32::MAX; RAYS];
+        for row in &values {
+            for n in 0..RAYS {
+                darkest[n] = if row[n] < darkest[n] { row[n] } else { darkest[n] };
+            }
+        }
+        let step = STEP * level.side;
+        Self { values, step, reach: step * count as f64, darkest: darkest.map(f64::from) }
     }
 
     /// Where a ray that begins at `start` first falls below a value; its reach where it nowhere does.
     fn wall(&self, ray: usize, start: f64, below: f64) -> f64 {
-        let values = &self.values[ray * self.count..][..self.count];
-        let Some(n) = values.iter().position(|value| f64::from(*value) < below) else { return self.reach };
-        let before = if n == 0 { start } else { f64::from(values[n - 1]) };
-        let drop = before - f64::from(values[n]);
+        let is_below = |row: &[f32; RAYS]| f64::from(row[ray]) < below;
+        let Some(n) = self.values.iter().position(is_below) else { return self.reach };
+        let before = if n == 0 { start } else { f64::from(self.values[n - 1][ray]) };
+        let drop = before - f64::from(self.values[n][ray]);
         let share = if drop > 0.0 { ((before - below) / drop).clamp(0.0, 1.0) } else { 0.0 };
         (n as f64 + share) * self.step
+    }
+}
+
+/// Samples of a level along rays, all rays abreast.
+struct Sampled<'a> {
+    level: &'a Level,
+    /// Where the rays begin, and the steps of each, in voxels of the level.
+    start: [f32; 3],
+    strides: [[f32; RAYS]; 3],
+    count: usize,
+}
+
+impl Kernel for Sampled<'_> {
+    type Output = Vec<[f32; RAYS]>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<[f32; RAYS]> {
+        (1..=self.count)
+            .map(|m| {
+                let mut places = [[0.0_f32; RAYS]; 3];
+                for a in 0..3 {
+                    for n in 0..RAYS {
+                        places[a][n] = self.start[a] + self.strides[a][n] * m as f32;
+                    }
+                }
+                self.level.at_lanes(&places)
+            })
+            .collect()
     }
 }
 

@@ -1,5 +1,7 @@
 //! The tracker: from a candidate both ways along the tube, with a lumen whose level, contrast and radius run along.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::trace::find::candidates::{Candidate, Floors};
@@ -50,7 +52,7 @@ const DARK: f64 = 0.6;
 pub const DARKER: f64 = 0.35;
 
 /// The most steps each way.
-const MOST_STEPS: usize = 20_000;
+pub const MOST_STEPS: usize = 20_000;
 
 /// A track has come back to itself where it is within this many radii of a point that lies so many radii behind along it.
 const RETURNED: f64 = 0.8;
@@ -60,8 +62,8 @@ const BEHIND: f64 = 4.0;
 pub struct Tracker<'a> {
     /// The levels.
     pub pyramid: &'a Pyramid,
-    /// The number of the finest level that is looked at.
-    pub first: usize,
+    /// The levels that are looked at.
+    pub looked_at: Range<usize>,
     /// What is painted.
     pub paint: &'a Paint,
     /// The levels of the tracks that are painted.
@@ -82,7 +84,8 @@ struct Running {
 
 impl Tracker<'_> {
     /// The points of the track through a candidate, in voxels of the finest level; none where its section is not good.
-    pub fn track(&self, from: &Candidate) -> Option<Vec<TrackPoint>> {
+    /// It has at most `most_steps` steps each way.
+    pub fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
         let section = self.look(from.place, from.direction, from.radius);
         let contrast = section.contrast;
         if contrast <= self.floors.of_section() || section.closure < LEAST_CLOSURE {
@@ -97,34 +100,34 @@ impl Tracker<'_> {
             contrast,
         };
         let turned = Running { direction: -from.direction, ..start };
-        let mut points = self.follow(turned, &[]);
+        let mut points = self.follow(turned, &[], most_steps);
         points.reverse();
         for point in &mut points {
             point.direction = -point.direction;
         }
         points.push(point(&start, &section, true));
         let behind: Vec<DVec3> = points.iter().map(|point| point.place).collect();
-        points.extend(self.follow(start, &behind));
+        points.extend(self.follow(start, &behind, most_steps));
         Some(points)
     }
 
     fn look(&self, place: DVec3, direction: DVec3, radius: f64) -> Section {
-        Section::look(self.pyramid.level_for(radius, self.first), place, direction, radius)
+        Section::look(self.pyramid.level_for(radius, &self.looked_at), place, direction, radius)
     }
 
     /// The side of the finest voxels that are looked at.
     fn side(&self) -> f64 {
-        self.pyramid.levels[self.first].side
+        self.pyramid.levels[self.looked_at.start].side
     }
 
     /// The points of a track one way, the first one being a step from where it begins.
-    fn follow(&self, mut running: Running, before: &[DVec3]) -> Vec<TrackPoint> {
+    fn follow(&self, mut running: Running, before: &[DVec3], most_steps: usize) -> Vec<TrackPoint> {
         let mut points: Vec<TrackPoint> = Vec::new();
         let mut way: Vec<DVec3> = before.to_vec();
         way.push(running.place);
         let (mut gap, mut sure) = (0.0, 0);
-        for _ in 0..MOST_STEPS {
-            let level = self.pyramid.level_for(running.radius, self.first);
+        for _ in 0..most_steps {
+            let level = self.pyramid.level_for(running.radius, &self.looked_at);
             let step =
                 (STEP * running.radius).min(LONGEST_STEP * level.side).max(SHORTEST_STEP * self.side());
             let ahead = running.place + running.direction * step;

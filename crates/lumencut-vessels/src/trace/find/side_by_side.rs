@@ -1,0 +1,103 @@
+//! Lumens side by side within what looks like one wide tube: the limbs of a stent graft, true and false lumen.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::trace::find::candidates::Candidate;
+use crate::trace::find::track::{Track, TrackPoint};
+use crate::trace::find::tracking::Tracking;
+use lumencut_core::error::Result;
+
+/// A tube is wide from this radius on (voxels of the finest level).
+const WIDE: f64 = 4.0;
+
+/// Where candidates within a wide tube lie, in its radii from its middle, and their radius in its radii.
+const OFF_AXIS: [f64; 2] = [0.3, 1.2];
+const NARROWER: [f64; 2] = [0.25, 0.7];
+
+/// Their closure and share of rays with contrast is more than this, and their response more than this part of the contrast.
+const LEAST_CLOSURE: f64 = 0.8;
+const LEAST_RESPONSE: f64 = 0.5;
+
+/// They are looked at without the coarsest levels, in which lumens side by side are one.
+const COARSE_LEVELS: usize = 2;
+
+/// How sure their tracks are at least.
+const LEAST_CONFIDENCE: f64 = 0.5;
+
+/// What is new of a track: runs farther than this many radii of the wide tube from its middle, at least so many of their own radii
+/// long, of which at least this share lies within so many radii of it.
+const BESIDE: f64 = 0.33;
+const LEAST_RADII: f64 = 3.0;
+const LEAST_WITHIN: f64 = 0.3;
+const WITHIN: f64 = 1.15;
+
+/// The tracks of lumens that lie side by side in wide tracks, in voxels of the finest level.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn side_by_side(tracking: &Tracking, candidates: &[Candidate], tracks: &[Track]) -> Result<Vec<Track>> {
+    let end = tracking.looked_at.end.saturating_sub(COARSE_LEVELS).max(tracking.looked_at.start + 1);
+    let fine = Tracking { looked_at: tracking.looked_at.start..end, ..*tracking };
+    let wide: Vec<TrackPoint> = tracks
+        .iter()
+        .flat_map(|track| track.points.iter().filter(|point| point.is_good && point.radius > WIDE))
+        .copied()
+        .collect();
+    let inner: Vec<Candidate> = candidates
+        .par_iter()
+        .filter(|candidate| {
+            candidate.closure > LEAST_CLOSURE
+                && candidate.contrast_share > LEAST_CLOSURE
+                && wide.iter().any(|point| is_beside(candidate, point))
+        })
+        .copied()
+        .collect();
+    let found = fine.tracks(&inner)?;
+    let sure = found.into_iter().filter(|track| track.confidence >= LEAST_CONFIDENCE);
+    Ok(sure.flat_map(|track| new_runs(&track, &wide)).collect())
+}
+
+/// Whether a candidate lies beside the middle of a wide tube, and is narrower.
+fn is_beside(candidate: &Candidate, point: &TrackPoint) -> bool {
+    let off = across(candidate.place, point) / point.radius;
+    (OFF_AXIS[0]..OFF_AXIS[1]).contains(&off)
+        && (NARROWER[0]..NARROWER[1]).contains(&(candidate.radius / point.radius))
+        && candidate.response > LEAST_RESPONSE * point.contrast
+}
+
+/// How far a place lies from the middle of a tube, across it; far where it lies in another section.
+fn across(place: DVec3, point: &TrackPoint) -> f64 {
+    let way = place - point.place;
+    let along = way.dot(point.direction);
+    if along.abs() > point.radius { f64::MAX } else { (way - point.direction * along).length() }
+}
+
+/// The runs of a track that the wide tubes do not have.
+fn new_runs(track: &Track, wide: &[TrackPoint]) -> Vec<Track> {
+    // How far each point lies from the middle of the nearest wide tube, in its radii.
+    let off: Vec<f64> = track
+        .points
+        .iter()
+        .map(|own| {
+            let of = |point: &TrackPoint| own.place.distance(point.place) / point.radius;
+            wide.iter().map(of).fold(f64::MAX, f64::min)
+        })
+        .collect();
+    let mut runs = Vec::new();
+    let mut first = 0;
+    while first < off.len() {
+        let Some(start) = (first..off.len()).find(|n| off[*n] > BESIDE) else { break };
+        let end = (start..off.len()).find(|n| off[*n] <= BESIDE).unwrap_or(off.len());
+        let within = off[start..end].iter().filter(|off| **off <= WITHIN).count() as f64;
+        let run = Track { points: track.points[start..end].to_vec(), ..track.clone() };
+        let is_new = run.points.len() > 1
+            && run.length() >= LEAST_RADII * run.radius()
+            && within >= LEAST_WITHIN * (end - start) as f64;
+        if is_new {
+            runs.push(run);
+        }
+        first = end;
+    }
+    runs
+}
