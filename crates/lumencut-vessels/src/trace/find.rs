@@ -8,6 +8,7 @@ pub mod found;
 pub mod grid;
 pub mod links;
 pub mod paint;
+pub mod point_grid;
 pub mod pyramid;
 pub mod scan;
 pub mod section;
@@ -50,3 +51,7 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let vessels: Vec<FoundVessel> = whole_vessels::of(&scan, &tracks, &links, request)?;
     Ok(Trees { vessels, level: scan.level, contrast: scan.contrast, noise: scan.noise })
 }
+
+#[cfg(test)]
+#[path = "find/tests/made.rs"]
+mod made;

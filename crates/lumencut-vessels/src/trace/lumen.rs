@@ -2,6 +2,7 @@
 
 pub mod cross_section;
 pub mod lumen_model;
+pub mod ray;
 pub mod refine;
 pub mod surroundings;
 pub mod tube;

@@ -44,6 +44,7 @@ impl TrackDoubt {
             Self::Rough => "its width changes from place to place",
             Self::Faint => "its contrast is low",
             Self::Open => "few of its walls are seen",
+            Self::Gap => "it bridges a gap",
         }
     }
 }

@@ -51,6 +51,8 @@ pub enum TrackDoubt {
     Faint,
     /// Few of its walls are seen.
     Open,
+    /// It bridges a gap between others.
+    Gap,
 }
 
 impl Track {

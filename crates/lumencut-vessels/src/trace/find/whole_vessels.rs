@@ -1,21 +1,65 @@
 //! From linked tracks to whole vessels, from the root outwards, in parts that are ranked.
+//!
+//! Tracks and links are a graph. From the root of each part runs go on with what is straightest and widest; each moves to the
+//! middle of its lumen, and begins and ends on points of the runs that it meets.
+
+pub mod attached;
+pub mod centered;
+pub mod graph;
+pub mod outlook;
+pub mod roots;
+pub mod runs;
+pub mod sure;
+pub mod trimmed;
+
+use rayon::prelude::*;
 
 use crate::trace::find::FindRequest;
 use crate::trace::find::found::FoundVessel;
 use crate::trace::find::links::Link;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::Track;
+use crate::trace::find::whole_vessels::attached::attached;
+use crate::trace::find::whole_vessels::centered::{Centered, centered};
+use crate::trace::find::whole_vessels::graph::Graph;
+use crate::trace::find::whole_vessels::roots::roots;
+use crate::trace::find::whole_vessels::runs::runs;
+use crate::trace::find::whole_vessels::trimmed::trimmed;
 use lumencut_core::error::Result;
+use lumencut_core::stop::go_on;
 
 /// The vessels of linked tracks.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn of(
-    _scan: &Scan,
-    _tracks: &[Track],
-    _links: &[Link],
-    _request: &FindRequest,
-) -> Result<Vec<FoundVessel>> {
-    Ok(Vec::new())
+pub fn of(scan: &Scan, tracks: &[Track], links: &[Link], request: &FindRequest) -> Result<Vec<FoundVessel>> {
+    let graph = Graph::new(tracks, links);
+    go_on(request.stop)?;
+    let roots = roots(scan, tracks, &graph);
+    let runs = runs(&graph, &roots);
+    go_on(request.stop)?;
+    let lines: Vec<Centered> = (0..runs.runs.len())
+        .into_par_iter()
+        .map(|number| centered(scan, &runs, number, request.stop))
+        .collect::<Result<_>>()?;
+    let whole = trimmed(attached(&runs, &graph.places, lines), request.smallest_radius);
+    go_on(request.stop)?;
+    let mut part_of_root = vec![0; graph.places.len()];
+    let (of_node, count) = graph.parts();
+    for (rank, [_, node]) in roots.iter().enumerate() {
+        part_of_root[of_node[*node]] = rank;
+    }
+    let mut stays = vec![Vec::new(); count];
+    for (run, line) in runs.runs.iter().zip(&whole) {
+        let rank = part_of_root[of_node[run.knots[0].0]];
+        stays[rank].extend(line.iter().map(|line| &line.points));
+    }
+    // Parts of which nothing stays have no number.
+    stays.retain(|lines| !lines.is_empty());
+    let lines = stays.iter().enumerate().flat_map(|(part, lines)| lines.iter().map(move |line| (part, line)));
+    Ok(lines.flat_map(|(part, line)| sure::vessels(tracks, line, part)).collect())
 }
+
+#[cfg(test)]
+#[path = "whole_vessels/tests/whole_vessels.rs"]
+mod tests;

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::trace::lumen::lumen_model::LumenModel;
+use crate::trace::lumen::ray::Ray;
 use crate::voxels::Voxels;
 
 /// How far beyond the wall its outside is looked for (mm).
@@ -114,7 +115,7 @@ impl Probe<'_, '_> {
     ) -> Option<(f64, bool)> {
         let start = self.voxels.index_from_world.transform_point3(center);
         let stride = self.voxels.index_from_world.transform_vector3(direction) * step;
-        let mut ray = Ray { voxels: self.voxels, start, stride, values: Vec::with_capacity(64) };
+        let mut ray = Ray::new(self.voxels, start, stride);
         let contrast = lumen - self.model.tissue;
         let dark = lumen - 0.5 * contrast;
         let bright = lumen + (0.5 * contrast).max(4.0 * self.model.noise);
@@ -140,30 +141,6 @@ impl Probe<'_, '_> {
         let share =
             if outside == inside { 0.5 } else { ((half - inside) / (outside - inside)).clamp(0.0, 1.0) };
         share.is_finite().then_some(((n as f64 + share) * step, !is_dark))
-    }
-}
-
-/// The samples of a ray, taken where they are first needed.
-struct Ray<'a, 'v> {
-    voxels: &'a Voxels<'v>,
-    start: DVec3,
-    stride: DVec3,
-    values: Vec<f32>,
-}
-
-impl Ray<'_, '_> {
-    fn value(&mut self, n: usize) -> f64 {
-        while n >= self.values.len() {
-            self.voxels.along(self.start, self.stride, &mut self.values);
-        }
-        f64::from(self.values[n])
-    }
-
-    /// The darkest or brightest of some samples, numbers alone.
-    fn extreme(&mut self, first: usize, last: usize, is_dark: bool) -> f64 {
-        self.value(last);
-        let finite = self.values[first..=last].iter().map(|v| f64::from(*v)).filter(|v| v.is_finite());
-        if is_dark { finite.fold(f64::MAX, f64::min) } else { finite.fold(f64::MIN, f64::max) }
     }
 }
 

@@ -1,0 +1,118 @@
+//! Which tracks hang together by the links made so far, and how long the way is from one to another.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+
+use crate::trace::find::links::Link;
+use crate::trace::find::track::Track;
+use lumencut_core::math::arc_length::arc_lengths;
+
+/// A loop that is shorter than so many of the larger radius at the link that closes it, or than this (mm), goes round no tissue.
+const SMALL_LOOP: f64 = 12.0;
+const SMALL_LOOP_LENGTH: f64 = 10.0;
+
+/// Tracks in groups that hang together.
+pub struct Groups<'a> {
+    tracks: &'a [Track],
+    /// The links made so far.
+    pub links: Vec<Link>,
+    /// The numbers of the links that each track has.
+    at_track: Vec<Vec<usize>>,
+    /// How far along its track each point lies (mm).
+    lengths: Vec<Vec<f64>>,
+    /// Another track of the same group, or itself.
+    parents: Vec<usize>,
+}
+
+impl<'a> Groups<'a> {
+    /// Tracks without a link.
+    pub fn new(tracks: &'a [Track]) -> Self {
+        let length =
+            |track: &Track| arc_lengths(&track.points.iter().map(|point| point.place).collect::<Vec<_>>());
+        Self {
+            tracks,
+            links: Vec::new(),
+            at_track: vec![Vec::new(); tracks.len()],
+            lengths: tracks.iter().map(length).collect(),
+            parents: (0..tracks.len()).collect(),
+        }
+    }
+
+    /// The first track of the group of a track.
+    pub fn group(&self, track: usize) -> usize {
+        let mut root = track;
+        while self.parents[root] != root {
+            root = self.parents[root];
+        }
+        root
+    }
+
+    /// Whether a link would join two groups.
+    pub fn are_apart(&self, link: &Link) -> bool {
+        self.group(link.from[0]) != self.group(link.to[0])
+    }
+
+    /// Adds a link that joins two groups.
+    pub fn add_between_trees(&mut self, link: Link) {
+        if self.are_apart(&link) {
+            self.add(link);
+        }
+    }
+
+    /// Adds a link unless it closes a small loop: one that goes on, such as the arteries below a brain, is kept.
+    pub fn add_unless_small_loop(&mut self, link: Link) {
+        let radius = |[track, point]: [usize; 2]| self.tracks[track].points[point].radius;
+        let length = self.length_of(&link);
+        let small = SMALL_LOOP_LENGTH.max(SMALL_LOOP * radius(link.from).max(radius(link.to))) - length;
+        if self.are_apart(&link) || self.way(link.from, link.to, small).is_none() {
+            self.add(link);
+        }
+    }
+
+    fn add(&mut self, link: Link) {
+        let [a, b] = [self.group(link.from[0]), self.group(link.to[0])];
+        self.parents[a.max(b)] = a.min(b);
+        for track in [link.from[0], link.to[0]] {
+            self.at_track[track].push(self.links.len());
+        }
+        self.links.push(link);
+    }
+
+    fn length_of(&self, link: &Link) -> f64 {
+        let place = |[track, point]: [usize; 2]| self.tracks[track].points[point].place;
+        place(link.from).distance(place(link.to))
+    }
+
+    /// The length of the shortest way from one point to another along tracks and links; none where it is longer than `most` (mm).
+    fn way(&self, from: [usize; 2], to: [usize; 2], most: f64) -> Option<f64> {
+        let along =
+            |[track, a]: [usize; 2], b: usize| (self.lengths[track][a] - self.lengths[track][b]).abs();
+        // Lengths are not negative: their bits are in their order.
+        let mut open = BinaryHeap::from([Reverse((0, from))]);
+        let mut done = BTreeSet::new();
+        let mut shortest: Option<f64> = None;
+        while let Some(Reverse((bits, here))) = open.pop() {
+            let walked = f64::from_bits(bits);
+            if walked > shortest.unwrap_or(most) {
+                break;
+            }
+            if !done.insert(here) {
+                continue;
+            }
+            if here[0] == to[0] {
+                let whole = walked + along(here, to[1]);
+                shortest = shortest.into_iter().chain((whole <= most).then_some(whole)).reduce(f64::min);
+            }
+            for &number in &self.at_track[here[0]] {
+                let link = &self.links[number];
+                for [near, far] in [[link.from, link.to], [link.to, link.from]] {
+                    if near[0] == here[0] {
+                        let way = walked + along(here, near[1]) + self.length_of(link);
+                        open.push(Reverse((way.to_bits(), far)));
+                    }
+                }
+            }
+        }
+        shortest
+    }
+}

@@ -1,0 +1,159 @@
+//! Where an end of a track may be linked with another track, the cheapest place first.
+
+use crate::trace::find::links::Link;
+use crate::trace::find::links::ends::{End, may_link};
+use crate::trace::find::links::way_level::{WayEnd, lowest_level};
+use crate::trace::find::point_grid::PointGrid;
+use crate::trace::find::scan::Scan;
+use crate::trace::find::track::{Track, TrackPoint};
+
+/// How far from an end the middle of another track may lie: so many radii, and so much beyond (mm).
+const REACH: f64 = 2.5;
+const REACH_BEYOND: f64 = 26.0;
+
+/// How far its wall may lie: so many radii, but at least so many voxels, and at most so much (mm).
+const WALL: f64 = 3.0;
+const WALL_VOXELS: f64 = 4.0;
+const FARTHEST_WALL: f64 = 8.0;
+
+/// An end lies within another track up to this many of its radii, and a voxel beyond.
+const INSIDE: f64 = 1.15;
+
+/// The lowest level along a link.
+const LEVEL: f64 = 0.45;
+
+/// How much a turn and another level make a link longer.
+const TURN: f64 = 0.5;
+
+/// At how many places of the same track the way there is looked at.
+const TRIES: usize = 3;
+
+/// What a link must be like.
+pub struct Limits {
+    /// The least confidence of both tracks.
+    pub confidence: f64,
+    /// The least cosine of its turn, but where the end lies within the other track.
+    pub turn: f64,
+    /// By which part of their contrast both levels may differ.
+    pub unlike: f64,
+}
+
+/// Limits for the first link of each end: turns of 60°.
+pub const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5 };
+
+/// Limits for links with another tree: turns of 45°.
+pub const BETWEEN_TREES: Limits =
+    Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4 };
+
+/// The points of all tracks that take part in links, found by where they lie.
+pub struct Landings<'a, 'v> {
+    scan: &'a Scan<'v>,
+    tracks: &'a [Track],
+    /// By width: tracks that are wide are found from afar.
+    widths: Vec<Width>,
+}
+
+/// The points whose radii lie between a power of two and the next one.
+struct Width {
+    widest: f64,
+    grid: PointGrid,
+    /// The track of each, and its number there.
+    points: Vec<[usize; 2]>,
+}
+
+/// The exponents of those powers of two (mm).
+const WIDTHS: std::ops::RangeInclusive<i32> = -3..=6;
+
+/// A place that may be landed on, before the way there was looked at.
+struct Place {
+    link: Link,
+    end: WayEnd,
+}
+
+impl<'a, 'v> Landings<'a, 'v> {
+    /// The points of tracks.
+    pub fn new(scan: &'a Scan<'v>, tracks: &'a [Track]) -> Self {
+        let all = || {
+            let linked = tracks.iter().enumerate().filter(|(_, track)| may_link(track));
+            linked.flat_map(|(t, track)| (0..track.points.len()).map(move |n| [t, n]))
+        };
+        let exponent = |radius: f64| (radius.log2().floor() as i32).clamp(*WIDTHS.start(), *WIDTHS.end());
+        let of_width = |power: i32| {
+            let is_so_wide = |[t, n]: &[usize; 2]| exponent(tracks[*t].points[*n].radius) == power;
+            let points: Vec<[usize; 2]> = all().filter(is_so_wide).collect();
+            let places = points.iter().map(|[t, n]| tracks[*t].points[*n].place).collect();
+            let widest = f64::powi(2.0, power + 1);
+            Width { widest, grid: PointGrid::new(places, widest + WALL_VOXELS * scan.side), points }
+        };
+        Self { scan, tracks, widths: WIDTHS.map(of_width).filter(|width| !width.points.is_empty()).collect() }
+    }
+
+    /// Tells of each point whose wall is nearer to a place than `wall` and that itself is nearer than `reach` (mm).
+    pub fn near(&self, place: glam::DVec3, wall: f64, reach: f64, mut told: impl FnMut([usize; 2], f64)) {
+        for width in &self.widths {
+            width.grid.near(place, reach.min(wall + width.widest), |n| {
+                let of = width.points[n];
+                let point = &self.tracks[of[0]].points[of[1]];
+                let away = point.place.distance(place);
+                if away - point.radius < wall {
+                    told(of, away);
+                }
+            });
+        }
+    }
+
+    /// The links that an end may have, the cheapest one first and one for each track.
+    pub fn of<'b>(&'b self, end: &'b End, limits: &Limits) -> impl Iterator<Item = Link> + 'b {
+        let places = if self.tracks[end.of[0]].confidence < limits.confidence {
+            Vec::new()
+        } else {
+            self.places(end, limits)
+        };
+        let mut tries: Vec<(usize, usize)> = Vec::new();
+        let from = WayEnd { place: end.place, level: end.level, contrast: end.contrast };
+        places.into_iter().filter_map(move |Place { link, end }| {
+            let known = tries.iter().position(|(track, _)| *track == link.to[0]);
+            let tried = known.unwrap_or_else(|| {
+                tries.push((link.to[0], 0));
+                tries.len() - 1
+            });
+            if tries[tried].1 >= TRIES {
+                return None;
+            }
+            let level = lowest_level(self.scan, from, end);
+            let is_lumen = level >= LEVEL;
+            tries[tried].1 += if is_lumen { TRIES } else { 1 };
+            is_lumen.then_some(Link { level, ..link })
+        })
+    }
+
+    /// The places that an end may be linked with, the cheapest one first.
+    fn places(&self, end: &End, limits: &Limits) -> Vec<Place> {
+        let wall = (WALL * end.radius).max(WALL_VOXELS * self.scan.side).min(FARTHEST_WALL);
+        let mut places = Vec::new();
+        self.near(end.place, wall, REACH * end.radius + REACH_BEYOND, |to, away| {
+            let other = &self.tracks[to[0]];
+            if to[0] != end.of[0] && other.confidence >= limits.confidence {
+                places.extend(self.place(end, limits, to, away));
+            }
+        });
+        places.sort_unstable_by(|a: &Place, b: &Place| a.link.order(&b.link));
+        places
+    }
+
+    /// A point as a place to link an end with, unless limits speak against that.
+    fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Place> {
+        let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
+        let is_inside = away <= INSIDE * point.radius + self.scan.side;
+        let turn = if away > 0.0 { end.direction.dot(point.place - end.place) / away } else { 1.0 };
+        let unlike = (end.level - point.level).abs() / end.contrast.max(point.contrast);
+        if unlike >= limits.unlike || (!is_inside && turn < limits.turn) {
+            return None;
+        }
+        let gap = (away - point.radius).max(0.0);
+        let cost = away + gap + TURN * away * (1.0 - turn + unlike);
+        let link = Link { from: end.of, to, cost, gap, level: 0.0 };
+        let end = WayEnd { place: point.place, level: point.level, contrast: point.contrast };
+        Some(Place { link, end })
+    }
+}

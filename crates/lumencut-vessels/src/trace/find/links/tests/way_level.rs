@@ -1,0 +1,19 @@
+use super::*;
+use crate::trace::find::made::{LEVEL, TISSUE, with_scan};
+
+#[test]
+fn the_lowest_level_is_that_of_the_darkest_place_between_both_ends() {
+    // Bright on both sides of a slab of 4 mm that is half as bright.
+    let half = f64::midpoint(LEVEL, TISSUE);
+    let value = |place: DVec3| if (place.x - 10.0).abs() < 2.0 { half } else { LEVEL };
+    let end = |x: f64, level: f64| WayEnd { place: DVec3::new(x, 5.0, 5.0), level, contrast: level - TISSUE };
+    with_scan([40, 20, 20], 0.5, value, |scan| {
+        let lowest = |from, to| lowest_level(scan, from, to);
+        assert!((lowest(end(4.0, LEVEL), end(16.0, LEVEL)) - 0.5).abs() < 1e-6);
+        assert!((lowest(end(4.0, LEVEL), end(7.0, LEVEL)) - 1.0).abs() < 1e-6);
+        // Where the lumen fades to half the contrast, it has 5/6 of it where the slab begins, which has 1/2.
+        let faded = lowest(end(4.0, LEVEL), end(16.0, half));
+        assert!((0.6..0.65).contains(&faded), "{faded}");
+        assert_eq!(lowest(end(4.0, LEVEL), end(40.0, LEVEL)), 0.0);
+    });
+}

@@ -1,0 +1,76 @@
+//! Scans and tracks that are made up, for tests.
+
+use glam::{DAffine3, DVec3};
+
+use crate::trace::find::scan::Scan;
+use crate::trace::find::track::{Track, TrackPoint};
+use crate::voxels::Voxels;
+use lumencut_core::volume::{self, Volume};
+
+/// The values of made vessels and of what lies around them.
+pub const LEVEL: f64 = 300.0;
+pub const TISSUE: f64 = 50.0;
+
+/// What becomes of a scan of `size` voxels with sides of `side` (mm) and the values that places (mm) have.
+pub fn with_scan<T>(
+    size: [usize; 3],
+    side: f64,
+    value: impl Fn(DVec3) -> f64,
+    work: impl FnOnce(&Scan) -> T,
+) -> T {
+    let place = |n: usize| {
+        let index = [n % size[0], n / size[0] % size[1], n / (size[0] * size[1])];
+        side * DVec3::from_array(index.map(|i| i as f64))
+    };
+    let values: Vec<f32> = (0..size.iter().product()).map(|n| value(place(n)) as f32).collect();
+    let strides = [1, size[0], size[0] * size[1]];
+    let world = DAffine3::from_scale(DVec3::splat(side));
+    let volume = Volume::new(volume::Voxels::F32(&values), size, strides, world).expect("a volume");
+    let voxels = Voxels::new(&volume);
+    let contrast = LEVEL - TISSUE;
+    work(&Scan { voxels: &voxels, side, lowest: 0.0, level: LEVEL, contrast, noise: 5.0 })
+}
+
+/// The value `depth` (mm) below the surface of what is brighter than tissue, blurred over a millimetre.
+pub fn blurred(depth: f64) -> f64 {
+    TISSUE + (LEVEL - TISSUE) * (depth + 0.5).clamp(0.0, 1.0)
+}
+
+/// How far a place lies from a line of points (mm).
+pub fn away(place: DVec3, line: &[DVec3]) -> f64 {
+    let from_segment = |pair: &[DVec3]| {
+        let way = pair[1] - pair[0];
+        let share = ((place - pair[0]).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+        place.distance(pair[0] + share * way)
+    };
+    line.windows(2).map(from_segment).fold(f64::MAX, f64::min)
+}
+
+/// A straight track with points half a millimetre apart.
+pub fn straight_track(from: DVec3, to: DVec3, radius: f64) -> Track {
+    let count = (2.0 * from.distance(to)).round();
+    let point = |n: usize| TrackPoint {
+        place: from.lerp(to, n as f64 / count),
+        direction: (to - from).normalize(),
+        radius,
+        level: LEVEL,
+        contrast: LEVEL - TISSUE,
+        closure: 1.0,
+        is_good: true,
+    };
+    Track { points: (0..=count as usize).map(point).collect(), confidence: 0.9, doubt: None }
+}
+
+/// The same track the other way round.
+pub fn turned(mut track: Track) -> Track {
+    track.points.reverse();
+    for point in &mut track.points {
+        point.direction = -point.direction;
+    }
+    track
+}
+
+/// What work gives in a pool of some threads.
+pub fn with_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads").install(work)
+}

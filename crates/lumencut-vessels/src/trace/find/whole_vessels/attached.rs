@@ -1,0 +1,131 @@
+//! Runs that begin and end on points of other runs, the same ones to the bit.
+
+use glam::DVec3;
+
+use crate::trace::find::whole_vessels::centered::{Centered, LinePoint, met};
+use crate::trace::find::whole_vessels::runs::Runs;
+use crate::trace::lines::even_steps::in_even_steps;
+use crate::trace::lumen::refine::STEP;
+
+/// Of how many straight pieces the bend is made that leads out of a lumen.
+const BEND: usize = 16;
+
+/// A run whose ends lie on others where it meets them.
+#[derive(Clone, Debug)]
+pub struct Attached {
+    /// Its points.
+    pub points: Vec<LinePoint>,
+    /// The runs at its start and its end; none at free ends.
+    pub met: [Option<usize>; 2],
+    /// How many of its points at its start and its end lead from the middle of the other run out of its lumen.
+    pub leads: [usize; 2],
+}
+
+/// Brings the ends of the runs to the runs that they meet.
+pub fn attached(runs: &Runs, places: &[DVec3], lines: Vec<Centered>) -> Vec<Attached> {
+    let mut made: Vec<Attached> = lines
+        .iter()
+        .map(|line| Attached { points: line.points.clone(), met: [None; 2], leads: [0; 2] })
+        .collect();
+    for number in 0..made.len() {
+        let joint = |end: usize| {
+            let (owner, knot) = met(runs, number, end)?;
+            let knots = &runs.runs[number].knots;
+            let (node, _) = knots[if end == 0 { 0 } else { knots.len() - 1 }];
+            let last = runs.runs[owner].points.len() - 1;
+            Some((owner, joint(&made[owner].points, knot, last, places[node])))
+        };
+        let [start, end] = [joint(0), joint(1)];
+        let joints = [start, end].map(|met| met.map(|(_, point)| point));
+        let run = &mut made[number];
+        run.met = [start, end].map(|met| met.map(|(owner, _)| owner));
+        if lines[number].is_outside {
+            lead_out(run, joints[0], 0);
+            run.points.reverse();
+            lead_out(run, joints[1], 1);
+            run.points.reverse();
+        } else {
+            lie_within(run, joints);
+        }
+    }
+    for number in 0..made.len() {
+        share_ends(&mut made, number);
+    }
+    made
+}
+
+/// The point of a line where another one meets it at one of its knots, of which the last one is `last`: at an end the end, else the
+/// point nearest to the place of the node, the first of several.
+fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePoint {
+    let away = |point: &&LinePoint| point.place.distance_squared(place);
+    let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+    let end = if knot == 0 { points.first() } else { points.last().filter(|_| knot == last) };
+    end.or(nearest).copied().unwrap_or(points[0])
+}
+
+/// Leads the first point of a run back to a point of another one, in one bend and as wide as the run is where it begins.
+fn lead_out(run: &mut Attached, joint: Option<LinePoint>, end: usize) {
+    let Some(joint) = joint else { return };
+    let from = run.points[0];
+    let way = from.place.distance(joint.place);
+    let outside = run.points[3.min(run.points.len() - 1)].place - from.place;
+    // A parabola whose direction at the wall is that of the run.
+    let control = from.place - outside.normalize_or_zero() * (way / 2.0);
+    let bend = |n: usize| {
+        let t = n as f64 / BEND as f64;
+        joint.place.lerp(control, t).lerp(control.lerp(from.place, t), t)
+    };
+    let places = in_even_steps(&(0..=BEND).map(bend).collect::<Vec<_>>(), STEP);
+    let count = places.len() - 1;
+    let confidence = from.confidence.min(joint.confidence);
+    let point =
+        |n: usize| LinePoint { place: if n == 0 { joint.place } else { places[n] }, confidence, ..from };
+    if way > 0.0 {
+        run.points.splice(0..0, (0..count).map(point));
+        run.leads[end] = count;
+    } else {
+        run.points[0].place = joint.place;
+    }
+}
+
+/// Keeps a run within the lumens of those that it meets as short as can be.
+fn lie_within(run: &mut Attached, joints: [Option<LinePoint>; 2]) {
+    let last = run.points.len() - 1;
+    for (joint, n) in joints.into_iter().zip([0, last]) {
+        if let Some(joint) = joint {
+            run.points[n].place = joint.place;
+        }
+    }
+    if let [Some(from), Some(to)] = joints {
+        let count = (from.place.distance(to.place) / STEP).ceil().max(1.0) as usize;
+        let (first, end) = (run.points[0], run.points[last]);
+        let point =
+            |n: usize| LinePoint { place: from.place.lerp(to.place, n as f64 / count as f64), ..first };
+        run.points = (0..count).map(point).collect();
+        run.points.push(end);
+        run.points[0].place = from.place;
+    }
+    // All of it leads out of another lumen.
+    run.leads[usize::from(run.met[0].is_none())] = run.points.len() - 1;
+}
+
+/// Makes sure that the ends of a run are points of the runs that it meets, which may have been led elsewhere since.
+fn share_ends(runs: &mut [Attached], number: usize) {
+    for end in 0..2 {
+        let Some(owner) = runs[number].met[end] else { continue };
+        let last = runs[number].points.len() - 1;
+        let place = runs[number].points[if end == 0 { 0 } else { last }].place;
+        let points = &runs[owner].points;
+        if points.iter().any(|point| point.place == place) {
+            continue;
+        }
+        let away = |n: &usize| points[*n].place.distance(place) + points[n + 1].place.distance(place);
+        let segments = 0..points.len() - 1;
+        let Some(before) = segments.min_by(|a, b| away(a).total_cmp(&away(b))) else { continue };
+        let inserted = LinePoint { place, ..points[before] };
+        runs[owner].points.insert(before + 1, inserted);
+        if before < runs[owner].leads[0] {
+            runs[owner].leads[0] += 1;
+        }
+    }
+}

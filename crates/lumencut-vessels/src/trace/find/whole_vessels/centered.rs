@@ -1,0 +1,174 @@
+//! Each run in the middle of its lumen, outside the lumens of the runs that it begins and ends on.
+
+use std::ops::RangeInclusive;
+
+use glam::DVec3;
+
+use crate::trace::find::bone::raw_section::quantile;
+use crate::trace::find::scan::Scan;
+use crate::trace::find::whole_vessels::graph::WayPoint;
+use crate::trace::find::whole_vessels::runs::{Run, Runs};
+use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lumen::lumen_model::LumenModel;
+use crate::trace::lumen::refine::{STEP, refined};
+use lumencut_core::error::Result;
+use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_core::stop::Stop;
+
+/// How many points of another run before and behind a common node may have that run's lumen around them.
+const NEAR_POINTS: usize = 200;
+
+/// What is shorter is not centred (mm).
+const SHORTEST: f64 = 1.0;
+
+/// How far a line may move from the track (mm, or in radii where that is more), and how many times as long it may become.
+const STRAYED: f64 = 1.5;
+const STRAYED_RADII: f64 = 0.5;
+const ASTRAY: f64 = 1.25;
+
+/// By which factor a radius may differ from that of the track.
+const OTHER_RADIUS: f64 = 2.0;
+
+/// The shares of the levels along a run below which its lowest and its highest level lie.
+const LEVELS: [f64; 2] = [0.1, 0.9];
+
+/// The least contrast of a run, as a share of its usual one.
+const LEAST_CONTRAST: f64 = 0.3;
+
+/// A point of a centred run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinePoint {
+    /// Where it lies (mm, LPS).
+    pub place: DVec3,
+    /// The radius of the lumen (mm).
+    pub radius: f64,
+    /// How sure it is, 0 to 1.
+    pub confidence: f64,
+    /// The track that it belongs to.
+    pub track: usize,
+}
+
+/// A centred run.
+#[derive(Clone, Debug)]
+pub struct Centered {
+    /// Its points.
+    pub points: Vec<LinePoint>,
+    /// Whether any of it lies outside the lumens of the runs at its ends; where none does, the points are those of its tracks.
+    pub is_outside: bool,
+}
+
+/// The run `number` in the middle of its lumen.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<Centered> {
+    let way = &runs.runs[number].points;
+    let outside = outside(runs, number);
+    let is_outside = outside.is_some();
+    let way = &way[outside.unwrap_or(0..=way.len() - 1)];
+    let places: Vec<DVec3> = way.iter().map(|point| point.place).collect();
+    let on_tracks = Centerline {
+        radius: way.iter().map(|point| point.radius).collect(),
+        confidence: vec![0.0; way.len()],
+        points: places.clone(),
+    };
+    let line = if is_outside && length(&places) >= SHORTEST {
+        guarded(&on_tracks, refined(scan.voxels, &model(scan, way), &places, stop)?)
+    } else {
+        on_tracks
+    };
+    let line = line.resampled(STEP);
+    let point = |n: usize| {
+        let known = &way[nearest_point(&places, line.points[n])];
+        let radius = line.radius[n].clamp(known.radius / OTHER_RADIUS, known.radius * OTHER_RADIUS);
+        LinePoint { place: line.points[n], radius, confidence: known.confidence, track: known.track }
+    };
+    Ok(Centered { points: (0..line.points.len()).map(point).collect(), is_outside })
+}
+
+/// The run that a run begins on (0) or ends on (1), and the number of the point there; none at a free end.
+pub fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
+    let run = &runs.runs[number];
+    let (node, _) = run.knots[if end == 0 { 0 } else { run.knots.len() - 1 }];
+    let owner = runs.owners[node];
+    let knot = runs.runs[owner].knots.iter().find(|(known, _)| *known == node)?;
+    (owner != number).then_some((owner, knot.1))
+}
+
+/// The points of a run outside the lumens of the runs at its ends; none where there are not two.
+fn outside(runs: &Runs, number: usize) -> Option<RangeInclusive<usize>> {
+    let points = &runs.runs[number].points;
+    let is_within = |n: usize, end: usize| {
+        met(runs, number, end)
+            .is_some_and(|(owner, knot)| lies_within(points[n].place, &runs.runs[owner], knot))
+    };
+    let first = (0..points.len()).find(|n| !is_within(*n, 0))?;
+    let last = (first..points.len()).rev().find(|n| !is_within(*n, 1))?;
+    (first < last).then_some(first..=last)
+}
+
+/// Whether a place lies in the lumen of a run near one of its points.
+fn lies_within(place: DVec3, run: &Run, knot: usize) -> bool {
+    let last = (knot + NEAR_POINTS).min(run.points.len() - 1);
+    let near = &run.points[knot.saturating_sub(NEAR_POINTS)..=last];
+    near.iter().any(|point| point.place.distance_squared(place) < point.radius * point.radius)
+}
+
+/// What the lumen looks like along a way.
+fn model(scan: &Scan, way: &[WayPoint]) -> LumenModel {
+    let of = |value: fn(&WayPoint) -> f64, share: f64| {
+        quantile(&mut way.iter().map(value).collect::<Vec<f64>>(), share).unwrap_or(0.0)
+    };
+    let tissue = of(|point| point.level - point.contrast, 0.5);
+    let least = tissue + LEAST_CONTRAST * of(|point| point.contrast, 0.5);
+    let [low, high] = LEVELS.map(|share| of(|point| point.level, share).max(least));
+    LumenModel { tissue, low, high, noise: scan.noise, is_hounsfield: scan.voxels.has_negative() }
+}
+
+/// A line, but where it strays from the way that it was made from that way.
+fn guarded(way: &Centerline, line: Centerline) -> Centerline {
+    if length(&line.points) > ASTRAY * length(&way.points) + STRAYED {
+        return way.clone();
+    }
+    let nearest: Vec<usize> = line.points.iter().map(|point| nearest_point(&way.points, *point)).collect();
+    let strays = |n: &usize| {
+        let far = STRAYED.max(STRAYED_RADII * way.radius[nearest[*n]]);
+        !(line.points[*n].distance(way.points[nearest[*n]]) <= far + spacing(&way.points, nearest[*n]))
+    };
+    let count = line.points.len();
+    let mut made = Centerline { points: Vec::new(), radius: Vec::new(), confidence: Vec::new() };
+    let mut next = 0;
+    while next < count {
+        let strayed = (next..count).find(strays).unwrap_or(count);
+        made.append(piece(&line, next, strayed));
+        let back = (strayed..count).find(|n| !strays(n)).unwrap_or(count);
+        let from = strayed.checked_sub(1).map_or(0, |n| nearest[n] + 1);
+        let to = if back < count { nearest[back] } else { way.points.len() };
+        if back > strayed {
+            made.append(piece(way, from, to.max(from)));
+        }
+        next = back;
+    }
+    if made.points.len() < 2 { way.clone() } else { made }
+}
+
+/// Half the distance between the neighbours of a point: so far may a place between points lie from the nearest one.
+fn spacing(points: &[DVec3], n: usize) -> f64 {
+    let last = points.len() - 1;
+    points[n.saturating_sub(1)].distance(points[(n + 1).min(last)]) / 2.0
+}
+
+/// The points of a line from `first` to before `end`.
+fn piece(line: &Centerline, first: usize, end: usize) -> Centerline {
+    let range = first..end;
+    Centerline {
+        points: line.points[range.clone()].to_vec(),
+        radius: line.radius[range.clone()].to_vec(),
+        confidence: line.confidence[range].to_vec(),
+    }
+}
+
+fn length(points: &[DVec3]) -> f64 {
+    arc_lengths(points).last().copied().unwrap_or(0.0)
+}

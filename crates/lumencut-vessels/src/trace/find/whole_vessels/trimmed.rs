@@ -1,0 +1,90 @@
+//! Runs as far as they are wide enough, without the bumps of the walls of others.
+
+use crate::trace::find::whole_vessels::attached::Attached;
+use crate::trace::find::whole_vessels::centered::LinePoint;
+use crate::trace::lumen::tube::median;
+
+/// What is shorter outside the lumen that it leaves is a bump of its wall: so many of its own radii, and this length (mm).
+const SHORTEST_RADII: f64 = 2.0;
+const SHORTEST: f64 = 2.0;
+
+/// Over how many points before and behind one the radius is looked at.
+const BESIDE: usize = 4;
+
+/// The runs that stay, as far as they are at least so wide (mm); those that others need stay whatever they are like.
+pub fn trimmed(mut runs: Vec<Attached>, smallest_radius: f64) -> Vec<Option<Attached>> {
+    let mut stays = vec![true; runs.len()];
+    // Branches come after what they leave, but for runs that were met from the side.
+    for number in (0..runs.len()).rev() {
+        let needed = needed(&runs, &stays, number);
+        stays[number] = trim(&mut runs[number], needed, smallest_radius);
+    }
+    runs.into_iter().zip(stays).map(|(run, stays)| stays.then_some(run)).collect()
+}
+
+/// The first and the last point of a run that others begin or end on; none where none does.
+fn needed(runs: &[Attached], stays: &[bool], number: usize) -> Option<[usize; 2]> {
+    let mut found: Option<[usize; 2]> = None;
+    for other in (0..runs.len()).filter(|other| stays[*other]) {
+        let points = &runs[other].points;
+        for (met, point) in runs[other].met.into_iter().zip([&points[0], &points[points.len() - 1]]) {
+            if met == Some(number) {
+                let at = runs[number].points.iter().position(|own| own.place == point.place).unwrap_or(0);
+                found = Some(found.map_or([at, at], |[first, last]| [first.min(at), last.max(at)]));
+            }
+        }
+    }
+    found
+}
+
+/// Cuts what is too narrow off the free ends of a run, and tells whether the run stays.
+fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) -> bool {
+    let [start, end] = run.met;
+    if start.is_some() && end.is_some() {
+        // It joins two runs; one that returns to the same run within its lumen joins nothing.
+        let is_outside = run.leads[0] + run.leads[1] + 1 < run.points.len();
+        return start != end || is_outside || needed.is_some();
+    }
+    let last = run.points.len() - 1;
+    let mut range = [0, last];
+    if end.is_none() {
+        let wide = wide_until(run.points.iter(), smallest_radius);
+        range[1] = wide.max(needed.map(|[_, last]| last)).unwrap_or(0);
+    }
+    if start.is_none() {
+        let wide = wide_until(run.points.iter().rev(), smallest_radius).map(|n| last - n);
+        let first = [wide, needed.map(|[first, _]| first)].into_iter().flatten().min();
+        range[0] = first.unwrap_or(last);
+    }
+    if needed.is_none() && (range[0] >= range[1] || is_bump(run, range)) {
+        return false;
+    }
+    // What others need has two points at least.
+    let range =
+        if range[0] < range[1] { range } else { [range[0].min(last - 1), range[0].min(last - 1) + 1] };
+    run.points.truncate(range[1] + 1);
+    run.points.drain(..range[0]);
+    true
+}
+
+/// The last point of a line up to which it is wide enough; none where it is nowhere.
+fn wide_until<'a>(points: impl Iterator<Item = &'a LinePoint>, smallest_radius: f64) -> Option<usize> {
+    let radii: Vec<f64> = points.map(|point| point.radius).collect();
+    let last = radii.len() - 1;
+    let is_wide =
+        |n: &usize| median(&radii[n.saturating_sub(BESIDE)..=(n + BESIDE).min(last)]) >= smallest_radius;
+    (0..radii.len()).rev().find(is_wide)
+}
+
+/// Whether what is left of a run is no longer than a bump.
+fn is_bump(run: &Attached, [first, last]: [usize; 2]) -> bool {
+    let from = first.max(run.leads[0]);
+    let to = last.min(run.points.len() - 1 - run.leads[1]);
+    if from >= to {
+        return true;
+    }
+    let outside = &run.points[from..=to];
+    let length: f64 = outside.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
+    let radii: Vec<f64> = outside.iter().map(|point| point.radius).collect();
+    length < SHORTEST.max(SHORTEST_RADII * median(&radii))
+}
