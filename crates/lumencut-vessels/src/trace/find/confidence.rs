@@ -133,10 +133,10 @@ fn around(pyramid: &Pyramid, voxels: &Voxels, good: &[&TrackPoint], usual: &Usua
 fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &UsualVessels) -> [f64; 5] {
     let level = pyramid.level_for(point.radius, &pyramid.all());
     let plane = across(point.direction);
-    let [from, to] = [RING_FROM, RING_TO].map(|[radii, more]| radii * point.radius + more * level.side);
+    let [from, to] = [RING_FROM, RING_TO].map(|[radii, more]| radii * point.radius + more);
     let raw = |place: DVec3| f64::from(voxels.at(pyramid.grid.world(place)));
     let bone = usual.level + BONE * usual.contrast;
-    let reach = BONE_REACH[0] * point.radius + BONE_REACH[1] * level.side;
+    let reach = BONE_REACH[0] * point.radius + BONE_REACH[1];
     let (mut means, mut meeting) = ([0.0; RAYS], 0);
     for (n, mean) in means.iter_mut().enumerate() {
         let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();

@@ -24,6 +24,9 @@ const LEAST_OF_CONTRAST: f64 = 0.4;
 const NEAR_WALL: f64 = 0.55;
 const FAR_WALL: f64 = 1.6;
 
+/// A wall that is farther than so many radii is taken to be there: a branch or a missing wall moves the middle no farther.
+const FARTHEST: f64 = 1.5;
+
 /// What a cross-section shows. Lengths are in voxels of the finest level, values in the unit of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
@@ -74,7 +77,7 @@ impl Section {
         });
         let mut sorted = walls;
         let found = median_of(&mut sorted);
-        let shift = shift(&walls, plane, radius);
+        let shift = shift(&walls.map(|wall| wall.min(FARTHEST * found)), plane, radius);
         let near = NEAR_WALL * found - 0.25 * level.side;
         let far = FAR_WALL * found + 0.5 * level.side;
         let share =
