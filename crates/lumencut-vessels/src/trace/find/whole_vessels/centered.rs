@@ -11,7 +11,7 @@ use crate::trace::find::whole_vessels::runs::{Run, Runs};
 use crate::trace::find::whole_vessels::way::Way;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::lumen_model::LumenModel;
-use crate::trace::lumen::refine::{STEP, refined};
+use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
@@ -62,7 +62,7 @@ pub fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<C
     let is_outside = outside.is_some();
     let way = Way::along(&way[outside.unwrap_or(0..=way.len() - 1)]);
     let line = if is_outside && way.length() >= SHORTEST {
-        way.guarded(&refined(scan.voxels, &model(scan, &way.points), &way.line.points, stop)?)
+        way.guarded(&refined_near(scan.voxels, &model(scan, &way.points), &way.line, stop)?)
     } else {
         way.line.clone()
     };
