@@ -11,6 +11,7 @@ pub mod roots;
 pub mod runs;
 pub mod sure;
 pub mod trimmed;
+pub mod way;
 
 use rayon::prelude::*;
 
@@ -42,7 +43,7 @@ pub fn of(scan: &Scan, tracks: &[Track], links: &[Link], request: &FindRequest) 
         .into_par_iter()
         .map(|number| centered(scan, &runs, number, request.stop))
         .collect::<Result<_>>()?;
-    let whole = trimmed(attached(&runs, &graph.places, lines), request.smallest_radius);
+    let whole = trimmed(attached(&runs, &graph.places, &lines), request.smallest_radius);
     go_on(request.stop)?;
     let mut part_of_root = vec![0; graph.places.len()];
     let (of_node, count) = graph.parts();

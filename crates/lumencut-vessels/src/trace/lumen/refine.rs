@@ -42,10 +42,34 @@ const UNSEEN: f64 = 0.1;
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -> Result<Centerline> {
     let points = in_even_steps(way, 2.0 * STEP);
-    let mut line =
-        Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
-    for (round, (step, rays)) in ROUNDS.into_iter().enumerate() {
+    let line = Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
+    in_rounds(voxels, model, line, &[0, 1, 2, 3], stop)
+}
+
+/// The line in the middle of the lumen near one whose radii are known: with half the work.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn refined_near(
+    voxels: &Voxels,
+    model: &LumenModel,
+    line: &Centerline,
+    stop: Stop,
+) -> Result<Centerline> {
+    in_rounds(voxels, model, line.clone(), &[1, 3], stop)
+}
+
+/// A line moved to the middle in some of the rounds.
+fn in_rounds(
+    voxels: &Voxels,
+    model: &LumenModel,
+    mut line: Centerline,
+    rounds: &[usize],
+    stop: Stop,
+) -> Result<Centerline> {
+    for &round in rounds {
         go_on(stop)?;
+        let (step, rays) = ROUNDS[round];
         line = moved(&Probe { voxels, model, rays }, &line.resampled(step), round);
     }
     Ok(line.resampled(STEP))

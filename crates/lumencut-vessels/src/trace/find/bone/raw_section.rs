@@ -164,7 +164,7 @@ impl<'a, 'v> Rays<'a, 'v> {
 
 /// The length of a ray to where it first falls below a level, or leaves the volume, in steps and at most `last` of them.
 fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
-    let is_out = |value: f64| !(value >= level);
+    let is_out = |value: f64| value < level || value.is_nan();
     let Some(out) = (0..=last).find(|n| is_out(ray.value(*n))) else { return last as f64 };
     let [inside, outside] = [out.saturating_sub(1), out].map(|n| ray.value(n));
     let share = (inside - level) / (inside - outside);

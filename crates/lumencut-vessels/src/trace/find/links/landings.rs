@@ -25,6 +25,9 @@ const LEVEL: f64 = 0.45;
 /// How much a turn and another level make a link longer.
 const TURN: f64 = 0.5;
 
+/// An end is narrow with a radius of less than so many voxels.
+const NARROW: f64 = 2.0;
+
 /// At how many places of the same track the way there is looked at.
 const TRIES: usize = 3;
 
@@ -36,14 +39,16 @@ pub struct Limits {
     pub turn: f64,
     /// By which part of their contrast both levels may differ.
     pub unlike: f64,
+    /// How much of that difference counts for a narrow end at a brighter track: it is darker than its lumen.
+    pub narrow: f64,
 }
 
 /// Limits for the first link of each end: turns of 60°.
-pub const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5 };
+pub const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
 
 /// Limits for links with another tree: turns of 45°.
 pub const BETWEEN_TREES: Limits =
-    Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4 };
+    Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4, narrow: 0.5 };
 
 /// The points of all tracks that take part in links, found by where they lie.
 pub struct Landings<'a, 'v> {
@@ -146,7 +151,9 @@ impl<'a, 'v> Landings<'a, 'v> {
         let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
         let is_inside = away <= INSIDE * point.radius + self.scan.side;
         let turn = if away > 0.0 { end.direction.dot(point.place - end.place) / away } else { 1.0 };
-        let unlike = (end.level - point.level).abs() / end.contrast.max(point.contrast);
+        let is_blurred = end.radius < NARROW * self.scan.side && end.level < point.level;
+        let counts = if is_blurred { limits.narrow } else { 1.0 };
+        let unlike = counts * (end.level - point.level).abs() / end.contrast.max(point.contrast);
         if unlike >= limits.unlike || (!is_inside && turn < limits.turn) {
             return None;
         }

@@ -22,7 +22,7 @@ pub struct Attached {
 }
 
 /// Brings the ends of the runs to the runs that they meet.
-pub fn attached(runs: &Runs, places: &[DVec3], lines: Vec<Centered>) -> Vec<Attached> {
+pub fn attached(runs: &Runs, places: &[DVec3], lines: &[Centered]) -> Vec<Attached> {
     let mut made: Vec<Attached> = lines
         .iter()
         .map(|line| Attached { points: line.points.clone(), met: [None; 2], leads: [0; 2] })

@@ -8,12 +8,11 @@ use crate::trace::find::bone::raw_section::quantile;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::whole_vessels::graph::WayPoint;
 use crate::trace::find::whole_vessels::runs::{Run, Runs};
-use crate::trace::lines::centerline::Centerline;
+use crate::trace::find::whole_vessels::way::Way;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::lumen_model::LumenModel;
-use crate::trace::lumen::refine::{STEP, refined};
+use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;
-use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::Stop;
 
 /// How many points of another run before and behind a common node may have that run's lumen around them.
@@ -21,11 +20,6 @@ const NEAR_POINTS: usize = 200;
 
 /// What is shorter is not centred (mm).
 const SHORTEST: f64 = 1.0;
-
-/// How far a line may move from the track (mm, or in radii where that is more), and how many times as long it may become.
-const STRAYED: f64 = 1.5;
-const STRAYED_RADII: f64 = 0.5;
-const ASTRAY: f64 = 1.25;
 
 /// By which factor a radius may differ from that of the track.
 const OTHER_RADIUS: f64 = 2.0;
@@ -66,21 +60,15 @@ pub fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<C
     let way = &runs.runs[number].points;
     let outside = outside(runs, number);
     let is_outside = outside.is_some();
-    let way = &way[outside.unwrap_or(0..=way.len() - 1)];
-    let places: Vec<DVec3> = way.iter().map(|point| point.place).collect();
-    let on_tracks = Centerline {
-        radius: way.iter().map(|point| point.radius).collect(),
-        confidence: vec![0.0; way.len()],
-        points: places.clone(),
-    };
-    let line = if is_outside && length(&places) >= SHORTEST {
-        guarded(&on_tracks, refined(scan.voxels, &model(scan, way), &places, stop)?)
+    let way = Way::along(&way[outside.unwrap_or(0..=way.len() - 1)]);
+    let line = if is_outside && way.length() >= SHORTEST {
+        way.guarded(&refined_near(scan.voxels, &model(scan, &way.points), &way.line, stop)?)
     } else {
-        on_tracks
+        way.line.clone()
     };
     let line = line.resampled(STEP);
     let point = |n: usize| {
-        let known = &way[nearest_point(&places, line.points[n])];
+        let known = &way.points[nearest_point(&way.line.points, line.points[n])];
         let radius = line.radius[n].clamp(known.radius / OTHER_RADIUS, known.radius * OTHER_RADIUS);
         LinePoint { place: line.points[n], radius, confidence: known.confidence, track: known.track }
     };
@@ -124,51 +112,4 @@ fn model(scan: &Scan, way: &[WayPoint]) -> LumenModel {
     let least = tissue + LEAST_CONTRAST * of(|point| point.contrast, 0.5);
     let [low, high] = LEVELS.map(|share| of(|point| point.level, share).max(least));
     LumenModel { tissue, low, high, noise: scan.noise, is_hounsfield: scan.voxels.has_negative() }
-}
-
-/// A line, but where it strays from the way that it was made from that way.
-fn guarded(way: &Centerline, line: Centerline) -> Centerline {
-    if length(&line.points) > ASTRAY * length(&way.points) + STRAYED {
-        return way.clone();
-    }
-    let nearest: Vec<usize> = line.points.iter().map(|point| nearest_point(&way.points, *point)).collect();
-    let strays = |n: &usize| {
-        let far = STRAYED.max(STRAYED_RADII * way.radius[nearest[*n]]);
-        !(line.points[*n].distance(way.points[nearest[*n]]) <= far + spacing(&way.points, nearest[*n]))
-    };
-    let count = line.points.len();
-    let mut made = Centerline { points: Vec::new(), radius: Vec::new(), confidence: Vec::new() };
-    let mut next = 0;
-    while next < count {
-        let strayed = (next..count).find(strays).unwrap_or(count);
-        made.append(piece(&line, next, strayed));
-        let back = (strayed..count).find(|n| !strays(n)).unwrap_or(count);
-        let from = strayed.checked_sub(1).map_or(0, |n| nearest[n] + 1);
-        let to = if back < count { nearest[back] } else { way.points.len() };
-        if back > strayed {
-            made.append(piece(way, from, to.max(from)));
-        }
-        next = back;
-    }
-    if made.points.len() < 2 { way.clone() } else { made }
-}
-
-/// Half the distance between the neighbours of a point: so far may a place between points lie from the nearest one.
-fn spacing(points: &[DVec3], n: usize) -> f64 {
-    let last = points.len() - 1;
-    points[n.saturating_sub(1)].distance(points[(n + 1).min(last)]) / 2.0
-}
-
-/// The points of a line from `first` to before `end`.
-fn piece(line: &Centerline, first: usize, end: usize) -> Centerline {
-    let range = first..end;
-    Centerline {
-        points: line.points[range.clone()].to_vec(),
-        radius: line.radius[range.clone()].to_vec(),
-        confidence: line.confidence[range].to_vec(),
-    }
-}
-
-fn length(points: &[DVec3]) -> f64 {
-    arc_lengths(points).last().copied().unwrap_or(0.0)
 }

@@ -53,7 +53,7 @@ fn mean_confidence(points: &[LinePoint]) -> f64 {
         let length = pair[0].place.distance(pair[1].place);
         [sum + length * f64::midpoint(pair[0].confidence, pair[1].confidence), whole + length]
     });
-    if sums[1] > 0.0 { sums[0] / sums[1] } else { points[0].confidence }
+    if sums[1] > 0.0 { (sums[0] / sums[1]).min(1.0) } else { points[0].confidence }
 }
 
 /// What speaks against the least sure track of a line; where nothing does it is that gaps are bridged.

@@ -65,6 +65,11 @@ fn doubtful_tracks_and_other_levels_are_not_linked() {
         (point.level, point.contrast) = (LEVEL - 130.0, 120.0);
     }
     assert!(linked(whole, &darker).is_empty());
+    // A track that is as narrow as a voxel is darker than its lumen.
+    for point in &mut darker[1].points {
+        point.radius = 0.9;
+    }
+    assert_eq!(linked(whole, &darker).len(), 1);
     assert_eq!(linked(whole, &tracks).len(), 1);
 }
 
