@@ -1,5 +1,6 @@
 //! From candidates to tracks, the most promising first: each is followed, judged and painted, so that no tube is found twice.
 
+use std::collections::VecDeque;
 use std::ops::Range;
 
 use glam::DVec3;
@@ -44,6 +45,12 @@ const OVER_RADIUS: f64 = 5.0;
 /// How many candidates are tracked beside each other before what they found is painted.
 const BATCH: usize = 32;
 
+/// Candidates are tracked one after the other where they are nearer than so many times the sum of their radii and so many voxels more;
+/// so many others are looked at for those that are not.
+const NEAR_RADII: f64 = 4.0;
+const NEAR_VOXELS: f64 = 8.0;
+const MOST_LOOKED_AT: usize = 128;
+
 /// How candidates become tracks.
 pub struct Tracking<'a> {
     /// The levels.
@@ -56,6 +63,13 @@ pub struct Tracking<'a> {
     pub stop: Stop<'a>,
     /// How sure a track is.
     pub judge: &'a (dyn Fn(Vec<TrackPoint>) -> Track + Sync),
+}
+
+/// Candidates that are tracked beside each other.
+struct Batch {
+    candidates: Vec<Candidate>,
+    /// How many of the others were looked at for them.
+    looked_at: usize,
 }
 
 /// What became of a candidate.
@@ -90,16 +104,12 @@ impl Tracking<'_> {
     pub fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
         let (mut found, mut levels) = (Vec::new(), Vec::new());
         let mut paint = Paint::default();
-        let mut next = 0;
-        while next < candidates.len() {
+        let (mut next, mut waiting) = (0, VecDeque::new());
+        while next < candidates.len() || !waiting.is_empty() {
             go_on(self.stop)?;
-            let mut batch = Vec::with_capacity(BATCH);
-            while next < candidates.len() && batch.len() < BATCH {
-                if self.is_open(&paint, &levels, &candidates[next]) {
-                    batch.push(candidates[next]);
-                }
-                next += 1;
-            }
+            let batch = self.batch(&paint, &levels, &candidates[next..], &mut waiting);
+            next += batch.looked_at;
+            let batch = batch.candidates;
             let tried: Vec<Tried> =
                 batch.par_iter().map(|candidate| self.tried(&paint, &levels, candidate)).collect();
             let known = found.len();
@@ -116,6 +126,46 @@ impl Tracking<'_> {
             }
         }
         Ok(found)
+    }
+
+    /// The next candidates that are tried beside each other: those that wait, then others. Who lies near one of them waits, as it
+    /// may well lie in the same tube.
+    fn batch(
+        &self,
+        paint: &Paint,
+        levels: &[f64],
+        others: &[Candidate],
+        waiting: &mut VecDeque<Candidate>,
+    ) -> Batch {
+        let mut batch = Batch { candidates: Vec::with_capacity(BATCH), looked_at: 0 };
+        let mut still = VecDeque::new();
+        let mut take = |batch: &mut Batch, candidate: Candidate| {
+            let is_near = |other: &Candidate| {
+                let radii = candidate.radius + other.radius;
+                candidate.place.distance(other.place) < NEAR_RADII * radii + NEAR_VOXELS
+            };
+            if !self.is_open(paint, levels, &candidate) {
+                return;
+            }
+            if batch.candidates.iter().any(is_near) {
+                still.push_back(candidate);
+            } else {
+                batch.candidates.push(candidate);
+            }
+        };
+        while batch.candidates.len() < BATCH
+            && let Some(candidate) = waiting.pop_front()
+        {
+            take(&mut batch, candidate);
+        }
+        while batch.candidates.len() < BATCH && batch.looked_at < others.len().min(MOST_LOOKED_AT) {
+            let candidate = others[batch.looked_at];
+            batch.looked_at += 1;
+            take(&mut batch, candidate);
+        }
+        still.append(waiting);
+        *waiting = still;
+        batch
     }
 
     /// Whether a candidate is tried: nothing is painted there, or a darker and narrower lumen.

@@ -42,12 +42,13 @@ const CORTEX_BEYOND: f64 = 2.0;
 
 /// Marrow in a cortex: over more than this share of the rays brighter than inside, by this part of the usual contrast or so
 /// many standard deviations of the noise; inside darker than vessels by the second part, with a standard deviation above the third
-/// part; the radius at least so many voxels.
+/// part, or darker by the fourth part; the radius at least so many voxels.
 const CORTEX_SHARE: f64 = 0.7;
 const CORTEX_ABOVE: f64 = 0.15;
 const CORTEX_NOISE: f64 = 3.0;
 const MARROW_BELOW: f64 = 0.08;
 const MARROW_SPREAD: f64 = 0.2;
+const MARROW_FAR_BELOW: f64 = 0.2;
 const MARROW_RADIUS: f64 = 1.5;
 
 /// What the raw voxels show across a track.
@@ -103,9 +104,10 @@ fn inside(scan: &Scan, point: &TrackPoint, [u, v]: [DVec3; 2], shares: &[f64]) -
 fn is_marrow(scan: &Scan, level: f64, values: &[f64], rays: &mut Rays) -> bool {
     let is_dark = level < scan.level - MARROW_BELOW * scan.contrast;
     let is_wide = rays.radius > MARROW_RADIUS * scan.side;
+    let is_far_darker = level < scan.level - MARROW_FAR_BELOW * scan.contrast;
     is_dark
         && is_wide
-        && standard_deviation(values) > MARROW_SPREAD * scan.contrast
+        && (is_far_darker || standard_deviation(values) > MARROW_SPREAD * scan.contrast)
         && rays.brighter(level + (CORTEX_NOISE * scan.noise).max(CORTEX_ABOVE * scan.contrast)) > CORTEX_SHARE
 }
 
