@@ -2,6 +2,7 @@
 
 pub mod bone;
 pub mod candidates;
+pub mod choose;
 pub mod confidence;
 pub mod flux;
 pub mod found;
@@ -10,6 +11,7 @@ pub mod links;
 pub mod paint;
 pub mod point_grid;
 pub mod pyramid;
+pub mod refusals;
 pub mod scan;
 pub mod section;
 pub mod side_by_side;

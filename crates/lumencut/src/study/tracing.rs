@@ -9,10 +9,10 @@ use lumencut_io::{write_mrk_json, write_vtp};
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::preview::Sought;
 use lumencut_vessels::trace::seed;
-use lumencut_vessels::trace::seed::seed_tree::Doubt;
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
+use crate::found_vessels;
 use crate::study::content::{Listed, NamedTree};
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
@@ -131,19 +131,18 @@ impl Study {
     /// All branches that a seed reaches, down to the radius of Python; the doubtful ones last.
     ///
     /// # Errors
-    /// `tracing` as [`seed::trace_from`], `volume` where none is open,
-    /// `interrupted`.
+    /// `tracing` as [`found_vessels::trace_from`], `volume` where none is open, `interrupted`.
     pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<SeedLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let smallest_radius = seed::SMALLEST_RADIUS;
         let Watch { stop, progress } = watch;
         let seed = DVec3::from_array(seed);
         let request = seed::SeedRequest { seed, smallest_radius, stop, progress: Some(progress) };
-        let branches = seed::trace_from(&volume, &request)?;
-        let added = branches.into_iter().map(|branch| {
-            let doubt = branch.doubt.map(Doubt::words);
-            Ok(SeedLine { line: self.lines.add(branch.line.into())?, doubt })
-        });
+        let tree = found_vessels::trace_from(&volume, &request)?;
+        let added = tree
+            .vessels
+            .into_iter()
+            .map(|found| Ok(SeedLine { line: self.lines.add(found.line.into())?, doubt: found.doubt }));
         added.collect()
     }
 
