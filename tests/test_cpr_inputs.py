@@ -251,9 +251,7 @@ def test_a_path_leaves_a_whole_vessel_where_a_branch_begins_and_comes_back_to_it
     tree = VesselTree([trunk, branch, twig])
     assert tree.parts == ((0, 1, 2),)
     out = tree.path(["trunk", "branch", "twig"])
-    np.testing.assert_array_equal(
-        out.points, [[0, 0, 0], [0, 0, 10], [0, 0, 20], [10, 0, 20], [10, 30, 20]]
-    )
+    np.testing.assert_array_equal(out.points, [[0, 0, 0], [0, 0, 10], [0, 0, 20], [10, 0, 20], [10, 30, 20]])
     np.testing.assert_array_equal(out.radius, [6, 5, 4, 1.5, 1])
     assert out.length == 20 + 10 + 30
     back = tree.path(["twig", "branch", "trunk"])

@@ -20,6 +20,7 @@ from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
 
+
 class VesselTree(Value):
     """A set of vessels that may share end points; a vessel's index is its id.
 
