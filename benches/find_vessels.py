@@ -20,7 +20,7 @@ from lumencut import TracingError, Vessel, VesselTree, find_vessels
 
 ROWS = (
     *PHANTOMS,
-    *(f"aorta+{change}" for change in ("noise10", "noise20", "noise40", "fading", "stent", "veins")),
+    *(f"aorta+{change}" for change in ("noise10", "noise20", "noise40", "fading", "stent", "bone", "veins")),
     *PATIENTS,
     *NEGATIVE,
 )

@@ -21,8 +21,8 @@ PATIENTS = {
 """Volumes of patients, and lines of some of their vessels."""
 PHANTOMS = ("aorta", "cervical", "runoff")
 NEGATIVE = ("noise", "tissue", "constant", "empty", "bones-aorta", "bones-cervical")
-WALL, LUMEN, STENT = 60.0, 350.0, 1600.0
-"""Values of the phantoms (HU); a stent is added."""
+WALL, LUMEN, BONE, STENT = 60.0, 350.0, 900.0, 1600.0
+"""Values of lumen, its wall, and what is put beside them (HU)."""
 
 Floats = npt.NDArray[np.float64]
 Values = npt.NDArray[np.float32]
@@ -82,6 +82,7 @@ def _changed(scene: Scene, change: str) -> Scene:
     name, number = change.rstrip("0123456789"), change[len(change.rstrip("0123456789")) :]
     changes: dict[str, Callable[[Scene], Scene]] = {
         "noise": lambda scene: _with_noise(scene, float(number)),
+        "bone": _with_bone,
         "fading": _fading,
         "stent": _stented,
         "veins": _with_veins,
@@ -131,12 +132,17 @@ def _fading(scene: Scene) -> Scene:
     return replace(scene, volume=made(values))
 
 
+def _greatest(tree: VesselTree, count: int) -> list[Vessel]:
+    """The vessels with the largest walls."""
+    return sorted(tree, key=lambda one: -one.length * float(np.mean(np.asarray(one.radius, float))))[:count]
+
+
 def _stented(scene: Scene) -> Scene:
-    """Rings of metal along the last 60 mm of the first vessel."""
+    """Rings of metal along 60 mm of the greatest vessel."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     side = voxel_of(scene.volume)
-    points, radius = resampled(scene.truth[0], side)
+    points, radius = resampled(_greatest(scene.truth, 1)[0], side)
     kept = slice(-int(60 / side), None)
     for box, beyond, nearest in _around(scene.volume, points[kept], radius[kept], side):
         ring = (np.abs(beyond) < side / 2) & (nearest * side % 4 < 2)
@@ -144,22 +150,41 @@ def _stented(scene: Scene) -> Scene:
     return replace(scene, volume=made(values))
 
 
+def _with_bone(scene: Scene) -> Scene:
+    """Balls of bone with marrow as bright as lumen, which touch the middles of the three greatest vessels."""
+    assert scene.truth is not None
+    values, made = _values(scene.volume)
+    side = voxel_of(scene.volume)
+    for vessel in _greatest(scene.truth, 3):
+        points, radius = resampled(vessel, side)
+        half = len(points) // 2
+        center = points[half] + _across(points)[half] * (radius[half] + 9)
+        for thick, value in ((0.0, BONE), (1.5, LUMEN)):
+            for box, beyond, _ in _around(scene.volume, center[None], np.array([10.0 - thick]), side):
+                values[box][beyond < 0] = value
+    return replace(scene, volume=made(values))
+
+
 def _with_veins(scene: Scene) -> Scene:
-    """A vein as wide and as bright beside the first vessel and beside the last one, 2 mm from their walls."""
+    """Veins as wide and as bright beside the two greatest vessels, 2 mm from their walls."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     side = voxel_of(scene.volume)
     veins = []
-    for vessel in (scene.truth[0], scene.truth[len(scene.truth) - 1]):
+    for vessel in _greatest(scene.truth, 2):
         points, radius = resampled(vessel, side)
-        ahead = np.gradient(points, axis=0)
-        across = np.cross(ahead, (0.0, 1.0, 0.0))
-        across /= np.linalg.norm(across, axis=1)[:, None] + 1e-9
-        veins.append(Vessel(points + across * (2 * radius + 2)[:, None], radius))
+        veins.append(Vessel(points + _across(points) * (2 * radius + 2)[:, None], radius))
         for box, beyond, _ in _around(scene.volume, veins[-1].points, radius, side):
             share = np.clip(0.5 - beyond / side, 0, 1)
-            values[box] = np.maximum(values[box], np.where(share > 0, WALL + share * (LUMEN - WALL), -2000))
+            painted = np.where(share > 0, WALL + share * (LUMEN - WALL), -np.inf)
+            values[box] = np.maximum(values[box], painted)
     return replace(scene, volume=made(values), besides=tuple(veins))
+
+
+def _across(points: Floats) -> Floats:
+    """A direction across a line at each of its points, as far from that to the front as can be."""
+    across = np.cross(np.gradient(points, axis=0), (0.0, 1.0, 0.0))
+    return np.asarray(across / (np.linalg.norm(across, axis=1)[:, None] + 1e-9))
 
 
 def without_vessels(scene: Scene) -> Volume:
