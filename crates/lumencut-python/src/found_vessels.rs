@@ -76,7 +76,7 @@ fn watched<'py>(
     }
     let parts = sure_parts(&tree);
     let vessels = tree.vessels.into_iter().map(|vessel| arrays(py, vessel)).collect();
-    Ok((vessels, parts, tree.notes))
+    Ok((vessels, parts, [tree.notes, tree.doubts].concat()))
 }
 
 fn arrays(py: Python<'_>, FoundLine { line, doubt, .. }: FoundLine) -> FoundArrays<'_> {

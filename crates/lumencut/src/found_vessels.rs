@@ -33,8 +33,10 @@ pub struct FoundLine {
 pub struct FoundTree {
     /// The vessels that are sure, part by part, and the doubtful ones after them.
     pub vessels: Vec<FoundLine>,
-    /// What is to be told, a sentence each.
+    /// What is to be told of the scan, a sentence each.
     pub notes: Vec<String>,
+    /// How many vessels are doubtful for each reason, a sentence each.
+    pub doubts: Vec<String>,
 }
 
 /// All vessels of a scan, of which one is sure at least.
@@ -72,9 +74,9 @@ fn found(trees: Trees) -> FoundTree {
         |FoundVessel { line, part, doubt, .. }| FoundLine { line, doubt: doubt.map(TrackDoubt::words), part };
     let vessels: Vec<FoundLine> = sure.into_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
-    let mut notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
-    notes.extend(doubts(&vessels, ["vessel", "vessels"]));
-    FoundTree { vessels, notes }
+    let notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    let doubts = doubts(&vessels, ["vessel", "vessels"]);
+    FoundTree { vessels, notes, doubts }
 }
 
 /// A value of the volume, as exactly as it is known.
@@ -86,8 +88,8 @@ fn about(value: f64) -> String {
 fn followed(branches: Vec<SeedBranch>) -> FoundTree {
     let line = |SeedBranch { line, doubt }| FoundLine { line, doubt: doubt.map(Doubt::words), part: 0 };
     let vessels: Vec<FoundLine> = branches.into_iter().map(line).collect();
-    let notes = doubts(&vessels, ["branch", "branches"]);
-    FoundTree { vessels, notes }
+    let doubts = doubts(&vessels, ["branch", "branches"]);
+    FoundTree { vessels, notes: Vec::new(), doubts }
 }
 
 /// How many vessels are doubtful for each reason, the most frequent one first.
@@ -138,7 +140,8 @@ mod tests {
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
         let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words());
         let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words());
-        assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings", &short, &flat]);
+        assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings"]);
+        assert_eq!(tree.doubts, [short, flat]);
         assert_eq!([about(0.0421), about(-3.44), about(1713.6)], ["0.042", "-3.4", "1714"]);
     }
 }
