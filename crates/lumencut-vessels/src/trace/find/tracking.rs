@@ -9,6 +9,7 @@ use crate::trace::find::candidates::{Candidate, Floors, candidates};
 use crate::trace::find::paint::{Paint, Painted};
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::section::median_of;
+use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
@@ -56,6 +57,8 @@ pub struct Tracking<'a> {
     pub stop: Stop<'a>,
     /// How sure a track is.
     pub judge: &'a (dyn Fn(Vec<TrackPoint>) -> Track + Sync),
+    /// Told how far it is.
+    pub stages: Stages<'a>,
 }
 
 /// What became of a candidate.
@@ -74,7 +77,7 @@ impl Tracking<'_> {
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
     pub fn candidates(&self) -> Result<Vec<Candidate>> {
-        candidates(self.pyramid, &self.looked_at, &self.floors, self.stop)
+        candidates(self.pyramid, &self.looked_at, &self.floors, self.stop, self.stages)
     }
 
     /// The side of the finest voxels that are looked at.
@@ -91,8 +94,10 @@ impl Tracking<'_> {
         let (mut found, mut levels) = (Vec::new(), Vec::new());
         let mut paint = Paint::default();
         let mut next = 0;
+        let pieces = self.stages.stage(Stage::Tracks, candidates.len());
         while next < candidates.len() {
             go_on(self.stop)?;
+            let begun = next;
             let mut batch = Vec::with_capacity(BATCH);
             while next < candidates.len() && batch.len() < BATCH {
                 if self.is_open(&paint, &levels, &candidates[next]) {
@@ -114,6 +119,7 @@ impl Tracking<'_> {
                 };
                 self.commit(tried, &mut paint, &mut found, &mut levels);
             }
+            pieces.done(next - begun);
         }
         Ok(found)
     }
