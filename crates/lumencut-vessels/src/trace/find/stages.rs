@@ -22,7 +22,7 @@ pub enum Stage {
 }
 
 /// About how long each stage takes in comparison.
-const COSTS: [usize; 6] = [5, 15, 40, 25, 5, 10];
+const COSTS: [usize; 6] = [4, 18, 28, 38, 7, 5];
 
 /// In how many parts a stage is told.
 const PARTS: usize = 1000;
@@ -87,12 +87,12 @@ mod tests {
         drop(stages.stage(Stage::Levels, 1));
         drop(stages.stage(Stage::FirstPass, 1));
         let pieces = stages.stage(Stage::Candidates, 3);
-        assert_eq!(progress.share(), 0.2);
+        assert_eq!(progress.share(), 0.22);
         pieces.done(1);
         pieces.done(2);
-        assert_eq!(progress.share(), 0.6);
+        assert_eq!(progress.share(), 0.5);
         pieces.done(1);
-        assert_eq!(progress.share(), 0.6);
+        assert_eq!(progress.share(), 0.5);
         stages.end();
         assert_eq!(progress.share(), 1.0);
         Stages::begin(None).stage(Stage::Tracks, 0).done(1);
