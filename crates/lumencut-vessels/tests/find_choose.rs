@@ -4,6 +4,7 @@
 use glam::{DAffine3, DVec3};
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_phantom::y_junction;
 use lumencut_vessels::trace::find::FindRequest;
 use lumencut_vessels::trace::find::choose::{find_from, part_at};
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
@@ -66,4 +67,24 @@ fn a_seed_outside_the_volume_is_refused_before_anything_is_found() {
         let error = find_from(&volume, seed, &request).unwrap_err();
         assert_eq!((error.kind, error.subject.as_str()), (ErrorKind::Tracing, "seed"));
     }
+}
+
+#[test]
+fn every_seed_in_one_tree_gives_the_same_vessels_to_the_bit() {
+    let made = y_junction().unwrap();
+    let strides = [1, made.size[0], made.size[0] * made.size[1]];
+    let volume = Volume::new(Voxels::I16(&made.voxels), made.size, strides, made.world_from_index).unwrap();
+    let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
+    let lines = |seed: DVec3| -> Vec<Centerline> {
+        let trees = find_from(&volume, seed, &request).unwrap();
+        trees.vessels.into_iter().map(|vessel| vessel.line).collect()
+    };
+    let first = lines(DVec3::new(0.0, 0.0, -20.0));
+    assert!(first.len() >= 2);
+    // In the trunk off its middle, in both branches, and in their very ends.
+    for seed in [[2.9, 0.0, -10.0], [-12.0, 1.5, 20.0], [13.0, -1.0, 20.0], [-20.0, 0.0, 30.0]] {
+        assert_eq!(lines(DVec3::from_array(seed)), first);
+    }
+    let error = find_from(&volume, DVec3::new(0.0, 14.0, -20.0), &request).unwrap_err();
+    assert!(error.found.starts_with("no vessel here; the nearest one is 14.0 mm away"), "{error}");
 }
