@@ -244,6 +244,22 @@ def test_a_path_of_vessels_of_which_some_have_no_radius_has_none():
     assert tree.path([0, 1]).name is None
 
 
+def test_a_path_leaves_a_whole_vessel_where_a_branch_begins_and_comes_back_to_its_root():
+    trunk = Vessel([[0, 0, 10 * k] for k in range(6)], [6, 5, 4, 3, 2, 1], "trunk")
+    branch = Vessel([[0, 0, 20], [10, 0, 20], [20, 0, 20]], 1.5, "branch")
+    twig = Vessel([[10, 0, 20], [10, 30, 20]], 1.0, "twig")
+    tree = VesselTree([trunk, branch, twig])
+    assert tree.parts == ((0, 1, 2),)
+    out = tree.path(["trunk", "branch", "twig"])
+    np.testing.assert_array_equal(out.points, [[0, 0, 0], [0, 0, 10], [0, 0, 20], [10, 0, 20], [10, 30, 20]])
+    np.testing.assert_array_equal(out.radius, [6, 5, 4, 1.5, 1])
+    assert out.length == 20 + 10 + 30
+    back = tree.path(["twig", "branch", "trunk"])
+    np.testing.assert_array_equal(back.points, out.points[::-1])
+    with pytest.raises(VesselTreeError, match="a gap of 10 mm between vessel 0 and vessel 2"):
+        tree.path([0, 2])
+
+
 @pytest.mark.parametrize(
     ("ids", "words"),
     [

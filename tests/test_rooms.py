@@ -15,6 +15,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "trace::skeleton": ("trace::lines",),
     "trace::clicks": ("voxels", "trace::lines", "trace::lumen", "trace::ways"),
     "trace::mask": ("voxels", "trace::lines", "trace::lumen", "trace::skeleton"),
+    "trace::find": ("voxels", "trace::lines", "trace::lumen"),
     "trace::seed": ("voxels", "trace::lines", "trace::lumen", "trace::ways", "trace::skeleton"),
     "measure": ("voxels", "trace::lines"),
 }

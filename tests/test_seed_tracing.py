@@ -166,6 +166,11 @@ def test_a_picture_is_made_from_a_scan_and_a_seed(file, tmp_path):
         (["trace", "--point", "0,0,0", "--point", "0,0,9", "--doubtful", "-o", "a.vtp"], "without --seed"),
         (["render", "--doubtful", "-o", "a.png"], "without --seed"),
         (["render", "--ras", "-o", "a.png"], "--ras without --seed"),
+        (["trace", "--find", "--seed", "0,0,0", "-o", "a.vtp"], "--seed and --find"),
+        (["trace", "--find", "--point", "1,1,1", "-o", "a.vtp"], "--point with --find"),
+        (["trace", "--find", "--ras", "-o", "a.vtp"], "--ras with --find"),
+        (["trace", "--find", "--mask", "m.nii.gz", "-o", "a.vtp"], "--find with --mask"),
+        (["render", "lines.vtp", "--find", "-o", "a.png"], "CENTERLINES and --find"),
     ],
 )
 def test_options_that_do_nothing_are_refused(file, options, words):

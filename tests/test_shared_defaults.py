@@ -16,6 +16,7 @@ from lumencut.stenosis import METHODS
     [
         (lumencut.measure, "step", "measuring_step"),
         (VesselTree.measured, "step", "measuring_step"),
+        (lumencut.find_vessels, "smallest_radius", "smallest_radius"),
         (lumencut.trace_from, "smallest_radius", "smallest_radius"),
         (lumencut.trace_mask, "shortest_branch", "shortest_branch"),
     ],

@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from lumencut.tree_reformations import cr, mpcpr
     from lumencut.turntables import fitted_turn, save_animation, turntable
     from lumencut.vessel import Vessel
+    from lumencut.vessel_finding import find_vessels
     from lumencut.vessel_gap import Gap
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
@@ -115,6 +116,7 @@ _HOME = {
     "turntables": ("fitted_turn", "save_animation", "turntable"),
     "vessel_gap": ("Gap",),
     "vessel": ("Vessel",),
+    "vessel_finding": ("find_vessels",),
     "vessel_tree": ("VesselTree",),
     "volume": ("Volume",),
     "volume_files": ("SeriesReport", "list_series", "read_volume"),
@@ -173,6 +175,7 @@ __all__ = [
     "cross_section",
     "devices",
     "evaluate",
+    "find_vessels",
     "fitted_turn",
     "get_threads",
     "list_series",

@@ -14,7 +14,8 @@ _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
 _WrittenArrays = tuple[
     npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None, npt.NDArray[np.float64] | None
 ]
-_BranchArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], str]
+_FoundArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], str]
+_FoundParts = tuple[list[_FoundArrays], list[list[int]], list[str]]
 _MeasuredParts = tuple[str, str | None, Profile, Grade | None]
 _MarkParts = tuple[str, float, float, bool]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
@@ -80,6 +81,7 @@ __all__ = [
     "describe_dicom",
     "devices",
     "edge_letters",
+    "find_vessels",
     "find_window",
     "fits_nowhere",
     "fitted",
@@ -98,6 +100,7 @@ __all__ = [
     "not_suggested_places",
     "panned",
     "part_name",
+    "parts",
     "path",
     "picture",
     "placement",
@@ -379,6 +382,11 @@ def fitted(camera: Any, points: npt.NDArray[np.float64]) -> dict[str, Any]: ...
 def fitted_turn(
     camera: Any, points: npt.NDArray[np.float64], degrees: float, axis: _Axis
 ) -> dict[str, Any]: ...
+def find_vessels(
+    volume: Any,
+    smallest_radius: float,
+    told: Callable[[int, int], object] | None = None,
+) -> _FoundParts: ...
 def find_window(name: str, volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
 def fits_nowhere(points: npt.NDArray[np.float64], volume: Any) -> bool: ...
 def flag_words(flags: int) -> list[str]: ...
@@ -423,6 +431,7 @@ def profile_json(profile: Profile) -> str: ...
 def profile_marks(profile: Profile, at: float | None, references: Sequence[float]) -> list[_MarkParts]: ...
 def read_session_file(content: bytes, name: str) -> str: ...
 def part_name(taken: list[str], whole: str) -> str: ...
+def parts(lines: list[npt.NDArray[np.float64]]) -> list[list[int]]: ...
 def path(vessels: list[_Arrays], words: list[str]) -> _Arrays: ...
 def report_html(
     options: Mapping[str, Any], window: tuple[float, float], pages: Sequence[Mapping[str, Any]]
@@ -442,7 +451,7 @@ def trace_from(
     seed: tuple[float, float, float],
     smallest_radius: float,
     told: Callable[[int, int], object] | None = None,
-) -> list[_BranchArrays]: ...
+) -> _FoundParts: ...
 def trace_mask(
     mask: Any,
     volume: Any | None,

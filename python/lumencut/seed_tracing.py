@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import number, numbers
-from lumencut.errors import SettingsError, TracingError
-from lumencut.vessel import Vessel
+from lumencut._checks import numbers
+from lumencut._found_tree import checked_radius, found_tree
+from lumencut.errors import TracingError
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
@@ -49,7 +48,7 @@ def trace_from(
     VesselTree
         The branches with ``radius`` and ``confidence``, points at most 0.5 mm apart; those that meet share
         their end points to the bit. :attr:`VesselTree.doubtful` has the branches that are not sure, and
-        :attr:`VesselTree.notes` says why.
+        :attr:`VesselTree.doubts` says why.
 
     Raises
     ------
@@ -62,18 +61,6 @@ def trace_from(
         For what is no volume.
     """
     place = numbers(TracingError, "seed", seed, (3,))
-    smallest = number(SettingsError, "smallest_radius", smallest_radius)
-    if not 0 <= smallest < float("inf"):
-        raise SettingsError("smallest_radius", f"{smallest:g}", "0 or more (mm)")
-    found = _lumencut.trace_from(as_volume(volume), tuple(place.tolist()), smallest, progress)
-    branches = [
-        (Vessel(points, radius, confidence=confidence), doubt) for points, radius, confidence, doubt in found
-    ]
-    tree = VesselTree(vessel for vessel, doubt in branches if not doubt)
-    tree._doubtful = tuple(vessel for vessel, doubt in branches if doubt)
-    doubts = Counter(doubt for _, doubt in branches if doubt)
-    tree._notes = tuple(
-        f"{count} {'branch' if count == 1 else 'branches'} doubtful: {doubt}"
-        for doubt, count in doubts.most_common()
-    )
-    return tree
+    smallest = checked_radius(smallest_radius)
+    vessels, _, notes = _lumencut.trace_from(as_volume(volume), tuple(place.tolist()), smallest, progress)
+    return found_tree(vessels, None, notes)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, SupportsIndex, overload
 
@@ -14,18 +13,12 @@ from lumencut._checks import integers, number
 from lumencut._measured_radii import measured_radii
 from lumencut._values import Value
 from lumencut._vessel_edits import joined, parts_of
+from lumencut._vessel_names import all_named, the_one_named
 from lumencut._wall_level import Wall
-from lumencut._wording import counted, listed
+from lumencut._wording import counted
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel import Vessel
 from lumencut.vessel_gap import Gap
-
-#: How many names an error lists.
-_MOST_NAMES = 24
-
-
-class _VesselNameError(VesselTreeError, KeyError):
-    """A name that no vessel of a tree has, or several have."""
 
 
 class VesselTree(Value):
@@ -52,6 +45,8 @@ class VesselTree(Value):
     _gaps: tuple[Gap, ...] = ()
     _notes: tuple[str, ...] = ()
     _doubtful: tuple[Vessel, ...] = ()
+    _doubts: tuple[str, ...] = ()
+    _parts: tuple[tuple[int, ...], ...] | None = None
 
     def __init__(self, vessels: Iterable[Vessel]) -> None:
         try:
@@ -109,7 +104,7 @@ class VesselTree(Value):
             Vessel(points, vessel.radius, vessel.name, confidence=vessel.confidence, bridged=vessel.bridged)
             for points, vessel in zip(made, self._vessels, strict=True)
         )
-        smoothed._space_settled = self._space_settled
+        smoothed._space_settled, smoothed._parts = self._space_settled, self._parts
         return smoothed
 
     def measured(
@@ -154,7 +149,7 @@ class VesselTree(Value):
             for vessel, radius in zip(self._vessels, found, strict=True)
         )
         measured._space_settled, measured._gaps = self._space_settled, self._gaps
-        measured._notes = (*self._notes, *notes)
+        measured._notes, measured._parts = (*self._notes, *notes), self._parts
         return measured
 
     def ids(self, *vessels: SupportsIndex | str) -> list[int]:
@@ -190,6 +185,8 @@ class VesselTree(Value):
         ids : iterable of int or str
             Ids and names in their order along the path. Each vessel begins where the one before ends,
             whatever the order of its own points: ends no farther apart than 0.1 mm meet, and are one point.
+            Where a branch begins at a point between the ends of its parent, the path leaves the parent there:
+            it comes from the first point of the parent, or from the vessel before it.
 
         Returns
         -------
@@ -276,13 +273,7 @@ class VesselTree(Value):
 
     def _id(self, vessel: SupportsIndex | str) -> int:
         """The id of the one vessel that is meant."""
-        if not isinstance(vessel, str):
-            return self.ids(vessel)[0]
-        meant = self._named(vessel)
-        if len(meant) == 1:
-            return meant[0]
-        found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
-        raise _VesselNameError(f"vessel {vessel!r}", found, "one vessel", "take it by its id")
+        return the_one_named(self._vessels, vessel) if isinstance(vessel, str) else self.ids(vessel)[0]
 
     def _part(self, ids: Iterable[int]) -> VesselTree:
         return self._with(self._vessels[index] for index in ids)
@@ -292,7 +283,7 @@ class VesselTree(Value):
         found: set[int] = set()
         for vessel in vessels:
             if isinstance(vessel, str):
-                found.update(self._named(vessel))
+                found.update(all_named(self._vessels, vessel))
                 continue
             try:
                 found.add(range(len(self))[vessel])
@@ -305,22 +296,6 @@ class VesselTree(Value):
                 ) from error
         return found
 
-    def _named(self, name: str) -> list[int]:
-        """The ids of the vessels of a name, at least one."""
-        meant = [index for index, vessel in enumerate(self._vessels) if vessel.name == name]
-        if meant:
-            return meant
-        names = list(dict.fromkeys(vessel.name for vessel in self._vessels if vessel.name is not None))
-        alike = {known.lower(): known for known in names}
-        close = difflib.get_close_matches(name.lower(), alike, 1)
-        expected = (
-            f"one of {listed([repr(known) for known in names], _MOST_NAMES)}"
-            if names
-            else "an id: no vessel of the tree has a name"
-        )
-        mend = f"perhaps {alike[close[0]]!r} is meant" if close else ""
-        raise _VesselNameError(f"vessel {name!r}", "no vessel of this name", expected, mend)
-
     @property
     def gaps(self) -> tuple[Gap, ...]:
         """Gaps between the pieces of the mask that the tree was traced from, the narrowest first.
@@ -331,16 +306,34 @@ class VesselTree(Value):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What there is to know of how the tree was traced from a mask or a seed, a sentence each."""
+        """What there is to know of how the tree was found or traced, a sentence each."""
         return self._notes
 
     @property
     def doubtful(self) -> VesselTree:
-        """The branches that :func:`lumencut.trace_from` is not sure of; none in other trees."""
+        """What :func:`lumencut.find_vessels` and :func:`lumencut.trace_from` are not sure of, else none."""
         tree = VesselTree.__new__(VesselTree)
         tree._vessels = self._doubtful
         tree._space_settled = self._space_settled
         return tree
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Why each vessel of :attr:`doubtful` is doubtful, in words."""
+        return self._doubts
+
+    @property
+    def parts(self) -> tuple[tuple[int, ...], ...]:
+        """The ids of vessels that hang together, one tuple for each part, the most important part first.
+
+        In a tree of :func:`lumencut.find_vessels` each part begins with its root. In other trees vessels hang
+        together where an end of one is a point of the other, to 0.001 mm; ids rise, and the longest part is
+        the first.
+        """
+        if self._parts is None:
+            made = _lumencut.parts([vessel.points for vessel in self._vessels])
+            self._parts = tuple(tuple(part) for part in made)
+        return self._parts
 
     @property
     def bounds(self) -> npt.NDArray[np.float64]:

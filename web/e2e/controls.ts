@@ -1,12 +1,27 @@
 /** What the tests of vessels, measurements and sessions do with the page, by mouse or by keys. */
 import { readFileSync } from 'node:fs';
-import { expect, type Locator } from '@playwright/test';
-import type { Viewer } from './page';
+import { type Browser, expect, type Locator } from '@playwright/test';
+import { Viewer } from './page';
 
 export const rows = (viewer: Viewer): Locator => viewer.page.locator('aside > .vessel-rows > li');
 export const nameOf = (viewer: Viewer, n: number): Locator => rows(viewer).nth(n).locator('input.name');
 export const button = (viewer: Viewer, words: string): Locator =>
   viewer.page.getByRole('button', { name: words, exact: true });
+/** The size of a window in which the list lies beside the views. */
+export const SIZE = { width: 1100, height: 720 };
+
+/** A phantom whose vessels were deleted. */
+export async function untraced(browser: Browser, phantom = 'y_junction'): Promise<Viewer> {
+  const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu`, { viewport: SIZE });
+  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  await viewer.press('v');
+  const all = viewer.page.getByRole('button', { name: 'Delete all' });
+  const one = viewer.page.getByRole('button', { name: 'Delete', exact: true });
+  await ((await all.count()) > 0 ? all : one).click();
+  await expect(rows(viewer)).toHaveCount(0);
+  return viewer;
+}
+
 /** The tool of the toolbar: where there are no vessels a note offers it too. */
 const traceTool = (viewer: Viewer): Locator =>
   viewer.page.locator('header').getByRole('button', { name: 'Trace vessels' });

@@ -1,22 +1,8 @@
 /** Vessels are traced by clicks and by keys, edited, undone, saved and read again. */
 import { readFileSync } from 'node:fs';
-import { type Browser, expect, type Locator, test } from '@playwright/test';
-import { button, nameOf, rows } from './controls';
+import { expect, type Locator, test } from '@playwright/test';
+import { button, nameOf, rows, SIZE, untraced } from './controls';
 import { type PaneName, Viewer } from './page';
-
-const SIZE = { width: 1100, height: 720 };
-
-/** A phantom whose vessels were deleted. */
-async function untraced(browser: Browser, phantom = 'y_junction'): Promise<Viewer> {
-  const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu`, { viewport: SIZE });
-  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
-  await viewer.press('v');
-  const all = viewer.page.getByRole('button', { name: 'Delete all' });
-  const one = viewer.page.getByRole('button', { name: 'Delete', exact: true });
-  await ((await all.count()) > 0 ? all : one).click();
-  await expect(rows(viewer)).toHaveCount(0);
-  return viewer;
-}
 
 const lengthOf = async (viewer: Viewer, n: number): Promise<number> =>
   Number.parseFloat((await rows(viewer).nth(n).locator('.length').textContent()) ?? '');

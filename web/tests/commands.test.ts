@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, test } from 'vitest';
 import { Failure } from '../src/core/failure';
 import type { Vector } from '../src/core/messages';
-import { addMask } from '../src/edit/branches';
+import { addMask, findVessels } from '../src/edit/branches';
 import { addClick, beginVessel, setBridge } from '../src/edit/clicks';
 import { dropEdits, refusal, waiting } from '../src/edit/committing';
 import { centerlineFile } from '../src/edit/files';
@@ -159,6 +159,14 @@ test('what was odd about a mask is told once', async () => {
   await addMask(tracing, []);
   await addMask(tracing, []);
   expect(store.notes.value).toEqual(['the mask has holes']);
+});
+
+test('all vessels of a scan are one step, and what is told of the scan is told once', async () => {
+  tracing.notes = ['vessels have about 330, 322 above their surroundings'];
+  expect(await findVessels(tracing)).toBe(true);
+  expect(tracing.edits.at(-1)?.edit).toEqual({ kind: 'find_vessels' });
+  expect(await findVessels(tracing)).toBe(true);
+  expect(store.notes.value).toEqual(tracing.notes);
 });
 
 describe('whole vessels', () => {

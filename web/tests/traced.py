@@ -17,7 +17,17 @@ from typing import Any
 import nibabel
 import numpy as np
 
-from lumencut import Vessel, VesselTree, Volume, phantom, trace, trace_from, trace_mask, write_centerlines
+from lumencut import (
+    Vessel,
+    VesselTree,
+    Volume,
+    find_vessels,
+    phantom,
+    trace,
+    trace_from,
+    trace_mask,
+    write_centerlines,
+)
 
 ENDINGS = ("vtp", "mrk.json")
 
@@ -47,12 +57,13 @@ def files(vessels: Iterable[Vessel]) -> dict[str, str]:
 
 
 def truth(folder: Path, scene: Any, clicks: list[list[Any]]) -> dict[str, Any]:
-    """What comes of clicks, of a seed in the first of them, and of a mask."""
+    """What comes of clicks, of a seed in the first of them, without any, and of a mask."""
     volume = scene.volume
     clicked = [[np.asarray(point, float).tolist() for point in points] for points in clicks]
     names = [f"vessel {n}" for n in range(len(clicked))]
     traced = trace(volume, clicked, names=names)
     branches = trace_from(volume, clicked[0][0])
+    found = find_vessels(volume)
     lumen = (volume.array > 205).astype(np.uint8)
     # A hole, of which a note tells.
     inside = np.linalg.inv(volume.world_from_index) @ [*clicked[0][0], 1.0]
@@ -71,6 +82,8 @@ def truth(folder: Path, scene: Any, clicks: list[list[Any]]) -> dict[str, Any]:
         "lines": [numbers(vessel) for vessel in traced],
         "files": files(traced),
         "branches": [numbers(vessel) for vessel in (*branches, *branches.doubtful)],
+        "found": [numbers(vessel) for vessel in (*found, *found.doubtful)],
+        "told": list(found.notes[:1]),
         "masked": [numbers(vessel) for vessel in masked],
         "notes": list(masked.notes),
     }

@@ -16,6 +16,8 @@ interface Truth {
   readonly lines: readonly LineContent[];
   readonly files: Readonly<Record<CenterlineKind, string>>;
   readonly branches: readonly LineContent[];
+  readonly found: readonly LineContent[];
+  readonly told: readonly string[];
   readonly masked: readonly LineContent[];
   readonly notes: readonly string[];
 }
@@ -87,6 +89,16 @@ describe.skipIf(every.length === 0)('as Python', () => {
     const found = await edited(engine, { kind: 'add_branches', seed: clicks[0]?.[0] ?? [0, 0, 0] });
     expect(found.added.length).toBe(branches.length);
     for (const [n, truth] of branches.entries()) {
+      expect(apart(await engine.ask('line', { line: lineOf(found, n) }), truth)).toBeLessThan(SHOWN);
+    }
+  });
+
+  test.each(every)('finds all vessels of $phantom', async ({ phantom, found: truths, told }) => {
+    const { engine } = await opened(phantom);
+    const found = await edited(engine, { kind: 'find_vessels' });
+    expect(found.notes).toEqual(told);
+    expect(found.document.vessels.map(({ name }) => name)).toEqual(truths.map((_, n) => `Vessel ${n + 1}`));
+    for (const [n, truth] of truths.entries()) {
       expect(apart(await engine.ask('line', { line: lineOf(found, n) }), truth)).toBeLessThan(SHOWN);
     }
   });

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 use lumencut::math::centerline_smoothing::smooth_centerlines;
+use lumencut::parts as lines_in_parts;
 use lumencut::settings::Settings;
 use lumencut::stages;
-use lumencut::study::line_edits;
+use lumencut::study::line_path;
 use lumencut::study::lines::Line;
 use lumencut::vessel_tree::{Vessel, VesselTree};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -92,8 +93,17 @@ pub fn path<'py>(
         Ok(Line { points: points_of(points)?, radius, ..Line::default() })
     };
     let lines = vessels.iter().map(line).collect::<PyResult<Vec<_>>>()?;
-    let joined = line_edits::path(&lines, &words).map_err(to_python)?;
+    let joined = line_path::path(&lines, &words).map_err(to_python)?;
     flat_arrays(py, &joined.points, joined.radius.as_deref())
+}
+
+/// The numbers of the lines, points (n, 3) each, that hang together, the longest part first.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn parts(py: Python<'_>, lines: Vec<PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<Vec<usize>>> {
+    let lines = lines.iter().map(points_of).collect::<PyResult<Vec<_>>>()?;
+    let lines: Vec<&[DVec3]> = lines.iter().map(Vec::as_slice).collect();
+    Ok(py.detach(|| lines_in_parts::parts(&lines)))
 }
 
 fn arrays<'py>(py: Python<'py>, vessel: &Vessel) -> PyResult<NewVesselArrays<'py>> {

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 
 from lumencut._wording import counted
 from lumencut.cli import options
+from lumencut.cli.found_vessels import found_by
 from lumencut.cli.report import warn
 from lumencut.errors import CameraError, FormatError
 
@@ -58,7 +59,7 @@ def beside_session(chosen: dict[str, Any]) -> dict[str, Any]:
     if like is None or not is_session_file(like):
         return chosen
     session, found = read_session(like), dict(chosen)
-    if not found["centerlines"] and not found.get("seed") and session.marks:
+    if not found["centerlines"] and found_by(found) is None and session.marks:
         found["centerlines"] = (like,)
     is_own = len(found["centerlines"]) == 1 and found["centerlines"][0].resolve() == like.resolve()
     if is_own and session.hidden and not found["vessel"] and not found["exclude"]:

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from lumencut.cli import options
+from lumencut.cli.found_vessels import check_found, found_options
 from lumencut.cli.labels import check_labels, label_options, labels_of
 from lumencut.cli.like import (
     beside_session,
@@ -30,7 +31,6 @@ from lumencut.cli.scene import (
     warn_of_window,
 )
 from lumencut.cli.settings import paper_option, setting_options, settings_from
-from lumencut.cli.trace_seed import check_seed, seed_options
 
 
 @click.command(short_help="Render pictures.")
@@ -46,7 +46,7 @@ from lumencut.cli.trace_seed import check_seed, seed_options
     "in the place of {view}.",
 )
 @options.several_views_options
-@seed_options
+@found_options
 @click.option("--ras", is_flag=True, help="The seed is in RAS, not LPS.")
 @like_option
 @label_options
@@ -61,15 +61,16 @@ def render(
 
     VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp,
     .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
-    With --seed they are traced in VOLUME from that point. Without both the context alone is shown, all of
-    the volume. The view fits all vessels, or the
-    volume, unless --center, --pixel-spacing or --zoom say otherwise.
+    With --find all vessels of VOLUME are found and shown, with --seed those that this point reaches. Without
+    all of these the context alone is shown, all of the volume. The view fits all vessels, or the volume,
+    unless --center, --pixel-spacing or --zoom say otherwise.
 
     \b
     lumencut render ct.nii.gz centerlines.vtp -o anterior.png
     lumencut render dicom/ lines.mrk.json -o oblique.png --rotate 30 --tilt 15 --window 900/300
     lumencut render ct.nrrd LAD.mrk.json LCX.mrk.json --view left --view 0,1,1 --zoom-to LAD -o {view}.png
-    lumencut render ct.nii.gz --seed 12,-30,85 -o all.png
+    lumencut render ct.nii.gz --find -o all.png
+    lumencut render ct.nii.gz --seed 12,-30,85 -o tree.png
     lumencut render later.nii.gz lines.vtp -o later.png --like oblique.png
     lumencut render ct.nii.gz -o body.png --context dvr --context-transfer soft-tissue
     """  # noqa: D301 - click needs the control character itself
@@ -80,7 +81,7 @@ def render(
     views = views_of(chosen, recipe)
     planned = pictures([view for view, _ in views], output)
     files = scene_from(chosen)
-    check_seed(chosen)
+    check_found(chosen)
     if chosen["ras"] and chosen["seed"] is None:
         raise click.UsageError("--ras without --seed does nothing; leave it out")
     check_scene(files, chosen, settings)

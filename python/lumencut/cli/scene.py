@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from lumencut.cli import vessels
+from lumencut.cli.found_vessels import found_by, found_vessels
 from lumencut.cli.mistakes import check_files, check_options, check_radii, check_reading
 from lumencut.cli.options import described
 from lumencut.cli.report import bar, detail, warn
-from lumencut.cli.trace_seed import has_seed, traced_from_seed
 
 if TYPE_CHECKING:
     import numpy as np
@@ -52,9 +52,10 @@ def scene_from(chosen: dict[str, Any]) -> SceneFiles:
 
 def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -> None:
     """Refuse what a user cannot mean before any file is read."""
-    has_centerlines = bool(files.centerlines) or has_seed(chosen)
-    if files.centerlines and has_seed(chosen):
-        raise click.UsageError("found CENTERLINES and --seed; expected one of them: --seed traces its own")
+    found = found_by(chosen)
+    has_centerlines = bool(files.centerlines) or found is not None
+    if files.centerlines and found is not None:
+        raise click.UsageError(f"found CENTERLINES and {found}; expected one of them: {found} traces its own")
     check_files(files.volume, files.centerlines)
     volumes = [] if files.volume is None else [files.volume]
     check_reading(chosen, volumes, has_centerlines=has_centerlines)
@@ -85,11 +86,11 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
     lines = centerlines_of(files.centerlines)
     voxels = None if files.volume is None else _read_volume(files.volume, files)
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
-    if voxels is not None and has_seed(chosen):
-        tree = traced_from_seed(chosen, voxels)
+    if voxels is not None and found_by(chosen) is not None:
+        tree = found_vessels(chosen, voxels)
     check_radii(chosen, tree)
     if tree is not None:
-        detail(f"{', '.join(map(str, files.centerlines)) or 'from the seed'}: {tree!r}")
+        detail(f"{', '.join(map(str, files.centerlines)) or 'found in the scan'}: {tree!r}")
     detail(f"read in {time.perf_counter() - start:.2f} s")
     return voxels, tree
 

@@ -1,4 +1,4 @@
-"""``lumencut trace``: centerlines from points along vessels, from one seed, or from a mask."""
+"""``lumencut trace``: centerlines from points along vessels, from one seed, from nothing, or from a mask."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from lumencut.cli import options
+from lumencut.cli.found_vessels import check_found, found_by, found_options, found_vessels
 from lumencut.cli.mistakes import check_reading
 from lumencut.cli.options import FILE
 from lumencut.cli.parameters import VECTOR
 from lumencut.cli.report import bar, busy, detail, say, verbose_option
 from lumencut.cli.scene import volume_of
 from lumencut.cli.trace_mask import WITH_MASK, mask_options, traced_from_mask
-from lumencut.cli.trace_seed import check_seed, has_seed, seed_options, traced_from_seed
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Points = npt.NDArray[np.float64]
 
 
-@click.command(short_help="Trace centerlines from points, from one seed, or from a mask.")
+@click.command(short_help="Trace centerlines: all, from points, from one seed, or from a mask.")
 @click.argument("volume", type=FILE, required=False)
 @click.option(
     "--point",
@@ -68,7 +68,7 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Go on where no lumen is to be seen, as in an occlusion; marked as not sure.",
 )
-@seed_options
+@found_options
 @mask_options
 @click.option(
     "-o",
@@ -93,16 +93,18 @@ def trace(
     device: Literal["auto", "cpu", "gpu"],
     **chosen: Any,
 ) -> None:
-    """Trace centerlines in VOLUME from points along vessels, from one seed, or those of a mask.
+    """Trace centerlines in VOLUME: all, those along points or from one seed, or those of a mask.
 
-    The points need not be central. All --point are one vessel; files of --points may hold several, which join
-    where they meet. Points are at most 0.5 mm apart in the result, with the radius of the lumen and with how
-    sure each point is. With --seed they are those of all branches that one point reaches, the doubtful ones
-    left out and counted. With --mask they are those of a mask of the lumen, or of labels of a label map;
-    VOLUME is not needed then, and must have its grid.
+    With --find all vessels are found, with no point given; with --seed all branches that one point reaches.
+    The doubtful ones of both are left out and counted. Points along vessels need not be central: all --point
+    are one vessel; files of --points may hold several, which join where they meet. With --mask the lines are
+    those of a mask of the lumen, or of labels of a label map; VOLUME is not needed then, and must have its
+    grid. Points are at most 0.5 mm apart in the result, with the radius of the lumen and with how sure each
+    point is.
 
     \b
     lumencut trace ct.nii.gz --point 12,-30,85 --point 8,-41,-20 -o aorta.vtp --preview aorta.png
+    lumencut trace ct.nii.gz --find -o all.vtp --preview all.png
     lumencut trace ct.nii.gz --seed 12,-30,85 -o tree.vtp --preview tree.png
     lumencut trace --mask total.nii.gz --label 52=aorta --label 65 -o lines.vtp
     lumencut trace dicom/ --points vessels.mrk.json --stopper 20,-35,40 -o lines.vtp
@@ -111,8 +113,8 @@ def trace(
     voxels = None if volume is None else volume_of(volume, chosen)
     if voxels is None or chosen["mask"] is not None:
         tree = traced_from_mask(chosen, voxels)
-    elif has_seed(chosen):
-        tree = traced_from_seed(chosen, voxels)
+    elif found_by(chosen) is not None:
+        tree = found_vessels(chosen, voxels)
     else:
         tree = _traced(voxels, chosen, bridge=bridge)
     from lumencut.centerline_writers import write_centerlines
@@ -126,25 +128,26 @@ def trace(
         _render(voxels, tree, preview, device)
 
 
-#: The options of clicks, which do nothing with a seed or a mask, but `ras`.
+#: The options of clicks, which do nothing with vessels that are found or a mask, but `ras`.
 _WITH_POINTS = ("point", "index", "points", "stopper", "bridge")
-_WITH_SEED = ("seed", "seed_index", "smallest_radius", "doubtful")
+_WITH_FOUND = ("seed", "seed_index", "find", "smallest_radius", "doubtful")
 
 
 def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict[str, Any]) -> None:
     """Refuse what a user cannot mean before any voxel is read."""
     has_mask = chosen["mask"] is not None
-    for name in (*_WITH_POINTS, *_WITH_SEED, "ras") if has_mask else WITH_MASK:
+    for name in (*_WITH_POINTS, *_WITH_FOUND, "ras") if has_mask else WITH_MASK:
         if chosen[name]:
             where = "with" if has_mask else "without"
             raise click.UsageError(f"--{name.replace('_', '-')} {where} --mask does nothing; leave it out")
-    check_seed(chosen)
+    check_found(chosen)
     if volume is None and not has_mask:
         raise click.UsageError("found no VOLUME; expected one, or --mask")
     if volume is None and preview is not None:
         raise click.UsageError("--preview without VOLUME: a mask alone has no picture")
-    if has_seed(chosen):
-        _check_alone(chosen)
+    found = found_by(chosen)
+    if found is not None:
+        _check_alone(chosen, found)
     elif not has_mask:
         _check_points(chosen)
     volumes = [] if volume is None else [volume]
@@ -154,13 +157,14 @@ def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict
         options.check_picture(preview)
 
 
-def _check_alone(chosen: dict[str, Any]) -> None:
-    """Refuse what does nothing beside a seed."""
+def _check_alone(chosen: dict[str, Any], found: str) -> None:
+    """Refuse what does nothing beside vessels that are found, by this option."""
     for name in _WITH_POINTS:
         if chosen[name]:
-            raise click.UsageError(f"--{name} with --seed does nothing; leave one of them out")
+            raise click.UsageError(f"--{name} with {found} does nothing; leave one of them out")
     if chosen["ras"] and chosen["seed"] is None:
-        raise click.UsageError("--ras with --seed-index does nothing; leave it out")
+        given = "--find" if chosen["find"] else "--seed-index"
+        raise click.UsageError(f"--ras with {given} does nothing; leave it out")
 
 
 def _check_points(chosen: dict[str, Any]) -> None:
@@ -168,7 +172,7 @@ def _check_points(chosen: dict[str, Any]) -> None:
     given = [name for name in ("point", "index", "points") if chosen[name]]
     if not given:
         raise click.UsageError(
-            "found no points; expected --point, --index or --points along a vessel, or --seed"
+            "found no points; expected --point, --index or --points along a vessel, --seed, or --find for all"
         )
     if {"point", "index"} <= set(given):
         raise click.UsageError(

@@ -1,6 +1,6 @@
-/** Many vessels at once: all branches from a seed, and the vessels of a mask. */
+/** Many vessels at once: all of the scan, all branches from a seed, and the vessels of a mask. */
 import type { Asked } from '../core/asked';
-import type { GivenFile, Vector } from '../core/messages';
+import type { Edit, Edited, GivenFile, Vector } from '../core/messages';
 import { notes } from '../state/store';
 import { commit, isDone } from './committing';
 
@@ -16,10 +16,17 @@ export const accept = (engine: Asked, ids: readonly number[]): Promise<boolean> 
 export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
   isDone(commit(engine, { kind: 'leave_out', ids }));
 
-/** Adds the vessels of a mask; what was odd about it is told among the notes. */
-export async function addMask(engine: Asked, mask: readonly GivenFile[]): Promise<boolean> {
-  const then = (edited: { readonly notes: readonly string[] }) => {
+/** Adds all vessels of the scan; doubtful ones wait until they are accepted. */
+export const findVessels = (engine: Asked): Promise<boolean> => addMany(engine, { kind: 'find_vessels' });
+
+/** Adds the vessels of a mask. */
+export const addMask = (engine: Asked, mask: readonly GivenFile[]): Promise<boolean> =>
+  addMany(engine, { kind: 'add_mask' }, mask);
+
+/** Adds vessels; what is told of them comes among the notes. */
+function addMany(engine: Asked, edit: Edit, mask?: readonly GivenFile[]): Promise<boolean> {
+  const then = (edited: Edited) => {
     notes.value = [...new Set([...notes.value, ...edited.notes])];
   };
-  return isDone(commit(engine, { kind: 'add_mask' }, { mask, then }));
+  return isDone(commit(engine, edit, mask ? { mask, then } : { then }));
 }

@@ -1,7 +1,7 @@
 /** What can be done next about vessels, over the views: the offer to trace, what a click does now, and a doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../core/shared';
-import { accept, leaveOut } from '../edit/branches';
+import { accept, findVessels, leaveOut } from '../edit/branches';
 import { nameOf, vesselOf } from '../edit/changes';
 import { waiting } from '../edit/committing';
 import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
@@ -34,7 +34,7 @@ export function TraceBar() {
   ) : null;
 }
 
-/** Without centerlines the page offers to trace them. */
+/** Without centerlines the page offers to find and to trace them. */
 function Offer() {
   const isClosed = useSignal(false);
   if (isClosed.value) {
@@ -42,7 +42,15 @@ function Offer() {
   }
   return (
     <div class="trace-bar" role="note">
-      <span>No vessels yet: click along one, or drop its centerlines or a mask.</span>
+      <span>No vessels yet: find them, click along one, or drop its centerlines or a mask.</span>
+      <button
+        type="button"
+        disabled={waiting.value > 0}
+        title="All vessels that are brighter than the tissue around them"
+        onClick={() => void findVessels(engine)}
+      >
+        Find all vessels
+      </button>
       <button type="button" onClick={() => performAny(engine, 'trace')}>
         Trace vessels
       </button>

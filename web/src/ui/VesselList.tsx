@@ -2,7 +2,7 @@
 
 import type { DocumentVessel } from '../core/messages';
 import { engine } from '../core/shared';
-import { accept, leaveOut } from '../edit/branches';
+import { accept, findVessels, leaveOut } from '../edit/branches';
 import { doubtful, nameOf } from '../edit/changes';
 import { setBridge } from '../edit/clicks';
 import { document_, redo, redoWords, undoWords } from '../edit/history';
@@ -89,6 +89,13 @@ function Steps() {
 function Means() {
   return (
     <div class="buttons">
+      <button
+        type="button"
+        title="All vessels that are brighter than the tissue around them"
+        onClick={() => void findVessels(engine)}
+      >
+        Find all vessels
+      </button>
       <button type="button" title="From the cross-hair (b)" onClick={() => performAny(engine, 'branches')}>
         All branches from here
       </button>

@@ -25,6 +25,7 @@ export function ask<N extends Question>(
 const EDITS: Partial<Record<Edit['kind'], string>> = {
   add_branches: 'Finding branches',
   add_mask: 'Tracing the mask',
+  find_vessels: 'Finding vessels',
 };
 
 /** What is done for a question; null where it is quick. */

@@ -2,6 +2,7 @@
 
 pub mod bone;
 pub mod candidates;
+pub mod choose;
 pub mod confidence;
 pub mod flux;
 pub mod found;
@@ -10,9 +11,11 @@ pub mod links;
 pub mod paint;
 pub mod point_grid;
 pub mod pyramid;
+pub mod refusals;
 pub mod scan;
 pub mod section;
 pub mod side_by_side;
+pub mod stages;
 pub mod track;
 pub mod tracker;
 pub mod tracking;
@@ -21,6 +24,7 @@ pub mod vessel_level;
 pub mod whole_vessels;
 
 use crate::trace::find::found::{FoundVessel, Trees};
+use crate::trace::find::stages::{Stage, Stages};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::progress::Progress;
@@ -43,12 +47,16 @@ pub struct FindRequest<'a> {
 /// [`lumencut_core::error::ErrorKind::Tracing`] where no vessel is found; [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
-    let Some((scan, tracks)) = tubes::tubes(voxels, request.smallest_radius, request.stop)? else {
+    let stages = Stages::begin(request.progress);
+    let Some((scan, tracks)) = tubes::tubes(voxels, request.smallest_radius, request.stop, stages)? else {
         return Ok(Trees { vessels: Vec::new(), level: 0.0, contrast: 0.0, noise: 0.0 });
     };
+    stages.stage(Stage::Judgement, 1);
     let tracks = bone::judged(&scan, tracks, request.stop)?;
+    stages.stage(Stage::Vessels, 1);
     let links = links::between(&scan, &tracks, request.stop)?;
     let vessels: Vec<FoundVessel> = whole_vessels::of(&scan, &tracks, &links, request)?;
+    stages.end();
     Ok(Trees { vessels, level: scan.level, contrast: scan.contrast, noise: scan.noise })
 }
 

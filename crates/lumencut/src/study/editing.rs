@@ -34,6 +34,7 @@ impl Study {
         let mut notes = Vec::new();
         let is_traced = match &message.edit {
             Edit::AddBranches { seed } => self.add_branches(&mut draft, *seed, watch).map(|()| false),
+            Edit::FindVessels => self.add_found(&mut draft, &mut notes, watch).map(|()| false),
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
             Edit::Join { id, other } => self.join_vessels(&mut draft, *id, *other).map(|()| false),
@@ -74,6 +75,15 @@ impl Study {
     fn add_branches(&mut self, draft: &mut Draft, seed: Place, watch: Watch) -> Result<()> {
         for branch in self.trace_from(seed, watch)? {
             draft.add_named(branch.line, "", "Branch").doubt = branch.doubt.map(str::to_owned);
+        }
+        Ok(())
+    }
+
+    fn add_found(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {
+        let (found, told) = self.find_vessels(watch)?;
+        *notes = told;
+        for vessel in found {
+            draft.add_named(vessel.line, "", "Vessel").doubt = vessel.doubt.map(str::to_owned);
         }
         Ok(())
     }

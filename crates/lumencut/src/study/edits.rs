@@ -96,6 +96,8 @@ pub enum Edit {
         /// A place in a vessel.
         seed: Place,
     },
+    /// All vessels of the scan; doubtful ones wait until they are accepted.
+    FindVessels,
     /// Doubtful branches are vessels as others from now on.
     Accept {
         /// Which of them.
@@ -149,6 +151,7 @@ impl Edit {
             Self::Join { .. } => "join two vessels",
             Self::Remove { ids } => count(ids, "delete a vessel", "delete vessels"),
             Self::AddBranches { .. } => "add all branches from here",
+            Self::FindVessels => "find all vessels",
             Self::Accept { ids } => count(ids, "accept a branch", "accept branches"),
             Self::LeaveOut { ids } => count(ids, "leave a branch out", "leave branches out"),
             Self::AddMask => "add the vessels of a mask",

@@ -1,13 +1,12 @@
-//! Cutting a line in two, joining two to one, and several that meet to a path.
+//! Cutting a line in two, and joining two to one.
 
 use glam::DVec3;
-use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_vessels::trace::lumen::refine::STEP;
 
 use crate::study::lines::{Line, wrong};
-use crate::text::rounded;
 
 /// Ends no farther apart than this meet, and are one point (mm): what files lose by rounding, and far less than any lumen.
 pub const MEETING: f64 = 0.1;
@@ -22,8 +21,9 @@ const GAP_STEP: f64 = STEP;
 
 /// All that is known of one point.
 #[derive(Clone, Copy)]
-struct Knot {
-    point: DVec3,
+pub(super) struct Knot {
+    /// Where it is (mm, LPS).
+    pub point: DVec3,
     radius: f64,
     confidence: f64,
     is_bridged: bool,
@@ -106,59 +106,8 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
     Ok(with_knots(&joined, &has))
 }
 
-/// Several lines that meet as one, in their order: each begins where the one before ends, whatever its own direction. It knows
-/// what all of them know; `words` is what an error calls each of them.
-///
-/// # Errors
-/// `vessel tree` for neighbours whose ends are farther apart than [`MEETING`].
-pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
-    let mut joined = first_of(lines);
-    for (n, line) in lines.iter().enumerate().skip(1) {
-        let end = joined[joined.len() - 1].point;
-        let other = nearest_first(knots(line), |knot| knot.point.distance(end));
-        let apart = other[0].point.distance(end);
-        if apart > MEETING {
-            let apart = rounded(apart, 4);
-            let found = format!("a gap of {apart} mm between {} and {}", words[n - 1], words[n]);
-            let expected =
-                format!("vessels in their order along the path, with ends at most {MEETING} mm apart");
-            return Err(Error::new(ErrorKind::VesselTree, "path through the tree", found, expected));
-        }
-        joined = followed(joined, &other);
-    }
-    let known = |is_known: fn(&Line) -> bool| lines.iter().all(is_known);
-    let like = Line {
-        points: Vec::new(),
-        radius: known(|line| line.radius.is_some()).then(Vec::new),
-        confidence: known(|line| line.confidence.is_some()).then(Vec::new),
-        bridged: known(|line| line.bridged.is_some()).then(Vec::new),
-    };
-    Ok(with_knots(&joined, &like))
-}
-
-/// The points of the first line, towards the second one.
-fn first_of(lines: &[Line]) -> Vec<Knot> {
-    let Some(first) = lines.first() else { return Vec::new() };
-    let Some(second) = lines.get(1) else { return knots(first) };
-    let ends = [second.points[0], second.points[second.points.len() - 1]];
-    let apart = |knot: Knot| ends.map(|end| knot.point.distance(end)).into_iter().fold(f64::MAX, f64::min);
-    let mut knots = knots(first);
-    if apart(knots[0]) < apart(knots[knots.len() - 1]) {
-        knots.reverse();
-    }
-    knots
-}
-
-/// The points in the direction in which the first one is nearer; as they are where both ends are equally near.
-fn nearest_first(mut knots: Vec<Knot>, apart: impl Fn(Knot) -> f64) -> Vec<Knot> {
-    if apart(knots[knots.len() - 1]) < apart(knots[0]) {
-        knots.reverse();
-    }
-    knots
-}
-
 /// Points that other ones follow: a point that both share is taken once, from the former; a gap gets points.
-fn followed(mut one: Vec<Knot>, other: &[Knot]) -> Vec<Knot> {
+pub(super) fn followed(mut one: Vec<Knot>, other: &[Knot]) -> Vec<Knot> {
     let end = one[one.len() - 1];
     let is_shared = end.point.distance(other[0].point) <= MEETING;
     if !is_shared {
@@ -177,7 +126,7 @@ fn gap(from: Knot, to: Knot) -> Vec<Knot> {
 }
 
 /// The points of a line. One that was not traced is as sure as its author.
-fn knots(line: &Line) -> Vec<Knot> {
+pub(super) fn knots(line: &Line) -> Vec<Knot> {
     let knot = |(n, point): (usize, &DVec3)| Knot {
         point: *point,
         radius: line.radius.as_ref().map_or(f64::NAN, |radius| radius[n]),
@@ -188,7 +137,7 @@ fn knots(line: &Line) -> Vec<Knot> {
 }
 
 /// The line of some points, of which as much is known as of `like`.
-fn with_knots(knots: &[Knot], like: &Line) -> Line {
+pub(super) fn with_knots(knots: &[Knot], like: &Line) -> Line {
     Line {
         points: knots.iter().map(|knot| knot.point).collect(),
         radius: like.radius.as_ref().map(|_| knots.iter().map(|knot| knot.radius).collect()),

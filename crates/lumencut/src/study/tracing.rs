@@ -8,11 +8,12 @@ use lumencut_core::vessel_tree::VesselTree;
 use lumencut_io::{write_mrk_json, write_vtp};
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::preview::Sought;
+use lumencut_vessels::trace::find::FindRequest;
 use lumencut_vessels::trace::seed;
-use lumencut_vessels::trace::seed::seed_tree::Doubt;
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
+use crate::found_vessels::{self, FoundLine};
 use crate::study::content::{Listed, NamedTree};
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
@@ -65,9 +66,9 @@ pub struct PathMessage {
     bridge: bool,
 }
 
-/// A branch that a seed reaches.
+/// A vessel that was found in the scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SeedLine {
+pub(crate) struct HeldLine {
     /// The number of its line.
     pub line: usize,
     /// Why it is doubtful; none where it is not.
@@ -131,20 +132,34 @@ impl Study {
     /// All branches that a seed reaches, down to the radius of Python; the doubtful ones last.
     ///
     /// # Errors
-    /// `tracing` as [`seed::trace_from`], `volume` where none is open,
-    /// `interrupted`.
-    pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<SeedLine>> {
+    /// `tracing` as [`found_vessels::trace_from`], `volume` where none is open, `interrupted`.
+    pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<HeldLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let smallest_radius = seed::SMALLEST_RADIUS;
         let Watch { stop, progress } = watch;
         let seed = DVec3::from_array(seed);
         let request = seed::SeedRequest { seed, smallest_radius, stop, progress: Some(progress) };
-        let branches = seed::trace_from(&volume, &request)?;
-        let added = branches.into_iter().map(|branch| {
-            let doubt = branch.doubt.map(Doubt::words);
-            Ok(SeedLine { line: self.lines.add(branch.line.into())?, doubt })
-        });
-        added.collect()
+        let tree = found_vessels::trace_from(&volume, &request)?;
+        self.held_lines(tree.vessels)
+    }
+
+    /// All vessels of the scan, down to the radius of Python, the doubtful ones last; and what is to be told of the scan.
+    ///
+    /// # Errors
+    /// `tracing` as [`found_vessels::find_vessels`], `volume` where none is open, `interrupted`.
+    pub(crate) fn find_vessels(&mut self, watch: Watch) -> Result<(Vec<HeldLine>, Vec<String>)> {
+        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let Watch { stop, progress } = watch;
+        let request = FindRequest { smallest_radius: seed::SMALLEST_RADIUS, stop, progress: Some(progress) };
+        let tree = found_vessels::find_vessels(&volume, &request)?;
+        Ok((self.held_lines(tree.vessels)?, tree.notes))
+    }
+
+    /// The lines of vessels that were found, from now on among those that the study holds.
+    fn held_lines(&mut self, found: Vec<FoundLine>) -> Result<Vec<HeldLine>> {
+        let hold =
+            |found: FoundLine| Ok(HeldLine { line: self.lines.add(found.line.into())?, doubt: found.doubt });
+        found.into_iter().map(hold).collect()
     }
 
     /// The two parts of a line that is cut at an arc length (mm).

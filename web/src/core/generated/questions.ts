@@ -160,6 +160,8 @@ export type Edit = {
   /** A place in a vessel. */
   readonly seed: Vector;
 } | {
+  readonly "kind": "find_vessels"
+} | {
   readonly "kind": "accept";
   /** Which of them. */
   readonly ids: ReadonlyArray<number>;

@@ -40,6 +40,13 @@ const WIDE: f64 = 5.0;
 /// How much confidence is left to an organ, and to marrow in a cortex.
 const LEFT: f64 = 0.15;
 
+/// A flat track that is otherwise the tube of a large vessel may be a lumen beside another one, as in a dissection: it keeps so much
+/// confidence and remains doubtful. Before it is judged it has at least this confidence, length and radius (mm), and it is even inside.
+const FLAT_LUMEN_LEFT: f64 = 0.35;
+const FLAT_LUMEN: f64 = 0.85;
+const FLAT_LUMEN_LENGTH: f64 = 40.0;
+const FLAT_LUMEN_RADIUS: f64 = 3.0;
+
 /// A track with less confidence is left out.
 const LEAST: f64 = 0.05;
 
@@ -118,7 +125,11 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
         track.doubt = Some(if is_pale { TrackDoubt::PaleAndWide } else { TrackDoubt::Uneven });
         track.confidence *= LEFT;
     }
-    track.confidence *= 1.0 - lost;
+    let is_lumen = track.confidence >= FLAT_LUMEN
+        && uneven == 0.0
+        && track.radius() >= FLAT_LUMEN_RADIUS
+        && track.length() >= FLAT_LUMEN_LENGTH;
+    track.confidence = (track.confidence * (1.0 - lost)).max(if is_lumen { FLAT_LUMEN_LEFT } else { 0.0 });
 }
 
 #[cfg(test)]

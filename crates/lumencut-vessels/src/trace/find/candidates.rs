@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::trace::find::flux::{FluxOf, HALO, RADII, Responses, gains};
 use crate::trace::find::pyramid::{Level, Pyramid};
 use crate::trace::find::section::{Section, across, quartile_of};
+use crate::trace::find::stages::{Stage, Stages};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
@@ -88,9 +89,12 @@ pub fn candidates(
     looked_at: &Range<usize>,
     floors: &Floors,
     stop: Stop,
+    stages: Stages,
 ) -> Result<Vec<Candidate>> {
     let mut found = Vec::new();
     let (first, last) = (looked_at.start, looked_at.end - 1);
+    let all = looked_at.clone().map(|number| tiles(pyramid.levels[number].size).len()).sum();
+    let pieces = stages.stage(Stage::Candidates, all);
     for number in looked_at.clone() {
         let level = &pyramid.levels[number];
         let radii: &[usize] = match () {
@@ -114,6 +118,7 @@ pub fn candidates(
             .into_par_iter()
             .map(|tile| {
                 go_on(stop)?;
+                pieces.done(1);
                 let seen = peaks(level, tile, &limits);
                 Ok(seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect())
             })

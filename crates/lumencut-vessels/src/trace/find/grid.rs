@@ -8,7 +8,7 @@ use crate::voxels::Voxels;
 const VOXELS_PER_RADIUS: f64 = 1.25;
 
 /// The most voxels of the grid; of larger volumes the voxels are larger.
-const MOST_VOXELS: f64 = 100e6;
+const MOST_VOXELS: f64 = 160e6;
 
 /// Where the voxels of the grid lie.
 #[derive(Clone, Debug)]

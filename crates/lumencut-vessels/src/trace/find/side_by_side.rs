@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::candidates::Candidate;
+use crate::trace::find::stages::Stages;
 use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
@@ -38,7 +39,7 @@ const WITHIN: f64 = 1.15;
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn side_by_side(tracking: &Tracking, candidates: &[Candidate], tracks: &[Track]) -> Result<Vec<Track>> {
     let end = tracking.looked_at.end.saturating_sub(COARSE_LEVELS).max(tracking.looked_at.start + 1);
-    let fine = Tracking { looked_at: tracking.looked_at.start..end, ..*tracking };
+    let fine = Tracking { looked_at: tracking.looked_at.start..end, stages: Stages::default(), ..*tracking };
     let wide: Vec<TrackPoint> = tracks
         .iter()
         .flat_map(|track| track.points.iter().filter(|point| point.is_good && point.radius > WIDE))

@@ -10,6 +10,7 @@ use crate::trace::find::candidates::{Candidate, Floors, candidates};
 use crate::trace::find::paint::{Paint, Painted};
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::section::median_of;
+use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
@@ -63,6 +64,8 @@ pub struct Tracking<'a> {
     pub stop: Stop<'a>,
     /// How sure a track is.
     pub judge: &'a (dyn Fn(Vec<TrackPoint>) -> Track + Sync),
+    /// Told how far it is.
+    pub stages: Stages<'a>,
 }
 
 /// Candidates that are tracked beside each other.
@@ -88,7 +91,7 @@ impl Tracking<'_> {
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
     pub fn candidates(&self) -> Result<Vec<Candidate>> {
-        candidates(self.pyramid, &self.looked_at, &self.floors, self.stop)
+        candidates(self.pyramid, &self.looked_at, &self.floors, self.stop, self.stages)
     }
 
     /// The side of the finest voxels that are looked at.
@@ -105,10 +108,12 @@ impl Tracking<'_> {
         let (mut found, mut levels) = (Vec::new(), Vec::new());
         let mut paint = Paint::default();
         let (mut next, mut waiting) = (0, VecDeque::new());
+        let pieces = self.stages.stage(Stage::Tracks, candidates.len());
         while next < candidates.len() || !waiting.is_empty() {
             go_on(self.stop)?;
             let batch = self.batch(&paint, &levels, &candidates[next..], &mut waiting);
             next += batch.looked_at;
+            let looked_at = batch.looked_at;
             let batch = batch.candidates;
             let tried: Vec<Tried> =
                 batch.par_iter().map(|candidate| self.tried(&paint, &levels, candidate)).collect();
@@ -124,6 +129,7 @@ impl Tracking<'_> {
                 };
                 self.commit(tried, &mut paint, &mut found, &mut levels);
             }
+            pieces.done(looked_at);
         }
         Ok(found)
     }

@@ -8,6 +8,7 @@ use crate::trace::find::grid::Grid;
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::side_by_side::side_by_side;
+use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracking::Tracking;
 use crate::trace::find::vessel_level::vessel_level;
@@ -38,12 +39,15 @@ pub fn tubes<'v>(
     voxels: &'v Voxels<'v>,
     smallest_radius: f64,
     stop: Stop,
+    stages: Stages,
 ) -> Result<Option<(Scan<'v>, Vec<Track>)>> {
     let range = range(voxels);
     if range[1] <= range[0] {
         return Ok(None);
     }
+    stages.stage(Stage::Levels, 1);
     let mut pyramid = Pyramid::new(voxels, Grid::over(voxels, smallest_radius), range, stop)?;
+    stages.stage(Stage::FirstPass, 1);
     let Some([level, contrast]) = usual(&pyramid, range[1] - range[0], stop)? else { return Ok(None) };
     pyramid.clamp((level + ABOVE * contrast).min(range[1]), stop)?;
     let noise = noise(&pyramid.levels[0]);
@@ -53,7 +57,7 @@ pub fn tubes<'v>(
         let (confidence, doubt) = confidence(&pyramid, voxels, &points, &vessels);
         Track { points, confidence, doubt }
     };
-    let pass = Tracking { pyramid: &pyramid, looked_at: pyramid.all(), floors, stop, judge: &judge };
+    let pass = Tracking { pyramid: &pyramid, looked_at: pyramid.all(), floors, stop, judge: &judge, stages };
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
     let beside = side_by_side(&pass, &candidates, &tracks)?;
@@ -89,7 +93,7 @@ fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> 
     let floors = Floors { noise, contrast: FIRST_CONTRAST * range };
     let judge = |points: Vec<TrackPoint>| Track { points, confidence: 1.0, doubt: None };
     let looked_at = first..pyramid.levels.len();
-    let pass = Tracking { pyramid, looked_at, floors, stop, judge: &judge };
+    let pass = Tracking { pyramid, looked_at, floors, stop, judge: &judge, stages: Stages::default() };
     let found = pass.tracks(&pass.candidates()?)?;
     let tracks: Vec<Vec<TrackPoint>> = found.into_iter().map(|track| track.points).collect();
     Ok(vessel_level(&tracks, noise))

@@ -312,6 +312,17 @@ fn branches_from_a_seed_come_at_once_and_doubtful_ones_are_accepted_or_left_out(
 }
 
 #[test]
+fn all_vessels_are_found_in_one_step_beside_those_that_there_are() {
+    let mut study = opened("y_junction");
+    let before = three(&mut study, ["a", "b", "c"]);
+    let found = edited(&mut study, &before, &json!({"kind": "find_vessels"}));
+    assert_eq!(found.words, "find all vessels");
+    assert_eq!(called(&found.document)[..4], ["a", "b", "c", "Vessel 1"]);
+    assert!(found.added.len() >= 2 && found.document.vessels.len() == 3 + found.added.len());
+    assert!(found.notes[0].starts_with("vessels have about 3"));
+}
+
+#[test]
 fn a_mask_adds_its_vessels_and_says_what_was_odd() {
     let mut study = opened("y_junction");
     let bytes: Vec<u8> = values(&study).iter().map(|value| u8::from(*value > 205)).collect();

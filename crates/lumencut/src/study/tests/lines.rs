@@ -6,7 +6,8 @@ use lumencut_io as centerlines;
 use serde_json::json;
 
 use super::{open_phantom, report_of};
-use crate::study::line_edits::{MEETING, cut, join, path};
+use crate::study::line_edits::{MEETING, cut, join};
+use crate::study::line_path::path;
 use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
 
@@ -85,6 +86,32 @@ fn a_path_runs_from_its_first_line_to_its_last_whatever_their_directions() {
     assert_eq!(path(std::slice::from_ref(&first), &words).expect("a path"), first);
     let error = path(&[first, third], &words).expect_err("a gap");
     assert_eq!(error.found, "a gap of 4 mm between a and b");
+}
+
+#[test]
+fn a_path_leaves_a_line_and_enters_it_where_another_one_begins() {
+    let trunk = straight(0.0, 21);
+    // From points 5 and 15 of the trunk across it, as a branch begins at a point of its parent.
+    let branch = |x: usize, side: f64| {
+        let points = (0..4).map(|n| trunk.points[x] + f64::from(n) * side * DVec3::Y).collect();
+        Line { points, radius: Some(vec![0.5; 4]), confidence: Some(vec![1.0; 4]), bridged: None }
+    };
+    let [left, right] = [branch(5, 1.0), branch(15, -1.0)];
+    let words = ["a", "b", "c"].map(str::to_owned);
+    let places = |lines: &[Line]| -> Vec<DVec3> { path(lines, &words).expect("a path").points };
+    let out = places(&[trunk.clone(), left.clone()]);
+    assert_eq!(out, [&trunk.points[..=5], &left.points[1..]].concat());
+    // The same back, whatever the direction of the branch.
+    let back: Vec<DVec3> = out.iter().rev().copied().collect();
+    assert_eq!(places(&[left.clone(), trunk.clone()]), back);
+    assert_eq!(places(&[reversed(left.clone()), trunk.clone()]), back);
+    // From branch to branch along the stretch of the trunk between them, in both directions.
+    let across = places(&[left.clone(), trunk.clone(), right.clone()]);
+    let left_back: Vec<DVec3> = left.points.iter().rev().copied().collect();
+    assert_eq!(across, [&left_back[..], &trunk.points[6..=15], &right.points[1..]].concat());
+    let other: Vec<DVec3> = across.iter().rev().copied().collect();
+    assert_eq!(places(&[right.clone(), trunk.clone(), left.clone()]), other);
+    assert_eq!(path(&[left, right], &words).expect_err("a gap").found, "a gap of 10 mm between a and b");
 }
 
 #[test]

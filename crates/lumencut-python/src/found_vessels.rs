@@ -1,0 +1,86 @@
+//! Vessels that are found, without a seed or from one, for `lumencut.finding` and `lumencut.seed_tracing`.
+
+use glam::DVec3;
+use lumencut::error::Result;
+use lumencut::found_vessels::{self, FoundLine, FoundTree, sure_parts};
+use lumencut::progress::Progress;
+use lumencut::stop::Stop;
+use lumencut::trace::find::FindRequest;
+use lumencut::trace::seed::SeedRequest;
+use lumencut::volume::Volume;
+use numpy::{PyArray1, PyArray2, ndarray::Array2};
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+use crate::pool;
+use crate::renderer::{SHARES, Watched, interruptible};
+use crate::volume::VolumeArgument;
+
+/// Points (n, 3), radii (n,), confidence (n,), and why the vessel is doubtful, empty where it is not.
+type FoundArrays<'py> =
+    (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, &'static str);
+
+/// The vessels, the doubtful ones last; the numbers of the sure ones that hang together; what is to be told.
+type FoundParts<'py> = (Vec<FoundArrays<'py>>, Vec<Vec<usize>>, Vec<String>);
+
+/// All vessels of a volume.
+#[pyfunction]
+#[pyo3(signature = (volume, smallest_radius, told=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn find_vessels<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    smallest_radius: f64,
+    told: Option<Py<PyAny>>,
+) -> PyResult<FoundParts<'py>> {
+    watched(py, &volume, told.as_ref(), |volume, stop, progress| {
+        let request = FindRequest { smallest_radius, stop, progress: Some(progress) };
+        found_vessels::find_vessels(volume, &request)
+    })
+}
+
+/// The branches that a seed (mm, LPS) reaches.
+#[pyfunction]
+#[pyo3(signature = (volume, seed, smallest_radius, told=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn trace_from<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    seed: [f64; 3],
+    smallest_radius: f64,
+    told: Option<Py<PyAny>>,
+) -> PyResult<FoundParts<'py>> {
+    watched(py, &volume, told.as_ref(), |volume, stop, progress| {
+        let seed = DVec3::from_array(seed);
+        let request = SeedRequest { seed, smallest_radius, stop, progress: Some(progress) };
+        found_vessels::trace_from(volume, &request)
+    })
+}
+
+/// What is found in a volume, while `told` hears how far it is and Ctrl-C stops it.
+fn watched<'py>(
+    py: Python<'py>,
+    volume: &VolumeArgument<'py>,
+    told: Option<&Py<PyAny>>,
+    find: impl FnOnce(&Volume, Stop, &Progress) -> Result<FoundTree> + Send,
+) -> PyResult<FoundParts<'py>> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    let progress = Progress::default();
+    let watched = told.map(|told| Watched { progress: &progress, told });
+    let tree = interruptible(py, watched.as_ref(), |stop| {
+        pool::install(|| find(&volume, stop, &progress))?.map_err(to_python)
+    })?;
+    if let Some(watched) = watched {
+        watched.tell(py, SHARES)?;
+    }
+    let parts = sure_parts(&tree);
+    let vessels = tree.vessels.into_iter().map(|vessel| arrays(py, vessel)).collect();
+    Ok((vessels, parts, [tree.notes, tree.doubts].concat()))
+}
+
+fn arrays(py: Python<'_>, FoundLine { line, doubt, .. }: FoundLine) -> FoundArrays<'_> {
+    let points = Array2::from_shape_fn((line.points.len(), 3), |(n, axis)| line.points[n][axis]);
+    let [radius, confidence] = [line.radius, line.confidence].map(|values| PyArray1::from_vec(py, values));
+    (PyArray2::from_owned_array(py, points), radius, confidence, doubt.unwrap_or_default())
+}

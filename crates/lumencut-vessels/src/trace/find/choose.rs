@@ -1,0 +1,107 @@
+//! The vessels of one seed: a seed teaches nothing, it chooses among the parts that were found without it.
+
+use glam::DVec3;
+
+use crate::trace::find::found::{FoundVessel, Trees};
+use crate::trace::find::{FindRequest, find_vessels, refusals};
+use crate::voxels::Voxels;
+use lumencut_core::error::Result;
+use lumencut_core::volume::Volume;
+
+/// A seed chooses a part up to so many radii from the middle of one of its vessels, or up to a voxel where that is more.
+const REACH: f64 = 1.5;
+
+/// A point of a vessel that is near a seed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Near {
+    /// The number of the vessel.
+    vessel: usize,
+    /// The point (mm, LPS).
+    point: DVec3,
+    /// How far the seed is from it (mm).
+    distance: f64,
+    /// The same in radii of the vessel there.
+    radii: f64,
+}
+
+/// The vessels of the part that a seed (mm, LPS) lies in, found as without a seed.
+///
+/// # Errors
+/// Those of [`find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] for a seed outside the volume, in no vessel, or in a part
+/// without a sure vessel.
+pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
+    let voxels = Voxels::new(volume);
+    if !seed.is_finite() || voxels.voxel_at(seed).is_none() {
+        return Err(refusals::outside(seed));
+    }
+    let trees = find_vessels(volume, request)?;
+    if trees.vessels.is_empty() {
+        return Err(refusals::no_vessel(0, request.smallest_radius));
+    }
+    let side = voxels.world_from_index.matrix3.determinant().abs().cbrt();
+    let value = || f64::from(voxels.at(seed));
+    match part_at(&trees, seed, side) {
+        Ok(part) => sure(only(trees, part)).map_err(|doubt| refusals::only_doubtful(seed, value(), doubt)),
+        // A vessel that was not found would be tracked from the seed itself here.
+        Err((nearest, distance)) => Err(refusals::not_here(seed, value(), nearest, distance)),
+    }
+}
+
+/// The part whose vessel lies nearest to a seed in units of its radius, those with a sure vessel before the others; a radius
+/// counts as one voxel (mm) over [`REACH`] at least.
+///
+/// # Errors
+/// The nearest point of any vessel, and how far it is from the seed (mm), where no vessel is within reach.
+pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<usize, (DVec3, f64)> {
+    let near: Vec<Near> = trees
+        .vessels
+        .iter()
+        .enumerate()
+        .map(|(number, vessel)| near(number, vessel, seed, voxel / REACH))
+        .collect();
+    let sure_parts: Vec<usize> =
+        trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
+    let part = |near: &Near| trees.vessels[near.vessel].part;
+    let within = |is_sure: bool| {
+        near.iter()
+            .filter(|near| near.radii <= REACH && sure_parts.contains(&part(near)) == is_sure)
+            .min_by(|a, b| a.radii.total_cmp(&b.radii))
+    };
+    within(true).or_else(|| within(false)).map(part).ok_or_else(|| {
+        let nearest = near.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
+        nearest.map_or((seed, f64::INFINITY), |near| (near.point, near.distance))
+    })
+}
+
+/// The point of a vessel that is nearest to a seed in units of the radius, which counts as `least` (mm) at least.
+fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
+    let line = &found.line;
+    let of = |n: usize| {
+        let [from, to] = [line.points[n], line.points[n + 1]];
+        let along = to - from;
+        let share =
+            ((seed - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let point = from.lerp(to, share);
+        let radius = line.radius[n] + (line.radius[n + 1] - line.radius[n]) * share;
+        let distance = seed.distance(point);
+        Near { vessel, point, distance, radii: distance / radius.max(least) }
+    };
+    let none = Near { vessel, point: seed, distance: f64::INFINITY, radii: f64::INFINITY };
+    let nearer = |a: Near, b: Near| if b.radii < a.radii { b } else { a };
+    (0..line.points.len().saturating_sub(1)).map(of).fold(none, nearer)
+}
+
+/// The vessels of one part.
+fn only(trees: Trees, part: usize) -> Trees {
+    let vessels = trees.vessels.into_iter().filter(|vessel| vessel.part == part);
+    Trees { vessels: vessels.map(|vessel| FoundVessel { part: 0, ..vessel }).collect(), ..trees }
+}
+
+/// The vessels of a part of which one is sure; else why the first one is doubtful.
+fn sure(trees: Trees) -> std::result::Result<Trees, &'static str> {
+    let doubts: Vec<_> = trees.vessels.iter().map(|vessel| vessel.doubt).collect();
+    match doubts.first() {
+        Some(Some(doubt)) if !doubts.contains(&None) => Err(doubt.words()),
+        _ => Ok(trees),
+    }
+}

@@ -1,0 +1,39 @@
+//! The errors of finding vessels, each in one place.
+
+use glam::DVec3;
+
+use crate::trace::lumen::lumen_model::in_words;
+use lumencut_core::error::{Error, ErrorKind};
+
+/// The error for a scan in which no vessel is sure; `doubtful` of them were found that are not, `smallest_radius` is in mm.
+pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
+    let found = match doubtful {
+        0 => format!("none whose radius is {smallest_radius} mm or more"),
+        1 => "none that is sure, but one that is doubtful".to_owned(),
+        several => format!("none that is sure, but {several} that are doubtful"),
+    };
+    let expected = "an angiography, whose vessels are brighter than the tissue around them";
+    let error = Error::new(ErrorKind::Tracing, "no vessel found", found, expected);
+    error.mend("trace between two points along a vessel, or ask for a smaller radius")
+}
+
+/// The error for a seed outside the volume.
+pub fn outside(seed: DVec3) -> Error {
+    let found = format!("{}, outside the volume", in_words(seed));
+    Error::new(ErrorKind::Tracing, "seed", found, "a point within the volume")
+}
+
+/// The error for a seed that lies in no vessel: the value there, and the nearest point of a vessel and how far that is (mm).
+pub fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error {
+    let found = format!("no vessel here; the nearest one is {distance:.1} mm away, at {}", in_words(nearest));
+    let expected = "a point within a vessel";
+    let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, expected);
+    error.mend("put the seed into a vessel, or trace between two points along it").at(seed, value)
+}
+
+/// The error for a seed whose part has doubtful vessels alone; `doubt` is why the first one is doubtful, in words.
+pub fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
+    let found = format!("a vessel there that is doubtful: {doubt}");
+    let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, "one that is sure");
+    error.mend("trace between two points along it").at(seed, value)
+}

@@ -1,0 +1,100 @@
+//! How far finding vessels is, stage by stage.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use lumencut_core::progress::Progress;
+
+/// A stage of finding vessels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// The levels of detail are made.
+    Levels,
+    /// A first pass tells the usual level of vessels.
+    FirstPass,
+    /// Places that look like a tube.
+    Candidates,
+    /// They are tracked.
+    Tracks,
+    /// Tracks are judged.
+    Judgement,
+    /// They become whole vessels.
+    Vessels,
+}
+
+/// About how long each stage takes in comparison.
+const COSTS: [usize; 6] = [4, 18, 28, 38, 7, 5];
+
+/// In how many parts a stage is told.
+const PARTS: usize = 1000;
+
+/// Tells how far the work is, where anybody asks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stages<'a>(Option<&'a Progress>);
+
+impl<'a> Stages<'a> {
+    /// Nothing is done yet.
+    pub fn begin(progress: Option<&'a Progress>) -> Self {
+        if let Some(progress) = progress {
+            progress.expect_views(1);
+            progress.begin_view(COSTS.into_iter(), PARTS);
+        }
+        Self(progress)
+    }
+
+    /// A stage of so many equal pieces of work begins.
+    pub fn stage(self, stage: Stage, pieces: usize) -> Pieces<'a> {
+        if let Some(progress) = self.0 {
+            progress.begin_stage(COSTS[stage as usize]);
+        }
+        Pieces { told: self, all: pieces.max(1), done: AtomicUsize::new(0) }
+    }
+
+    /// All is done.
+    pub fn end(self) {
+        if let Some(progress) = self.0 {
+            progress.end_view();
+        }
+    }
+}
+
+/// The pieces of work of a stage.
+#[derive(Debug)]
+pub struct Pieces<'a> {
+    told: Stages<'a>,
+    all: usize,
+    done: AtomicUsize,
+}
+
+impl Pieces<'_> {
+    /// So many further pieces are done.
+    pub fn done(&self, count: usize) {
+        let before = self.done.fetch_add(count, Ordering::Relaxed);
+        let parts = |pieces: usize| PARTS * pieces.min(self.all) / self.all;
+        if let Some(progress) = self.told.0 {
+            progress.begin_pixels(parts(before + count) - parts(before));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_rises_by_the_costs_of_stages_and_the_pieces_of_each() {
+        let progress = Progress::default();
+        let stages = Stages::begin(Some(&progress));
+        drop(stages.stage(Stage::Levels, 1));
+        drop(stages.stage(Stage::FirstPass, 1));
+        let pieces = stages.stage(Stage::Candidates, 3);
+        assert_eq!(progress.share(), 0.22);
+        pieces.done(1);
+        pieces.done(2);
+        assert_eq!(progress.share(), 0.5);
+        pieces.done(1);
+        assert_eq!(progress.share(), 0.5);
+        stages.end();
+        assert_eq!(progress.share(), 1.0);
+        Stages::begin(None).stage(Stage::Tracks, 0).done(1);
+    }
+}

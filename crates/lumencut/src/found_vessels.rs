@@ -1,0 +1,147 @@
+//! The vessels that are found in a scan, without a seed or from one, as readers are told of them.
+
+use std::collections::BTreeMap;
+
+use lumencut_core::error::Result;
+use lumencut_core::volume::Volume;
+use lumencut_vessels::trace::find::choose::find_from;
+use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
+use lumencut_vessels::trace::find::track::TrackDoubt;
+use lumencut_vessels::trace::find::{self, FindRequest, refusals};
+use lumencut_vessels::trace::lines::centerline::Centerline;
+use lumencut_vessels::trace::seed::seed_tree::{Doubt, SeedBranch};
+use lumencut_vessels::trace::seed::{self, SeedRequest};
+
+use crate::text::{fixed, rounded};
+
+/// Whether a seed chooses among the vessels that are found without it; else the lumen around the seed is followed.
+const SEEDS_CHOOSE: bool = false;
+
+/// A vessel that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundLine {
+    /// Its points, radii and confidence.
+    pub line: Centerline,
+    /// Why it is doubtful; none where it is not.
+    pub doubt: Option<&'static str>,
+    /// Which part it belongs to, 0 for the most important one.
+    pub part: usize,
+}
+
+/// The vessels of a scan, and what is to be told of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundTree {
+    /// The vessels that are sure, part by part, and the doubtful ones after them.
+    pub vessels: Vec<FoundLine>,
+    /// What is to be told of the scan, a sentence each.
+    pub notes: Vec<String>,
+    /// How many vessels are doubtful for each reason, a sentence each.
+    pub doubts: Vec<String>,
+}
+
+/// All vessels of a scan, of which one is sure at least.
+///
+/// # Errors
+/// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] where none is sure.
+pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
+    let trees = find::find_vessels(volume, request)?;
+    if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
+        return Ok(found(trees));
+    }
+    Err(refusals::no_vessel(trees.vessels.len(), request.smallest_radius))
+}
+
+/// All branches that a seed reaches.
+///
+/// # Errors
+/// Those of [`seed::trace_from`], or of [`find_from`] where seeds choose.
+pub fn trace_from(volume: &Volume, request: &SeedRequest) -> Result<FoundTree> {
+    if SEEDS_CHOOSE { chosen(volume, request) } else { Ok(followed(seed::trace_from(volume, request)?)) }
+}
+
+/// The vessels of the part that a seed lies in.
+fn chosen(volume: &Volume, request: &SeedRequest) -> Result<FoundTree> {
+    let SeedRequest { seed, smallest_radius, stop, progress } = *request;
+    Ok(found(find_from(volume, seed, &FindRequest { smallest_radius, stop, progress })?))
+}
+
+/// What is told of trees that were found.
+fn found(trees: Trees) -> FoundTree {
+    let Trees { vessels, level, contrast, .. } = trees;
+    let (sure, doubtful): (Vec<FoundVessel>, _) =
+        vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
+    let line =
+        |FoundVessel { line, part, doubt, .. }| FoundLine { line, doubt: doubt.map(TrackDoubt::words), part };
+    let vessels: Vec<FoundLine> = sure.into_iter().chain(doubtful).map(line).collect();
+    let [level, contrast] = [level, contrast].map(about);
+    let notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    let doubts = doubts(&vessels, ["vessel", "vessels"]);
+    FoundTree { vessels, notes, doubts }
+}
+
+/// A value of the volume, as exactly as it is known.
+fn about(value: f64) -> String {
+    if value.abs() < 100.0 { rounded(value, 2) } else { fixed(value, 0) }
+}
+
+/// What is told of the branches that a seed reaches by the lumen around it.
+fn followed(branches: Vec<SeedBranch>) -> FoundTree {
+    let line = |SeedBranch { line, doubt }| FoundLine { line, doubt: doubt.map(Doubt::words), part: 0 };
+    let vessels: Vec<FoundLine> = branches.into_iter().map(line).collect();
+    let doubts = doubts(&vessels, ["branch", "branches"]);
+    FoundTree { vessels, notes: Vec::new(), doubts }
+}
+
+/// How many vessels are doubtful for each reason, the most frequent one first.
+fn doubts(vessels: &[FoundLine], words: [&str; 2]) -> Vec<String> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for doubt in vessels.iter().filter_map(|vessel| vessel.doubt) {
+        *counts.entry(doubt).or_default() += 1;
+    }
+    let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let told = |(doubt, count): (&str, usize)| {
+        format!("{count} {} doubtful: {doubt}", words[usize::from(count != 1)])
+    };
+    counts.into_iter().map(told).collect()
+}
+
+/// The numbers of the sure vessels that hang together, the most important part first.
+pub fn sure_parts(tree: &FoundTree) -> Vec<Vec<usize>> {
+    let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (number, vessel) in tree.vessels.iter().enumerate().filter(|(_, vessel)| vessel.doubt.is_none()) {
+        parts.entry(vessel.part).or_default().push(number);
+    }
+    parts.into_values().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn vessel(part: usize, doubt: Option<TrackDoubt>) -> FoundVessel {
+        let line = Centerline {
+            points: vec![DVec3::ZERO, DVec3::X * (1.0 + part as f64)],
+            radius: vec![1.0; 2],
+            confidence: vec![0.8; 2],
+        };
+        FoundVessel { line, part, confidence: 0.8, doubt }
+    }
+
+    #[test]
+    fn sure_vessels_come_first_and_doubts_are_counted_by_their_reasons() {
+        let [short, flat] = [TrackDoubt::Short, TrackDoubt::Flat].map(Some);
+        let vessels = [(0, None), (0, flat), (0, None), (1, short), (2, None), (2, short)];
+        let vessels = vessels.map(|(part, doubt)| vessel(part, doubt)).to_vec();
+        let tree = found(Trees { vessels, level: 330.4, contrast: 322.2, noise: 12.0 });
+        assert_eq!(sure_parts(&tree), [vec![0, 1], vec![2]]);
+        let parts: Vec<usize> = tree.vessels.iter().map(|vessel| vessel.part).collect();
+        assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
+        let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words());
+        let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words());
+        assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings"]);
+        assert_eq!(tree.doubts, [short, flat]);
+        assert_eq!([about(0.0421), about(-3.44), about(1713.6)], ["0.042", "-3.4", "1714"]);
+    }
+}

@@ -1,0 +1,101 @@
+//! Several lines that meet as one.
+
+use lumencut_core::error::{Error, ErrorKind, Result};
+
+use crate::study::line_edits::{Knot, MEETING, followed, knots, with_knots};
+use crate::study::lines::Line;
+use crate::text::rounded;
+
+/// Where two lines come nearest to each other: the numbers of the points on the first and on the second one, of which at least one is
+/// an end, and how far apart they are (mm).
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Meeting {
+    on: [usize; 2],
+    apart: f64,
+}
+
+/// Several lines that meet as one, in their order: each begins where the one before ends, whatever its own direction. A line that meets
+/// another one at a point between its ends is followed to that point or from it: the first line from its start, the last one to its
+/// start. The path knows what all lines know; `words` is what an error calls each of them.
+///
+/// # Errors
+/// `vessel tree` for neighbours that are farther apart than [`MEETING`].
+pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
+    let all: Vec<Vec<Knot>> = lines.iter().map(knots).collect();
+    let mut joined: Vec<Knot> = Vec::new();
+    let mut entry = None;
+    for (n, line) in all.iter().enumerate() {
+        let last = line.len() - 1;
+        let (exit, next) = match all.get(n + 1) {
+            None => (entry.map_or(last, |entry| if entry == 0 { last } else { 0 }), None),
+            Some(other) => {
+                let Meeting { on: [exit, next], apart } = meeting(line, other, entry);
+                if apart > MEETING {
+                    return Err(gap([&words[n], &words[n + 1]], apart));
+                }
+                (exit, Some(next))
+            }
+        };
+        let start = entry.unwrap_or(if exit == 0 { last } else { 0 });
+        let stretch = stretch(line, start, exit);
+        joined = if joined.is_empty() { stretch } else { followed(joined, &stretch) };
+        entry = next;
+    }
+    let known = |is_known: fn(&Line) -> bool| lines.iter().all(is_known);
+    let like = Line {
+        points: Vec::new(),
+        radius: known(|line| line.radius.is_some()).then(Vec::new),
+        confidence: known(|line| line.confidence.is_some()).then(Vec::new),
+        bridged: known(|line| line.bridged.is_some()).then(Vec::new),
+    };
+    Ok(with_knots(&joined, &like))
+}
+
+/// Where a line that was entered at a point, if at any, is left for another one: by ends of both, by an end of the other one, or by
+/// its own end at a point of the other one; the first of these that is near enough, else the nearest of all.
+fn meeting(line: &[Knot], other: &[Knot], entry: Option<usize>) -> Meeting {
+    let last = line.len() - 1;
+    // From an end a line runs to its other end.
+    let ends = match entry {
+        Some(0) => vec![last],
+        Some(entry) if entry == last => vec![0],
+        _ => vec![last, 0],
+    };
+    let other_ends = [0, other.len() - 1];
+    let points: Vec<usize> = (0..=last).filter(|n| Some(*n) != entry).collect();
+    let other_points: Vec<usize> = (0..other.len()).collect();
+    let ways = [
+        nearest(line, other, &ends, &other_ends),
+        nearest(line, other, &points, &other_ends),
+        nearest(line, other, &ends, &other_points),
+    ];
+    let nearest = |a: Meeting, b: Meeting| if b.apart < a.apart { b } else { a };
+    ways.into_iter()
+        .find(|way| way.apart <= MEETING)
+        .unwrap_or_else(|| ways.into_iter().fold(ways[0], nearest))
+}
+
+/// Where some points of two lines come nearest to each other; of equal distances the first one.
+fn nearest(line: &[Knot], other: &[Knot], points: &[usize], other_points: &[usize]) -> Meeting {
+    let pairs = points.iter().flat_map(|a| other_points.iter().map(|b| [*a, *b]));
+    let meetings = pairs.map(|[a, b]| Meeting { on: [a, b], apart: line[a].point.distance(other[b].point) });
+    let none = Meeting { on: [points[0], other_points[0]], apart: f64::INFINITY };
+    meetings.fold(none, |best, one| if one.apart < best.apart { one } else { best })
+}
+
+/// The points of a line from one to another, in this order.
+fn stretch(line: &[Knot], from: usize, to: usize) -> Vec<Knot> {
+    let mut knots = line[from.min(to)..=from.max(to)].to_vec();
+    if to < from {
+        knots.reverse();
+    }
+    knots
+}
+
+fn gap([one, other]: [&String; 2], apart: f64) -> Error {
+    let found = format!("a gap of {} mm between {one} and {other}", rounded(apart, 4));
+    let expected = format!(
+        "vessels in their order along the path, of which an end of one is at most {MEETING} mm from the other"
+    );
+    Error::new(ErrorKind::VesselTree, "path through the tree", found, expected)
+}

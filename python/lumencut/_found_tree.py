@@ -1,0 +1,37 @@
+"""The tree of vessels that were found, the doubtful ones beside it."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut._checks import number
+from lumencut.errors import SettingsError
+from lumencut.vessel import Vessel
+from lumencut.vessel_tree import VesselTree
+
+_Array = npt.NDArray[np.float64]
+
+
+def checked_radius(smallest_radius: float) -> float:
+    """Return the smallest radius of vessels (mm), checked."""
+    smallest = number(SettingsError, "smallest_radius", smallest_radius)
+    if not 0 <= smallest < float("inf"):
+        raise SettingsError("smallest_radius", f"{smallest:g}", "0 or more (mm)")
+    return smallest
+
+
+def found_tree(
+    vessels: list[tuple[_Array, _Array, _Array, str]], parts: list[list[int]] | None, notes: list[str]
+) -> VesselTree:
+    """Return the tree of vessels with their doubts, empty where there are none, and what is told of them."""
+    made = [
+        (Vessel(points, radius, confidence=confidence), doubt)
+        for points, radius, confidence, doubt in vessels
+    ]
+    tree = VesselTree(vessel for vessel, doubt in made if not doubt)
+    tree._doubtful = tuple(vessel for vessel, doubt in made if doubt)
+    tree._doubts = tuple(doubt for _, doubt in made if doubt)
+    tree._parts = None if parts is None else tuple(map(tuple, parts))
+    tree._notes = tuple(notes)
+    return tree

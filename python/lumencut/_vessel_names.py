@@ -1,0 +1,43 @@
+"""Vessels of a tree by their names."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+
+from lumencut._wording import listed
+from lumencut.errors import VesselTreeError
+from lumencut.vessel import Vessel
+
+#: How many names an error lists.
+_MOST_NAMES = 24
+
+
+class _VesselNameError(VesselTreeError, KeyError):
+    """A name that no vessel of a tree has, or several have."""
+
+
+def all_named(vessels: Sequence[Vessel], name: str) -> list[int]:
+    """Return the ids of the vessels of a name, at least one."""
+    meant = [index for index, vessel in enumerate(vessels) if vessel.name == name]
+    if meant:
+        return meant
+    names = list(dict.fromkeys(vessel.name for vessel in vessels if vessel.name is not None))
+    alike = {known.lower(): known for known in names}
+    close = difflib.get_close_matches(name.lower(), alike, 1)
+    expected = (
+        f"one of {listed([repr(known) for known in names], _MOST_NAMES)}"
+        if names
+        else "an id: no vessel of the tree has a name"
+    )
+    mend = f"perhaps {alike[close[0]]!r} is meant" if close else ""
+    raise _VesselNameError(f"vessel {name!r}", "no vessel of this name", expected, mend)
+
+
+def the_one_named(vessels: Sequence[Vessel], name: str) -> int:
+    """Return the id of the one vessel of a name."""
+    meant = all_named(vessels, name)
+    if len(meant) == 1:
+        return meant[0]
+    found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
+    raise _VesselNameError(f"vessel {name!r}", found, "one vessel", "take it by its id")

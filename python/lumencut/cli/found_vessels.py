@@ -1,0 +1,116 @@
+"""``--seed`` and ``--find`` of ``lumencut trace`` and ``lumencut render``: vessels found in the scan."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from lumencut.cli.options import added
+from lumencut.cli.parameters import VECTOR
+from lumencut.cli.report import bar, detail, say, warn
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from lumencut.vessel_tree import VesselTree
+    from lumencut.volume import Volume
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+#: The options of `found_options` that do nothing without a seed or `--find`.
+WITH_FOUND = ("smallest_radius", "doubtful")
+
+
+def found_options(command: _Command) -> _Command:
+    """Add the options of vessels that are found, from a seed or without one."""
+    parts = (
+        click.option("--seed", type=VECTOR, help="A point in a vessel (mm, LPS): trace all that it reaches."),
+        click.option(
+            "--seed-index",
+            type=VECTOR,
+            metavar="I,J,K",
+            help="The same as indices of voxels, from 0, in place of --seed.",
+        ),
+        click.option("--find", is_flag=True, help="Find all vessels, with no point given."),
+        click.option(
+            "--smallest-radius",
+            type=click.FloatRange(0),
+            metavar="MM",
+            help="Vessels of --seed and --find end where they are narrower from there on; default: 1.",
+        ),
+        click.option(
+            "--doubtful",
+            is_flag=True,
+            help="Keep the vessels of --seed and --find that are not sure; they are counted in any case.",
+        ),
+    )
+    return added(parts, command)
+
+
+def found_by(chosen: dict[str, Any]) -> str | None:
+    """Return the option that says how vessels are found in the scan, if any does."""
+    if chosen.get("find"):
+        return "--find"
+    has_seed = chosen.get("seed") is not None or chosen.get("seed_index") is not None
+    return "--seed" if has_seed else None
+
+
+def check_found(chosen: dict[str, Any]) -> None:
+    """Refuse options of finding vessels that contradict each other or do nothing."""
+    seeds = [name for name in ("seed", "seed_index") if chosen[name] is not None]
+    given = [f"--{name.replace('_', '-')}" for name in seeds] + ["--find"] * chosen["find"]
+    if len(given) > 1:
+        raise click.UsageError(f"found {' and '.join(given)}; expected one of them")
+    if not given:
+        for name in WITH_FOUND:
+            if chosen[name]:
+                option = f"--{name.replace('_', '-')}"
+                raise click.UsageError(f"{option} without --seed or --find does nothing; leave it out")
+
+
+def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
+    """Find what is asked for, and say what is doubtful."""
+    from lumencut.vessel_tree import VesselTree
+
+    tree = _tree(chosen, voxels)
+    if not len(tree.doubtful):
+        return tree
+    length = sum(vessel.length for vessel in tree.doubtful)
+    kept = "kept" if chosen["doubtful"] else "left out; --doubtful keeps them"
+    say(f"doubtful: {len(tree.doubtful)} vessels of {length:.0f} mm beside {len(tree)} that are sure; {kept}")
+    return VesselTree([*tree, *tree.doubtful]) if chosen["doubtful"] else tree
+
+
+def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
+    """The vessels, with what is told of them."""
+    from lumencut.seed_tracing import trace_from
+    from lumencut.vessel_finding import find_vessels
+
+    smallest = {} if chosen["smallest_radius"] is None else {"smallest_radius": chosen["smallest_radius"]}
+    if not chosen["find"]:
+        with bar("tracing", "share") as told:
+            tree = trace_from(voxels, _place(chosen, voxels), **smallest, progress=told)
+        for note in tree.notes:
+            warn(note)
+        return tree
+    with bar("finding vessels", "share") as told:
+        tree = find_vessels(voxels, **smallest, progress=told)
+    for note in tree.notes:
+        say(note)
+    for number, part in enumerate(tree.parts):
+        length = sum(tree[vessel].length for vessel in part)
+        detail(f"part {number}: {len(part)} vessels of {length:.0f} mm")
+    return tree
+
+
+def _place(chosen: dict[str, Any], voxels: Volume) -> npt.NDArray[np.float64]:
+    """The seed (mm, LPS)."""
+    import numpy as np
+
+    if chosen["seed"] is None:
+        affine = voxels.world_from_index
+        return np.asarray(affine[:3, :3] @ chosen["seed_index"] + affine[:3, 3])
+    return np.array(chosen["seed"]) * ((-1.0, -1.0, 1.0) if chosen["ras"] else (1.0, 1.0, 1.0))

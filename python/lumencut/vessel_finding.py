@@ -1,0 +1,60 @@
+"""All vessels of an angiography, without a seed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from lumencut import _lumencut
+from lumencut._found_tree import checked_radius, found_tree
+from lumencut.vessel_tree import VesselTree
+from lumencut.volume import Volume
+from lumencut.volume_files.memory import as_volume
+
+
+def find_vessels(
+    volume: Volume | Any,
+    *,
+    smallest_radius: float = 1.0,
+    progress: Callable[[int, int], object] | None = None,
+) -> VesselTree:
+    """Find all vessels of an angiography, with no point given.
+
+    Tubes that are brighter than what is around them are found at all widths and followed along their middle,
+    each with levels of its own. Those that are bone, organ or noise are left out or told apart as doubtful,
+    the others are joined where they meet, and what hangs together is a part. METHOD.md, "Finding all
+    vessels".
+
+    Parameters
+    ----------
+    volume : Volume, or whatever else :func:`lumencut.render` takes as one
+        The angiography; lumen must be brighter than the tissue around it. Nothing depends on the unit of its
+        values.
+    smallest_radius : float, default 1.0
+        Vessels end about where they are narrower from there on (mm). Those less than about two voxels wide
+        are not found.
+    progress : callable, optional
+        Called now and then with how much is done and how much there is to do.
+
+    Returns
+    -------
+    VesselTree
+        Whole vessels from their roots outwards, with ``radius`` and ``confidence``, points at most 0.5 mm
+        apart; the first point of a branch is a point of its parent to the bit. :attr:`VesselTree.parts` tells
+        which hang together, the most important part first. :attr:`VesselTree.doubtful` has those that are not
+        sure, :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` which level and contrast
+        vessels were found to have. The result is the same for any number of threads.
+
+    Raises
+    ------
+    TracingError
+        Where no vessel is found that is sure.
+    SettingsError
+        For a smallest radius below 0.
+    VolumeError
+        For what is no volume.
+    KeyboardInterrupt
+        After Ctrl-C.
+    """
+    smallest = checked_radius(smallest_radius)
+    return found_tree(*_lumencut.find_vessels(as_volume(volume), smallest, progress))

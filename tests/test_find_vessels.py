@@ -1,0 +1,337 @@
+"""All vessels of an angiography, with no point given."""
+
+import re
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from lumencut import (
+    SettingsError,
+    TracingError,
+    Vessel,
+    VesselTree,
+    Volume,
+    compare_centerlines,
+    find_vessels,
+    get_threads,
+    phantom,
+    read_centerlines,
+    set_threads,
+)
+from lumencut.cli import main
+from scene_files import write_volume_of
+from trace_scenes import BONE, FAT, LUMEN, TISSUE, Scene, arc, away, room
+
+
+@pytest.fixture(scope="module")
+def fork():
+    return phantom.y_junction()
+
+
+@pytest.fixture(scope="module")
+def found(fork):
+    return find_vessels(fork.volume)
+
+
+# What is found
+
+
+@pytest.mark.parametrize(
+    ("name", "radius", "parts"),
+    [
+        ("straight_tube", 4.0, 1),
+        ("helix", 3.0, 1),
+        ("crossing", 3.0, 2),
+        ("collinear_run", 3.0, 2),
+        ("calcified_wall", 4.0, 1),
+        ("trefoil", 3.0, 1),
+    ],
+)
+def test_single_tubes_are_found_whole_in_their_middle_with_their_radius(name, radius, parts):
+    made = getattr(phantom, name)()
+    tree = find_vessels(made.volume)
+    assert len(tree) == len(tree.parts) == parts
+    assert sorted(number for part in tree.parts for number in part) == list(range(parts))
+    for truth in made.tree:
+        # Ends are round: a tube is longer than its line by up to a radius at either end.
+        assert away(truth.points, tree.points).max() < 0.3 * radius
+    for vessel in tree:
+        assert np.median(away(vessel.points, made.tree.points)) < 0.3
+        assert np.median(vessel.radius) == pytest.approx(radius, rel=0.1)
+        assert vessel.confidence.shape == (len(vessel),)
+        assert ((vessel.confidence >= 0) & (vessel.confidence <= 1)).all()
+        assert np.linalg.norm(np.diff(vessel.points, axis=0), axis=1).max() < 0.55
+
+
+def test_a_fork_is_a_whole_vessel_and_a_branch_that_begins_at_a_point_of_it(fork, found):
+    assert len(found) == 2
+    assert found.parts == ((0, 1),)
+    trunk, branch = found
+    assert np.linalg.norm(trunk.points[0] - [0, 0, -30]) < 6
+    assert (trunk.points == branch.points[0]).all(axis=1).any()
+    tips = {np.sign(vessel.points[-1, 0]) for vessel in found}
+    assert tips == {-1, 1}
+    # Beyond the junction, where lumens part, both lines lie in the middle.
+    for vessel in found:
+        outside = vessel.points[np.abs(vessel.points[:, 2]) > 14]
+        assert away(outside, fork.tree.points).max() < 5
+        assert np.median(away(outside, np.concatenate([one.points for one in fork.tree]))) < 0.4
+    comparison = compare_centerlines(found, fork.tree, sampling=0.1)
+    assert comparison.ov > 0.9
+
+
+def test_a_path_leads_from_the_root_to_the_end_of_a_branch(found):
+    path = found.path([0, 1])
+    np.testing.assert_array_equal(path.points[0], found[0].points[0])
+    np.testing.assert_array_equal(path.points[-1], found[1].points[-1])
+    assert np.linalg.norm(np.diff(path.points, axis=0), axis=1).max() < 0.55
+    # Two straight legs of 30 and 36 mm, their round ends, and the turn within the junction.
+    assert 66 < path.length < 84
+
+
+def test_notes_tell_level_and_contrast(found):
+    level, contrast = map(float, re.findall(r"\d+", found.notes[0]))
+    assert level == pytest.approx(350, rel=0.02)
+    assert contrast == pytest.approx(350 - FAT, rel=0.02)
+    assert len(found.doubtful) == len(found.doubts)
+
+
+def test_a_vessel_beside_bone_is_found_and_the_bone_is_not():
+    line = arc(80)
+    scene = Scene(room(line, 0.7, 26), (0.7,) * 3)
+    scene.paint(line[100:300:100] + np.array([9.5, 0, 0]), 6.0, BONE)
+    scene.paint(line, 2.5, LUMEN)
+    tree = find_vessels(scene.volume(5))
+    first = [tree[n] for n in tree.parts[0]]
+    assert away(line[5:-5], np.concatenate([vessel.points for vessel in first])).max() < 1.5
+    assert away(tree.points, line).max() < 4
+
+
+def test_the_smallest_radius_leaves_narrower_vessels_out():
+    scene = Scene((90, 90, 90), (0.6,) * 3)
+    z = np.arange(-24, 24, 0.3)[:, None]
+    for x, radius in ((-12, 4.0), (12, 1.4)):
+        scene.paint(np.hstack([np.full_like(z, x), 0 * z, z]), radius, LUMEN)
+    volume = scene.volume(1, 10)
+    assert {round(float(np.sign(vessel.points[0, 0]))) for vessel in find_vessels(volume)} == {-1, 1}
+    wide = find_vessels(volume, smallest_radius=2.0)
+    assert (wide.points[:, 0] < 0).all()
+
+
+def test_the_result_does_not_depend_on_the_number_of_threads():
+    made = phantom.y_junction()
+    noisy = made.volume.array + np.random.default_rng(4).normal(0, 20, made.volume.array.shape)
+    volume = Volume(noisy.astype(np.float32), world_from_index=made.volume.world_from_index)
+    before = get_threads()
+    try:
+        trees = []
+        for count in (1, 2):
+            set_threads(count)
+            trees.append(find_vessels(volume))
+    finally:
+        set_threads(before)
+    assert trees[0] == trees[1]
+    assert trees[0].doubtful == trees[1].doubtful
+    assert trees[0].parts == trees[1].parts
+
+
+# What is not found
+
+
+def noise():
+    return np.random.default_rng(1).normal(0, 20, (60, 60, 60))
+
+
+def bones():
+    scene = Scene((100, 100, 100), (0.8,) * 3)
+    scene.values[:] = TISSUE
+    for z in (-24, 0, 24):
+        scene.paint(np.array([[0.0, 0.0, z]]), 10.0, BONE)
+        scene.paint(np.array([[0.0, 0.0, z]]), 8.0, LUMEN - 100)
+    return np.asarray(scene.volume(2).array)
+
+
+def plates():
+    values = np.full((80, 80, 80), TISSUE)
+    values[:, 30:33] = LUMEN
+    values[:, :, 50:52] = BONE
+    return values + np.random.default_rng(2).normal(0, 10, values.shape)
+
+
+@pytest.mark.parametrize("made", [noise, bones, plates])
+def test_where_no_vessel_is_none_is_found(made):
+    with pytest.raises(TracingError, match="no vessel found"):
+        find_vessels(Volume(made().astype(np.float32), spacing=(0.8,) * 3))
+
+
+@pytest.mark.parametrize("value", [0, 40.0, -1000, np.nan, np.inf])
+def test_a_constant_volume_has_no_vessel(value):
+    kind = np.float32 if isinstance(value, float) else np.int16
+    with pytest.raises(TracingError, match=r"no vessel found: found none .* expected an angiography"):
+        find_vessels(Volume(np.full((30, 30, 30), value, kind), spacing=(1, 1, 1)))
+
+
+# Odd input
+
+
+@pytest.mark.parametrize("shape", [(1, 60, 60), (1, 1, 1), (2, 3, 4), (60, 1, 60)])
+def test_a_volume_without_depth_has_no_vessel(shape):
+    values = np.zeros(shape, np.int16)
+    values[..., shape[2] // 2] = 300
+    with pytest.raises(TracingError, match="no vessel found"):
+        find_vessels(Volume(values, spacing=(1, 1, 1)))
+
+
+def test_values_in_another_unit_give_the_same_vessels(fork, found):
+    values = np.asarray(fork.volume.array).astype(np.float64) * 0.1 + 1000
+    tree = find_vessels(Volume(values, world_from_index=fork.volume.world_from_index))
+    assert len(tree) == len(found)
+    for one, other in zip(tree, found, strict=True):
+        assert away(one.points[::5], other.points).max() < 0.1
+
+
+def test_values_that_are_no_numbers_are_passed_over(fork):
+    values = np.asarray(fork.volume.array).astype(np.float32)
+    values[:, :8] = np.nan
+    values[100:104, 30:34, 20:24] = np.inf
+    tree = find_vessels(Volume(values, world_from_index=fork.volume.world_from_index))
+    assert len(tree.parts) == 1
+    assert compare_centerlines(tree, fork.tree, sampling=0.1).ov > 0.9
+
+
+def test_thick_slices_are_no_hindrance():
+    line = arc(120)
+    scene = Scene((*room(line, 1.0)[:2], room(line, 5.0)[2]), (1.0, 1.0, 5.0))
+    scene.paint(line, 5.0, LUMEN)
+    tree = find_vessels(scene.volume(1))
+    assert away(line[30:-30], tree.points).max() < 5
+
+
+def found_or_none(volume):
+    """The points that are found; none where no vessel is."""
+    try:
+        return find_vessels(volume).points
+    except TracingError:
+        return np.empty((0, 3))
+
+
+def test_voxels_of_1_by_1_by_10_mm_end_with_an_answer():
+    scene = Scene((60, 60, 12), (1.0, 1.0, 10.0))
+    z = np.arange(-50, 50, 0.5)[:, None]
+    line = np.hstack([0 * z, 0 * z, z])
+    scene.paint(line, 6.0, LUMEN)
+    assert (away(found_or_none(scene.volume(1)), line) < 6).all()
+
+
+def test_dark_lumens_are_no_vessels(fork):
+    values = -np.asarray(fork.volume.array)
+    points = found_or_none(Volume(values, world_from_index=fork.volume.world_from_index))
+    # What is between two dark lumens may look like a vessel, never the lumens themselves.
+    assert (away(points, fork.tree.points) > 3).all()
+
+
+@pytest.mark.parametrize("value", [-1, np.nan, np.inf, "wide"])
+def test_a_smallest_radius_that_is_none_is_refused(fork, value):
+    with pytest.raises(SettingsError, match="smallest_radius"):
+        find_vessels(fork.volume, smallest_radius=value)
+
+
+# Progress and Ctrl-C
+
+
+def test_progress_rises_to_the_whole(fork):
+    told = []
+    find_vessels(fork.volume, progress=lambda done, total: told.append((done, total)))
+    done = [part for part, _ in told]
+    assert done == sorted(done)
+    assert told[-1] == (1000, 1000)
+
+
+FINDS = """
+import signal
+import numpy as np
+import lumencut
+from lumencut import phantom
+signal.signal(signal.SIGINT, signal.default_int_handler)
+volume = phantom.aorta(scale=0.5).volume
+def told(done, total):
+    print("finding", flush=True)
+try:
+    while True:
+        lumencut.find_vessels(volume, progress=told)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signal of its own for a process here")
+def test_ctrl_c_ends_a_process_that_finds():
+    with subprocess.Popen([sys.executable, "-c", FINDS], stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout.readline() == "finding\n"
+            process.send_signal(signal.SIGINT)
+            output, _ = process.communicate(timeout=60)
+        finally:
+            process.kill()
+    assert output.splitlines()[-1] == "interrupted"
+    assert process.returncode == 0
+
+
+# Parts of any tree
+
+
+def test_parts_of_a_tree_from_elsewhere_hang_together_by_shared_points(tmp_path):
+    trunk = Vessel([[0, 0, z] for z in range(0, 60, 10)])
+    branch = Vessel([[0.0005, 0, 30], [20, 0, 30]])
+    alone = Vessel([[50, 0, 0], [50, 0, 200]])
+    tip = Vessel([[20, 40, 30], [20, 0, 30]])
+    tree = VesselTree([branch, alone, trunk, tip])
+    assert tree.parts == ((1,), (0, 2, 3))
+    assert tree.select(0, 1).parts == ((1,), (0,))
+    assert tree.doubts == ()
+
+
+def test_parts_are_the_same_once_the_tree_was_written_and_read(found, tmp_path):
+    from lumencut import write_centerlines
+
+    write_centerlines(found, tmp_path / "lines.vtp")
+    again = VesselTree(Vessel(one.points, one.radius) for one in found)
+    assert again.parts == found.parts
+    assert len(read_centerlines(tmp_path / "lines.vtp", coordinates="lps").parts) == 1
+
+
+# The command line
+
+
+@pytest.fixture(scope="module")
+def file(fork, tmp_path_factory):
+    return write_volume_of(fork.volume, tmp_path_factory.mktemp("ct") / "ct.nii.gz")
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, [*map(str, arguments)])
+
+
+def test_the_command_finds_all_vessels(file, tmp_path):
+    result = run("trace", file, "--find", "-o", tmp_path / "lines.vtp", "--verbose")
+    assert result.exit_code == 0, result.output
+    assert re.search(r"^vessels have about 3\d\d, 4\d\d above", result.output, re.MULTILINE)
+    assert len(read_centerlines(tmp_path / "lines.vtp").parts) == 1
+
+
+def test_the_command_leaves_narrower_vessels_out(file, tmp_path):
+    result = run("trace", file, "--find", "--smallest-radius", 9, "-o", tmp_path / "lines.vtp")
+    assert result.exit_code != 0
+    assert "no vessel found" in result.output
+
+
+def test_a_picture_is_made_from_a_scan_alone(file, tmp_path):
+    result = run("render", file, "--find", "-o", tmp_path / "all.png", "--device", "cpu")
+    assert result.exit_code == 0, result.output
+    with Image.open(tmp_path / "all.png") as image:
+        assert np.asarray(image.convert("L")).std() > 5
