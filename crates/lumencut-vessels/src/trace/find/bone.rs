@@ -25,6 +25,10 @@ const LONGEST: f64 = 40.0;
 const ITSELF: f64 = 2.0;
 const LEAST_COUNTED: f64 = 0.3;
 
+/// Flat neighbours make a track no more elongated than this, and so many times what it is itself beyond 1: an artery passes beside
+/// and through bone.
+const NEIGHBOURS: [f64; 2] = [1.5, 2.0];
+
 /// Doubts by elongation and by spread begin at the first value and are whole after the second one more; each is at most the third.
 const ELONGATED: [f64; 2] = [1.2, 0.7];
 const UNEVEN: [f64; 2] = [0.14, 0.10];
@@ -74,7 +78,8 @@ pub fn judged(scan: &Scan, tracks: Vec<Track>, stop: Stop) -> Result<Vec<Track>>
         .collect();
     let judged = tracks.into_iter().zip(shapes).zip(elongations).map(|((mut track, shape), elongation)| {
         if let Some(shape) = shape {
-            judge(scan, &mut track, Shape { elongation, ..shape });
+            let most = NEIGHBOURS[0] + NEIGHBOURS[1] * (shape.elongation - 1.0);
+            judge(scan, &mut track, Shape { elongation: elongation.min(most), ..shape });
         }
         track
     });
