@@ -26,7 +26,7 @@ const LEVEL: f64 = 0.45;
 const TURN: f64 = 0.5;
 
 /// An end is narrow with a radius of less than so many voxels.
-const NARROW: f64 = 2.0;
+const NARROW: f64 = 2.5;
 
 /// At how many places of the same track the way there is looked at.
 const TRIES: usize = 3;

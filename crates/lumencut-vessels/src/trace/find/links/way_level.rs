@@ -21,16 +21,14 @@ pub struct WayEnd {
     pub contrast: f64,
 }
 
-/// The lowest value along a straight way, as a share of the way from the tissue (0) to the lumen (1), whose level changes evenly
-/// from one end to the other; 0 for a way that leaves the volume.
+/// The lowest value along a straight way, as a share of the way from the tissue (0) to the lumen (1) of the darker end, which is
+/// the branch of the other one; 0 for a way that leaves the volume.
 pub fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
     let count = (from.place.distance(to.place) / (STEP * scan.side)).ceil().max(1.0);
+    let darker = if to.level < from.level { to } else { from };
     let share = |n: usize| {
-        let t = n as f64 / count;
-        let [level, contrast] =
-            [[from.level, to.level], [from.contrast, to.contrast]].map(|[a, b]| a + (b - a) * t);
-        let value = smoothed(scan, from.place.lerp(to.place, t));
-        let share = 1.0 - (level - value) / contrast;
+        let value = smoothed(scan, from.place.lerp(to.place, n as f64 / count));
+        let share = 1.0 - (darker.level - value) / darker.contrast;
         if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
     };
     (0..=count as usize).map(share).fold(1.0, f64::min)

@@ -173,9 +173,9 @@ fn a_sure_stretch_beyond_a_doubtful_one_stays_sure() {
     );
     assert_eq!(ends(&vessels[0])[1], ends(&vessels[1])[0]);
     // A short doubtful stretch is no vessel of its own.
-    tubes[0] = tube(at(2.0, 25.0), at(18.0, 25.0), 2.5);
-    tubes[1] = tube(at(28.0, 25.0), at(66.0, 25.0), 2.4);
-    tubes.push(tube(at(19.0, 25.0), at(27.0, 25.0), 2.5));
+    tubes[0] = tube(at(2.0, 25.0), at(18.0, 25.0), 1.5);
+    tubes[1] = tube(at(28.0, 25.0), at(66.0, 25.0), 1.5);
+    tubes.push(tube(at(19.0, 25.0), at(27.0, 25.0), 1.5));
     (tubes[2].1.confidence, tubes[2].1.doubt) = (0.5, Some(TrackDoubt::Short));
     let vessels = of_tubes(&tubes);
     assert!(vessels.len() == 1 && vessels[0].doubt.is_none());
