@@ -13,6 +13,7 @@ from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
 from lumencut.errors import MeasuringError, SettingsError
 from lumencut.profile_outputs import ProfileOutputs
+from lumencut.scan_details import ScanDetails
 from lumencut.stenosis import METHODS, Method, Stenosis
 
 _Floats = npt.NDArray[np.float64]
@@ -202,6 +203,11 @@ class Profile(ProfileOutputs):
     def fwhm_source(self) -> str:
         """How that was found: ``"given"``, ``"estimated on …"`` or ``"assumed: …"``."""
         return self._core.fwhm[1]
+
+    @property
+    def scan(self) -> ScanDetails:
+        """How the scan was made that was measured, as its file tells it; :attr:`fwhm_source` has its blur."""
+        return ScanDetails(*_lumencut.scan_of(self._core))
 
     @property
     def wall_source(self) -> str:

@@ -3,6 +3,7 @@ use lumencut_vessels::measure::stenosis::{Compared, Method};
 
 use super::*;
 use crate::profile_marks::{Grade, Marked};
+use crate::scan_details::ScanDetails;
 use crate::tube::tube;
 
 fn marked(at: Option<f64>, reference: &[f64]) -> Marked {
@@ -31,7 +32,13 @@ fn page_of<'a>(
 ) -> VesselPage<'a> {
     let marks: Vec<ReportMark> = marked.places(profile).iter().map(ReportMark::from).collect();
     VesselPage {
-        measured: Measured { id: "0".to_owned(), name: Some(name.to_owned()), profile, grade },
+        measured: Measured {
+            id: "0".to_owned(),
+            name: Some(name.to_owned()),
+            profile,
+            scan: &ScanDetails::NOTHING,
+            grade,
+        },
         sections: vec!["QUJD".to_owned(); marks.len()],
         marks,
         lengths: Lengths::default(),
@@ -164,6 +171,7 @@ fn how_it_was_measured_is_told() {
                  FWHM of the point spread 1.20 mm, given. Walls: not told apart, as asked. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
                  Contrast to noise 25, contrast 250 in the unit of the volume.";
     assert!(text.contains(words), "{text}");
+    assert!(text.contains(". Imaging: series, phase, slice thickness, kernel not stated. Settings"));
     assert!(text.contains(NOTICE));
 }
 

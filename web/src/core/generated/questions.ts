@@ -662,6 +662,8 @@ export type VolumeReport = {
   readonly corners: ReadonlyArray<Vector>;
   /** The smallest side of a voxel (mm). */
   readonly smallest_side: number;
+  /** How the scan was made, in words. */
+  readonly scan: string;
 };
 
 /** The windows of what is open. */
