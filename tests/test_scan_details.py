@@ -91,7 +91,11 @@ def test_what_an_anonymised_file_does_not_tell_is_named_as_such(tmp_path, line):
     assert volume.scan == ScanDetails()
     assert str(volume.scan) == "series, phase, slice thickness, kernel not stated"
     (row, *_) = csv.DictReader(io.StringIO(csv_text(measure(volume, line, 2.0, 1.0))))
-    assert (row["series_number"], row["slice_thickness_mm"], row["kernel"]) == ("not stated", "", "not stated")
+    assert (row["series_number"], row["slice_thickness_mm"], row["kernel"]) == (
+        "not stated",
+        "",
+        "not stated",
+    )
 
 
 def test_volumes_of_other_sources_tell_nothing():

@@ -25,7 +25,6 @@ mod ranges;
 mod renderer;
 mod report;
 mod scan_details;
-mod seed_tracing;
 mod session_file;
 mod settings;
 mod tracing;

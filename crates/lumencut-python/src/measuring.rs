@@ -124,6 +124,8 @@ impl Profile {
             ("inscribed_radius", array(&profile.inscribed_radius)),
             ("wall", first(&profile.wall)),
             ("wall_uncertainty", second(&profile.wall)),
+            ("diameter_calcium_excluded", first(&profile.bounds)),
+            ("diameter_calcium_included", second(&profile.bounds)),
             ("diameter_outer", first(&profile.diameter_outer)),
             ("diameter_outer_uncertainty", second(&profile.diameter_outer)),
         ]

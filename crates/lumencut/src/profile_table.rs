@@ -53,6 +53,8 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
         ("uncertainty_surroundings_mm", part(Part::Surroundings)),
         ("wall_mm", both(&profile.wall, 0)),
         ("wall_uncertainty_mm", both(&profile.wall, 1)),
+        ("diameter_calcium_excluded_mm", both(&profile.bounds, 0)),
+        ("diameter_calcium_included_mm", both(&profile.bounds, 1)),
         ("diameter_outer_mm", both(&profile.diameter_outer, 0)),
         ("diameter_outer_uncertainty_mm", both(&profile.diameter_outer, 1)),
     ]

@@ -46,7 +46,7 @@ class VolumeFile:
     notes: list[str] = field(default_factory=list)
     filled: tuple[int, ...] = ()
     details: dict[str, str] = field(default_factory=dict)
-    scan: ScanDetails = ScanDetails()
+    scan: ScanDetails = field(default_factory=ScanDetails)
     remarks: list[str] = field(default_factory=list)
     """What is told of the file to whoever asks, and is no reason to warn every reader."""
     states_spacing: bool = True

@@ -97,6 +97,15 @@ fn a_place_that_is_not_graded_keeps_its_rows_and_says_why() {
 }
 
 #[test]
+fn beside_calcium_a_diameter_is_told_from_both_sides() {
+    let row =
+        "<td class=\"words\">calcium, 7.00 mm if nothing brighter is lumen, 9.00 mm if all of it is</td>";
+    assert_eq!(html_of(&shown(), &marked(Some(30.0), &[20.0])).matches(row).count(), 1);
+    let without = html_of(&Shown { has_units: false, ..shown() }, &marked(Some(30.0), &[20.0]));
+    assert!(without.contains("calcium, 7.00 if nothing brighter is lumen, 9.00 if all of it is"));
+}
+
+#[test]
 fn what_nobody_confirmed_stands_apart() {
     let text = html_of(&shown(), &marked(Some(30.0), &[]));
     let (looked, offered) = text.split_once("<h2>Suggestions, not looked at</h2>").expect("suggestions");
