@@ -42,8 +42,8 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "area": listed(profile.area),
         "uncertainty": listed(profile.uncertainty),
         "counts": counts(profile).tolist(),
-        "bounds": bounds(profile),
         "flags": [flag_words(int(flags)) for flags in profile.flags],
+        "bounds": bounds(profile),
         "flag_table": [
             {"word": word, "meaning": meaning, "screen": screen}
             for _, _, word, meaning, _, screen in _lumencut.MEASURING_FLAGS

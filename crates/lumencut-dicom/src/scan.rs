@@ -55,7 +55,7 @@ fn phase(slices: &[Slice]) -> Option<String> {
         })
         .or_else(|| number(Keyword::TriggerTime).map(|ms| format!("trigger time {ms} ms")));
     let contrast = stated(Keyword::ContrastBolusAgentPhase)
-        .map(|phase| format!("contrast phase {}", phase.to_lowercase().replace('_', " ")));
+        .map(|phase| format!("contrast phase {}", phase.to_ascii_lowercase().replace('_', " ")));
     let position = stated(Keyword::TemporalPositionIdentifier)
         .or_else(|| stated(Keyword::TemporalPositionIndex))
         .map(|number| format!("temporal position {number}"));
