@@ -20,6 +20,7 @@ from volume_samples import coded, oblique, write_stack
 SENT_ALIKE = ["int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"]
 AS_WRITTEN = {"coordinates": None, "unit": None, "series": None, "phase": None}
 AS_WRITTEN |= {"fill_gaps": False, "resample_slices": False}
+SCAN = ("series_number", "series_description", "phase", "slice_thickness_mm", "kernel")
 
 
 @pytest.fixture
@@ -110,6 +111,7 @@ def test_voxels_arrive_to_the_byte(page, name):
         "states_spacing": True,
         "states_orientation": True,
         "filled_slices": [],
+        "scan": dict.fromkeys(SCAN),
         "notes": ["one", "two — three"],
     }
     assert voxels.tobytes() == array.astype(array.dtype.newbyteorder("<")).tobytes()

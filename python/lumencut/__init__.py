@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from lumencut.profile import Profile
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
+    from lumencut.scan_details import ScanDetails
     from lumencut.seed_tracing import trace_from
     from lumencut.settings import Settings
     from lumencut.slab import Slab
@@ -104,6 +105,7 @@ _HOME = {
     "profile": ("Profile",),
     "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
+    "scan_details": ("ScanDetails",),
     "seed_tracing": ("trace_from",),
     "settings": ("Settings",),
     "slab": ("Slab",),
@@ -149,6 +151,7 @@ __all__ = [
     "Profile",
     "Reformation",
     "Renderer",
+    "ScanDetails",
     "SeriesError",
     "SeriesReport",
     "Settings",

@@ -12,7 +12,9 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
 from lumencut.errors import MeasuringError, SettingsError
+from lumencut.profile_numbers import ProfileNumbers
 from lumencut.profile_outputs import ProfileOutputs
+from lumencut.scan_details import ScanDetails
 from lumencut.stenosis import METHODS, Method, Stenosis
 
 _Floats = npt.NDArray[np.float64]
@@ -57,22 +59,12 @@ class CArm(NamedTuple):
         return _lumencut.c_arm_words(self.lao, self.cranial)
 
 
-class Profile(ProfileOutputs):
+class Profile(ProfileNumbers, ProfileOutputs):
     """The lumen of one vessel by its arc length; :func:`lumencut.measure` makes it.
 
     Arrays have one row for each section, n in all, and cannot be written to. What could not be measured is
     NaN. A diameter is that of the lumen: thrombus and plaque are not lumen.
     """
-
-    def __init__(self, core: _lumencut.Profile) -> None:
-        self._core = core
-        self._numbers = {name: _locked(values) for name, values in core.numbers()}
-        self._parts = {name: _locked(values) for name, values in core.uncertainty_parts()}
-        self._flags = core.flags
-        self._flags.flags.writeable = False
-        self._center, self._normal = _locked(core.center), _locked(core.normal)
-        self._axes = _locked(core.axes)
-        self._contour, self._levels = _locked(core.contour), _locked(core.levels)
 
     def __len__(self) -> int:
         return len(self.arc_length)
@@ -80,113 +72,6 @@ class Profile(ProfileOutputs):
     def __repr__(self) -> str:
         length = self.arc_length[-1]
         return f"Profile({len(self)} sections, {length:.1f} mm, FWHM {self.fwhm:.2f} mm {self.fwhm_source})"
-
-    @property
-    def arc_length(self) -> _Floats:
-        """Arc length on the vessel from its first point, shape (n,), mm."""
-        return self._numbers["arc_length"]
-
-    @property
-    def diameter_min(self) -> _Floats:
-        """The shortest diameter: the shorter axis of the ellipse, shape (n,), mm."""
-        return self._numbers["diameter_min"]
-
-    @property
-    def diameter_max(self) -> _Floats:
-        """The longest diameter: the longer axis of the ellipse, shape (n,), mm."""
-        return self._numbers["diameter_max"]
-
-    @property
-    def diameter_mean(self) -> _Floats:
-        """The mean of the shortest and the longest diameter, shape (n,), mm."""
-        return self._numbers["diameter_mean"]
-
-    @property
-    def diameter_equivalent(self) -> _Floats:
-        """The diameter of a circle of the same area, shape (n,), mm."""
-        return self._numbers["diameter_equivalent"]
-
-    @property
-    def area(self) -> _Floats:
-        """The area of the lumen, shape (n,), mm²."""
-        return self._numbers["area"]
-
-    @property
-    def uncertainty(self) -> _Floats:
-        """The standard deviation of :attr:`diameter_equivalent`, shape (n,), mm.
-
-        :attr:`uncertainty_parts` says what it is made of.
-        """
-        return self._numbers["uncertainty"]
-
-    @property
-    def uncertainty_parts(self) -> dict[str, _Floats]:
-        """What :attr:`uncertainty` is made of, each of shape (n,), mm: the sum of the squares is its square.
-
-        ``noise`` is the noise of the voxels as it is correlated in this scan; ``point_spread`` what is not
-        known of the FWHM (0 where it was given); ``wall`` what is not known of the level and the thickness of
-        the wall; ``lumen_level`` what is not known of the level of a narrow lumen; ``surroundings`` what is
-        not as the model has it, such as patches of another tissue.
-        """
-        return self._parts
-
-    @property
-    def wall(self) -> _Floats:
-        """The thickness of the wall, shape (n,), mm; NaN where it is not told from what is around it."""
-        return self._numbers["wall"]
-
-    @property
-    def wall_uncertainty(self) -> _Floats:
-        """The standard deviation of :attr:`wall`, shape (n,), mm."""
-        return self._numbers["wall_uncertainty"]
-
-    @property
-    def diameter_outer(self) -> _Floats:
-        """The diameter of a circle of the area that the wall encloses, shape (n,), mm, or NaN."""
-        return self._numbers["diameter_outer"]
-
-    @property
-    def diameter_outer_uncertainty(self) -> _Floats:
-        """The standard deviation of :attr:`diameter_outer`, shape (n,), mm."""
-        return self._numbers["diameter_outer_uncertainty"]
-
-    @property
-    def inscribed_radius(self) -> _Floats:
-        """The radius of the largest ball around the middle that lies within the lumen, shape (n,), mm."""
-        return self._numbers["inscribed_radius"]
-
-    @property
-    def flags(self) -> npt.NDArray[np.uint32]:
-        """What there is to know of each section, bits of :class:`lumencut.Flag`, shape (n,)."""
-        return self._flags
-
-    @property
-    def center(self) -> _Floats:
-        """The middle of the lumen, shape (n, 3), mm, LPS; the vessel's point where no lumen was found."""
-        return self._center
-
-    @property
-    def normal(self) -> _Floats:
-        """Unit vectors along the vessel, across which the sections lie, shape (n, 3), LPS."""
-        return self._normal
-
-    @property
-    def axes(self) -> _Floats:
-        """Unit vectors to the right and downwards in the plane of each section, shape (n, 2, 3), LPS.
-
-        The contour lies in the plane of these through :attr:`center`.
-        """
-        return self._axes
-
-    @property
-    def contour(self) -> _Floats:
-        """The wall along 64 rays of each section, shape (n, 64, 3), mm, LPS."""
-        return self._contour
-
-    @property
-    def levels(self) -> _Floats:
-        """The levels of lumen and background that were fitted, shape (n, 2), in the unit of the volume."""
-        return self._levels
 
     @property
     def noise(self) -> float:
@@ -202,6 +87,11 @@ class Profile(ProfileOutputs):
     def fwhm_source(self) -> str:
         """How that was found: ``"given"``, ``"estimated on …"`` or ``"assumed: …"``."""
         return self._core.fwhm[1]
+
+    @property
+    def scan(self) -> ScanDetails:
+        """How the scan was made that was measured, as its file tells it; :attr:`fwhm_source` has its blur."""
+        return ScanDetails(*_lumencut.scan_of(self._core))
 
     @property
     def wall_source(self) -> str:
@@ -386,8 +276,3 @@ class Profile(ProfileOutputs):
 def _ends(ends: tuple[float, float]) -> tuple[float, float]:
     start, end = numbers(MeasuringError, "ends of the stretch", ends, (2,)).tolist()
     return start, end
-
-
-def _locked(array: _Floats) -> _Floats:
-    array.flags.writeable = False
-    return array

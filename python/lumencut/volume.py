@@ -12,6 +12,7 @@ from lumencut._checks import flag
 from lumencut._found_once import FoundOnce
 from lumencut._values import KeepsReadOnly
 from lumencut.errors import VolumeError
+from lumencut.scan_details import ScanDetails
 
 if TYPE_CHECKING:
     from lumencut import _lumencut
@@ -52,6 +53,7 @@ class Volume(KeepsReadOnly):
     """
 
     _filled_slices: tuple[int, ...] = ()
+    _scan = ScanDetails()
 
     def __init__(
         self,
@@ -146,6 +148,11 @@ class Volume(KeepsReadOnly):
     def filled_slices(self) -> tuple[int, ...]:
         """The indices k of slices that the file lacked and its reader interpolated, as it was asked to."""
         return self._filled_slices
+
+    @property
+    def scan(self) -> ScanDetails:
+        """How the scan was made, as the file tells it that the volume was read from."""
+        return self._scan
 
     @property
     def corners(self) -> npt.NDArray[np.float64]:

@@ -18,6 +18,15 @@ from lumencut.profile_sections import counts, flag_words, nearest
 PLACE, BEFORE, AFTER = 0.5, 0.03, 0.995
 
 
+def bounds(profile: Profile) -> list[str | None]:
+    """What calcium or metal beside each section leaves open, in words."""
+    both = zip(profile.diameter_calcium_excluded, profile.diameter_calcium_included, strict=True)
+    return [
+        f"{low:.2f} mm if nothing brighter is lumen, {high:.2f} mm if all of it is" if low == low else None
+        for low, high in both
+    ]
+
+
 def numbers(profile: Profile) -> dict[str, Any]:
     """The numbers of a profile by the names that the page has for them."""
 
@@ -34,6 +43,7 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "uncertainty": listed(profile.uncertainty),
         "counts": counts(profile).tolist(),
         "flags": [flag_words(int(flags)) for flags in profile.flags],
+        "bounds": bounds(profile),
         "flag_table": [
             {"word": word, "meaning": meaning, "screen": screen}
             for _, _, word, meaning, _, screen in _lumencut.MEASURING_FLAGS

@@ -17,6 +17,7 @@ export function madeProfile(length = 60): Profile {
     uncertainty: diameter.map((value) => (value === null ? null : 0.1)),
     counts: places.map((at) => at >= 1 && at <= length - 10),
     flags: places.map((at) => (at > length - 10 ? ['branch'] : Math.abs(at - 20) <= 1 ? ['calcium'] : [])),
+    bounds: places.map(() => null),
     flag_table: ['branch', 'calcium', 'metal', 'irregular'].map((word, n) => ({
       word,
       meaning: `what ${word} means`,

@@ -84,6 +84,8 @@ keywords! {
     NominalCardiacTriggerDelayTime,
     /// Time since the trigger (ms).
     TriggerTime,
+    /// The phase of the contrast medium.
+    ContrastBolusAgentPhase,
     /// Which echo it is.
     EchoNumbers,
     /// The time of the echo (ms).
@@ -131,6 +133,8 @@ impl Keyword {
                 &["CardiacSynchronizationSequence"]
             }
             Self::EffectiveEchoTime => &["MREchoSequence"],
+            Self::ConvolutionKernel => &["CTReconstructionSequence"],
+            Self::ContrastBolusAgentPhase => &["ContrastBolusUsageSequence"],
             Self::FrameType => {
                 &["CTImageFrameTypeSequence", "MRImageFrameTypeSequence", "XRay3DFrameTypeSequence"]
             }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::geometry::Stack;
 use crate::keyword::Keyword;
 use crate::oddities::images_of;
+use crate::scan::Scan;
 use crate::series::Series;
 use crate::uids;
 use crate::wording::{listed, shown};
@@ -32,6 +33,8 @@ pub struct Plan {
     pub notes: Vec<String>,
     /// What else is told of the series.
     pub details: Details,
+    /// How its scan was made.
+    pub scan: Scan,
 }
 
 /// One slice that is read.
@@ -91,6 +94,7 @@ impl Plan {
             missing,
             notes,
             details: details(series, stack),
+            scan: Scan::of(series, &stack.slices),
         }
     }
 }

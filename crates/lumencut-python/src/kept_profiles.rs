@@ -43,6 +43,7 @@ impl KeptProfiles {
         told: Option<Py<PyAny>>,
     ) -> PyResult<Profile> {
         let borrowed = volume.borrow()?;
+        let scan = volume.scan();
         let volume = &volume.volume(&borrowed)?;
         let tree = &tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
         let vessel = &vessel_of(&measured)?;
@@ -58,7 +59,7 @@ impl KeptProfiles {
                     kept.of(vessel.clone(), vessel, Scan { volume, tree }, &asking)
                 })
             })?;
-            found.map(|number| Profile(Arc::clone(kept.kept(number)))).map_err(to_python)
+            found.map(|number| Profile(Arc::clone(kept.kept(number)), scan)).map_err(to_python)
         })
     }
 }

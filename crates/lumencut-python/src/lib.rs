@@ -24,6 +24,7 @@ mod profile_files;
 mod ranges;
 mod renderer;
 mod report;
+mod scan_details;
 mod session_file;
 mod settings;
 mod tracing;
@@ -111,6 +112,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(session_file::read_session_file, module)?)?;
     module.add_function(wrap_pyfunction!(volume::contains, module)?)?;
     module.add_function(wrap_pyfunction!(volume::sample, module)?)?;
+    module.add_function(wrap_pyfunction!(profile_files::scan_of, module)?)?;
+    module.add_function(wrap_pyfunction!(scan_details::scan_words, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::correspondence, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::trace_mask, module)?)?;
     module.add_function(wrap_pyfunction!(found_vessels::find_vessels, module)?)?;

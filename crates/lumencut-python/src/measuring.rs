@@ -17,6 +17,7 @@ use lumencut::measure::suggestions::Spot;
 use lumencut::measure::watched::watched as counted;
 use lumencut::measure_words;
 use lumencut::named::Named;
+use lumencut::scan_details::ScanDetails;
 use lumencut::stop::Stop;
 use lumencut::study::view;
 use lumencut::trace::lumen::refine;
@@ -55,9 +56,9 @@ fn defaults() -> [(&'static str, f64); 4] {
     ]
 }
 
-/// The lumen of one vessel by arc length.
+/// The lumen of one vessel by arc length, and how the scan was made.
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct Profile(pub Arc<profile::Profile>);
+pub struct Profile(pub Arc<profile::Profile>, pub ScanDetails);
 
 /// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree: under a point spread that is known,
 /// as its width (mm) or as the tree told it, or under the one that the vessel itself tells. While it runs, `told` is called now and
@@ -76,6 +77,7 @@ pub fn measure<'py>(
     told: Option<Py<PyAny>>,
 ) -> PyResult<Profile> {
     let borrowed = volume.borrow()?;
+    let scan = volume.scan();
     let volume = volume.volume(&borrowed)?;
     let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let vessel = vessel_of(&measured)?;
@@ -100,7 +102,7 @@ pub fn measure<'py>(
         pool::install(|| counted(progress, (slice::from_ref(&vessel), step), stop, measured))?
             .map_err(to_python)
     })?;
-    Ok(Profile(Arc::new(profile)))
+    Ok(Profile(Arc::new(profile), scan))
 }
 
 #[pymethods]
@@ -122,6 +124,8 @@ impl Profile {
             ("inscribed_radius", array(&profile.inscribed_radius)),
             ("wall", first(&profile.wall)),
             ("wall_uncertainty", second(&profile.wall)),
+            ("diameter_calcium_excluded", first(&profile.bounds)),
+            ("diameter_calcium_included", second(&profile.bounds)),
             ("diameter_outer", first(&profile.diameter_outer)),
             ("diameter_outer_uncertainty", second(&profile.diameter_outer)),
         ]

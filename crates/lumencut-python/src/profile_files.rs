@@ -6,6 +6,7 @@ use lumencut::not_suggested;
 use lumencut::profile_marks::{Mark, Measured, marks};
 use lumencut::profile_record::{self, Asked, NOTICE};
 use lumencut::profile_table;
+use lumencut::scan_details::ScanDetails;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
@@ -55,6 +56,7 @@ pub fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
         id: id.clone(),
         name: name.clone(),
         profile: &profile.get().0,
+        scan: &profile.get().1,
         grade: grade.as_ref().map(|grade| &grade.get().0),
     }
 }
@@ -66,7 +68,7 @@ fn rows(measured: &[MeasuredParts]) -> Vec<Measured<'_>> {
 /// One profile as CSV.
 #[pyfunction]
 pub fn profile_csv(profile: &Profile) -> String {
-    profile_table::profile_csv(&profile.0)
+    profile_table::profile_csv(&profile.0, &profile.1)
 }
 
 /// Measured vessels as CSV.
@@ -79,7 +81,7 @@ pub fn vessels_csv(measured: Vec<MeasuredParts>) -> String {
 /// One profile as JSON.
 #[pyfunction]
 pub fn profile_json(profile: &Profile) -> String {
-    profile_record::profile_json(&profile.0)
+    profile_record::profile_json(&profile.0, &profile.1)
 }
 
 /// Measured vessels as JSON, with the options that they were measured by.
@@ -128,4 +130,15 @@ pub fn flag_words(flags: u32) -> Vec<String> {
 #[pyfunction]
 pub fn c_arm_words(lao: f64, cranial: f64) -> String {
     measure_words::of_c_arm(&CArm { lao, cranial })
+}
+
+/// How a scan was made: the attributes of `lumencut.ScanDetails`, in their order.
+type ScanParts = (Option<String>, Option<String>, Option<String>, Option<f64>, Option<String>);
+
+/// How the scan was made that a profile was measured in.
+#[pyfunction]
+pub fn scan_of(profile: &Profile) -> ScanParts {
+    let ScanDetails { series_number, series_description, phase, slice_thickness_mm, kernel } =
+        profile.1.clone();
+    (series_number, series_description, phase, slice_thickness_mm, kernel)
 }

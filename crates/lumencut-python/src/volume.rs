@@ -2,12 +2,14 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::extent::Extent;
+use lumencut::scan_details::ScanDetails;
 use lumencut::volume::{Volume, Voxels};
 use lumencut::windows;
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::errors::{exception, to_python};
+use crate::scan_details::ScanArgument;
 use crate::tree::points_of;
 
 /// `lumencut.Volume` as the binding needs it: voxels in memory order, grid size and strides along (i, j, k)
@@ -21,6 +23,7 @@ pub struct VolumeArgument<'py> {
     strides: [usize; 3],
     #[pyo3(attribute("_affine_rows"))]
     affine_rows: [[f64; 4]; 3],
+    scan: ScanArgument,
 }
 
 /// The voxels of a volume, locked against writing from Rust while they are in use.
@@ -60,6 +63,11 @@ macro_rules! each_type {
 each_type!(I8 i8, U8 u8, I16 i16, U16 u16, I32 i32, U32 u32, I64 i64, U64 u64, F32 f32, F64 f64);
 
 impl<'py> VolumeArgument<'py> {
+    /// How its scan was made.
+    pub fn scan(&self) -> ScanDetails {
+        self.scan.details()
+    }
+
     /// Borrows the voxels.
     pub fn borrow(&self) -> PyResult<Borrowed<'py>> {
         borrow(&self.voxels)

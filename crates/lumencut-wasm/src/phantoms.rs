@@ -16,7 +16,8 @@ use lumencut::study::voxels::Stored;
 pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
     study.close();
     let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name, scale)?;
-    let held = HeldVolume { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
+    let (stored, scan) = (Stored::I16(voxels), Default::default());
+    let held = HeldVolume { stored, size, world_from_index, key: Default::default(), scan };
     study.open(held, tree, vessel_names)
 }
 

@@ -32,6 +32,7 @@ pub mod profile_table;
 pub mod report;
 mod samples;
 pub mod scale_bar;
+pub mod scan_details;
 pub mod study;
 mod text;
 #[cfg(test)]

@@ -95,6 +95,12 @@ pub fn of_wall(source: &WallSource) -> String {
     }
 }
 
+/// What the calcium or metal beside a lumen leaves open, by the bounds of its diameter (mm); None where nothing is brighter than it.
+pub fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
+    let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
+    Some(format!("{} mm if nothing brighter is lumen, {} mm if all of it is", excluded?, included?))
+}
+
 /// The flags that are set, each as words such as `no edge`.
 pub fn of_flags(flags: u32) -> Vec<String> {
     set_in(flags).map(|flag| flag.word.to_owned()).collect()

@@ -7,6 +7,7 @@ use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
 use lumencut_vessels::measure::suggestions::Spot;
 
 use crate::measure_words::{of_doubts, of_stenosis};
+use crate::scan_details::ScanDetails;
 
 /// What a reader marked on one vessel to have it graded. It may hold what another method than the chosen one needs: readers try
 /// several, and nothing that they gave is lost.
@@ -144,6 +145,8 @@ pub struct Measured<'a> {
     pub name: Option<String>,
     /// Its sections.
     pub profile: &'a Profile,
+    /// How the scan was made that they were measured in.
+    pub scan: &'a ScanDetails,
     /// What is told of the place that a reader marked, where one is marked.
     pub grade: Option<&'a Grade>,
 }

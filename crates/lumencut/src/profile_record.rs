@@ -10,6 +10,7 @@ use crate::measure_words::{of_doubts, of_flags, of_source, of_wall};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Mark, Measured, marks};
 use crate::profile_table::columns;
+use crate::scan_details::ScanDetails;
 
 /// What every file says of itself.
 pub const NOTICE: &str = "Lumencut is not a medical device.";
@@ -36,8 +37,8 @@ pub struct Asked {
 }
 
 /// One profile as JSON.
-pub fn profile_json(profile: &Profile) -> String {
-    document(&ProfileRecord::of(profile))
+pub fn profile_json(profile: &Profile, scan: &ScanDetails) -> String {
+    document(&ProfileRecord::of(profile, scan))
 }
 
 /// Measured vessels as JSON, with what was asked for.
@@ -85,7 +86,7 @@ impl VesselRecord {
         Self {
             id: one.id.clone(),
             name: one.name.clone(),
-            profile: ProfileRecord::of(one.profile),
+            profile: ProfileRecord::of(one.profile, one.scan),
             stenosis: one.grade.and_then(StenosisRecord::of),
             not_graded: one.grade.and_then(Grade::not_graded).map(str::to_owned),
         }
@@ -94,6 +95,7 @@ impl VesselRecord {
 
 #[derive(Serialize)]
 struct ProfileRecord {
+    scan: ScanDetails,
     fwhm_mm: f64,
     fwhm_uncertainty_mm: f64,
     fwhm_source: String,
@@ -106,12 +108,13 @@ struct ProfileRecord {
 }
 
 impl ProfileRecord {
-    fn of(profile: &Profile) -> Self {
+    fn of(profile: &Profile, scan: &ScanDetails) -> Self {
         let longest = |spot: lumencut_vessels::measure::suggestions::Spot| Longest {
             arc_length_mm: spot.at,
             diameter_max_mm: spot.diameter,
         };
         Self {
+            scan: scan.clone(),
             fwhm_mm: profile.fwhm,
             fwhm_uncertainty_mm: profile.fwhm_deviation,
             fwhm_source: of_source(&profile.fwhm_source),

@@ -5,6 +5,7 @@ use lumencut_vessels::measure::profile::Profile;
 
 use crate::measure_words::{of_doubts, of_flags, of_source, of_stenosis, of_wall};
 use crate::profile_marks::{Grade, Measured};
+use crate::scan_details::ScanDetails;
 use crate::text::rounded;
 
 /// Significant digits of a number in a table.
@@ -17,6 +18,7 @@ type Same = Vec<(&'static str, String)>;
 struct Block<'a> {
     before: Same,
     profile: &'a Profile,
+    scan: &'a ScanDetails,
     behind: Same,
 }
 
@@ -51,6 +53,8 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
         ("uncertainty_surroundings_mm", part(Part::Surroundings)),
         ("wall_mm", both(&profile.wall, 0)),
         ("wall_uncertainty_mm", both(&profile.wall, 1)),
+        ("diameter_calcium_excluded_mm", both(&profile.bounds, 0)),
+        ("diameter_calcium_included_mm", both(&profile.bounds, 1)),
         ("diameter_outer_mm", both(&profile.diameter_outer, 0)),
         ("diameter_outer_uncertainty_mm", both(&profile.diameter_outer, 1)),
     ]
@@ -58,8 +62,8 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
 
 /// A profile as a table, a line for each section after the line of the names. Numbers have seven digits, and what could not be
 /// measured is empty.
-pub fn profile_csv(profile: &Profile) -> String {
-    csv_text(&[Block { before: Same::new(), profile, behind: Same::new() }])
+pub fn profile_csv(profile: &Profile, scan: &ScanDetails) -> String {
+    csv_text(&[Block { before: Same::new(), profile, scan, behind: Same::new() }])
 }
 
 /// Vessels as one table: the columns of [`profile_csv`] between those that say which vessel it is and what is told of the place
@@ -70,7 +74,7 @@ pub fn vessels_csv(vessels: &[Measured]) -> String {
         .map(|one| {
             let name = one.name.clone().unwrap_or_default();
             let before = vec![("vessel", one.id.clone()), ("name", name)];
-            Block { before, profile: one.profile, behind: told(one.grade) }
+            Block { before, profile: one.profile, scan: one.scan, behind: told(one.grade) }
         })
         .collect();
     csv_text(&blocks)
@@ -90,17 +94,18 @@ fn csv_text(blocks: &[Block]) -> String {
     let names = |same: &Same| same.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
     let values = |same: &Same| same.iter().map(|(_, value)| value.clone()).collect::<Vec<_>>();
     let mut text = String::new();
-    for (number, Block { before, profile, behind }) in blocks.iter().enumerate() {
+    for (number, Block { before, profile, scan, behind }) in blocks.iter().enumerate() {
         let found = columns(profile);
         if number == 0 {
             let own = found.iter().map(|(name, _)| (*name).to_owned());
             let last = ["counts", "flags", "fwhm_mm", "fwhm_uncertainty_mm", "fwhm_source", "wall_source"]
                 .map(str::to_owned);
-            write_line(&mut text, names(before).into_iter().chain(own).chain(last).chain(names(behind)));
+            let own = own.chain(last).chain(scan.columns().map(|(name, _)| name.to_owned()));
+            write_line(&mut text, names(before).into_iter().chain(own).chain(names(behind)));
         }
         for n in 0..profile.len() {
             let numbers = found.iter().map(|(_, values)| written(values[n]));
-            let own = numbers.chain(words(profile, n));
+            let own = numbers.chain(words(profile, n)).chain(scan.columns().map(|(_, value)| value));
             write_line(&mut text, values(before).into_iter().chain(own).chain(values(behind)));
         }
     }

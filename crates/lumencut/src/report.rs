@@ -163,10 +163,10 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     let profile = vessel.measured.profile;
     let rows = |is_suggestion: bool| {
         let these = places.iter().filter(move |place| place.is_suggestion == is_suggestion);
-        these.map(|place| row(profile, place)).collect::<Vec<_>>()
+        these.map(|place| row(profile, place, shown)).collect::<Vec<_>>()
     };
     let (marked, mut offered) = (rows(false), rows(true));
-    offered.extend(profile.offered_widest().map(|spot| widest_row(profile, spot.at)));
+    offered.extend(profile.offered_widest().map(|spot| widest_row(profile, spot.at, shown)));
     let mut text = "<h2>Places</h2>\n".to_owned();
     if marked.is_empty() && offered.is_empty() {
         text += &paragraph("", "No place is marked, and no section counts: see the flags.");

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from lumencut.scan_details import ScanDetails
 from lumencut.volume_files.opened import VolumeFile, printable
 from lumencut.volume_files.rescale import slabs
 
@@ -45,12 +47,20 @@ def header(file: VolumeFile, read_type: np.dtype[Any]) -> bytes:
         "states_spacing": file.states_spacing,
         "states_orientation": file.states_orientation,
         "filled_slices": list(file.filled),
+        "scan": _scan_record(file.scan),
         "notes": list(notes),
     }
     text = json.dumps(told, allow_nan=False).encode()
     before = len(_MAGIC) + 4
     text += b" " * (-(before + len(text)) % _ALIGNMENT)
     return _MAGIC + len(text).to_bytes(4, "little") + text
+
+
+def _scan_record(scan: ScanDetails) -> dict[str, Any]:
+    """How a scan was made, by the names that the engine has."""
+    told = asdict(scan)
+    thickness = told.pop("slice_thickness")
+    return {**told, "slice_thickness_mm": thickness}
 
 
 def length(file: VolumeFile, read_type: np.dtype[Any]) -> int:

@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import FileError, FormatError, LumencutError, VolumeError
+from lumencut.scan_details import ScanDetails
 from lumencut.volume import Volume
 
 Progress = Callable[[int, int], None]
@@ -45,6 +46,7 @@ class VolumeFile:
     notes: list[str] = field(default_factory=list)
     filled: tuple[int, ...] = ()
     details: dict[str, str] = field(default_factory=dict)
+    scan: ScanDetails = field(default_factory=ScanDetails)
     remarks: list[str] = field(default_factory=list)
     """What is told of the file to whoever asks, and is no reason to warn every reader."""
     states_spacing: bool = True
@@ -60,7 +62,7 @@ class VolumeFile:
         with heeding(progress) as told_on, refusing(self.path, self.format, self.notes):
             voxels = self.load(told_on, filled)
         volume = _placed(self, voxels)
-        volume._filled_slices = self.filled
+        volume._filled_slices, volume._scan = self.filled, self.scan
         return volume
 
     def checked(self) -> VolumeFile:
@@ -75,7 +77,7 @@ def held_in_memory(volume: Volume, name: str) -> VolumeFile:
         Path(name), "memory", volume.size, volume.dtype, "LPS", volume.world_from_index,
         lambda progress, filled: volume.array,
         states_spacing=volume.states_spacing, states_orientation=volume.states_orientation,
-        settled_type=volume.dtype,
+        settled_type=volume.dtype, scan=volume.scan,
     )  # fmt: skip
 
 

@@ -11,6 +11,14 @@ export type Size = readonly [number, number, number];
 /** World (LPS, mm) from voxel indices, row by row. */
 export type Affine = readonly (readonly number[])[];
 
+/** What the engine is told before the voxels. */
+interface Grid {
+  readonly size: Size;
+  readonly world_from_index: Affine;
+  /** How the scan was made, where a file tells it. */
+  readonly scan?: object;
+}
+
 /** What takes the voxels: the engine, or a test. */
 export interface Sink {
   begin_volume(header: string): void;
@@ -33,9 +41,9 @@ export interface VolumeFile {
 }
 
 /** Makes room for a volume; what is no grid is refused in the name of its file. */
-export function begin(sink: Sink, path: string, size: Size, affine: Affine, dtype: string): void {
+export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void {
   try {
-    sink.begin_volume(JSON.stringify({ size, dtype, world_from_index: affine }));
+    sink.begin_volume(JSON.stringify({ ...grid, dtype }));
   } catch (error) {
     const failure = Failure.of(error);
     const { subject, found, expected, advice, more } = failure;
@@ -53,7 +61,7 @@ export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<
   const isWanted = needsRange(file.stored.kind, file.scaling);
   const range = isWanted ? await rangeOf(file, needed, steps) : null;
   const { kind, convert } = conversion(orderInMemory(file), file.scaling, range);
-  begin(sink, file.path, file.size, file.worldFromIndex, kind);
+  begin(sink, file.path, { size: file.size, world_from_index: file.worldFromIndex }, kind);
   let offset = 0;
   for await (const bytes of wholeVoxels(file, needed)) {
     const voxels = convert(bytes);

@@ -25,6 +25,7 @@ export function NumbersPanel() {
       <RulersPart />
       {profile && <Blur fwhm={profile.fwhm} source={profile.fwhm_source} />}
       {profile && <p data-testid="walls">{`Walls: ${profile.wall_source}.`}</p>}
+      {profile && <p data-testid="imaging">{`Imaging: ${store.report.value?.volume?.scan}.`}</p>}
     </div>
   );
 }

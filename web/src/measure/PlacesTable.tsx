@@ -9,7 +9,7 @@ import { meanings } from './flags';
 import type { Place } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
-import { area, mm, NOTHING, placeName, spread, told } from './words';
+import { area, doubtWords, mm, NOTHING, placeName, spread, told } from './words';
 
 export function PlacesTable({ profile }: { readonly profile: Profile }) {
   const marks = currentMarks.value;
@@ -68,7 +68,9 @@ function MarkButtons({ marks }: { readonly marks: VesselMarks }) {
 }
 
 function PlaceRow({ place, profile }: { readonly place: Place; readonly profile: Profile }) {
-  const { diameter, uncertainty, shortest, longest, area: size, flags } = sectionNumbers(profile, place.at);
+  const section = sectionNumbers(profile, place.at);
+  const { diameter, uncertainty, shortest, longest, area: size, flags } = section;
+  const doubts = doubtWords(section).join(', ');
   return (
     <div class="place-row" data-testid={`row-${place.kind}-${place.slot}`}>
       <button
@@ -82,7 +84,7 @@ function PlaceRow({ place, profile }: { readonly place: Place; readonly profile:
       </button>
       <span>{`${spread(diameter, uncertainty)} at ${mm(place.at, 1)}`}</span>
       <small title={meanings(profile, flags)}>
-        {`${shortest?.toFixed(2) ?? NOTHING} to ${mm(longest)}, ${area(size)}${flags.length > 0 ? ` · ${flags.join(', ')}` : ''}`}
+        {`${shortest?.toFixed(2) ?? NOTHING} to ${mm(longest)}, ${area(size)}${doubts && ` · ${doubts}`}`}
       </small>
       {place.isSuggestion ? (
         <button type="button" class="small" onClick={() => confirm(place)}>

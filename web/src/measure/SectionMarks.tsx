@@ -8,7 +8,7 @@ import { pixelOn } from '../views/planes';
 import { currentProfile, currentVessel } from './current';
 import { meanings } from './flags';
 import { nearestSection, sectionNumbers } from './sections';
-import { area, mm, spread } from './words';
+import { area, doubtWords, mm, spread } from './words';
 
 /** Contours of sections that count, and of those that are left out; as in the pictures of `lumencut measure`. */
 export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a' } as const;
@@ -64,7 +64,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         <div>{`area ${area(numbers.area)}`}</div>
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
         {numbers.flags.length > 0 && (
-          <div title={meanings(profile, numbers.flags)}>{numbers.flags.join(', ')}</div>
+          <div title={meanings(profile, numbers.flags)}>{doubtWords(numbers).join(', ')}</div>
         )}
       </div>
     </>

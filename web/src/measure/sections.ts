@@ -31,6 +31,8 @@ export interface SectionNumbers {
   readonly area: number | null;
   readonly counts: boolean;
   readonly flags: readonly string[];
+  /** What calcium or metal beside the lumen leaves open, in words. */
+  readonly bounds: string | null;
 }
 
 /** The side of pictures of sections: a multiple of the lumen, within these (mm); that of a vessel that is not measured. */
@@ -59,6 +61,7 @@ export function sectionNumbers(profile: Profile, at: number): SectionNumbers {
     area: profile.area[n] ?? null,
     counts: profile.counts[n] ?? false,
     flags: profile.flags[n] ?? [],
+    bounds: profile.bounds[n] ?? null,
   };
 }
 

@@ -55,9 +55,13 @@ export function placeName({ kind, slot, isSuggestion, isBefore }: Place): string
   return `${names[kind]}${isSuggestion ? ' (suggestion)' : ''}`;
 }
 
+/** The flags of a section, and what calcium or metal beside it leaves open. */
+export const doubtWords = ({ flags, bounds }: SectionNumbers): readonly string[] =>
+  bounds === null ? flags : [...flags, told(bounds)];
+
 /** A section in one line. */
 export function sectionWords(section: SectionNumbers): string {
-  const { at, diameter, uncertainty, shortest, longest, flags, counts } = section;
+  const { at, diameter, uncertainty, shortest, longest, counts } = section;
   const parts = [`${mm(at, 1)}:`];
   if (diameter === null) {
     parts.push('not measured');
@@ -66,7 +70,7 @@ export function sectionWords(section: SectionNumbers): string {
     parts.push(`${shortest?.toFixed(2) ?? NOTHING} to ${mm(longest)},`);
     parts.push(`area ${area(section.area)}`);
   }
-  const words = [...(counts ? [] : ['left out']), ...flags].join(', ');
+  const words = [...(counts ? [] : ['left out']), ...doubtWords(section)].join(', ');
   return `${parts.join(' ')}${words ? ` · ${words}` : ''}`;
 }
 

@@ -83,12 +83,17 @@ fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
     }
 }
 
+/// Whether a ray meets calcium or metal at a wall (mm from where it begins), under a blur of this width (mm).
+pub fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
+    ray.bright_at.is_some_and(|at| at < wall + BESIDE.max(width))
+}
+
 /// What is said of a section whose rays met this, with the wall so far away in each direction (mm), under a blur of this
 /// width (mm).
 pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     let count = |is: &dyn Fn(usize, &Ray) -> bool| rays.iter().enumerate().filter(|(n, r)| is(*n, r)).count();
     let beside = BESIDE.max(width);
-    let is_bright = |n: usize, ray: &Ray| ray.bright_at.is_some_and(|at| at < wall(n) + beside);
+    let is_bright = |n: usize, ray: &Ray| is_bright(ray, wall(n), width);
     let bright = count(&is_bright);
     let is_metal = |n: usize, ray: &Ray| is_bright(n, ray) && ray.brightest > METAL_SHARE;
     let neighbors = count(&|n, ray| ray.edge.is_some() && ray.limit < wall(n) + beside);

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::blooming::join_rings;
 use super::contour::inscribed;
 use super::ellipse::Ellipse;
 use super::fit::Fit;
@@ -60,6 +61,9 @@ pub struct Profile {
     pub wall: Vec<[f64; 2]>,
     /// The diameter of a circle of the area that the wall encloses, and its standard deviation (mm); NaN where the wall is.
     pub diameter_outer: Vec<[f64; 2]>,
+    /// The diameter of a circle of the same area (mm) if nothing that is brighter than lumen at its wall is lumen, and if all of it is;
+    /// NaN where nothing is brighter.
+    pub bounds: Vec<[f64; 2]>,
     /// What there is to know of each section; see [`super::flags`].
     pub flags: Vec<u32>,
     /// The middle of the lumen (mm, LPS); the vessel's point where there is none.
@@ -105,6 +109,8 @@ impl Profile {
         };
         let middle = |n: usize| sections[n].fit.map_or(places[n].origin, |fit: Fit| center(&places[n], &fit));
         let arc_length: Vec<f64> = places.iter().map(|place| place.at).collect();
+        let mut flags: Vec<u32> = sections.iter().map(|section| section.flags).collect();
+        join_rings(&arc_length, &mut flags);
         let center: Vec<DVec3> = (0..places.len()).map(middle).collect();
         let contour: Vec<Vec<DVec3>> = sections.iter().map(|section| section.contour.clone()).collect();
         let axis = |fit: &Fit, n: usize| 2.0 * fit.ellipse.semi_axes()[n];
@@ -117,9 +123,10 @@ impl Profile {
                 .iter()
                 .map(|section| section.fit.map_or(Parts::unknown(), |fit| fit.parts))
                 .collect(),
-            wall: sections.iter().map(wall).collect(),
-            diameter_outer: sections.iter().map(outer).collect(),
-            flags: sections.iter().map(|section| section.flags).collect(),
+            wall: sections.iter().zip(&flags).map(wall).collect(),
+            diameter_outer: sections.iter().zip(&flags).map(outer).collect(),
+            bounds: sections.iter().map(|section| section.bounds).collect(),
+            flags,
             normal: places.iter().map(|place| place.normal).collect(),
             axes: places.iter().map(|place| place.axes).collect(),
             half_axes: (0..places.len()).map(|n| half_axes(&places[n], sections[n].fit.as_ref())).collect(),
@@ -201,16 +208,16 @@ const THICKEST_TOLD: f64 = 3.0;
 const WALL_HIDDEN: u32 = LEFT_OUT | CALCIUM | METAL;
 
 /// The thickness of the wall of a section and its standard deviation (mm).
-fn wall(section: &Section) -> [f64; 2] {
+fn wall((section, flags): (&Section, &u32)) -> [f64; 2] {
     let told = section.fit.and_then(|fit| fit.wall);
     let is_told = |wall: &Wall| wall.log_thickness[1] <= WALL_TOLD && wall.thickness() < THICKEST_TOLD;
-    let told = told.filter(|wall| is_told(wall) && section.flags & WALL_HIDDEN == 0);
+    let told = told.filter(|wall| is_told(wall) && flags & WALL_HIDDEN == 0);
     told.map_or([f64::NAN; 2], |wall| [wall.thickness(), wall.thickness() * wall.log_thickness[1]])
 }
 
 /// The diameter of a circle of the area within the wall of a section, and its standard deviation (mm).
-fn outer(section: &Section) -> [f64; 2] {
-    let [thickness, unsure] = wall(section);
+fn outer((section, flags): (&Section, &u32)) -> [f64; 2] {
+    let [thickness, unsure] = wall((section, flags));
     section.fit.map_or([f64::NAN; 2], |fit| {
         let around = Ellipse { mean: fit.ellipse.mean + thickness, ..fit.ellipse };
         let is_told = thickness.is_finite();

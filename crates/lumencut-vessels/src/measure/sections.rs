@@ -3,11 +3,12 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::blooming;
 use super::blur::Blur;
 use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
 use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::Fit;
-use super::flags::{AT_LIMIT, IRREGULAR, METAL, NO_EDGE, RECENTERED};
+use super::flags::{AT_LIMIT, CALCIUM, IRREGULAR, METAL, NO_EDGE, RECENTERED};
 use super::model::ThreeLevels;
 use super::obstacles::flags_of;
 use super::parts::Parts;
@@ -98,12 +99,14 @@ pub struct Section {
     pub contour: Vec<DVec3>,
     /// What there is to know of it.
     pub flags: u32,
+    /// The diameter (mm) if what is brighter than lumen at its wall is none, and if it is; NaN where nothing is.
+    pub bounds: [f64; 2],
 }
 
 impl Section {
     /// A section without lumen.
     pub fn none() -> Self {
-        Self { fit: None, contour: Vec::new(), flags: NO_EDGE }
+        Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2] }
     }
 
     /// Makes the lumen wider by a factor.
@@ -117,6 +120,7 @@ impl Section {
             fit.parts = fit.parts.scaled(by);
             fit.uncertainty *= by;
         }
+        self.bounds = self.bounds.map(|diameter| diameter * by);
     }
 }
 
@@ -203,7 +207,9 @@ impl Bench<'_, '_> {
                 wall(&ellipse, &model, &rays, half)
             }
         };
-        let mut flags = flags_of(&rays, |n| ellipse.radius_towards(direction(n)), width);
+        let own = |n: usize| ellipse.radius_towards(direction(n));
+        let mut flags = flags_of(&rays, own, width);
+        let bounds = bounds(flags, &ellipse, || blooming::bounds(&rays, own, width));
         let diameter = ellipse.equivalent_diameter();
         if diameter > 2.0 * width && irregularity(&ellipse, &walls) > ROUGH_WALL {
             flags |= IRREGULAR;
@@ -213,7 +219,7 @@ impl Bench<'_, '_> {
             flags |= NO_EDGE;
         }
         let contour = points(place, ellipse.center, &walls);
-        Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse) }
+        Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds }
     }
 
     /// A section whose wall is where rays end, as within a stent.
@@ -223,6 +229,7 @@ impl Bench<'_, '_> {
         let walls = wall_by_rays(&rays, width)?;
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);
+        let bounds = bounds(flags, &ellipse, || blooming::bounds(&rays, |n| walls[n], width));
         if known.lumen[0] < LEAST_CONTRAST * known.noise() {
             flags |= NO_EDGE;
         }
@@ -237,7 +244,7 @@ impl Bench<'_, '_> {
             free: 0.0,
         };
         let contour = points(place, known.ellipse.center, &walls);
-        Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse) })
+        Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds })
     }
 
     /// What the place and the size of a lumen say.
@@ -248,6 +255,14 @@ impl Bench<'_, '_> {
         let limit = if ellipse.equivalent_diameter() < LIMIT * self.fwhm { AT_LIMIT } else { 0 };
         recentered | limit
     }
+}
+
+/// The bounds of the diameter of a lumen (mm) by factors of it, where the flags of its section ask for them.
+fn bounds(flags: u32, ellipse: &Ellipse, factors: impl FnOnce() -> [f64; 2]) -> [f64; 2] {
+    if flags & (CALCIUM | METAL) == 0 {
+        return [f64::NAN; 2];
+    }
+    factors().map(|factor| factor * ellipse.equivalent_diameter())
 }
 
 /// The noise of a voxel as a share: the median of what fits miss.

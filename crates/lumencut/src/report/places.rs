@@ -3,8 +3,9 @@
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
+use super::Shown;
 use super::markup::escaped;
-use crate::measure_words::of_flags;
+use crate::measure_words::{of_bounds, of_flags};
 use crate::profile_marks::Mark;
 use crate::text::fixed;
 
@@ -80,17 +81,17 @@ pub fn places(marks: &[ReportMark]) -> Vec<Place> {
 }
 
 /// A line of the table: the numbers of the section that is nearest to a place.
-pub fn row(profile: &Profile, place: &Place) -> String {
+pub fn row(profile: &Profile, place: &Place, shown: &Shown) -> String {
     let dot = format!("<span style=\"color: {}\">●</span> ", place.color());
-    numbers(profile, &format!("{dot}{}", escaped(&place.name)), place.at)
+    numbers(profile, &format!("{dot}{}", escaped(&place.name)), place.at, shown)
 }
 
 /// The line of the place of the longest diameter, which nobody marked.
-pub fn widest_row(profile: &Profile, at: f64) -> String {
-    numbers(profile, "longest diameter (suggestion)", at)
+pub fn widest_row(profile: &Profile, at: f64, shown: &Shown) -> String {
+    numbers(profile, "longest diameter (suggestion)", at, shown)
 }
 
-fn numbers(profile: &Profile, name: &str, at: f64) -> String {
+fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
     let n = profile.nearest_section(at);
     let number = |value: f64, decimals| {
         if value.is_finite() { fixed(value, decimals) } else { NOTHING.to_owned() }
@@ -104,7 +105,8 @@ fn numbers(profile: &Profile, name: &str, at: f64) -> String {
         number(profile.area[n], 1),
     ];
     let cells: String = cells.iter().map(|text| format!("<td>{text}</td>")).collect();
-    let flags = of_flags(profile.flags[n]).join(", ");
+    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.spoken(&words));
+    let flags = of_flags(profile.flags[n]).into_iter().chain(bounds).collect::<Vec<_>>().join(", ");
     let flags = if flags.is_empty() { "none" } else { &flags };
     format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")
 }

@@ -41,9 +41,10 @@ pub fn told(shown: &Shown, vessel: &VesselPage) -> String {
     let profile = vessel.measured.profile;
     let counted = (0..profile.len()).filter(|n| profile.counts(*n)).count();
     format!(
-        "Measured by Lumencut {}. Settings: {}. FWHM of the point spread {}, {}. Walls: {}. {} sections, of which {counted} count; \
+        "Measured by Lumencut {}. Imaging: {}. Settings: {}. FWHM of the point spread {}, {}. Walls: {}. {} sections, of which {counted} count; \
          flags: {}. {}",
         env!("CARGO_PKG_VERSION"),
+        vessel.measured.scan.words(),
         settings(shown),
         shown.length(profile.fwhm, 2),
         shown.spoken(&of_source(&profile.fwhm_source)),

@@ -11,6 +11,7 @@ use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use serde::Serialize;
 
+use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
 
@@ -94,6 +95,8 @@ pub struct VolumeReport {
     pub corners: [[f64; 3]; 8],
     /// The smallest side of a voxel (mm).
     pub smallest_side: f64,
+    /// How the scan was made, in words.
+    pub scan: String,
 }
 
 /// A vessel that is shown.
@@ -148,6 +151,12 @@ impl Content {
     /// The tree, where one is open.
     pub fn tree(&self) -> Option<&Arc<LeveledTree>> {
         self.named.as_ref().map(|named| &named.leveled)
+    }
+
+    /// How the scan was made; nothing is stated where none is open.
+    pub fn scan(&self) -> &ScanDetails {
+        static NONE: ScanDetails = ScanDetails::NOTHING;
+        self.held.as_ref().map_or(&NONE, |held| &held.scan)
     }
 
     /// Takes the windows from the data anew when they are asked for.
@@ -221,6 +230,7 @@ impl VolumeReport {
             world_from_index: DMat4::from(held.world_from_index).transpose().to_cols_array_2d(),
             corners: volume.corners().map(|corner| corner.to_array()),
             smallest_side: volume.smallest_side(),
+            scan: held.scan.words(),
         })
     }
 }

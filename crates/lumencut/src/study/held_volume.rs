@@ -5,6 +5,7 @@ use lumencut_core::scene::{SharedVolume, VolumeKey};
 use lumencut_core::volume::Volume;
 use serde::Deserialize;
 
+use crate::scan_details::ScanDetails;
 use crate::study::failure::{Failure, Result};
 use crate::study::voxels::Stored;
 
@@ -17,6 +18,9 @@ pub struct VolumeHeader {
     pub dtype: String,
     /// World position (LPS, mm) of a continuous index, row by row.
     pub world_from_index: [[f64; 4]; 4],
+    /// How its scan was made.
+    #[serde(default)]
+    pub scan: ScanDetails,
 }
 
 impl VolumeHeader {
@@ -38,7 +42,8 @@ impl VolumeHeader {
         let count = self.size.iter().map(|side| *side as f64).product();
         let stored = Stored::zeros(&self.dtype, count)?;
         let (size, world_from_index) = (self.size, self.affine());
-        let held = HeldVolume { stored, size, world_from_index, key: VolumeKey::default() };
+        let (key, scan) = (VolumeKey::default(), self.scan.clone());
+        let held = HeldVolume { stored, size, world_from_index, key, scan };
         held.volume()?;
         Ok(held)
     }
@@ -63,6 +68,8 @@ pub struct HeldVolume {
     pub world_from_index: DAffine3,
     /// Stands for the voxels.
     pub key: VolumeKey,
+    /// How the scan was made.
+    pub scan: ScanDetails,
 }
 
 impl HeldVolume {

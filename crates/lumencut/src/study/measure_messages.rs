@@ -1,7 +1,7 @@
 //! What was measured, as the page and its worker tell it each other: the types of `web/src/core/measuring.ts`.
 
 use crate::flag_table::{FLAGS, FlagLook};
-use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
+use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Marked};
 use crate::profile_record::Asked;
@@ -59,6 +59,8 @@ pub struct ProfileMessage {
     counts: Vec<bool>,
     /// Words such as `calcium`, `no edge`.
     flags: Vec<Vec<String>>,
+    /// What calcium or metal beside the lumen leaves open, in words.
+    bounds: Vec<Option<String>>,
     /// Every flag that there is, in the order of plots and tables.
     flag_table: &'static [FlagLook],
     /// The middle of each section.
@@ -88,6 +90,7 @@ impl From<&Profile> for ProfileMessage {
             uncertainty: profile.uncertainty.clone(),
             counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
             flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
+            bounds: profile.bounds.iter().map(|bounds| of_bounds(*bounds)).collect(),
             flag_table: &FLAGS,
             center: arrays(&profile.center),
             fwhm: profile.fwhm,

@@ -90,6 +90,7 @@ impl Study {
             id: vessel.id.clone(),
             name: Some(vessel.name.clone()).filter(|name| !name.is_empty()),
             profile: self.profiles.kept(graded.number),
+            scan: self.content.scan(),
             grade: graded.grade.as_ref(),
         };
         vessels.iter().zip(graded).map(row).collect()

@@ -16,6 +16,13 @@ fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
 }
 
 #[test]
+fn bounds_are_told_where_there_are_some() {
+    let words = "2.10 mm if nothing brighter is lumen, 3.46 mm if all of it is";
+    assert_eq!(of_bounds([2.1, 3.456]).as_deref(), Some(words));
+    assert_eq!(of_bounds([f64::NAN; 2]), None);
+}
+
+#[test]
 fn a_stenosis_is_told_with_method_and_references() {
     assert_eq!(
         of_stenosis(&graded(Method::Nascet, vec![[20.0, 5.1], [60.04, 4.9]])),

@@ -3,6 +3,7 @@ use lumencut_vessels::measure::stenosis::{Compared, Method};
 
 use super::*;
 use crate::profile_marks::{Grade, Marked};
+use crate::scan_details::ScanDetails;
 use crate::tube::tube;
 
 fn marked(at: Option<f64>, reference: &[f64]) -> Marked {
@@ -31,7 +32,13 @@ fn page_of<'a>(
 ) -> VesselPage<'a> {
     let marks: Vec<ReportMark> = marked.places(profile).iter().map(ReportMark::from).collect();
     VesselPage {
-        measured: Measured { id: "0".to_owned(), name: Some(name.to_owned()), profile, grade },
+        measured: Measured {
+            id: "0".to_owned(),
+            name: Some(name.to_owned()),
+            profile,
+            scan: &ScanDetails::NOTHING,
+            grade,
+        },
         sections: vec!["QUJD".to_owned(); marks.len()],
         marks,
         lengths: Lengths::default(),
@@ -87,6 +94,15 @@ fn a_place_that_is_not_graded_keeps_its_rows_and_says_why() {
     let text = html_of(&shown(), &marked(Some(30.0), &[]));
     assert!(text.contains("<p class=\"finding\">No percentage: Mark a reference"));
     assert!(text.contains("marked place</td><td>30.0</td>") && !text.contains(" % of the diameter"));
+}
+
+#[test]
+fn beside_calcium_a_diameter_is_told_from_both_sides() {
+    let row =
+        "<td class=\"words\">calcium, 7.00 mm if nothing brighter is lumen, 9.00 mm if all of it is</td>";
+    assert_eq!(html_of(&shown(), &marked(Some(30.0), &[20.0])).matches(row).count(), 1);
+    let without = html_of(&Shown { has_units: false, ..shown() }, &marked(Some(30.0), &[20.0]));
+    assert!(without.contains("calcium, 7.00 if nothing brighter is lumen, 9.00 if all of it is"));
 }
 
 #[test]
@@ -164,6 +180,7 @@ fn how_it_was_measured_is_told() {
                  FWHM of the point spread 1.20 mm, given. Walls: not told apart, as asked. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
                  Contrast to noise 25, contrast 250 in the unit of the volume.";
     assert!(text.contains(words), "{text}");
+    assert!(text.contains(". Imaging: series, phase, slice thickness, kernel not stated. Settings"));
     assert!(text.contains(NOTICE));
 }
 

@@ -25,6 +25,7 @@ pub fn tube() -> Profile {
         uncertainty_parts: vec![Parts { noise: 0.1, ..Parts::default() }; count],
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
+        bounds: at.iter().map(|at| if *at == 20.0 { [7.0, 9.0] } else { [f64::NAN; 2] }).collect(),
         flags: at.iter().map(|at| flags(*at)).collect(),
         center: at.iter().map(|at| DVec3::Z * *at).collect(),
         normal: vec![DVec3::Z; count],

@@ -39,7 +39,8 @@ def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File
 
     return VolumeFile(
         path, "DICOM", stack.size, series.stored, space, stack.world_from_index, voxels, notes,
-        filled=stack.missing, details=series.details, settled_type=settled_type(stack),
+        filled=stack.missing, details=series.details, scan=series.scan,
+        settled_type=settled_type(stack),
     )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from lumencut._lumencut import describe_dicom, judge_dicom
 from lumencut.errors import FormatError, SeriesError
 from lumencut.mends import told
+from lumencut.scan_details import ScanDetails
 from lumencut.series_report import SeriesReport
 from lumencut.volume_files.dicom.decoding import NATIVE, PLUGINS
 from lumencut.volume_files.dicom.files import File
@@ -41,6 +42,7 @@ class Judged:
     stack: Stack
     stored: np.dtype[Any]
     details: dict[str, str]
+    scan: ScanDetails
 
 
 def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) -> Judged:
@@ -57,7 +59,11 @@ def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) 
     affine = np.array(plan["world_from_index"], np.float64)
     ni, nj, nk = plan["size"]
     stack = Stack(slices, fills, (ni, nj, nk), affine)
-    return Judged(stack, np.dtype(plan["stored_type"]), plan["details"])
+    return Judged(stack, np.dtype(plan["stored_type"]), plan["details"], _scan(plan["scan"]))
+
+
+def _scan(stated: Record) -> ScanDetails:
+    return ScanDetails(slice_thickness=stated.pop("slice_thickness_mm"), **stated)
 
 
 def described(path: Path, files: Sequence[File]) -> list[SeriesReport]:

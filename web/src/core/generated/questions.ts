@@ -404,6 +404,8 @@ export type Profile = {
   readonly counts: ReadonlyArray<boolean>;
   /** Words such as `calcium`, `no edge`. */
   readonly flags: ReadonlyArray<ReadonlyArray<string>>;
+  /** What calcium or metal beside the lumen leaves open, in words. */
+  readonly bounds: ReadonlyArray<string | null>;
   /** Every flag that there is, in the order of plots and tables. */
   readonly flag_table: ReadonlyArray<FlagLook>;
   /** The middle of each section. */
@@ -662,6 +664,8 @@ export type VolumeReport = {
   readonly corners: ReadonlyArray<Vector>;
   /** The smallest side of a voxel (mm). */
   readonly smallest_side: number;
+  /** How the scan was made, in words. */
+  readonly scan: string;
 };
 
 /** The windows of what is open. */

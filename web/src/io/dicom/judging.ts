@@ -13,6 +13,8 @@ export interface Plan {
   readonly slices: readonly PlannedSlice[];
   readonly fills: readonly Fill[];
   readonly notes: readonly string[];
+  /** How the scan was made, as the engine takes it. */
+  readonly scan: object;
 }
 
 export interface PlannedSlice {

@@ -36,7 +36,7 @@ export async function loadStack(
   const isWhole = plan.slices.every(isIntegral) && plan.slices.every((slice) => !isFloat(slice, files));
   let kind: Kind = isWhole ? 'int16' : 'float32';
   for (;;) {
-    begin(sink, subject, plan.size, plan.world_from_index, kind);
+    begin(sink, subject, { size: plan.size, world_from_index: plan.world_from_index, scan: plan.scan }, kind);
     const wider = await new Filler(plan, files, sink, { kind, isWhole }).fill(steps);
     if (wider === null) {
       return;

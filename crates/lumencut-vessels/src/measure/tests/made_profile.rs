@@ -25,6 +25,7 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
             .collect(),
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
+        bounds: vec![[f64::NAN; 2]; count],
         flags: vec![0; count],
         center: vec![DVec3::ZERO; count],
         normal: vec![DVec3::Z; count],

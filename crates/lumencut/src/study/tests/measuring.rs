@@ -370,7 +370,8 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 1 + counts[0] + counts[1]);
     assert!(lines[0].starts_with("vessel,name,arc_length_mm,"));
-    assert!(lines[0].ends_with(",fwhm_source,wall_source,stenosis,doubts,not_graded"));
+    let scan = "series_number,series_description,phase,slice_thickness_mm,kernel";
+    assert!(lines[0].ends_with(&format!(",wall_source,{scan},stenosis,doubts,not_graded")));
     assert!(lines[1..].iter().all(|line| line.ends_with(",,,Mark a reference: where the vessel is normal.")));
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
     // Of several vessels no single place was asked for.
@@ -379,4 +380,19 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     assert!(all["settings"]["at_mm"].is_null());
     assert_eq!(all["vessels"].as_array().map(Vec::len), Some(2));
     assert_eq!(study.profiles_csv(&[], &go_on).expect("a table"), "");
+}
+
+#[test]
+fn numbers_are_told_with_how_their_scan_was_made() {
+    let mut study = tube();
+    let vessels = [vessel(&study, 0, json!({}))];
+    study.content.held.as_mut().expect("a volume").scan =
+        serde_json::from_value(json!({"kernel": "B30f", "phase": null})).expect("what a file states");
+    let text = study.profiles_json(&vessels, &go_on).expect("a text");
+    let scan = &serde_json::from_str::<Json>(&text).expect("JSON")["vessels"][0]["scan"];
+    assert_eq!((&scan["kernel"], &scan["series_number"]), (&json!("B30f"), &Json::Null));
+    let words = study.report().expect("a report").volume.expect("a volume").scan;
+    assert_eq!(words, "kernel B30f; series, phase, slice thickness not stated");
+    let table = study.profiles_csv(&vessels, &go_on).expect("a table");
+    assert!(table.lines().skip(1).all(|line| line.contains(",not stated,not stated,not stated,,B30f,")));
 }

@@ -47,7 +47,8 @@ pub fn open_phantom(study: &mut Study, name: &str) {
         _ => lumencut_phantom::y_junction(),
     };
     let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = made.expect("a phantom");
-    let held = HeldVolume { stored: Stored::I16(voxels), size, world_from_index, key: Default::default() };
+    let (stored, scan) = (Stored::I16(voxels), Default::default());
+    let held = HeldVolume { stored, size, world_from_index, key: Default::default(), scan };
     study.open(held, tree, vessel_names).expect("a tree");
 }
 

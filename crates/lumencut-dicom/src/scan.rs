@@ -1,0 +1,78 @@
+//! What a series tells of how its scan was made, as far as numbers measured in it depend on that.
+
+use serde::Serialize;
+
+use crate::keyword::Keyword;
+use crate::series::Series;
+use crate::slices::Slice;
+use crate::value::Value;
+use crate::wording::{line, rounded};
+
+/// Digits of a number.
+const DIGITS: usize = 6;
+
+/// How a scan was made; none of what the series does not state, or not alike for all of its slices. Nothing of it names a
+/// patient.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Scan {
+    /// The number of the series.
+    pub series_number: Option<String>,
+    /// What the series is called.
+    pub series_description: Option<String>,
+    /// The phase of the heart, of the contrast medium and of the series, as far as they are stated.
+    pub phase: Option<String>,
+    /// How thick slices are (mm).
+    pub slice_thickness_mm: Option<f64>,
+    /// The kernel of the reconstruction.
+    pub kernel: Option<String>,
+}
+
+impl Scan {
+    /// What is told of a series of which these slices are read.
+    pub fn of(series: &Series, slices: &[Slice]) -> Self {
+        let thickness = common(slices, Keyword::SliceThickness).and_then(Value::number);
+        Self {
+            series_number: Some(series.number()).filter(|text| !text.is_empty()),
+            series_description: Some(series.description()).filter(|text| !text.is_empty()),
+            phase: phase(slices),
+            slice_thickness_mm: thickness.filter(|mm| mm.is_finite() && *mm > 0.0),
+            kernel: common(slices, Keyword::ConvolutionKernel).and_then(text),
+        }
+    }
+}
+
+/// The phases that are stated, one of the heart, of the contrast medium and of the series each.
+fn phase(slices: &[Slice]) -> Option<String> {
+    let stated = |keyword: Keyword| common(slices, keyword).and_then(text);
+    let number = |keyword: Keyword| {
+        let told = common(slices, keyword).and_then(Value::number).filter(|number| number.is_finite());
+        told.map(|number| rounded(number, DIGITS))
+    };
+    let heart = number(Keyword::NominalPercentageOfCardiacPhase)
+        .map(|percent| format!("{percent} % of the cardiac cycle"))
+        .or_else(|| {
+            number(Keyword::NominalCardiacTriggerDelayTime).map(|ms| format!("{ms} ms after the R wave"))
+        })
+        .or_else(|| number(Keyword::TriggerTime).map(|ms| format!("trigger time {ms} ms")));
+    let contrast = stated(Keyword::ContrastBolusAgentPhase)
+        .map(|phase| format!("contrast phase {}", phase.to_ascii_lowercase().replace('_', " ")));
+    let position = stated(Keyword::TemporalPositionIdentifier)
+        .or_else(|| stated(Keyword::TemporalPositionIndex))
+        .map(|number| format!("temporal position {number}"));
+    let all: Vec<String> = [heart, contrast, position].into_iter().flatten().collect();
+    (!all.is_empty()).then(|| all.join(", "))
+}
+
+/// The value that all slices have; none where one has another one.
+fn common<'a>(slices: &[Slice<'a>], keyword: Keyword) -> Option<&'a Value> {
+    let first = slices.first()?.get(keyword);
+    slices.iter().all(|one| one.get(keyword) == first).then_some(first)
+}
+
+/// A value as one printable line; none where nothing is stated, or nothing that can be shown.
+fn text(value: &Value) -> Option<String> {
+    let plain = |value: &Value| !value.is_empty() && !matches!(value, Value::Odd | Value::List(_));
+    let parts: Vec<String> =
+        value.all().iter().filter(|one| plain(one)).map(|one| line(&one.to_string())).collect();
+    Some(parts.join(", ")).filter(|text| !text.is_empty())
+}

@@ -1,0 +1,34 @@
+//! How a scan was made, between Python and the facade.
+
+use lumencut::scan_details::ScanDetails;
+use pyo3::prelude::*;
+
+/// `lumencut.ScanDetails`.
+#[derive(FromPyObject)]
+pub struct ScanArgument {
+    series_number: Option<String>,
+    series_description: Option<String>,
+    phase: Option<String>,
+    slice_thickness: Option<f64>,
+    kernel: Option<String>,
+}
+
+impl ScanArgument {
+    /// The same for the facade.
+    pub fn details(&self) -> ScanDetails {
+        ScanDetails {
+            series_number: self.series_number.clone(),
+            series_description: self.series_description.clone(),
+            phase: self.phase.clone(),
+            slice_thickness_mm: self.slice_thickness,
+            kernel: self.kernel.clone(),
+        }
+    }
+}
+
+/// How a scan was made, in words.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn scan_words(scan: ScanArgument) -> String {
+    scan.details().words()
+}
