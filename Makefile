@@ -18,7 +18,7 @@ RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.t
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page site test lint format settings types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: help demo page site test test-long lint format settings types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -39,6 +39,10 @@ site: toolchain ## Write the viewer's page into ./site, for any server of files;
 
 test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
+
+test-long: develop tools ## Run what takes minutes by itself: the uncertainty of diameters in 288 scenes, and a million damaged files.
+	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py
+	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 
 lint: ## Run only format, lint, types and documentation checks.
 	@$(PYTHON) scripts/check.py --lint

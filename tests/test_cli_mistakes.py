@@ -155,12 +155,13 @@ def test_the_rules_of_the_paper_can_be_typed_as_its_help_names_them():
     check_options(params, settings_of(rules), has_centerlines=True)
 
 
-def test_settings_in_python_stay_silent(scene):
+def test_settings_in_python_stay_silent(scene, capfd):
     volume, tree = scene
     settings = Settings(context=None, context_window=Window(9, 5), silhouette_slope=3, silhouettes=False)
     camera = Camera.fitted(volume, (0, 1, 0), (0, 0, 1), (8, 8))
     Renderer(volume, tree).render(camera, settings)
     Renderer(volume).render(camera, replace(settings, context="mip", slab=None, window=Window(9, 5)))
+    assert capfd.readouterr() == ("", "")
 
 
 @pytest.mark.parametrize("name", ["render", "turntable", "evaluate"])

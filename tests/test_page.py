@@ -81,7 +81,9 @@ def test_what_the_page_no_longer_has_does_not_stay(room):
     (room.PAGE / "old.js").write_text("old")
     newer(room.WEB / "src/main.ts")
     room.build_if_possible()
-    assert not (room.PAGE / "old.js").exists()
+    assert {path.name for path in room.PAGE.iterdir()} == {
+        path.name for path in (room.WEB / "dist").iterdir()
+    }
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from lumencut import Vessel, VesselTree, Volume, demo
+from lumencut import Vessel, VesselTree, Volume, demo, read_centerlines
 from lumencut.cli import browser, main
 from lumencut.viewer import page as page_room
 from lumencut.viewer.guard import Place
@@ -174,15 +174,18 @@ def test_a_port_can_be_asked_for(run):
 
 
 def test_the_end_of_a_way_to_a_browser_is_not_waited_for(monkeypatch):
-    late = threading.Event()
-    monkeypatch.setattr(browser, "webbrowser", SimpleNamespace(open=lambda address: late.wait(60)))
+    late, ended = threading.Event(), []
+    monkeypatch.setattr(
+        browser, "webbrowser", SimpleNamespace(open=lambda address: ended.append(late.wait(60)))
+    )
     monkeypatch.setenv("DISPLAY", ":0")
     monkeypatch.delenv("SSH_CONNECTION", raising=False)
     browser.open_or_explain(Place(80, "token"), is_wanted=True)
+    assert ended == []
     late.set()
 
 
-def test_the_demo_is_a_scene_too(run, monkeypatch):
+def test_the_demo_is_a_scene_too(run, monkeypatch, tmp_path):
     volume = Volume(np.ones((4, 4, 4), np.int16), states_orientation=True)
     tree = VesselTree([Vessel([[0, 0, 0], [1, 1, 1.0]])])
     monkeypatch.setattr(demo, "stent_scene", lambda cache: (volume, tree))
@@ -198,6 +201,9 @@ def test_the_demo_is_a_scene_too(run, monkeypatch):
     assert (header["states_spacing"], header["states_orientation"]) == (False, True)
     assert voxels == volume.array.tobytes()
     assert found[1].status == 200
+    lines = tmp_path / "lines.vtp"
+    lines.write_bytes(found[1].body)
+    np.testing.assert_array_equal(read_centerlines(lines)[0].points, tree[0].points)
     assert run("--demo", "--no-centerlines").exit_code == 0
     assert (found[2].status, found[3].status) == (200, 404)
 

@@ -124,7 +124,8 @@ def test_so_has_the_answer_where_the_server_itself_fails(tmp_path, caplog):
 
 @pytest.mark.parametrize("host", ["127.0.0.1:{port}", "localhost:{port}"])
 def test_this_machine_is_answered_by_its_names(client, host):
-    assert client.ask(Host=host.format(port=client.place.port)).status == 200
+    answer = client.ask(Host=host.format(port=client.place.port))
+    assert (answer.status, answer.body) == (200, client.ask().body)
 
 
 @pytest.mark.parametrize(

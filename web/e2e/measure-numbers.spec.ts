@@ -101,7 +101,6 @@ test('a ruler measures between two clicks; its ends can be dragged, and it can b
   const [x, y] = await tube.viewer.place([0.5, 0.5], 'section');
   const perMm = await tube.sectionPixels();
   await tube.viewer.page.mouse.click(x - 6 * perMm, y);
-  await tube.viewer.page.waitForTimeout(400);
   await tube.viewer.page.mouse.click(x + 6 * perMm, y);
   const ruler = tube.viewer.page.getByTestId('ruler');
   const length = async () => Number.parseFloat((await ruler.locator('span').textContent()) ?? '');

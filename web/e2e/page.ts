@@ -2,6 +2,7 @@
 import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import type { Camera, Pair, Report } from '../src/core/messages';
+import { DOUBLE_NEAR, DOUBLE_WITHIN } from '../src/input/pointer';
 import { stateOf, type ViewState } from '../src/url/fragment';
 import type { Pixels } from './compare';
 
@@ -9,8 +10,6 @@ export type PaneName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straighte
 
 /** Above this the page makes no picture with samples at rest (ms). */
 const NO_SAMPLES = 700;
-/** After this the address tells the view (ms); the page waits for 250. */
-const WRITTEN = 400;
 
 interface TestHook extends Asked {
   memory(): Promise<number>;
@@ -19,6 +18,8 @@ interface TestHook extends Asked {
 export class Viewer {
   /** Requests to other origins, and errors: there must be none. */
   readonly faults: string[] = [];
+  /** The place of the last click, and until when (ms) another one there would make it a double click. */
+  private lastClick: { readonly at: Pair; readonly until: number } = { at: [0, 0], until: 0 };
 
   private constructor(readonly page: Page) {}
 
@@ -80,15 +81,19 @@ export class Viewer {
     return this.page.getByRole('alert');
   }
 
-  /** Waits until the turning view is complete. */
-  async rest(): Promise<void> {
-    // What a change asks for is known only after the next frame.
+  /** Waits for two frames: what a change asks for is known only after the next one. */
+  private async frames(): Promise<void> {
     await this.page.evaluate(
       () =>
         new Promise((resolve) =>
           requestAnimationFrame(() => setTimeout(() => requestAnimationFrame(resolve), 30)),
         ),
     );
+  }
+
+  /** Waits until the turning view is complete. */
+  async rest(): Promise<void> {
+    await this.frames();
     await this.page.waitForFunction((slow) => {
       const stage = document.querySelector<HTMLElement>('canvas.picture')?.dataset.stage;
       const time = Number.parseFloat(document.querySelector('.frame-time')?.textContent ?? '');
@@ -98,7 +103,8 @@ export class Viewer {
 
   /** The view as the address tells it. */
   async state(): Promise<ViewState> {
-    await this.page.waitForTimeout(WRITTEN);
+    await this.frames();
+    await this.page.waitForFunction(() => document.documentElement.dataset.address === 'written');
     const state = stateOf(new URL(this.page.url()).hash);
     expect(state).not.toBeNull();
     return state ?? {};
@@ -156,9 +162,14 @@ export class Viewer {
 
   async click(at: Pair, name: PaneName = 'turning'): Promise<void> {
     const [x, y] = await this.place(at, name);
+    const { at: last, until } = this.lastClick;
+    if (Math.hypot(x - last[0], y - last[1]) <= DOUBLE_NEAR) {
+      // Two clicks in a row are no double click.
+      await this.page.waitForTimeout(Math.max(0, until - Date.now()));
+    }
     await this.page.mouse.click(x, y);
-    // Two clicks in a row are no double click.
-    await this.page.waitForTimeout(400);
+    this.lastClick = { at: [x, y], until: Date.now() + DOUBLE_WITHIN };
+    await this.frames();
   }
 
   async wheel(at: Pair, by: number, name: PaneName = 'turning'): Promise<void> {

@@ -127,7 +127,7 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   const texts = new Set<string>();
   for (const key of ['1', '2', '3', '4', '5', '6', '7']) {
     await viewer.press(key);
-    await viewer.page.waitForTimeout(50);
+    await viewer.rest();
     texts.add((await viewer.window.textContent()) ?? '');
   }
   expect(texts.size).toBeGreaterThanOrEqual(6);
@@ -169,6 +169,7 @@ test('space turns until it is pressed again', async () => {
   await viewer.reset();
   const camera = await viewer.camera();
   await viewer.press(' ');
+  // It is time that turns the view here.
   await viewer.page.waitForTimeout(400);
   await viewer.press(' ');
   await viewer.rest();

@@ -10,8 +10,8 @@ const MOST_WHEEL = 120;
 /** The pixels of a wheel that are one slice. */
 const WHEEL_STEP = 40;
 /** Within which time a second click makes a double click (ms), and how near (pixels). */
-const DOUBLE_WITHIN = 350;
-const DOUBLE_NEAR = 6;
+export const DOUBLE_WITHIN = 350;
+export const DOUBLE_NEAR = 6;
 
 /** What a view does with gestures; places are CSS pixels within the element, from its top left. */
 export interface Handlers {

@@ -189,15 +189,20 @@ function isValueOf(row: SettingRow, value: unknown): boolean {
   }
 }
 
-/** Writes the view into the address from now on, some time after it changed. */
+/** Writes the view into the address from now on, some time after it changed; `data-address` of the page says whether it is there. */
 export function followView(): void {
   let timer = 0;
+  const { dataset } = document.documentElement;
   effect(() => {
     const state = currentState();
     const isOpen = store.report.value !== null;
     window.clearTimeout(timer);
+    dataset.address = isOpen ? 'pending' : 'none';
     if (isOpen) {
-      timer = window.setTimeout(() => history.replaceState(null, '', `#${fragmentOf(state)}`), QUIET);
+      timer = window.setTimeout(() => {
+        history.replaceState(null, '', `#${fragmentOf(state)}`);
+        dataset.address = 'written';
+      }, QUIET);
     }
   });
 }
