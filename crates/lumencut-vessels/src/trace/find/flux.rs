@@ -293,7 +293,7 @@ fn blurred_disc(x: f64, y: f64, radius: f64) -> f32 {
     let distance = x.hypot(y);
     // The edge of a disc, as that of a half-plane: good enough for radii over a standard deviation of the blur.
     let edge = (radius - distance) / (BLUR * std::f64::consts::SQRT_2);
-    (0.5 * (1.0 + (1.128_379 * edge * (1.0 + 0.089 * edge * edge)).tanh())) as f32
+    (0.5 * (1.0 + (std::f64::consts::FRAC_2_SQRT_PI * edge * (1.0 + 0.089 * edge * edge)).tanh())) as f32
 }
 
 /// Numbers of a normal distribution nearly: sums of twelve even ones, always the same.

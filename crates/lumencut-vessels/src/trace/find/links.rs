@@ -6,6 +6,7 @@
 pub mod ends;
 pub mod groups;
 pub mod landings;
+pub mod link;
 pub mod sides;
 pub mod way_level;
 
@@ -14,6 +15,7 @@ use rayon::prelude::*;
 use crate::trace::find::links::ends::{End, ends};
 use crate::trace::find::links::groups::Groups;
 use crate::trace::find::links::landings::{BETWEEN_TREES, Landings, OPEN_ENDS};
+use crate::trace::find::links::link::Link;
 use crate::trace::find::links::sides::side_links;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::Track;
@@ -22,29 +24,6 @@ use lumencut_core::stop::{Stop, go_on};
 
 /// How often the ends look for other trees.
 const ROUNDS: usize = 2;
-
-/// A link from a point of one track to a point of another one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Link {
-    /// The track it comes from, and the number of its point there.
-    pub from: [usize; 2],
-    /// The track that it leads to, and the number of its point there.
-    pub to: [usize; 2],
-    /// What it costs (mm).
-    pub cost: f64,
-    /// How much of it lies outside the lumens of both tracks (mm): a gap that it bridges.
-    pub gap: f64,
-    /// The lowest level along it: 0 that of the tissue around, 1 that of the lumens.
-    pub level: f64,
-}
-
-impl Link {
-    /// What decides between links of the same cost: the numbers of what they link.
-    fn order(&self, other: &Self) -> std::cmp::Ordering {
-        let numbers = |link: &Self| (link.from, link.to);
-        self.cost.total_cmp(&other.cost).then_with(|| numbers(self).cmp(&numbers(other)))
-    }
-}
 
 /// The links between tracks.
 ///

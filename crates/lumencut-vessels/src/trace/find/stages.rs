@@ -84,8 +84,8 @@ mod tests {
     fn the_share_rises_by_the_costs_of_stages_and_the_pieces_of_each() {
         let progress = Progress::default();
         let stages = Stages::begin(Some(&progress));
-        drop(stages.stage(Stage::Levels, 1));
-        drop(stages.stage(Stage::FirstPass, 1));
+        stages.stage(Stage::Levels, 1);
+        stages.stage(Stage::FirstPass, 1);
         let pieces = stages.stage(Stage::Candidates, 3);
         assert_eq!(progress.share(), 0.22);
         pieces.done(1);

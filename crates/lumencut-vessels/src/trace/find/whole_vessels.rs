@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use crate::trace::find::FindRequest;
 use crate::trace::find::found::FoundVessel;
-use crate::trace::find::links::Link;
+use crate::trace::find::links::link::Link;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::Track;
 use crate::trace::find::whole_vessels::attached::attached;

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-use crate::trace::find::links::Link;
+use crate::trace::find::links::link::Link;
 use crate::trace::find::track::Track;
 use lumencut_core::math::arc_length::arc_lengths;
 

@@ -1,7 +1,7 @@
 //! Where an end of a track may be linked with another track, the cheapest place first.
 
-use crate::trace::find::links::Link;
 use crate::trace::find::links::ends::{End, may_link};
+use crate::trace::find::links::link::Link;
 use crate::trace::find::links::way_level::{WayEnd, lowest_level};
 use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use crate::trace::find::links::Link;
+use crate::trace::find::links::link::Link;
 use crate::trace::find::track::{Track, TrackPoint};
 
 /// Points of a link are at most so far apart (mm).
