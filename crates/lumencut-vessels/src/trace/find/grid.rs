@@ -4,8 +4,10 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use crate::voxels::Voxels;
 
-/// How wide the narrowest vessel is at least, in voxels of the grid: finer voxels would show nothing more of it.
+/// How wide the narrowest vessel is at least, in voxels of the grid: finer voxels would show nothing more of it. They are no larger
+/// than this where only wide vessels are asked for (mm): what is a tube is told by its surroundings too.
 const VOXELS_PER_RADIUS: f64 = 1.25;
+const LARGEST_FOR_RADIUS: f64 = 0.8;
 
 /// The most voxels of the grid; of larger volumes the voxels are larger.
 const MOST_VOXELS: f64 = 160e6;
@@ -32,7 +34,7 @@ impl Grid {
         let extent = corners[1] - corners[0];
         let mean = matrix.determinant().abs().cbrt();
         let least = (extent.max(DVec3::splat(mean)).element_product() / MOST_VOXELS).cbrt();
-        let side = mean.max(smallest_radius / VOXELS_PER_RADIUS).max(least);
+        let side = mean.max((smallest_radius / VOXELS_PER_RADIUS).min(LARGEST_FOR_RADIUS)).max(least);
         let size = extent.to_array().map(|length| (length / side + 1e-6).floor() as usize + 1);
         // What is left over beyond the last voxel is shared by both sides.
         let spare = extent - DVec3::from_array(size.map(|n| (n - 1) as f64 * side));

@@ -9,6 +9,7 @@ pub mod graph;
 pub mod outlook;
 pub mod roots;
 pub mod runs;
+pub mod stubs;
 pub mod sure;
 pub mod trimmed;
 pub mod way;
@@ -25,6 +26,7 @@ use crate::trace::find::whole_vessels::centered::{Centered, centered};
 use crate::trace::find::whole_vessels::graph::Graph;
 use crate::trace::find::whole_vessels::roots::roots;
 use crate::trace::find::whole_vessels::runs::runs;
+use crate::trace::find::whole_vessels::stubs::without_stubs;
 use crate::trace::find::whole_vessels::trimmed::trimmed;
 use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
@@ -34,7 +36,9 @@ use lumencut_core::stop::go_on;
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn of(scan: &Scan, tracks: &[Track], links: &[Link], request: &FindRequest) -> Result<Vec<FoundVessel>> {
-    let graph = Graph::new(tracks, links);
+    let (tracks, links) = without_stubs(tracks, links);
+    let tracks = &tracks;
+    let graph = Graph::new(tracks, &links);
     go_on(request.stop)?;
     let roots = roots(scan, tracks, &graph);
     let runs = runs(&graph, &roots);

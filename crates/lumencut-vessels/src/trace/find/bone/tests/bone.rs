@@ -29,20 +29,27 @@ fn a_plate_is_left_out_and_a_tube_stays_for_any_number_of_threads() {
     assert_eq!(one[0].confidence.to_bits(), two[0].confidence.to_bits());
 }
 
-#[test]
-fn a_tube_among_plates_is_doubtful_and_alone_it_is_not() {
-    // The plates are 6 and 10 mm away from the tube.
+/// What is left of a tube that is so many times as long as wide (1.5 mm) across: alone, and between plates 6 and 10 mm away.
+fn alone_and_among_plates(times: f64) -> [Vec<Track>; 2] {
     let scene = |place: DVec3| {
-        let tube = 1.5 - (place.x - 8.0).hypot(place.z - 15.0);
+        let tube = 1.5 - (place.x - 8.0).hypot((place.z - 15.0) / times);
         let plates = 1.0 - (place.x - 14.0).abs().min((place.x - 18.0).abs());
         blurred(tube.max(plates))
     };
     let tube = along_y(8.0, 15.0, 1.5);
     let plates = [along_y(14.0, 15.0, 1.2), along_y(18.0, 15.0, 1.2)];
-    let [alone, among] = [vec![tube.clone()], [&[tube][..], &plates].concat()]
-        .map(|tracks| with_scan(SIZE, SIDE, scene, |scan| judged(scan, tracks, &|| false).expect("tracks")));
+    [vec![tube.clone()], [&[tube][..], &plates].concat()]
+        .map(|tracks| with_scan(SIZE, SIDE, scene, |scan| judged(scan, tracks, &|| false).expect("tracks")))
+}
+
+#[test]
+fn flat_neighbours_are_held_against_an_oval_tube_and_not_against_a_round_one() {
+    let [alone, among] = alone_and_among_plates(1.0);
     assert_eq!((alone[0].confidence, alone[0].doubt), (0.9, None));
-    assert!(among.is_empty(), "{among:?}");
+    assert_eq!((among.len(), among[0].confidence, among[0].doubt), (1, 0.9, None));
+    let [alone, among] = alone_and_among_plates(1.8);
+    assert_eq!((alone[0].confidence, alone[0].doubt), (0.9, None));
+    assert!(among.is_empty(), "{}", among.len());
 }
 
 #[test]

@@ -1,0 +1,59 @@
+//! Stubs: a track that runs a little beyond a fork, into the corner between its branches.
+
+use crate::trace::find::links::link::Link;
+use crate::trace::find::track::Track;
+
+/// A stub is shorter than so many radii of its track where the branch is linked with it.
+const LONGEST: f64 = 1.5;
+
+/// A track ends in a fork where the branch is at least so many times as wide.
+const AS_WIDE: f64 = 0.6;
+
+/// The tracks without their stubs, and the links with the numbers of the points that are left.
+pub fn without_stubs(tracks: &[Track], links: &[Link]) -> (Vec<Track>, Vec<Link>) {
+    let (mut tracks, mut links) = (tracks.to_vec(), links.to_vec());
+    for number in 0..tracks.len() {
+        for at_last in [true, false] {
+            if let Some(kept) = kept(&tracks, &links, number, at_last) {
+                shorten(&mut tracks[number], &mut links, number, kept, at_last);
+            }
+        }
+    }
+    (tracks, links)
+}
+
+/// The number of the point at which a track ends in a fork, where what is beyond is a stub.
+fn kept(tracks: &[Track], links: &[Link], number: usize, at_last: bool) -> Option<usize> {
+    let points = &tracks[number].points;
+    let last = points.len() - 1;
+    let both = links.iter().flat_map(|link| [(link.from, link.to), (link.to, link.from)]);
+    let here: Vec<([usize; 2], [usize; 2])> = both.filter(|(own, _)| own[0] == number).collect();
+    let along = |own: &[usize; 2]| if at_last { own[1] } else { last - own[1] };
+    let outermost = here.iter().map(|(own, _)| along(own)).max().filter(|n| *n < last && *n > 0)?;
+    let at = if at_last { outermost } else { last - outermost };
+    let widest = here.iter().filter(|(own, _)| own[1] == at).map(|(_, other)| tracks[other[0]].radius());
+    let stub = if at_last { &points[at..] } else { &points[..=at] };
+    let length: f64 = stub.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
+    let is_fork = widest.fold(0.0, f64::max) >= AS_WIDE * points[at].radius;
+    (is_fork && length <= LONGEST * points[at].radius).then_some(at)
+}
+
+/// Ends a track at one of its points.
+fn shorten(track: &mut Track, links: &mut [Link], number: usize, at: usize, at_last: bool) {
+    if at_last {
+        track.points.truncate(at + 1);
+        return;
+    }
+    track.points.drain(..at);
+    for link in links {
+        for end in [&mut link.from, &mut link.to] {
+            if end[0] == number {
+                end[1] -= at;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/stubs.rs"]
+mod tests;
