@@ -13,6 +13,7 @@ pub mod point_grid;
 pub mod pyramid;
 pub mod refusals;
 pub mod scan;
+pub mod scarce;
 pub mod section;
 pub mod side_by_side;
 pub mod stages;
@@ -23,7 +24,8 @@ pub mod tubes;
 pub mod vessel_level;
 pub mod whole_vessels;
 
-use crate::trace::find::found::{FoundVessel, Trees};
+use crate::trace::find::found::Trees;
+use crate::trace::find::scarce::doubted_where_scarce;
 use crate::trace::find::stages::{Stage, Stages};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
@@ -44,7 +46,7 @@ pub struct FindRequest<'a> {
 /// All vessels of a volume: those that hang together are a part, the most important part first.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Tracing`] where no vessel is found; [`lumencut_core::error::ErrorKind::Interrupted`].
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
     let stages = Stages::begin(request.progress);
@@ -55,7 +57,8 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let tracks = bone::judged(&scan, tracks, request.stop)?;
     stages.stage(Stage::Vessels, 1);
     let links = links::between(&scan, &tracks, request.stop)?;
-    let vessels: Vec<FoundVessel> = whole_vessels::of(&scan, &tracks, &links, request)?;
+    let vessels = whole_vessels::of(&scan, &tracks, &links, request)?;
+    let vessels = doubted_where_scarce(voxels, vessels);
     stages.end();
     Ok(Trees { vessels, level: scan.level, contrast: scan.contrast, noise: scan.noise })
 }

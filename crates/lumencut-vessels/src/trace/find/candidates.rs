@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::trace::find::flux::{FluxOf, HALO, RADII, Responses, gains};
 use crate::trace::find::pyramid::{Level, Pyramid};
-use crate::trace::find::section::{Section, across, quartile_of};
+use crate::trace::find::section::{Section, across};
 use crate::trace::find::stages::{Stage, Stages};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
@@ -38,12 +38,12 @@ const WIDE: f64 = 2.0;
 const ROUNDS: usize = 3;
 const LEAST_RADIUS: f64 = 0.5;
 
-/// About how many voxels are looked at for the noise, what share of them is the brightest, and how far the values of white noise
-/// lie from the mean of their neighbours, at the
-/// first quartile: what lies farther may be an edge.
+/// About how many voxels are looked at for the noise, and what share of them is the brightest. The spread of 27 voxels that this share
+/// of those does not reach is that of noise alone, times the last number where the noise is white; elsewhere there are edges.
 const NOISE_SAMPLES: usize = 60_000;
 const BRIGHTEST: f64 = 0.4;
-const QUARTILE_OF_NOISE: f64 = 0.313;
+const EVENEST: f64 = 0.15;
+const EVENEST_OF_NOISE: f64 = 0.855;
 
 /// A place where a tube may begin. Lengths are in voxels of the finest level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,29 +141,28 @@ pub fn noise(level: &Level) -> f64 {
     }
     let inner = (nx - 2) * (ny - 2) * (nz - 2);
     let step = inner.div_ceil(NOISE_SAMPLES) | 1;
-    let mut samples: Vec<(u16, f64)> = (0..inner)
+    let mut samples: Vec<(f64, f64)> = (0..inner)
         .into_par_iter()
         .step_by(step)
         .map(|n| {
             let (i, j, k) = (n % (nx - 2), n / (nx - 2) % (ny - 2), n / ((nx - 2) * (ny - 2)));
-            let mut sum = 0.0;
-            for row in 0..9 {
-                let start = i + (j + row % 3) * nx + (k + row / 3) * nx * ny;
-                sum += level.voxels[start..start + 3].iter().map(|v| f64::from(*v)).sum::<f64>();
-            }
-            let own = level.voxels[(i + 1) + (j + 1) * nx + (k + 1) * nx * ny];
-            (own, (f64::from(own) - sum / 27.0).abs())
+            let rows = (0..9).map(|row| i + (j + row % 3) * nx + (k + row / 3) * nx * ny);
+            let around =
+                rows.flat_map(|start| &level.voxels[start..start + 3]).map(|value| f64::from(*value));
+            let [sum, squares] = around.fold([0.0, 0.0], |[sum, squares], v| [sum + v, squares + v * v]);
+            (sum / 27.0, ((squares - sum * sum / 27.0).max(0.0) / 26.0).sqrt())
         })
         .collect();
     // Voxels at the lowest value are clamped: they show no noise.
-    samples.retain(|sample| sample.0 > 0);
+    samples.retain(|sample| sample.0 > 0.5);
     if samples.is_empty() {
         return 0.0;
     }
     let darker = ((1.0 - BRIGHTEST) * samples.len() as f64) as usize;
-    samples.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut away: Vec<f64> = samples[darker..].iter().map(|sample| sample.1).collect();
-    quartile_of(&mut away) / QUARTILE_OF_NOISE * f64::from(level.unit)
+    samples.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut spread: Vec<f64> = samples[darker..].iter().map(|sample| sample.1).collect();
+    let even = ((spread.len() - 1) as f64 * EVENEST) as usize;
+    *spread.select_nth_unstable_by(even, f64::total_cmp).1 / EVENEST_OF_NOISE * f64::from(level.unit)
 }
 
 /// The first voxels of the boxes of a level.
@@ -283,3 +282,7 @@ fn judged(
         ..peak
     })
 }
+
+#[cfg(test)]
+#[path = "tests/candidates.rs"]
+mod tests;

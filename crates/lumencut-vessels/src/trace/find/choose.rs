@@ -48,7 +48,7 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
 }
 
 /// The part whose vessel lies nearest to a seed in units of its radius, those with a sure vessel before the others; a radius
-/// counts as one voxel (mm) over [`REACH`] at least.
+/// counts as one voxel (mm) over the reach of a seed at least.
 ///
 /// # Errors
 /// The nearest point of any vessel, and how far it is from the seed (mm), where no vessel is within reach.

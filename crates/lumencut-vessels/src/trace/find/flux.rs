@@ -305,3 +305,7 @@ fn noise(count: usize) -> Vec<f32> {
     };
     (0..count).map(|_| (0..12).map(|_| even()).sum::<f32>() - 6.0).collect()
 }
+
+#[cfg(test)]
+#[path = "tests/flux.rs"]
+mod tests;

@@ -36,6 +36,7 @@ impl TrackDoubt {
     /// The doubt in words.
     pub fn words(self) -> &'static str {
         match self {
+            Self::Scarce => "no tree of the scan is long: it may have no contrast medium",
             Self::BrightSides => "it is bright on most sides: bone?",
             Self::Flat => "it is flat, like a plate of bone",
             Self::Uneven => "it is uneven inside, like marrow",

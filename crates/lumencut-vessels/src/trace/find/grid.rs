@@ -74,3 +74,7 @@ fn corners(voxels: &Voxels, axes: DMat3) -> [DVec3; 2] {
     }
     box_of
 }
+
+#[cfg(test)]
+#[path = "tests/grid.rs"]
+mod tests;

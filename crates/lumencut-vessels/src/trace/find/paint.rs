@@ -87,3 +87,7 @@ fn inside(voxel: [i32; 3]) -> usize {
     let [i, j, k] = voxel.map(|c| (c & (SIDE - 1)) as usize);
     i + (j << BITS) + (k << (2 * BITS))
 }
+
+#[cfg(test)]
+#[path = "tests/paint.rs"]
+mod tests;

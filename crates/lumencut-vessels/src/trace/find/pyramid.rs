@@ -251,3 +251,7 @@ fn finest(voxels: &Voxels, grid: &Grid, [lowest, highest]: [f64; 2], stop: Stop)
     })?;
     Ok(Level { size: grid.size, side: 1.0, voxels: made, lowest, unit })
 }
+
+#[cfg(test)]
+#[path = "tests/pyramid.rs"]
+mod tests;

@@ -56,12 +56,6 @@ pub fn median_of(values: &mut [f64]) -> f64 {
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// The first quartile of some values, which are sorted for it.
-pub fn quartile_of(values: &mut [f64]) -> f64 {
-    let quarter = (values.len() - 1) / 4;
-    *values.select_nth_unstable_by(quarter, f64::total_cmp).1
-}
-
 impl Section {
     /// Looks at a tube of about a radius across its direction.
     pub fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
@@ -187,3 +181,7 @@ fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
     // Directions over half a circle see half of a shift each, on the average.
     (sum / pairs as f64).clamp_length_max(0.5 * radius)
 }
+
+#[cfg(test)]
+#[path = "tests/section.rs"]
+mod tests;

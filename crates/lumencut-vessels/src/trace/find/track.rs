@@ -53,6 +53,8 @@ pub enum TrackDoubt {
     Open,
     /// It bridges a gap between others.
     Gap,
+    /// No part of the scan has sure vessels as long as an angiography has.
+    Scarce,
 }
 
 impl Track {

@@ -108,3 +108,7 @@ fn in_world(grid: &Grid, mut track: Track) -> Track {
     }
     track
 }
+
+#[cfg(test)]
+#[path = "tests/tubes.rs"]
+mod tests;

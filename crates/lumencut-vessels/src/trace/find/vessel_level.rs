@@ -63,3 +63,7 @@ fn tube(points: &[TrackPoint], noise: f64, is_strict: bool) -> Option<Tube> {
     let tells = closure >= LEAST_CLOSURE && (is_clear || !is_strict);
     tells.then(|| Tube { level, contrast, weight: length * radius.min(WIDEST) * contrast })
 }
+
+#[cfg(test)]
+#[path = "tests/vessel_level.rs"]
+mod tests;

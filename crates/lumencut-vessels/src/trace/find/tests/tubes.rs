@@ -1,0 +1,39 @@
+use super::*;
+use crate::trace::find::made::{LEVEL, TISSUE, away, blurred, with_scan};
+use crate::trace::find::stages::Stages;
+use glam::DVec3;
+
+const SIZE: [usize; 3] = [70, 60, 50];
+
+/// The level and contrast of the vessels, and the tracks, of a scan of voxels of 1 mm with the values of places (mm).
+fn found(value: impl Fn(DVec3) -> f64) -> Option<([f64; 2], Vec<Track>)> {
+    with_scan(SIZE, 1.0, value, |scan| {
+        let found = tubes(scan.voxels, 1.0, &|| false, Stages::begin(None)).expect("tubes");
+        found.map(|(scan, tracks)| ([scan.level, scan.contrast], tracks))
+    })
+}
+
+#[test]
+fn two_tubes_are_two_tracks_in_their_middles_with_their_radii() {
+    let wide = [DVec3::new(4.0, 15.0, 20.0), DVec3::new(66.0, 22.0, 28.0)];
+    let narrow = [DVec3::new(4.0, 45.0, 30.0), DVec3::new(66.0, 40.0, 20.0)];
+    let value = |place: DVec3| blurred((4.0 - away(place, &wide)).max(2.0 - away(place, &narrow)));
+    let ([level, contrast], tracks) = found(value).expect("tubes");
+    assert!((level - LEVEL).abs() < 6.0 && (contrast - (LEVEL - TISSUE)).abs() < 6.0, "{level} {contrast}");
+    assert_eq!(tracks.len(), 2);
+    for (line, radius) in [(wide, 4.0), (narrow, 2.0)] {
+        let track = tracks.iter().find(|track| (track.radius() - radius).abs() < 0.2).expect("a track");
+        // Beyond the ends of the lines the tubes are round.
+        let along = track.points.iter().filter(|point| (6.0..64.0).contains(&point.place.x));
+        let worst = along.map(|point| away(point.place, &line)).fold(0.0, f64::max);
+        assert!(worst < 0.5, "{worst}");
+        assert!(track.length() > 56.0 && track.confidence > 0.9, "{} {}", track.length(), track.confidence);
+    }
+}
+
+#[test]
+fn a_constant_and_a_plate_have_no_tubes() {
+    assert!(found(|_| TISSUE).is_none());
+    let plate = found(|place: DVec3| blurred(2.0 - (place.z - 25.0).abs()));
+    assert!(plate.is_none_or(|(_, tracks)| tracks.is_empty()));
+}
