@@ -115,6 +115,8 @@ __all__ = [
     "rotated",
     "sample",
     "scale_bar",
+    "scan_of",
+    "scan_words",
     "set_threads",
     "sides",
     "smoothed",
@@ -125,8 +127,6 @@ __all__ = [
     "vessels_json",
     "write_centerlines",
     "zoomed",
-    "scan_of",
-    "scan_words",
 ]
 
 __version__: str
