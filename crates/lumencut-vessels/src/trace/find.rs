@@ -11,6 +11,7 @@ pub mod links;
 pub mod paint;
 pub mod point_grid;
 pub mod pyramid;
+pub mod quantiles;
 pub mod refusals;
 pub mod scan;
 pub mod scarce;

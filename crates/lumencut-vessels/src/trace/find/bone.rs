@@ -9,7 +9,8 @@ pub mod raw_section;
 use rayon::prelude::*;
 
 use crate::trace::find::bone::neighbourhood::beside;
-use crate::trace::find::bone::raw_section::{RawSection, median, quantile};
+use crate::trace::find::bone::raw_section::RawSection;
+use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackDoubt};
 use lumencut_core::error::Result;
@@ -96,10 +97,10 @@ fn shape(scan: &Scan, track: &Track, stop: Stop) -> Result<Option<Shape>> {
     let sections: Vec<RawSection> = seen.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
     let values = |of: fn(&RawSection) -> f64| sections.iter().map(of).collect::<Vec<f64>>();
     let marrow = sections.iter().filter(|section| section.is_marrow).count();
-    Ok(median(values(|section| section.level)).map(|level| Shape {
+    Ok(median(&mut values(|section| section.level)).map(|level| Shape {
         level,
         elongation: quantile(&mut values(|section| section.elongation), ELONGATION_SHARE).unwrap_or(1.0),
-        spread: median(values(|section| section.spread)).unwrap_or(0.0),
+        spread: median(&mut values(|section| section.spread)).unwrap_or(0.0),
         is_marrow: 2 * marrow > sections.len(),
     }))
 }

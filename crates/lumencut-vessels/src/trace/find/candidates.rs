@@ -69,7 +69,7 @@ pub struct Candidate {
 pub struct Floors {
     /// The noise of the finest level that is looked at.
     pub noise: f64,
-    /// The usual contrast of vessels; 0 where that is not known yet.
+    /// The usual contrast of vessels; in the first pass a part of the range of values.
     pub contrast: f64,
 }
 
@@ -125,15 +125,12 @@ pub fn candidates(
             .collect::<Result<_>>()?;
         found.extend(of_level.into_iter().flatten());
     }
-    let promise = |c: &Candidate| {
-        let most = if floors.contrast > 0.0 { c.response.min(floors.contrast) } else { c.response };
-        most * c.flux_radius.sqrt()
-    };
+    let promise = |c: &Candidate| c.response.min(floors.contrast) * c.flux_radius.sqrt();
     found.sort_by(|a, b| promise(b).total_cmp(&promise(a)));
     Ok(found)
 }
 
-/// The standard deviation of the noise of a level, from how far its brighter voxels lie from their neighbours.
+/// The standard deviation of the noise of a level, from the spread of its brighter voxels where they are evenest.
 pub fn noise(level: &Level) -> f64 {
     let [nx, ny, nz] = level.size;
     if level.size.iter().any(|n| *n < 3) {

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::trace::find::pyramid::Pyramid;
-use crate::trace::find::section::{across, median_of};
-use crate::trace::find::track::{TrackDoubt, TrackPoint};
+use crate::trace::find::quantiles::lower_median;
+use crate::trace::find::section::across;
+use crate::trace::find::track::{TrackDoubt, TrackPoint, length, usual};
 use crate::voxels::Voxels;
 
 /// What the usual vessels of a scan are like, in the unit of the volume.
@@ -64,16 +65,15 @@ pub fn confidence(
     pyramid: &Pyramid,
     voxels: &Voxels,
     points: &[TrackPoint],
-    usual: &UsualVessels,
+    vessels: &UsualVessels,
 ) -> (f64, Option<TrackDoubt>) {
     let good: Vec<&TrackPoint> = points.iter().filter(|point| point.is_good).collect();
     if good.is_empty() {
         return (0.0, Some(TrackDoubt::Open));
     }
-    let radius = median_of(&mut good.iter().map(|point| point.radius).collect::<Vec<_>>());
-    let around = around(pyramid, voxels, &good, usual);
+    let radius = usual(good.iter().copied(), |point| point.radius);
+    let around = around(pyramid, voxels, &good, vessels);
     let wide = ramp(radius, WIDE[0], WIDE[1]);
-    let length: f64 = points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
     let closure = good.iter().map(|point| point.closure).sum::<f64>() / good.len() as f64;
     let share = good.len() as f64 / points.len() as f64;
     let parts = [
@@ -81,9 +81,9 @@ pub fn confidence(
         (ramp(-around.even, -(0.75 + 0.3 * wide), -0.30), 1.0, TrackDoubt::BrightSides),
         (ramp(closure, 0.75, 0.90), 0.7, TrackDoubt::Open),
         (ramp(around.contrast, 0.12, 0.37), 0.7, TrackDoubt::Faint),
-        (ramp(length / radius, 2.0, 8.0), 0.5, TrackDoubt::Short),
+        (ramp(length(points) / radius, 2.0, 8.0), 0.5, TrackDoubt::Short),
         (ramp(-rough(&good, radius), -0.25, -0.15), 0.7, TrackDoubt::Rough),
-        (no_bone(&around, wide, usual), 1.0, TrackDoubt::BrightSides),
+        (no_bone(&around, wide, vessels), 1.0, TrackDoubt::BrightSides),
         (ramp(share, 0.5, 0.8), 0.5, TrackDoubt::Open),
     ];
     let weighed = parts.map(|(part, weight, doubt)| (weight * part.max(LEAST).ln(), doubt));
@@ -125,7 +125,7 @@ fn around(pyramid: &Pyramid, voxels: &Voxels, good: &[&TrackPoint], usual: &Usua
     }
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let (dark, bone) = (mean(&parts[0]), mean(&parts[3]));
-    let [even, contrast, inside] = [1, 2, 4].map(|n: usize| median_of(&mut parts[n]));
+    let [even, contrast, inside] = [1, 2, 4].map(|n: usize| lower_median(&mut parts[n]).unwrap_or(0.0));
     Around { dark, even, contrast, bone, inside }
 }
 
@@ -161,7 +161,7 @@ fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &Us
         .chain([raw(point.place)])
         .filter(|value| value.is_finite())
         .collect();
-    let inside = if inside.is_empty() { point.level } else { median_of(&mut inside) };
+    let inside = lower_median(&mut inside).unwrap_or(point.level);
     let contrast = (point.level - means[RAYS / 2]) / usual.contrast;
     [dark as f64 / RAYS as f64, even, contrast, meeting as f64 / RAYS as f64, inside]
 }

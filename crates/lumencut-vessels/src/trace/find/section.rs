@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::trace::find::pyramid::Level;
+use crate::trace::find::quantiles::lower_median;
 use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
 /// The number of rays; opposite ones make pairs.
@@ -50,12 +51,6 @@ pub fn across(direction: DVec3) -> [DVec3; 2] {
     [first, direction.cross(first)]
 }
 
-/// The median of some values, which are sorted for it; of an even number the lower one of the middle.
-pub fn median_of(values: &mut [f64]) -> f64 {
-    let middle = (values.len() - 1) / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
 impl Section {
     /// Looks at a tube of about a radius across its direction.
     pub fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
@@ -64,13 +59,13 @@ impl Section {
         let count = ((REACH_RADII * radius / level.side + REACH_VOXELS) / STEP).ceil() as usize;
         let rays = Rays::cast(level, place, plane, count);
         let mut darkest = rays.darkest;
-        let contrast = lumen - median_of(&mut darkest);
+        let contrast = lumen - lower_median(&mut darkest).unwrap_or(lumen);
         let walls: [f64; RAYS] = std::array::from_fn(|n| {
             let own = (lumen - rays.darkest[n]).min(contrast).max(LEAST_OF_CONTRAST * contrast);
             rays.wall(n, lumen, lumen - 0.5 * own)
         });
         let mut sorted = walls;
-        let found = median_of(&mut sorted);
+        let found = lower_median(&mut sorted).unwrap_or(0.0);
         let shift = shift(&walls.map(|wall| wall.min(FARTHEST * found)), plane, radius);
         let near = NEAR_WALL * found - 0.25 * level.side;
         let far = FAR_WALL * found + 0.5 * level.side;
@@ -95,7 +90,7 @@ fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
         let length = if n < 6 { 0.5 } else { 0.25 } * radius;
         values[n + 1] = f64::from(level.at(place + (plane[0] * cos + plane[1] * sin) * length));
     }
-    median_of(&mut values)
+    lower_median(&mut values).unwrap_or(values[0])
 }
 
 /// The values along all rays.

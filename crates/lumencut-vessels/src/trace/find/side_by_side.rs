@@ -61,14 +61,14 @@ pub fn side_by_side(tracking: &Tracking, candidates: &[Candidate], tracks: &[Tra
 
 /// Whether a candidate lies beside the middle of a wide tube, and is narrower.
 fn is_beside(candidate: &Candidate, point: &TrackPoint) -> bool {
-    let off = across(candidate.place, point) / point.radius;
+    let off = off_axis(candidate.place, point) / point.radius;
     (OFF_AXIS[0]..OFF_AXIS[1]).contains(&off)
         && (NARROWER[0]..NARROWER[1]).contains(&(candidate.radius / point.radius))
         && candidate.response > LEAST_RESPONSE * point.contrast
 }
 
 /// How far a place lies from the middle of a tube, across it; far where it lies in another section.
-fn across(place: DVec3, point: &TrackPoint) -> f64 {
+fn off_axis(place: DVec3, point: &TrackPoint) -> f64 {
     let way = place - point.place;
     let along = way.dot(point.direction);
     if along.abs() > point.radius { f64::MAX } else { (way - point.direction * along).length() }

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::trace::find::quantiles::{lower_median, median};
+
 /// A point of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackPoint {
@@ -58,15 +60,23 @@ pub enum TrackDoubt {
 }
 
 impl Track {
-    /// The length (mm).
+    /// The length, in the unit of its places.
     pub fn length(&self) -> f64 {
-        self.points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
+        length(&self.points)
     }
 
-    /// The median radius (mm).
+    /// The median radius.
     pub fn radius(&self) -> f64 {
-        let mut radii: Vec<f64> = self.points.iter().map(|point| point.radius).collect();
-        radii.sort_unstable_by(f64::total_cmp);
-        radii[radii.len() / 2]
+        median(&mut self.points.iter().map(|point| point.radius).collect::<Vec<_>>()).unwrap_or(0.0)
     }
+}
+
+/// The length of a line of points, in the unit of their places.
+pub fn length(points: &[TrackPoint]) -> f64 {
+    points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
+}
+
+/// What some points have as a rule: the lower median; 0 of no points.
+pub fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
+    lower_median(&mut points.into_iter().map(of).collect::<Vec<_>>()).unwrap_or(0.0)
 }

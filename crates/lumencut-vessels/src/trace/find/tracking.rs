@@ -9,9 +9,8 @@ use rayon::prelude::*;
 use crate::trace::find::candidates::{Candidate, Floors, candidates};
 use crate::trace::find::paint::{Paint, Painted};
 use crate::trace::find::pyramid::Pyramid;
-use crate::trace::find::section::median_of;
 use crate::trace::find::stages::{Stage, Stages};
-use crate::trace::find::track::{Track, TrackPoint};
+use crate::trace::find::track::{Track, TrackPoint, length, usual};
 use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
@@ -111,10 +110,9 @@ impl Tracking<'_> {
         let pieces = self.stages.stage(Stage::Tracks, candidates.len());
         while next < candidates.len() || !waiting.is_empty() {
             go_on(self.stop)?;
-            let batch = self.batch(&paint, &levels, &candidates[next..], &mut waiting);
-            next += batch.looked_at;
-            let looked_at = batch.looked_at;
-            let batch = batch.candidates;
+            let Batch { candidates: batch, looked_at } =
+                self.batch(&paint, &levels, &candidates[next..], &mut waiting);
+            next += looked_at;
             let tried: Vec<Tried> =
                 batch.par_iter().map(|candidate| self.tried(&paint, &levels, candidate)).collect();
             let known = found.len();
@@ -196,11 +194,11 @@ impl Tracking<'_> {
         let tracker = Tracker { pyramid: self.pyramid, looked_at, paint, levels, floors };
         // Most candidates are no vessel, which their first steps show.
         let Some(points) = tracker.track(candidate, FIRST_STEPS) else { return Tried::Nothing };
-        if self.kept(&points, LEAST_OF_FIRST).is_none() {
-            return Tried::Rejected(points);
-        }
+        let Some(first) = self.kept(&points, LEAST_OF_FIRST) else { return Tried::Rejected(points) };
         if points.len() <= FIRST_STEPS {
-            return self.kept(&points, 1.0).map_or(Tried::Rejected(points), Tried::Kept);
+            // It ended both ways before so many steps: it is whole.
+            let is_sure = first.confidence >= LEAST_CONFIDENCE;
+            return if is_sure { Tried::Kept(first) } else { Tried::Rejected(points) };
         }
         let Some(points) = tracker.track(candidate, MOST_STEPS) else { return Tried::Nothing };
         self.kept(&points, 1.0).map_or(Tried::Rejected(points), Tried::Kept)
@@ -208,11 +206,10 @@ impl Tracking<'_> {
 
     /// The track of some points, where they are long enough, good, and sure: as sure as `share` of what is asked of a whole track.
     fn kept(&self, points: &[TrackPoint], share: f64) -> Option<Track> {
-        let length: f64 = points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
-        let radius = median_radius(points);
+        let radius = usual(points, |point| point.radius);
         let good = points.iter().filter(|point| point.is_good).count() as f64;
         let side = self.side();
-        let is_long = length >= (LEAST_RADII * radius).max(LEAST_VOXELS * side);
+        let is_long = length(points) >= (LEAST_RADII * radius).max(LEAST_VOXELS * side);
         if points.len() < 2 || !is_long || good < LEAST_GOOD * points.len() as f64 {
             return None;
         }
@@ -231,8 +228,8 @@ impl Tracking<'_> {
             }
             Tried::Kept(track) => {
                 let number = found.len() as u32;
-                let level = median_of(&mut track.points.iter().map(|p| p.level).collect::<Vec<_>>());
-                let contrast = median_of(&mut track.points.iter().map(|p| p.contrast).collect::<Vec<_>>());
+                let level = usual(&track.points, |point| point.level);
+                let contrast = usual(&track.points, |point| point.contrast);
                 let gives_way = |other: u32| levels[other as usize] < level - DARKER * contrast;
                 for point in &track.points {
                     paint.lumen(number, point.place, painted(point.radius), &gives_way);
@@ -263,8 +260,4 @@ fn meets_new(paint: &Paint, known: usize, tried: &Tried) -> bool {
     };
     let is_new = |place: DVec3| matches!(paint.at(place), Painted::Lumen(n) if n as usize >= known);
     points.iter().any(|point| is_new(point.place))
-}
-
-fn median_radius(points: &[TrackPoint]) -> f64 {
-    median_of(&mut points.iter().map(|point| point.radius).collect::<Vec<_>>())
 }

@@ -1,7 +1,6 @@
 //! The usual level and contrast of the vessels of a scan, from tubes that are found without knowing it.
 
-use crate::trace::find::section::median_of;
-use crate::trace::find::track::TrackPoint;
+use crate::trace::find::track::{TrackPoint, length, usual};
 
 /// Tubes that tell the level: at least so wide (voxels of the finest level), so closed, with a contrast of so many times the noise,
 /// and so many radii long. Where there is none such, the narrower and shorter ones tell it.
@@ -52,13 +51,11 @@ pub fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> 
 /// What the points of a track tell of the level; none where they are too short, narrow or open for it.
 fn tube(points: &[TrackPoint], noise: f64, is_strict: bool) -> Option<Tube> {
     let good = || points.iter().filter(|point| point.is_good);
-    let median = |of: fn(&TrackPoint) -> f64| {
-        let mut values: Vec<f64> = good().map(of).collect();
-        (!values.is_empty()).then(|| median_of(&mut values))
-    };
-    let (radius, level, contrast) = (median(|p| p.radius)?, median(|p| p.level)?, median(|p| p.contrast)?);
+    good().next()?;
+    let median = |of: fn(&TrackPoint) -> f64| usual(good(), of);
+    let (radius, level, contrast) = (median(|p| p.radius), median(|p| p.level), median(|p| p.contrast));
     let closure = good().map(|point| point.closure).sum::<f64>() / good().count() as f64;
-    let length: f64 = points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
+    let length = length(points);
     let is_clear = radius >= LEAST_RADIUS && length >= LEAST_LENGTH * radius && contrast >= NOISES * noise;
     let tells = closure >= LEAST_CLOSURE && (is_clear || !is_strict);
     tells.then(|| Tube { level, contrast, weight: length * radius.min(WIDEST) * contrast })

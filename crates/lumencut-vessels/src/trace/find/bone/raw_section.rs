@@ -6,7 +6,9 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
+use crate::trace::find::section::across;
 use crate::trace::find::track::TrackPoint;
 use crate::trace::lumen::ray::Ray;
 
@@ -68,7 +70,7 @@ impl RawSection {
     /// The section at a point of a track; none where it is no brighter than its surroundings.
     pub fn at(scan: &Scan, point: &TrackPoint) -> Option<Self> {
         let [u, v] = across(point.direction);
-        let level = median(inside(scan, point, [u, v], &LEVEL_WITHIN))?;
+        let level = median(&mut inside(scan, point, [u, v], &LEVEL_WITHIN))?;
         let values = inside(scan, point, [u, v], &SPREAD_WITHIN);
         let mut rays = Rays::from(scan, point, [u, v]);
         let tissue = rays.tissue(scan);
@@ -80,12 +82,6 @@ impl RawSection {
             is_marrow: is_marrow(scan, level, &values, &mut rays),
         })
     }
-}
-
-/// Two directions across another one.
-fn across(direction: DVec3) -> [DVec3; 2] {
-    let first = direction.any_orthonormal_vector();
-    [first, direction.cross(first)]
 }
 
 /// Values in the middle of a lumen and around it at some shares of its radius; none from outside the volume.
@@ -172,18 +168,6 @@ fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
     let share = (inside - level) / (inside - outside);
     // The middle itself may lie below, and what lies outside is no number.
     out.saturating_sub(1) as f64 + if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
-}
-
-/// The value below which a share of some values lies; none of none.
-pub fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    let last = values.len().saturating_sub(1) as f64;
-    values.get((last * share).round() as usize).copied()
-}
-
-/// The median of some values; none of none.
-pub fn median(mut values: Vec<f64>) -> Option<f64> {
-    quantile(&mut values, 0.5)
 }
 
 /// How far the quartiles of some values are apart.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::trace::find::bone::raw_section::median;
+use crate::trace::find::quantiles::median;
 use crate::trace::find::track::{Track, TrackPoint};
 
 /// A track with less confidence takes part in no link: bone does not join trees.
@@ -46,8 +46,8 @@ fn end(number: usize, track: &Track, at_last: bool) -> End {
     let count = track.points.len();
     let point = |n: usize| &track.points[if at_last { count - 1 - n } else { n }];
     let usual = |of: fn(&TrackPoint) -> f64| {
-        let last = (0..LAST.min(count)).map(|n| of(point(n)));
-        median(last.collect()).unwrap_or(0.0)
+        let mut last: Vec<f64> = (0..LAST.min(count)).map(|n| of(point(n))).collect();
+        median(&mut last).unwrap_or(0.0)
     };
     let (place, radius) = (point(0).place, usual(|point| point.radius));
     let is_away = |n: &usize| point(*n).place.distance(place) >= DIRECTED * radius;

@@ -55,8 +55,3 @@ fn struts_on_some_sides_move_no_wall_and_a_plate_is_open() {
     let plate = look(|place| blurred(2.0 - (place.x - MIDDLE.x).abs()), MIDDLE, 2.0);
     assert!(plate.closure <= 0.75 && plate.contrast_share <= 0.75, "{plate:?}");
 }
-
-#[test]
-fn the_median_of_an_even_number_of_values_is_the_lower_one_of_the_middle() {
-    assert_eq!(median_of(&mut [4.0, 1.0, 3.0, 2.0]), 2.0);
-}

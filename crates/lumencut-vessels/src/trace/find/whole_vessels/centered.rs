@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
-use crate::trace::find::bone::raw_section::quantile;
+use crate::trace::find::quantiles::quantile;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::whole_vessels::graph::WayPoint;
 use crate::trace::find::whole_vessels::runs::{Run, Runs};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::trace::find::bone::raw_section::median;
+use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::graph::Graph;
 
 /// How far is looked along an edge, in radii of what comes before.
@@ -43,8 +43,8 @@ pub fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> Outlook 
     outlook_of(place, seen, radii)
 }
 
-fn outlook_of(place: DVec3, seen: DVec3, radii: Vec<f64>) -> Outlook {
-    Outlook { direction: (seen - place).normalize_or(DVec3::Z), radius: median(radii).unwrap_or(0.0) }
+fn outlook_of(place: DVec3, seen: DVec3, mut radii: Vec<f64>) -> Outlook {
+    Outlook { direction: (seen - place).normalize_or(DVec3::Z), radius: median(&mut radii).unwrap_or(0.0) }
 }
 
 /// The other edge at a node where two meet.

@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use crate::trace::find::bone::raw_section::median;
+use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::graph::{Graph, WayPoint};
 use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 
@@ -171,6 +171,11 @@ fn from_the_side(before: &Outlook, ahead: &[Outlook]) -> Option<[usize; 2]> {
     through.next()
 }
 
+/// The median radius of some points.
+fn usual_radius(points: &[WayPoint]) -> f64 {
+    median(&mut points.iter().map(|point| point.radius).collect::<Vec<_>>()).unwrap_or(0.0)
+}
+
 impl Run {
     /// Goes on with the points of an edge from a node on.
     fn go_on(&mut self, graph: &Graph, edge: usize, node: usize) {
@@ -190,8 +195,7 @@ impl Run {
     fn look_back(&self) -> Outlook {
         let last = self.points.len() - 1;
         let place = self.points[last].place;
-        let radius = median(self.points[last.saturating_sub(LAST - 1)..].iter().map(|p| p.radius).collect());
-        let radius = radius.unwrap_or(0.0);
+        let radius = usual_radius(&self.points[last.saturating_sub(LAST - 1)..]);
         let is_away = |n: &usize| self.points[*n].place.distance(place) >= 2.0 * radius;
         let before = self.points[(0..last).rev().find(is_away).unwrap_or(0)].place;
         Outlook { direction: (place - before).normalize_or(DVec3::Z), radius }
@@ -200,8 +204,7 @@ impl Run {
     fn is_wider_at_end(&self) -> bool {
         let count = self.points.len();
         let some = LAST.min(count);
-        let width = |points: &[WayPoint]| median(points.iter().map(|point| point.radius).collect());
-        width(&self.points[count - some..]) > width(&self.points[..some])
+        usual_radius(&self.points[count - some..]) > usual_radius(&self.points[..some])
     }
 
     fn turn(&mut self) {

@@ -1,7 +1,7 @@
 //! Stubs: a track that runs a little beyond a fork, into the corner between its branches.
 
 use crate::trace::find::links::link::Link;
-use crate::trace::find::track::Track;
+use crate::trace::find::track::{Track, length};
 
 /// A stub is shorter than so many radii of its track where the branch is linked with it.
 const LONGEST: f64 = 1.5;
@@ -33,7 +33,7 @@ fn kept(tracks: &[Track], links: &[Link], number: usize, at_last: bool) -> Optio
     let at = if at_last { outermost } else { last - outermost };
     let widest = here.iter().filter(|(own, _)| own[1] == at).map(|(_, other)| tracks[other[0]].radius());
     let stub = if at_last { &points[at..] } else { &points[..=at] };
-    let length: f64 = stub.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
+    let length = length(stub);
     let is_fork = widest.fold(0.0, f64::max) >= AS_WIDE * points[at].radius;
     (is_fork && length <= LONGEST * points[at].radius).then_some(at)
 }

@@ -1,0 +1,41 @@
+//! Medians and quantiles that are one of the values, as finding vessels was tried with.
+//!
+//! Those of the core lie between the values. With them the dissection of a patient falls into other trees: what is found there hangs
+//! on less than it should, and METHOD.md says so.
+
+/// The value at a share of the way from the least to the greatest one, the nearest in rank; none of no values.
+pub fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
+    let last = values.len().checked_sub(1)?;
+    let rank = (last as f64 * share).round() as usize;
+    Some(*values.select_nth_unstable_by(rank, f64::total_cmp).1)
+}
+
+/// The median, of an even number of values the upper one of the middle; none of no values.
+pub fn median(values: &mut [f64]) -> Option<f64> {
+    quantile(values, 0.5)
+}
+
+/// The median, of an even number of values the lower one of the middle; none of no values.
+pub fn lower_median(values: &mut [f64]) -> Option<f64> {
+    let last = values.len().checked_sub(1)?;
+    Some(*values.select_nth_unstable_by(last / 2, f64::total_cmp).1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_an_even_number_each_median_is_its_own_one_of_the_middle() {
+        let mut values = [4.0, 1.0, 3.0, 2.0];
+        assert_eq!((lower_median(&mut values), median(&mut values)), (Some(2.0), Some(3.0)));
+        assert_eq!((lower_median(&mut [7.0]), median(&mut [7.0])), (Some(7.0), Some(7.0)));
+        assert_eq!((lower_median(&mut []), median(&mut [])), (None, None));
+    }
+
+    #[test]
+    fn quantiles_are_the_nearest_in_rank() {
+        let at = |share| quantile(&mut [50.0, 10.0, 30.0, 20.0, 40.0], share);
+        assert_eq!([0.0, 0.3, 0.4, 1.0].map(at), [10.0, 20.0, 30.0, 50.0].map(Some));
+    }
+}
