@@ -1,8 +1,6 @@
 """All vessels of an angiography, with no point given."""
 
 import re
-import signal
-import subprocess
 import sys
 
 import numpy as np
@@ -10,6 +8,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
+from interrupted import ends_by_ctrl_c
 from lumencut import (
     SettingsError,
     TracingError,
@@ -279,15 +278,7 @@ except KeyboardInterrupt:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no signal of its own for a process here")
 def test_ctrl_c_ends_a_process_that_finds():
-    with subprocess.Popen([sys.executable, "-c", FINDS], stdout=subprocess.PIPE, text=True) as process:
-        try:
-            assert process.stdout.readline() == "finding\n"
-            process.send_signal(signal.SIGINT)
-            output, _ = process.communicate(timeout=60)
-        finally:
-            process.kill()
-    assert output.splitlines()[-1] == "interrupted"
-    assert process.returncode == 0
+    ends_by_ctrl_c(FINDS, "finding")
 
 
 # Parts of any tree

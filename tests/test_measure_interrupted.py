@@ -1,12 +1,11 @@
 """Ctrl-C while a Python process measures, and how far its measuring is."""
 
-import signal
-import subprocess
 import sys
 
 import pytest
 
 import lumencut
+from interrupted import ends_by_ctrl_c
 from lumencut import phantom
 
 #: A process that measures without end, tells once it does, and what ended it.
@@ -37,16 +36,7 @@ except KeyboardInterrupt:
 @pytest.mark.skipif(sys.platform == "win32", reason="no signal of its own for a process here")
 @pytest.mark.parametrize("way", ["measure", "tree", "measurements"])
 def test_ctrl_c_ends_a_process_that_measures(way):
-    code = MEASURES.replace("WAY", repr(way))
-    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
-        try:
-            assert process.stdout.readline() == "measuring\n"
-            process.send_signal(signal.SIGINT)
-            output, _ = process.communicate(timeout=60)
-        finally:
-            process.kill()
-    assert output.splitlines()[-1] == "interrupted"
-    assert process.returncode == 0
+    ends_by_ctrl_c(MEASURES.replace("WAY", repr(way)), "measuring")
 
 
 def test_measurements_tell_how_far_they_are():

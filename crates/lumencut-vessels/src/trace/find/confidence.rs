@@ -165,3 +165,7 @@ fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &Us
     let contrast = (point.level - means[RAYS / 2]) / usual.contrast;
     [dark as f64 / RAYS as f64, even, contrast, meeting as f64 / RAYS as f64, inside]
 }
+
+#[cfg(test)]
+#[path = "tests/confidence.rs"]
+mod tests;

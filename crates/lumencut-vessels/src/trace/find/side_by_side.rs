@@ -102,3 +102,7 @@ fn new_runs(track: &Track, wide: &[TrackPoint]) -> Vec<Track> {
     }
     runs
 }
+
+#[cfg(test)]
+#[path = "tests/side_by_side.rs"]
+mod tests;
