@@ -26,6 +26,7 @@ pub mod vessel_level;
 pub mod whole_vessels;
 
 use crate::trace::find::found::Trees;
+use crate::trace::find::scan::Scan;
 use crate::trace::find::scarce::doubted_where_scarce;
 use crate::trace::find::stages::{Stage, Stages};
 use crate::voxels::Voxels;
@@ -55,7 +56,10 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
         return Ok(Trees { vessels: Vec::new(), level: 0.0, contrast: 0.0, noise: 0.0 });
     };
     stages.stage(Stage::Judgement, 1);
-    let tracks = bone::judged(&scan, tracks, request.stop)?;
+    let shapes = bone::shapes(&scan, &tracks, request.stop)?;
+    let [level, contrast] = bone::lumen_level(&scan, &tracks, &shapes).unwrap_or([scan.level, scan.contrast]);
+    let scan = Scan { level, contrast, ..scan };
+    let tracks = bone::judged(&scan, tracks, shapes, request.stop)?;
     stages.stage(Stage::Vessels, 1);
     let links = links::between(&scan, &tracks, request.stop)?;
     let vessels = whole_vessels::of(&scan, &tracks, &links, request)?;

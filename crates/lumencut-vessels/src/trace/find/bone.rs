@@ -12,7 +12,8 @@ use crate::trace::find::bone::neighbourhood::beside;
 use crate::trace::find::bone::raw_section::RawSection;
 use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
-use crate::trace::find::track::{Track, TrackDoubt};
+use crate::trace::find::track::{Track, TrackDoubt, TrackPoint};
+use crate::trace::find::vessel_level::vessel_level;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
@@ -38,8 +39,9 @@ const MOST_DOUBT: f64 = 3.0;
 /// From the first doubt on a track loses confidence, from the second one on nothing is left.
 const DOUBTS: [f64; 2] = [1.2, 1.7];
 
-/// An organ is paler than the vessels by this part of their contrast, and has at least this radius (mm).
-const PALE: f64 = 0.6;
+/// An organ is paler than the vessels by these parts of their contrast: perhaps one from the first on, surely one from the second on. It
+/// has at least this radius (mm).
+const PALE: [f64; 2] = [0.45, 0.55];
 const WIDE: f64 = 5.0;
 
 /// How much confidence is left to an organ, and to marrow in a cortex.
@@ -52,25 +54,70 @@ const FLAT_LUMEN: f64 = 0.85;
 const FLAT_LUMEN_LENGTH: f64 = 40.0;
 const FLAT_LUMEN_RADIUS: f64 = 3.0;
 
+/// Bone is hardly anywhere both even and as bright as the vessels. Inside a lumen the spread is below the first limits (as a share of
+/// the usual contrast), the level is no farther from the usual one than the second ones (the same), and it is wider than the third
+/// ones (voxels), as finer tubes are too small to be judged so: wholly at the last of each two, not at all at the first.
+const EVEN: [f64; 2] = [0.10, 0.06];
+const ALIKE: [f64; 2] = [0.18, 0.10];
+const SEEN: [f64; 2] = [2.0, 4.0];
+
+/// What tells the usual level once more: at least so sure, no more elongated, and no less even.
+const LUMEN_CONFIDENCE: f64 = 0.85;
+const LUMEN_ELONGATION: f64 = 1.25;
+const LUMEN_SPREAD: f64 = 0.1;
+
+/// How much of what else speaks against a track that is such a lumen does not count.
+const EXCUSED: f64 = 0.5;
+
 /// A track with less confidence is left out.
 const LEAST: f64 = 0.05;
 
 /// What the raw voxels show of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Shape {
+pub struct Shape {
+    /// The level inside, in the unit of the volume.
     level: f64,
+    /// The greatest diameter at half level as a multiple of the least one.
     elongation: f64,
+    /// The spread of the values inside, as a share of the usual contrast of vessels.
     spread: f64,
+    /// Whether it is marrow in a cortex.
     is_marrow: bool,
+}
+
+/// What the raw voxels show of each track; none where no section of it can be seen.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn shapes(scan: &Scan, tracks: &[Track], stop: Stop) -> Result<Vec<Option<Shape>>> {
+    tracks.par_iter().map(|track| shape(scan, track, stop)).collect()
+}
+
+/// The usual level and contrast once more, from sure, round and even tracks alone: the first pass sees bone too. None without
+/// such tracks.
+pub fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
+    let is_lumen = |track: &Track, shape: &Shape| {
+        let is_even = !shape.is_marrow && shape.spread <= LUMEN_SPREAD;
+        track.confidence >= LUMEN_CONFIDENCE && shape.elongation <= LUMEN_ELONGATION && is_even
+    };
+    let with_shape = tracks.iter().zip(shapes).filter_map(|(track, shape)| Some((track, shape.as_ref()?)));
+    let lumens = with_shape.filter(|(track, shape)| is_lumen(track, shape));
+    let points = |track: &Track| {
+        let in_voxels = |point: &TrackPoint| TrackPoint {
+            place: point.place / scan.side,
+            radius: point.radius / scan.side,
+            ..*point
+        };
+        track.points.iter().map(in_voxels).collect::<Vec<_>>()
+    };
+    vessel_level(&lumens.map(|(track, _)| points(track)).collect::<Vec<_>>(), scan.noise)
 }
 
 /// The tracks with the confidence that is left to each, without those to which none is.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn judged(scan: &Scan, tracks: Vec<Track>, stop: Stop) -> Result<Vec<Track>> {
-    let shapes: Vec<Option<Shape>> =
-        tracks.par_iter().map(|track| shape(scan, track, stop)).collect::<Result<_>>()?;
+pub fn judged(scan: &Scan, tracks: Vec<Track>, shapes: Vec<Option<Shape>>, stop: Stop) -> Result<Vec<Track>> {
     let counts: Vec<bool> =
         tracks.iter().zip(&shapes).map(|(t, s)| s.is_some() && t.confidence >= LEAST_COUNTED).collect();
     let neighbours = beside(&tracks, &counts, stop)?;
@@ -121,21 +168,38 @@ fn elongation_around(tracks: &[Track], shapes: &[Option<Shape>], number: usize, 
 /// Takes from a track the confidence that it has not as a vessel.
 fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     let by = |value: f64, [from, over]: [f64; 2]| ((value - from) / over).clamp(0.0, MOST_DOUBT);
-    let [flat, uneven] = [by(shape.elongation, ELONGATED), by(shape.spread, UNEVEN)];
+    let inside = lumen_inside(scan, track, &shape);
+    let [flat, uneven] = [by(shape.elongation, ELONGATED) * (1.0 - inside), by(shape.spread, UNEVEN)];
     let lost = ((flat + uneven - DOUBTS[0]) / (DOUBTS[1] - DOUBTS[0])).clamp(0.0, 1.0);
-    let is_pale = (scan.level - shape.level) / scan.contrast > PALE && track.radius() > WIDE;
+    let pale = ramp((scan.level - shape.level) / scan.contrast, PALE);
+    let pale = if track.radius() > WIDE { pale } else { 0.0 };
     if lost > 0.0 {
         track.doubt = Some(if flat >= uneven { TrackDoubt::Flat } else { TrackDoubt::Uneven });
     }
-    if shape.is_marrow || is_pale {
-        track.doubt = Some(if is_pale { TrackDoubt::PaleAndWide } else { TrackDoubt::Uneven });
-        track.confidence *= LEFT;
+    if shape.is_marrow || pale > 0.0 {
+        track.doubt = Some(if pale > 0.0 { TrackDoubt::PaleAndWide } else { TrackDoubt::Uneven });
+        track.confidence *= if shape.is_marrow { LEFT } else { 1.0 - pale * (1.0 - LEFT) };
     }
+    track.confidence = track.confidence.powf(1.0 - EXCUSED * inside);
     let is_lumen = track.confidence >= FLAT_LUMEN
         && uneven == 0.0
         && track.radius() >= FLAT_LUMEN_RADIUS
         && track.length() >= FLAT_LUMEN_LENGTH;
     track.confidence = (track.confidence * (1.0 - lost)).max(if is_lumen { FLAT_LUMEN_LEFT } else { 0.0 });
+}
+
+/// How much the inside of a track is that of a vessel, 0 to 1: even, as bright as vessels are, and wide enough to be seen.
+fn lumen_inside(scan: &Scan, track: &Track, shape: &Shape) -> f64 {
+    if shape.is_marrow || track.doubt == Some(TrackDoubt::Faint) {
+        return 0.0;
+    }
+    let away = (shape.level - scan.level).abs() / scan.contrast;
+    ramp(shape.spread, EVEN) * ramp(away, ALIKE) * ramp(track.radius() / scan.side, SEEN)
+}
+
+/// How far a value is on the way from nothing to the whole, 0 to 1.
+fn ramp(value: f64, [none, whole]: [f64; 2]) -> f64 {
+    ((value - none) / (whole - none)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
