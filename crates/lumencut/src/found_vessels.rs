@@ -15,7 +15,7 @@ use lumencut_vessels::trace::seed::{self, SeedRequest};
 use crate::text::{fixed, rounded};
 
 /// Whether a seed chooses among the vessels that are found without it; else the lumen around the seed is followed.
-const SEEDS_CHOOSE: bool = false;
+const SEEDS_CHOOSE: bool = true;
 
 /// A vessel that was found.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,6 +6,7 @@ pub mod choose;
 pub mod confidence;
 pub mod flux;
 pub mod found;
+pub mod from_seed;
 pub mod grid;
 pub mod links;
 pub mod paint;
@@ -30,6 +31,7 @@ use crate::trace::find::scan::Scan;
 use crate::trace::find::scarce::doubted_where_scarce;
 use crate::trace::find::stages::{Stage, Stages};
 use crate::voxels::Voxels;
+use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
@@ -51,8 +53,17 @@ pub struct FindRequest<'a> {
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
+    let trees = trees(voxels, None, request)?;
+    Ok(Trees { vessels: doubted_where_scarce(voxels, trees.vessels), ..trees })
+}
+
+/// All vessels of a volume; around a seed (mm, LPS) that lies in none of them fainter ones are found too.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
-    let Some((scan, tracks)) = tubes::tubes(voxels, request.smallest_radius, request.stop, stages)? else {
+    let Some((scan, tracks)) = tubes::tubes(voxels, seed, request, stages)? else {
         return Ok(Trees { vessels: Vec::new(), level: 0.0, contrast: 0.0, noise: 0.0 });
     };
     stages.stage(Stage::Judgement, 1);
@@ -63,7 +74,6 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     stages.stage(Stage::Vessels, 1);
     let links = links::between(&scan, &tracks, request.stop)?;
     let vessels = whole_vessels::of(&scan, &tracks, &links, request)?;
-    let vessels = doubted_where_scarce(voxels, vessels);
     stages.end();
     Ok(Trees { vessels, level: scan.level, contrast: scan.contrast, noise: scan.noise })
 }

@@ -38,6 +38,9 @@ const WIDE: f64 = 2.0;
 const ROUNDS: usize = 3;
 const LEAST_RADIUS: f64 = 0.5;
 
+/// A candidate is near a place within so many of its radii.
+const NEAR: f64 = 2.0;
+
 /// About how many voxels are looked at for the noise, and what share of them is the brightest. The spread of 27 voxels that this share
 /// of those does not reach is that of noise alone, times the last number where the noise is white; elsewhere there are edges.
 const NOISE_SAMPLES: usize = 60_000;
@@ -92,29 +95,12 @@ pub fn candidates(
     stages: Stages,
 ) -> Result<Vec<Candidate>> {
     let mut found = Vec::new();
-    let (first, last) = (looked_at.start, looked_at.end - 1);
     let all = looked_at.clone().map(|number| tiles(pyramid.levels[number].size).len()).sum();
     let pieces = stages.stage(Stage::Candidates, all);
     for number in looked_at.clone() {
         let level = &pyramid.levels[number];
-        let radii: &[usize] = match () {
-            () if number == first && number == last => &[0, 1, 2, 3],
-            () if number == first => &[0, 1, 2],
-            () if number == last => &[1, 2, 3],
-            () => &[1, 2],
-        };
-        let noise = if number == first { floors.noise } else { noise(level) };
-        let limits: Vec<(usize, f32, f32)> = radii
-            .iter()
-            .map(|&radius| {
-                let gain = gains()[radius];
-                let least = (NOISES * noise * f64::from(gain.noise)).max(OF_CONTRAST * floors.contrast);
-                // A step of the voxels' numbers is the least that can be seen at all.
-                (radius, gain.factor, (least as f32 / level.unit).max(1.0))
-            })
-            .collect();
-        let tiles = tiles(level.size);
-        let of_level: Vec<Vec<Candidate>> = tiles
+        let limits = limits(level, number, looked_at, floors);
+        let of_level: Vec<Vec<Candidate>> = tiles(level.size)
             .into_par_iter()
             .map(|tile| {
                 go_on(stop)?;
@@ -125,9 +111,52 @@ pub fn candidates(
             .collect::<Result<_>>()?;
         found.extend(of_level.into_iter().flatten());
     }
+    Ok(in_order(found, floors))
+}
+
+/// The candidates within two radii of a place (voxels of the finest level), the most promising first.
+pub fn candidates_near(
+    pyramid: &Pyramid,
+    looked_at: &Range<usize>,
+    floors: &Floors,
+    place: DVec3,
+) -> Vec<Candidate> {
+    let of_level = |number: usize| {
+        let level = &pyramid.levels[number];
+        let limits = limits(level, number, looked_at, floors);
+        let voxel = (place / level.side).round().to_array().map(|c| c.max(0.0) as usize);
+        let first = std::array::from_fn(|a| voxel[a].saturating_sub(TILE[a] / 2));
+        let seen = if (0..3).all(|a| first[a] < level.size[a]) { peaks(level, first, &limits) } else { Vec::new() };
+        seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect::<Vec<_>>()
+    };
+    let found = looked_at.clone().flat_map(of_level);
+    in_order(found.filter(|c| c.place.distance(place) <= NEAR * c.radius.max(1.0)).collect(), floors)
+}
+
+/// Candidates, the most promising first.
+fn in_order(mut candidates: Vec<Candidate>, floors: &Floors) -> Vec<Candidate> {
     let promise = |c: &Candidate| c.response.min(floors.contrast) * c.flux_radius.sqrt();
-    found.sort_by(|a, b| promise(b).total_cmp(&promise(a)));
-    Ok(found)
+    candidates.sort_by(|a, b| promise(b).total_cmp(&promise(a)));
+    candidates
+}
+
+/// The radii whose flux is found in a level, each with the factor of its response and the least response.
+fn limits(level: &Level, number: usize, looked_at: &Range<usize>, floors: &Floors) -> Vec<(usize, f32, f32)> {
+    let (first, last) = (looked_at.start, looked_at.end - 1);
+    let radii: &[usize] = match () {
+        () if number == first && number == last => &[0, 1, 2, 3],
+        () if number == first => &[0, 1, 2],
+        () if number == last => &[1, 2, 3],
+        () => &[1, 2],
+    };
+    let noise = if number == first { floors.noise } else { noise(level) };
+    let limit = |&radius: &usize| {
+        let gain = gains()[radius];
+        let least = (NOISES * noise * f64::from(gain.noise)).max(OF_CONTRAST * floors.contrast);
+        // A step of the voxels' numbers is the least that can be seen at all.
+        (radius, gain.factor, (least as f32 / level.unit).max(1.0))
+    };
+    radii.iter().map(limit).collect()
 }
 
 /// The standard deviation of the noise of a level, from the spread of its brighter voxels where they are evenest.

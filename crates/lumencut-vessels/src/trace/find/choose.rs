@@ -3,13 +3,13 @@
 use glam::DVec3;
 
 use crate::trace::find::found::{FoundVessel, Trees};
-use crate::trace::find::{FindRequest, find_vessels, refusals};
+use crate::trace::find::{FindRequest, refusals, trees};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 
 /// A seed chooses a part up to so many radii from the middle of one of its vessels, or up to a voxel where that is more.
-const REACH: f64 = 1.5;
+pub const REACH: f64 = 1.5;
 
 /// A point of a vessel that is near a seed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,17 +24,18 @@ struct Near {
     radii: f64,
 }
 
-/// The vessels of the part that a seed (mm, LPS) lies in, found as without a seed.
+/// The vessels of the part that a seed (mm, LPS) lies in, found as without a seed; where it lies in none of them fainter ones are
+/// looked for around it.
 ///
 /// # Errors
-/// Those of [`find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] for a seed outside the volume, in no vessel, or in a part
+/// Those of [`trees`]; [`lumencut_core::error::ErrorKind::Tracing`] for a seed outside the volume, in no vessel, or in a part
 /// without a sure vessel.
 pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
     let voxels = Voxels::new(volume);
     if !seed.is_finite() || voxels.voxel_at(seed).is_none() {
         return Err(refusals::outside(seed));
     }
-    let trees = find_vessels(volume, request)?;
+    let trees = trees(&voxels, Some(seed), request)?;
     if trees.vessels.is_empty() {
         return Err(refusals::no_vessel(0, request.smallest_radius));
     }
@@ -42,7 +43,6 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
     let value = || f64::from(voxels.at(seed));
     match part_at(&trees, seed, side) {
         Ok(part) => sure(only(trees, part)).map_err(|doubt| refusals::only_doubtful(seed, value(), doubt)),
-        // A vessel that was not found would be tracked from the seed itself here.
         Err((nearest, distance)) => Err(refusals::not_here(seed, value(), nearest, distance)),
     }
 }

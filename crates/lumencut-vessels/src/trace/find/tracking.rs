@@ -104,8 +104,19 @@ impl Tracking<'_> {
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
     pub fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
+        self.tracks_beside(&[], candidates)
+    }
+
+    /// The same, where some tracks are known already: those that are found besides.
+    ///
+    /// # Errors
+    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    pub fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
         let (mut found, mut levels) = (Vec::new(), Vec::new());
         let mut paint = Paint::default();
+        for track in known {
+            self.commit(Tried::Kept(track.clone()), &mut paint, &mut found, &mut levels);
+        }
         let (mut next, mut waiting) = (0, VecDeque::new());
         let pieces = self.stages.stage(Stage::Tracks, candidates.len());
         while next < candidates.len() || !waiting.is_empty() {
@@ -115,12 +126,12 @@ impl Tracking<'_> {
             next += looked_at;
             let tried: Vec<Tried> =
                 batch.par_iter().map(|candidate| self.tried(&paint, &levels, candidate)).collect();
-            let known = found.len();
+            let before = found.len();
             for (candidate, tried) in batch.iter().zip(tried) {
                 if !self.is_open(&paint, &levels, candidate) {
                     continue;
                 }
-                let tried = if meets_new(&paint, known, &tried) {
+                let tried = if meets_new(&paint, before, &tried) {
                     self.tried(&paint, &levels, candidate)
                 } else {
                     tried
@@ -129,6 +140,7 @@ impl Tracking<'_> {
             }
             pieces.done(looked_at);
         }
+        found.drain(..known.len());
         Ok(found)
     }
 

@@ -1,9 +1,12 @@
 //! The tubes of a scan: in a first pass those that tell the usual level of its vessels, in a second one all of them.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::candidates::{Floors, noise};
 use crate::trace::find::confidence::{UsualVessels, confidence};
+use crate::trace::find::FindRequest;
+use crate::trace::find::from_seed::from_seed;
 use crate::trace::find::grid::Grid;
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::scan::Scan;
@@ -31,16 +34,18 @@ const ABOVE: f64 = 0.25;
 /// In the first pass the usual contrast is taken to be this part of the range of values.
 const FIRST_CONTRAST: f64 = 0.3;
 
-/// The tubes of a scan and what is known of its vessels; none where nothing is a tube.
+/// The tubes of a scan and what is known of its vessels; none where nothing is a tube. Around a seed (mm, LPS) that lies in none of
+/// them fainter ones are looked for.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn tubes<'v>(
     voxels: &'v Voxels<'v>,
-    smallest_radius: f64,
-    stop: Stop,
+    seed: Option<DVec3>,
+    request: &FindRequest,
     stages: Stages,
 ) -> Result<Option<(Scan<'v>, Vec<Track>)>> {
+    let FindRequest { smallest_radius, stop, .. } = *request;
     let range = range(voxels);
     if range[1] <= range[0] {
         return Ok(None);
@@ -62,6 +67,10 @@ pub fn tubes<'v>(
     let mut tracks = pass.tracks(&candidates)?;
     let beside = side_by_side(&pass, &candidates, &tracks)?;
     tracks.extend(beside);
+    if let Some(seed) = seed {
+        let seed = pyramid.grid.grid_from_world.transform_point3(seed);
+        tracks.extend(from_seed(&pass, seed, &tracks)?);
+    }
     let tracks = tracks.into_iter().map(|track| in_world(&pyramid.grid, track)).collect();
     let scan = Scan { voxels, side: pyramid.grid.side, lowest: range[0], level, contrast, noise };
     Ok(Some((scan, tracks)))

@@ -8,7 +8,8 @@ const SIZE: [usize; 3] = [70, 60, 50];
 /// The level and contrast of the vessels, and the tracks, of a scan of voxels of 1 mm with the values of places (mm).
 fn found(value: impl Fn(DVec3) -> f64) -> Option<([f64; 2], Vec<Track>)> {
     with_scan(SIZE, 1.0, value, |scan| {
-        let found = tubes(scan.voxels, 1.0, &|| false, Stages::begin(None)).expect("tubes");
+        let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
+        let found = tubes(scan.voxels, None, &request, Stages::begin(None)).expect("tubes");
         found.map(|(scan, tracks)| ([scan.level, scan.contrast], tracks))
     })
 }
