@@ -5,6 +5,7 @@
 
 pub mod attached;
 pub mod centered;
+pub mod closed;
 pub mod graph;
 pub mod outlook;
 pub mod roots;
@@ -21,8 +22,9 @@ use crate::trace::find::found::FoundVessel;
 use crate::trace::find::links::link::Link;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::Track;
-use crate::trace::find::whole_vessels::attached::attached;
+use crate::trace::find::whole_vessels::attached::{Attached, attached};
 use crate::trace::find::whole_vessels::centered::{Centered, centered};
+use crate::trace::find::whole_vessels::closed::closed;
 use crate::trace::find::whole_vessels::graph::Graph;
 use crate::trace::find::whole_vessels::roots::roots;
 use crate::trace::find::whole_vessels::runs::runs;
@@ -48,6 +50,7 @@ pub fn of(scan: &Scan, tracks: &[Track], links: &[Link], request: &FindRequest) 
         .map(|number| centered(scan, &runs, number, request.stop))
         .collect::<Result<_>>()?;
     let whole = trimmed(attached(&runs, &graph.places, &lines), request.smallest_radius);
+    let whole: Vec<Option<Attached>> = whole.into_iter().map(|run| run.map(closed)).collect();
     go_on(request.stop)?;
     let mut part_of_root = vec![0; graph.places.len()];
     let (of_node, count) = graph.parts();
