@@ -141,10 +141,12 @@ fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &Us
     for (n, mean) in means.iter_mut().enumerate() {
         let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
         let ray = plane[0] * cos + plane[1] * sin;
-        for m in 0..SAMPLES {
+        let value = |m: usize| {
             let length = from + (to - from) * (m as f64 + 0.5) / SAMPLES as f64;
-            *mean += f64::from(level.at(point.place + ray * length)) / SAMPLES as f64;
-        }
+            f64::from(level.at(point.place + ray * length))
+        };
+        let values: [f64; SAMPLES] = std::array::from_fn(value);
+        *mean = values.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).fold(f64::MAX, f64::min);
         let samples = (reach / 0.5).ceil().max(1.0) as usize;
         meeting += usize::from(
             (1..=samples).any(|m| raw(point.place + ray * (reach * m as f64 / samples as f64)) > bone),

@@ -50,7 +50,7 @@ pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph) -> Vec<[usize; 2]> {
 fn importance(scan: &Scan, track: &Track) -> f64 {
     let wide = (track.radius() / scan.side).min(WIDEST);
     let contrast = track.points.iter().map(|point| point.contrast).sum::<f64>() / track.points.len() as f64;
-    track.length() * contrast / scan.contrast * track.confidence * wide
+    track.length() * contrast / scan.contrast * track.confidence * wide * wide
 }
 
 fn volume(track: &Track) -> f64 {
