@@ -126,7 +126,8 @@ pub fn candidates_near(
         let limits = limits(level, number, looked_at, floors);
         let voxel = (place / level.side).round().to_array().map(|c| c.max(0.0) as usize);
         let first = std::array::from_fn(|a| voxel[a].saturating_sub(TILE[a] / 2));
-        let seen = if (0..3).all(|a| first[a] < level.size[a]) { peaks(level, first, &limits) } else { Vec::new() };
+        let seen =
+            if (0..3).all(|a| first[a] < level.size[a]) { peaks(level, first, &limits) } else { Vec::new() };
         seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect::<Vec<_>>()
     };
     let found = looked_at.clone().flat_map(of_level);

@@ -154,7 +154,7 @@ fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &Us
     }
     let dark = means.iter().filter(|mean| **mean < point.level - 0.5 * point.contrast).count();
     means.sort_unstable_by(f64::total_cmp);
-    let even = (means[3 * RAYS / 4] - means[RAYS / 4]) / point.contrast;
+    let even = (means[9 * RAYS / 16] - means[RAYS / 16]) / point.contrast;
     let mut inside: Vec<f64> = (0..6)
         .map(|n| {
             let (sin, cos) = (TAU * f64::from(n) / 6.0).sin_cos();

@@ -21,7 +21,8 @@ pub fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Ve
         return Ok(Vec::new());
     }
     let floors = Floors { contrast: FAINTER * tracking.floors.contrast, ..tracking.floors };
-    let around = Tracking { floors, stages: Stages::default(), looked_at: tracking.looked_at.clone(), ..*tracking };
+    let around =
+        Tracking { floors, stages: Stages::default(), looked_at: tracking.looked_at.clone(), ..*tracking };
     let near = candidates_near(tracking.pyramid, &around.looked_at, &floors, seed);
     let found = around.tracks_beside(known, &near)?;
     Ok(found.into_iter().filter(|track| holds(track, seed)).collect())

@@ -3,6 +3,7 @@
 //! Each end is linked with the cheapest place of another track ahead. Then ends and sides are linked with other trees alone, and
 //! with stricter limits: where two trees come from one short trunk their nearest ends belong to themselves.
 
+pub mod bridges;
 pub mod ends;
 pub mod groups;
 pub mod landings;
@@ -12,6 +13,7 @@ pub mod way_level;
 
 use rayon::prelude::*;
 
+use crate::trace::find::links::bridges::bridges;
 use crate::trace::find::links::ends::{End, ends};
 use crate::trace::find::links::groups::Groups;
 use crate::trace::find::links::landings::{BETWEEN_TREES, Landings, OPEN_ENDS};
@@ -53,6 +55,9 @@ pub fn between(scan: &Scan, tracks: &[Track], stop: Stop) -> Result<Vec<Link>> {
         }
     }
     for link in in_order(side_links(scan, tracks, &groups, &landings, stop)?) {
+        groups.add_between_trees(link);
+    }
+    for link in in_order(bridges(scan, tracks, &ends, &groups, stop)?) {
         groups.add_between_trees(link);
     }
     Ok(groups.links)

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::trace::find::FindRequest;
 use crate::trace::find::candidates::{Floors, noise};
 use crate::trace::find::confidence::{UsualVessels, confidence};
-use crate::trace::find::FindRequest;
 use crate::trace::find::from_seed::from_seed;
 use crate::trace::find::grid::Grid;
 use crate::trace::find::pyramid::Pyramid;

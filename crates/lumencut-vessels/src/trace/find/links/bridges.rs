@@ -1,0 +1,73 @@
+//! Bridges: links over longer gaps between two ends that lead to each other, as of an artery whose wall touches bone for a while.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::trace::find::links::ends::End;
+use crate::trace::find::links::groups::Groups;
+use crate::trace::find::links::link::Link;
+use crate::trace::find::links::way_level::{WayEnd, lowest_level};
+use crate::trace::find::scan::Scan;
+use crate::trace::find::track::Track;
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
+
+/// The least confidence of both tracks.
+const CONFIDENCE: f64 = 0.3;
+
+/// How long a bridge is at most: so many radii of the wider end, and so much (mm).
+const RADII: f64 = 16.0;
+const LONGEST: f64 = 25.0;
+
+/// Both ends lead to each other with this cosine at least, or past each other by no more than so many radii; their radii differ by this factor at most, their levels by this part of
+/// the contrast, and the lowest level between them is this share of the way from the tissue to the lumen.
+const STRAIGHT: f64 = 0.9;
+const PAST: f64 = 1.5;
+const ALIKE: f64 = 1.6;
+const UNLIKE: f64 = 0.3;
+const LEVEL: f64 = 0.6;
+
+/// The bridges between ends of different trees.
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn bridges(
+    scan: &Scan,
+    tracks: &[Track],
+    ends: &[End],
+    groups: &Groups,
+    stop: Stop,
+) -> Result<Vec<Link>> {
+    let sure: Vec<&End> = ends.iter().filter(|end| tracks[end.of[0]].confidence >= CONFIDENCE).collect();
+    let group: Vec<usize> = sure.iter().map(|end| groups.group(end.of[0])).collect();
+    let of_end = |a: usize| {
+        go_on(stop)?;
+        let others = (a + 1..sure.len()).filter(|b| group[a] != group[*b]);
+        Ok(others.filter_map(|b| bridge(scan, sure[a], sure[b])).collect())
+    };
+    let found: Vec<Vec<Link>> = (0..sure.len()).into_par_iter().map(of_end).collect::<Result<_>>()?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// The bridge between two ends, where there is one.
+fn bridge(scan: &Scan, from: &End, to: &End) -> Option<Link> {
+    let way = to.place - from.place;
+    let gap = way.length();
+    let [narrow, wide] = [from.radius.min(to.radius), from.radius.max(to.radius)];
+    let unlike = (from.level - to.level).abs() / from.contrast.max(to.contrast);
+    let is_straight = leads_to(from, way) && leads_to(to, -way);
+    if gap > LONGEST.min(RADII * wide) || !is_straight || wide > ALIKE * narrow || unlike >= UNLIKE {
+        return None;
+    }
+    let [first, last] =
+        [from, to].map(|end| WayEnd { place: end.place, level: end.level, contrast: end.contrast });
+    let level = lowest_level(scan, first, last);
+    (level >= LEVEL).then_some(Link { from: from.of, to: to.of, cost: gap, gap, level })
+}
+
+/// Whether an end leads to what lies some way ahead.
+fn leads_to(end: &End, way: DVec3) -> bool {
+    let ahead = end.direction.dot(way);
+    let past = (way - end.direction * ahead).length();
+    ahead > 0.0 && (ahead >= STRAIGHT * way.length() || past <= PAST * end.radius)
+}
