@@ -6,7 +6,6 @@ use lumencut::found_vessels::{self, FoundLine, FoundTree, sure_parts};
 use lumencut::progress::Progress;
 use lumencut::stop::Stop;
 use lumencut::trace::find::FindRequest;
-use lumencut::trace::seed::SeedRequest;
 use lumencut::volume::Volume;
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
@@ -39,7 +38,7 @@ pub fn find_vessels<'py>(
     })
 }
 
-/// The branches that a seed (mm, LPS) reaches.
+/// The vessels that hang together with the one that a seed (mm, LPS) lies in.
 #[pyfunction]
 #[pyo3(signature = (volume, seed, smallest_radius, told=None))]
 #[allow(clippy::needless_pass_by_value)]
@@ -51,9 +50,8 @@ pub fn trace_from<'py>(
     told: Option<Py<PyAny>>,
 ) -> PyResult<FoundParts<'py>> {
     watched(py, &volume, told.as_ref(), |volume, stop, progress| {
-        let seed = DVec3::from_array(seed);
-        let request = SeedRequest { seed, smallest_radius, stop, progress: Some(progress) };
-        found_vessels::trace_from(volume, &request)
+        let request = FindRequest { smallest_radius, stop, progress: Some(progress) };
+        found_vessels::trace_from(volume, DVec3::from_array(seed), &request)
     })
 }
 

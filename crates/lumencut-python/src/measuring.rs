@@ -21,7 +21,7 @@ use lumencut::scan_details::ScanDetails;
 use lumencut::stop::Stop;
 use lumencut::study::view;
 use lumencut::trace::lumen::refine;
-use lumencut::trace::{seed, skeleton};
+use lumencut::trace::{find, skeleton};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
@@ -52,7 +52,7 @@ fn defaults() -> [(&'static str, f64); 4] {
         ("measuring_step", measuring::STEP),
         ("point_distance", refine::STEP),
         ("shortest_branch", skeleton::PARENT_RADII),
-        ("smallest_radius", seed::SMALLEST_RADIUS),
+        ("smallest_radius", find::SMALLEST_RADIUS),
     ]
 }
 

@@ -20,7 +20,6 @@ use lumencut_vessels::trace::lumen::cross_section::Probe;
 use lumencut_vessels::trace::lumen::refine::refined;
 use lumencut_vessels::trace::lumen::surroundings::Surroundings;
 use lumencut_vessels::trace::mask::{MaskRequest, TracedMask, trace_mask};
-use lumencut_vessels::trace::seed::{SeedRequest, trace_from};
 use lumencut_vessels::trace::ways::front::{Found, Front, Reach};
 use lumencut_vessels::trace::ways::region::{Region, Stopper, Strictness};
 use lumencut_vessels::voxels;
@@ -206,20 +205,4 @@ fn pieces_of_a_mask_are_counted_with_the_gap_between_them() {
     let found = masked(&[tube(6.0, 24.0), tube(36.0, 54.0)]);
     assert_eq!((found.pieces, found.vessels.len(), found.gaps.len()), (2, 2, 1));
     assert!((found.gaps[0].width - 6.0).abs() < 1.5, "{}", found.gaps[0].width);
-}
-
-#[test]
-fn a_seed_in_the_trunk_reaches_both_branches() {
-    let phantom = y_junction().unwrap();
-    let request =
-        SeedRequest { seed: DVec3::Z * -15.0, smallest_radius: 1.0, stop: &|| false, progress: None };
-    let branches = trace_from(&phantom.volume().unwrap(), &request).unwrap();
-    assert_eq!(branches.len(), 3);
-    assert!(branches.iter().all(|branch| branch.doubt.is_none()));
-    for end in [DVec3::Z * -30.0, DVec3::new(-20.0, 0.0, 30.0), DVec3::new(20.0, 0.0, 30.0)] {
-        let all = branches.iter().flat_map(|branch| &branch.line.points);
-        let nearest = all.map(|point| point.distance(end)).fold(f64::MAX, f64::min);
-        assert!(nearest < 5.0, "{end}: {nearest}");
-    }
-    assert!(branches.iter().flat_map(|branch| &branch.line.points).all(|point| point.y.abs() < 0.2));
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::find::choose::find_from;
@@ -9,13 +10,8 @@ use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::find::{self, FindRequest, refusals};
 use lumencut_vessels::trace::lines::centerline::Centerline;
-use lumencut_vessels::trace::seed::seed_tree::{Doubt, SeedBranch};
-use lumencut_vessels::trace::seed::{self, SeedRequest};
 
 use crate::text::{fixed, rounded};
-
-/// Whether a seed chooses among the vessels that are found without it; else the lumen around the seed is followed.
-const SEEDS_CHOOSE: bool = true;
 
 /// A vessel that was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,18 +47,12 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree>
     Err(refusals::no_vessel(trees.vessels.len(), request.smallest_radius))
 }
 
-/// All branches that a seed reaches.
+/// The vessels that hang together with the one that a seed (mm, LPS) lies in.
 ///
 /// # Errors
-/// Those of [`seed::trace_from`], or of [`find_from`] where seeds choose.
-pub fn trace_from(volume: &Volume, request: &SeedRequest) -> Result<FoundTree> {
-    if SEEDS_CHOOSE { chosen(volume, request) } else { Ok(followed(seed::trace_from(volume, request)?)) }
-}
-
-/// The vessels of the part that a seed lies in.
-fn chosen(volume: &Volume, request: &SeedRequest) -> Result<FoundTree> {
-    let SeedRequest { seed, smallest_radius, stop, progress } = *request;
-    Ok(found(find_from(volume, seed, &FindRequest { smallest_radius, stop, progress })?))
+/// Those of [`find_from`].
+pub fn trace_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<FoundTree> {
+    Ok(found(find_from(volume, seed, request)?))
 }
 
 /// What is told of trees that were found.
@@ -75,7 +65,7 @@ fn found(trees: Trees) -> FoundTree {
     let vessels: Vec<FoundLine> = sure.into_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
     let notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
-    let doubts = doubts(&vessels, ["vessel", "vessels"]);
+    let doubts = doubts(&vessels);
     FoundTree { vessels, notes, doubts }
 }
 
@@ -84,16 +74,8 @@ fn about(value: f64) -> String {
     if value.abs() < 100.0 { rounded(value, 2) } else { fixed(value, 0) }
 }
 
-/// What is told of the branches that a seed reaches by the lumen around it.
-fn followed(branches: Vec<SeedBranch>) -> FoundTree {
-    let line = |SeedBranch { line, doubt }| FoundLine { line, doubt: doubt.map(Doubt::words), part: 0 };
-    let vessels: Vec<FoundLine> = branches.into_iter().map(line).collect();
-    let doubts = doubts(&vessels, ["branch", "branches"]);
-    FoundTree { vessels, notes: Vec::new(), doubts }
-}
-
 /// How many vessels are doubtful for each reason, the most frequent one first.
-fn doubts(vessels: &[FoundLine], words: [&str; 2]) -> Vec<String> {
+fn doubts(vessels: &[FoundLine]) -> Vec<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for doubt in vessels.iter().filter_map(|vessel| vessel.doubt) {
         *counts.entry(doubt).or_default() += 1;
@@ -101,7 +83,7 @@ fn doubts(vessels: &[FoundLine], words: [&str; 2]) -> Vec<String> {
     let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let told = |(doubt, count): (&str, usize)| {
-        format!("{count} {} doubtful: {doubt}", words[usize::from(count != 1)])
+        format!("{count} vessel{} doubtful: {doubt}", if count == 1 { "" } else { "s" })
     };
     counts.into_iter().map(told).collect()
 }
@@ -118,7 +100,6 @@ pub fn sure_parts(tree: &FoundTree) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
 
     fn vessel(part: usize, doubt: Option<TrackDoubt>) -> FoundVessel {
         let line = Centerline {

@@ -37,6 +37,9 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
+/// Where vessels end unless somebody asks for another radius (mm).
+pub const SMALLEST_RADIUS: f64 = 1.0;
+
 /// What is found, and how.
 pub struct FindRequest<'a> {
     /// Vessels end where they are narrower from there on (mm).

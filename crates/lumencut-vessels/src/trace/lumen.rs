@@ -5,4 +5,3 @@ pub mod lumen_model;
 pub mod ray;
 pub mod refine;
 pub mod surroundings;
-pub mod tube;

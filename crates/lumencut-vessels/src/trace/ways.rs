@@ -2,7 +2,6 @@
 
 pub mod blocks;
 pub mod buckets;
-pub mod flood;
 pub mod front;
 pub mod region;
 pub mod shape;

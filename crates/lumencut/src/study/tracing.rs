@@ -8,8 +8,7 @@ use lumencut_core::vessel_tree::VesselTree;
 use lumencut_io::{write_mrk_json, write_vtp};
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::preview::Sought;
-use lumencut_vessels::trace::find::FindRequest;
-use lumencut_vessels::trace::seed;
+use lumencut_vessels::trace::find::{FindRequest, SMALLEST_RADIUS};
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
@@ -129,17 +128,15 @@ impl Study {
         Ok(way.map(|points| points.iter().map(|point| point.to_array()).collect()))
     }
 
-    /// All branches that a seed reaches, down to the radius of Python; the doubtful ones last.
+    /// The vessels that hang together with the one that a seed lies in, down to the radius of Python; the doubtful ones last.
     ///
     /// # Errors
     /// `tracing` as [`found_vessels::trace_from`], `volume` where none is open, `interrupted`.
     pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<HeldLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
-        let smallest_radius = seed::SMALLEST_RADIUS;
         let Watch { stop, progress } = watch;
-        let seed = DVec3::from_array(seed);
-        let request = seed::SeedRequest { seed, smallest_radius, stop, progress: Some(progress) };
-        let tree = found_vessels::trace_from(&volume, &request)?;
+        let request = FindRequest { smallest_radius: SMALLEST_RADIUS, stop, progress: Some(progress) };
+        let tree = found_vessels::trace_from(&volume, DVec3::from_array(seed), &request)?;
         self.held_lines(tree.vessels)
     }
 
@@ -150,7 +147,7 @@ impl Study {
     pub(crate) fn find_vessels(&mut self, watch: Watch) -> Result<(Vec<HeldLine>, Vec<String>)> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
-        let request = FindRequest { smallest_radius: seed::SMALLEST_RADIUS, stop, progress: Some(progress) };
+        let request = FindRequest { smallest_radius: SMALLEST_RADIUS, stop, progress: Some(progress) };
         let tree = found_vessels::find_vessels(&volume, &request)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }

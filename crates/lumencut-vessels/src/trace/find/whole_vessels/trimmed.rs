@@ -1,8 +1,8 @@
 //! Runs as far as they are wide enough, without the bumps of the walls of others.
 
+use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::attached::Attached;
 use crate::trace::find::whole_vessels::centered::LinePoint;
-use crate::trace::lumen::tube::median;
 
 /// What is shorter outside the lumen that it leaves is a bump of its wall: so many of its own radii, and this length (mm).
 const SHORTEST_RADII: f64 = 2.0;
@@ -72,7 +72,7 @@ fn wide_until<'a>(points: impl Iterator<Item = &'a LinePoint>, smallest_radius: 
     let radii: Vec<f64> = points.map(|point| point.radius).collect();
     let last = radii.len() - 1;
     let is_wide =
-        |n: &usize| median(&radii[n.saturating_sub(BESIDE)..=(n + BESIDE).min(last)]) >= smallest_radius;
+        |n: &usize| usual(&radii[n.saturating_sub(BESIDE)..=(n + BESIDE).min(last)]) >= smallest_radius;
     (0..radii.len()).rev().find(is_wide)
 }
 
@@ -86,5 +86,10 @@ fn is_bump(run: &Attached, [first, last]: [usize; 2]) -> bool {
     let outside = &run.points[from..=to];
     let length: f64 = outside.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum();
     let radii: Vec<f64> = outside.iter().map(|point| point.radius).collect();
-    length < SHORTEST.max(SHORTEST_RADII * median(&radii))
+    length < SHORTEST.max(SHORTEST_RADII * usual(&radii))
+}
+
+/// The median of some radii.
+fn usual(radii: &[f64]) -> f64 {
+    median(&mut radii.to_vec()).unwrap_or(0.0)
 }

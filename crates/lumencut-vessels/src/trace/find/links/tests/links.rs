@@ -27,8 +27,7 @@ fn joined(links: &[Link]) -> Vec<[usize; 2]> {
 }
 
 #[test]
-fn ends_with_a_gap_between_them_are_linked_up_to_the_limit_and_through_lumen_alone() {
-    // With a radius of 1 mm the wall of the other track may be 3 mm away, or 2 mm where that is more.
+fn ends_with_a_gap_between_them_are_linked_through_lumen_alone() {
     let tracks = |gap: f64| {
         [
             straight_track(at(5.0, 15.0), at(25.0, 15.0), 1.0),
@@ -44,10 +43,31 @@ fn ends_with_a_gap_between_them_are_linked_up_to_the_limit_and_through_lumen_alo
         assert!((length - gap).abs() < 1e-9 && link.level > 0.8, "{gap} mm: {link:?}");
         assert!((link.gap - (gap - 1.0).max(0.0)).abs() < 1e-9, "{gap} mm: {link:?}");
     }
-    assert!(linked(whole, &tracks(4.5)).is_empty());
     let broken: &[(&[DVec3], f64)] =
         &[(&[at(0.0, 15.0), at(25.0, 15.0)], 1.0), (&[at(28.5, 15.0), at(60.0, 15.0)], 1.0)];
     assert!(linked(broken, &tracks(3.5)).is_empty());
+}
+
+#[test]
+fn ends_that_lead_to_each_other_are_bridged_over_sixteen_radii_and_others_are_not() {
+    // With a radius of 1 mm the wall of another track may be 3 mm away, but not that of an end which leads here.
+    let tracks = |gap: f64, beside: f64| {
+        [
+            straight_track(at(5.0, 15.0), at(25.0, 15.0), 1.0),
+            straight_track(at(25.0 + gap, 15.0 + beside), at(55.0, 15.0 + beside), 1.0),
+        ]
+    };
+    let whole: &[(&[DVec3], f64)] = &[(&[at(0.0, 15.0), at(60.0, 15.0)], 1.0)];
+    for gap in [4.5, 15.5] {
+        assert_eq!(joined(&linked(whole, &tracks(gap, 0.0))), [[0, 1]], "{gap} mm");
+    }
+    assert!(linked(whole, &tracks(16.5, 0.0)).is_empty());
+    // Into a plate beside, 4 mm past the end, nothing leads.
+    let plate: &[(&[DVec3], f64)] = &[(&[at(0.0, 17.0), at(60.0, 17.0)], 8.0)];
+    assert_eq!(joined(&linked(plate, &tracks(6.0, 1.0))), [[0, 1]]);
+    assert!(linked(plate, &tracks(6.0, 4.0)).is_empty());
+    let wider = [tracks(9.0, 0.0)[0].clone(), straight_track(at(34.0, 15.0), at(55.0, 15.0), 1.7)];
+    assert!(linked(whole, &wider).is_empty());
 }
 
 #[test]
