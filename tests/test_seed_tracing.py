@@ -1,4 +1,4 @@
-"""Centerlines of all branches that one seed reaches."""
+"""Centerlines of the vessels that hang together with the one that a seed lies in."""
 
 import numpy as np
 import pytest
@@ -11,6 +11,7 @@ from lumencut import (
     VesselTree,
     Volume,
     compare_centerlines,
+    find_vessels,
     get_threads,
     phantom,
     read_centerlines,
@@ -27,14 +28,14 @@ def fork():
     return phantom.y_junction()
 
 
-def test_one_seed_reaches_all_three_branches_and_they_share_their_junction(fork):
+def test_one_seed_reaches_the_whole_fork_and_its_branch_begins_on_its_trunk(fork):
     tree = trace_from(fork.volume, (0, 0, -20))
     found = compare_centerlines(tree, fork.tree, sampling=0.1)
-    assert len(tree) == 3
+    trunk, branch = tree
     assert found.ov > 0.99
     assert found.false_length == 0
-    ends = {tuple(end) for vessel in tree for end in vessel.points[[0, -1]]}
-    assert len(ends) == 4
+    assert tuple(branch.points[0]) in set(map(tuple, trunk.points))
+    assert tree == find_vessels(fork.volume)
     for vessel in tree:
         assert ((vessel.confidence >= 0) & (vessel.confidence <= 1)).all()
         assert np.linalg.norm(np.diff(vessel.points, axis=0), axis=1).max() < 0.55
@@ -58,8 +59,10 @@ def test_bone_that_touches_the_vessel_is_left_out():
     scene.paint(line, 2.5, LUMEN)
     tree = trace_from(scene.volume(3), line[20])
     points = np.concatenate([vessel.points for vessel in tree])
-    assert away(line[8:-8], points).max() < 1.0
-    assert away(points, line).max() < 2.5
+    # At the hole the line moves towards the marrow, by about the radius of the vessel.
+    far = np.linalg.norm(line - middle, axis=1) > 16
+    assert away(line[far][8:-8], points).max() < 1.0
+    assert away(points, line).max() < 3.0
 
 
 @pytest.mark.parametrize("spot", [20, 100])
@@ -86,31 +89,40 @@ def test_a_tree_from_elsewhere_has_no_doubtful_branches(fork):
     [
         ((500, 0, 0), "outside the volume"),
         ((np.nan, 0, 0), "NaN"),
-        ((25, 12, -20), "found fat: the volume has"),
-        ((5.5, 0, -20), "soft tissue"),
+        ((25, 12, -20), r"no vessel here; the nearest one is 27\.7 mm away, at \(0\.0"),
+        ((0, 8, -20), r"no vessel here; the nearest one is 8\.0 mm away"),
     ],
 )
-def test_a_seed_that_lies_in_no_lumen_is_refused(fork, seed, words):
+def test_a_seed_that_lies_in_no_vessel_is_refused(fork, seed, words):
     with pytest.raises(TracingError, match=words):
         trace_from(fork.volume, seed)
 
 
-def test_a_seed_in_bone_and_one_in_air_are_told_what_they_hit():
+def test_seeds_in_bone_and_air_of_a_scan_without_vessels_find_none():
     values = np.full((40, 40, 40), FAT, np.float32)
     values[:20] = -1000
     values[30:] = 1200
     volume = Volume(values, spacing=(1, 1, 1))
-    with pytest.raises(TracingError, match="found air"):
-        trace_from(volume, (20, 20, 5))
-    with pytest.raises(TracingError, match="found bone"):
-        trace_from(volume, (20, 20, 36))
+    for seed in ((20, 20, 5), (20, 20, 36)):
+        with pytest.raises(TracingError, match="no vessel found"):
+            trace_from(volume, seed)
 
 
-def test_a_body_that_is_no_tube_is_an_error_that_says_so():
+def test_a_seed_in_bone_beside_a_vessel_is_told_where_the_vessel_is():
+    line = arc(60)
+    scene = Scene(room(line, 0.7, 26), (0.7,) * 3)
+    body = line[len(line) // 2] + np.array([14.0, 0.0, 0.0])
+    scene.paint(body[None], 8.0, BONE)
+    scene.paint(line, 2.5, LUMEN)
+    with pytest.raises(TracingError, match="no vessel here; the nearest one is 1[234]"):
+        trace_from(scene.volume(3), body)
+
+
+def test_a_body_that_is_no_tube_holds_no_vessel():
     scene = Scene((40, 40, 40), (1.0,) * 3)
     scene.values[:] = FAT
     scene.paint(np.zeros((1, 3)), 7.0, LUMEN)
-    with pytest.raises(TracingError, match="nowhere a tube"):
+    with pytest.raises(TracingError, match="no vessel found"):
         trace_from(scene.volume(1), (0, 0, 0))
 
 
@@ -147,7 +159,7 @@ def test_the_command_takes_a_seed_in_lps_ras_or_as_a_voxel(fork, file, tmp_path,
     }[space]
     result = run("trace", file, *options, "-o", tmp_path / "lines.vtp")
     assert result.exit_code == 0, result.output
-    assert len(read_centerlines(tmp_path / "lines.vtp")) == 3
+    assert len(read_centerlines(tmp_path / "lines.vtp")) == 2
 
 
 def test_a_picture_is_made_from_a_scan_and_a_seed(file, tmp_path):
@@ -166,6 +178,7 @@ def test_a_picture_is_made_from_a_scan_and_a_seed(file, tmp_path):
         (["trace", "--point", "0,0,0", "--point", "0,0,9", "--doubtful", "-o", "a.vtp"], "without --seed"),
         (["render", "--doubtful", "-o", "a.png"], "without --seed"),
         (["render", "--ras", "-o", "a.png"], "--ras without --seed"),
+        (["render", "--all-parts", "-o", "a.png"], "--all-parts without --find"),
         (["trace", "--find", "--seed", "0,0,0", "-o", "a.vtp"], "--seed and --find"),
         (["trace", "--find", "--point", "1,1,1", "-o", "a.vtp"], "--point with --find"),
         (["trace", "--find", "--ras", "-o", "a.vtp"], "--ras with --find"),

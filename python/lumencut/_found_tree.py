@@ -22,7 +22,7 @@ def checked_radius(smallest_radius: float) -> float:
 
 
 def found_tree(
-    vessels: list[tuple[_Array, _Array, _Array, str]], parts: list[list[int]] | None, notes: list[str]
+    vessels: list[tuple[_Array, _Array, _Array, str]], parts: list[list[int]], notes: list[str]
 ) -> VesselTree:
     """Return the tree of vessels with their doubts, empty where there are none, and what is told of them."""
     made = [
@@ -32,6 +32,6 @@ def found_tree(
     tree = VesselTree(vessel for vessel, doubt in made if not doubt)
     tree._doubtful = tuple(vessel for vessel, doubt in made if doubt)
     tree._doubts = tuple(doubt for _, doubt in made if doubt)
-    tree._parts = None if parts is None else tuple(map(tuple, parts))
+    tree._parts = tuple(map(tuple, parts))
     tree._notes = tuple(notes)
     return tree

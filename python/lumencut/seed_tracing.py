@@ -1,4 +1,4 @@
-"""Centerlines of all branches that one seed reaches."""
+"""The vessels that hang together with the one that a seed lies in."""
 
 from __future__ import annotations
 
@@ -23,38 +23,39 @@ def trace_from(
     smallest_radius: float = 1.0,
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
-    """Trace all branches that one point in the lumen reaches.
+    """Find the vessels that hang together with the one that a point lies in.
 
-    The values around the seed tell what lumen looks like. All voxels with such values that are joined with
-    the seed are followed from their farthest ends back, and kept as far as cross-sections of the grey values
-    show a tube that goes on: bone, organs and veins that touch the lumen are left out where they begin. What
-    is kept is thinned to lines as :func:`lumencut.trace_mask` does, so cycles stay, and the lines are moved
-    to the middle of the lumen as those of :func:`lumencut.trace` are. METHOD.md, "Tracing from a seed".
+    All vessels of the scan are found as :func:`lumencut.find_vessels` does, and the seed chooses among them:
+    the part that has the vessel nearest to it, up to 1.5 radii or a voxel away. So every seed in one part
+    gives the same vessels to the bit. Around a seed that lies in none of them fainter vessels are looked for.
+    METHOD.md, "Finding all vessels".
 
     Parameters
     ----------
     volume : Volume, or whatever else :func:`lumencut.render` takes as one
         The angiography; lumen must be brighter than the tissue around it.
     seed : array_like, shape (3,)
-        A point in the lumen (mm, LPS). It need not be central.
+        A point in a vessel (mm, LPS). It need not be central.
     smallest_radius : float, default 1.0
-        Branches end about where they are narrower from there on (mm); some go on beyond. Lumen less than
-        about two voxels wide is not found.
+        Vessels end about where they are narrower from there on (mm). Those less than about two voxels wide
+        are not found.
     progress : callable, optional
         Called now and then with how much is done and how much there is to do.
 
     Returns
     -------
     VesselTree
-        The branches with ``radius`` and ``confidence``, points at most 0.5 mm apart; those that meet share
-        their end points to the bit. :attr:`VesselTree.doubtful` has the branches that are not sure, and
-        :attr:`VesselTree.doubts` says why.
+        Whole vessels from the root of the part outwards, with ``radius`` and ``confidence``, points at most
+        0.5 mm apart; the first point of a branch is a point of its parent to the bit. A ring ends on its
+        first point. :attr:`VesselTree.doubtful` has the vessels of the part that are not sure,
+        :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` which level and contrast vessels were
+        found to have.
 
     Raises
     ------
     TracingError
-        For a seed outside the volume or not in lumen, one around which no tube is to be seen, and one whose
-        lumen fills too much of the volume: the error says what was found there and what was expected.
+        For a seed outside the volume, one in no vessel (the error says how far the nearest one is), and one
+        whose part has no vessel that is sure.
     SettingsError
         For a smallest radius below 0.
     VolumeError
@@ -62,5 +63,4 @@ def trace_from(
     """
     place = numbers(TracingError, "seed", seed, (3,))
     smallest = checked_radius(smallest_radius)
-    vessels, _, notes = _lumencut.trace_from(as_volume(volume), tuple(place.tolist()), smallest, progress)
-    return found_tree(vessels, None, notes)
+    return found_tree(*_lumencut.trace_from(as_volume(volume), tuple(place.tolist()), smallest, progress))

@@ -9,7 +9,7 @@ import click
 
 from lumencut.cli.options import added
 from lumencut.cli.parameters import VECTOR
-from lumencut.cli.report import bar, detail, say, warn
+from lumencut.cli.report import bar, detail, say
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,7 +27,7 @@ WITH_FOUND = ("smallest_radius", "doubtful")
 def found_options(command: _Command) -> _Command:
     """Add the options of vessels that are found, from a seed or without one."""
     parts = (
-        click.option("--seed", type=VECTOR, help="A point in a vessel (mm, LPS): trace all that it reaches."),
+        click.option("--seed", type=VECTOR, help="A point in a vessel (mm, LPS): find all that hangs together with it."),
         click.option(
             "--seed-index",
             type=VECTOR,
@@ -64,11 +64,24 @@ def check_found(chosen: dict[str, Any]) -> None:
     given = [f"--{name.replace('_', '-')}" for name in seeds] + ["--find"] * chosen["find"]
     if len(given) > 1:
         raise click.UsageError(f"found {' and '.join(given)}; expected one of them")
+    if chosen.get("all_parts") and not chosen["find"]:
+        raise click.UsageError("--all-parts without --find does nothing; leave it out")
     if not given:
         for name in WITH_FOUND:
             if chosen[name]:
                 option = f"--{name.replace('_', '-')}"
                 raise click.UsageError(f"{option} without --seed or --find does nothing; leave it out")
+
+
+def shown_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
+    """Find what a picture shows: without ``--all-parts`` and ``--doubtful`` the most important part alone."""
+    from lumencut.vessel_tree import VesselTree
+
+    tree = found_vessels(chosen, voxels)
+    if chosen.get("all_parts") or chosen["doubtful"] or len(tree.parts) < 2:
+        return tree
+    say(f"shown: the most important of {len(tree.parts)} parts; --all-parts shows them all")
+    return VesselTree([tree[vessel] for vessel in tree.parts[0]])
 
 
 def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
@@ -90,14 +103,11 @@ def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     from lumencut.vessel_finding import find_vessels
 
     smallest = {} if chosen["smallest_radius"] is None else {"smallest_radius": chosen["smallest_radius"]}
-    if not chosen["find"]:
-        with bar("tracing", "share") as told:
-            tree = trace_from(voxels, _place(chosen, voxels), **smallest, progress=told)
-        for note in tree.notes:
-            warn(note)
-        return tree
     with bar("finding vessels", "share") as told:
-        tree = find_vessels(voxels, **smallest, progress=told)
+        if chosen["find"]:
+            tree = find_vessels(voxels, **smallest, progress=told)
+        else:
+            tree = trace_from(voxels, _place(chosen, voxels), **smallest, progress=told)
     for note in tree.notes:
         say(note)
     for number, part in enumerate(tree.parts):

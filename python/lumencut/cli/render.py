@@ -47,6 +47,11 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
 )
 @options.several_views_options
 @found_options
+@click.option(
+    "--all-parts",
+    is_flag=True,
+    help="Show all that --find finds, not only the vessels that hang together with the most important one.",
+)
 @click.option("--ras", is_flag=True, help="The seed is in RAS, not LPS.")
 @like_option
 @label_options
@@ -61,7 +66,8 @@ def render(
 
     VOLUME is a DICOM folder or zip archive, NIfTI, NRRD or MetaImage file; CENTERLINES one or several .vtp,
     .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv, .txt or .npy files, whose vessels are shown together.
-    With --find all vessels of VOLUME are found and shown, with --seed those that this point reaches. Without
+    With --find the vessels of VOLUME are found, and those that hang together with the most important one are
+    shown; with --seed those that hang together with the one that this point lies in. Without
     all of these the context alone is shown, all of the volume. The view fits all vessels, or the volume,
     unless --center, --pixel-spacing or --zoom say otherwise.
 

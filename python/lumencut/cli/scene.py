@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from lumencut.cli import vessels
-from lumencut.cli.found_vessels import found_by, found_vessels
+from lumencut.cli.found_vessels import found_by, shown_vessels
 from lumencut.cli.mistakes import check_files, check_options, check_radii, check_reading
 from lumencut.cli.options import described
 from lumencut.cli.report import bar, detail, warn
@@ -87,7 +87,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
     voxels = None if files.volume is None else _read_volume(files.volume, files)
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels)
     if voxels is not None and found_by(chosen) is not None:
-        tree = found_vessels(chosen, voxels)
+        tree = shown_vessels(chosen, voxels)
     check_radii(chosen, tree)
     if tree is not None:
         detail(f"{', '.join(map(str, files.centerlines)) or 'found in the scan'}: {tree!r}")
