@@ -69,7 +69,6 @@ bench: develop tools ## Measure this machine, VTK beside it; prints tables, keep
 	$(BIN)/python benches/measure.py
 	$(BIN)/python benches/trace.py
 	$(BIN)/python benches/trace_mask.py
-	$(BIN)/python benches/trace_from.py
 	$(BIN)/python benches/find_vessels.py
 
 calibration: develop ## See whether the uncertainty of measured diameters holds, in 288 scenes; prints a table.

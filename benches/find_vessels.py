@@ -16,7 +16,7 @@ import numpy.typing as npt
 from vessel_pictures import save_pictures
 from vessel_scenes import NEGATIVE, PATIENTS, PHANTOMS, SHARED, Scene, resampled, scene, voxel_of
 
-from lumencut import TracingError, Vessel, VesselTree, find_vessels
+from lumencut import TracingError, Vessel, VesselTree, find_vessels, trace_from
 
 ROWS = (
     *PHANTOMS,
@@ -32,7 +32,7 @@ SEEDS = 16
 """How many seeds are put along the truth, each this share of the radius from the middle."""
 OFF_MIDDLE = 0.6
 REACH = 1.5
-"""A seed chooses a vessel up to so many radii away; a line farther from all of the truth is false."""
+"""A line farther than so many radii from all of the truth is false."""
 WIDE = 1.5
 """Vessels of this radius are to be found (voxels)."""
 
@@ -83,16 +83,12 @@ def seeds(truth: tuple[Floats, Floats]) -> Floats:
     return np.asarray(points[chosen] + across * (OFF_MIDDLE * radius[chosen])[:, None])
 
 
-def part_of(tree: VesselTree, seed: Floats, voxel: float) -> list[Vessel]:
+def chosen_by(seed: Floats, made: Scene) -> list[Vessel]:
     """The sure vessels of the part that a seed lies in; none where it lies in none."""
-    away = []
-    for vessel in tree:
-        points, radius = resampled(vessel, 0.5)
-        away.append(nearest(seed[None], points, np.maximum(radius, voxel / REACH))[0])
-    number = int(np.argmin(away))
-    if away[number] > REACH:
+    try:
+        return list(trace_from(made.volume, seed))
+    except TracingError:
         return []
-    return next([tree[n] for n in part] for part in tree.parts if number in part)
 
 
 def percent(share: float) -> str:
@@ -108,7 +104,7 @@ def compared_with_truth(made: Scene, tree: VesselTree) -> list[str]:
     wide = radius >= WIDE * voxel
     truth = (points[wide], radius[wide])
     first = recall([tree[n] for n in tree.parts[0]], truth, voxel)
-    each = sorted(recall(part_of(tree, seed, voxel), truth, voxel) for seed in seeds(truth))
+    each = sorted(recall(chosen_by(seed, made), truth, voxel) for seed in seeds(truth))
     words = [percent(first), ", ".join(percent(each[n]) for n in (0, len(each) // 2, -1))]
     if not made.is_complete:
         return [*words, "–", "–"]

@@ -1,4 +1,4 @@
-//! Ways through the voxels of a volume: what a step costs, the cheapest ways from a voxel, and the voxels that a flood reaches.
+//! Ways through the voxels of a volume: what a step costs, the cheapest ways from a voxel.
 
 pub mod blocks;
 pub mod buckets;
