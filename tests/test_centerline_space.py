@@ -70,9 +70,13 @@ def test_what_was_asked_for_does_not_warn(tmp_path):
     path = write_vtk(tmp_path, POINTS)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        read_centerlines(path, volume=volume_around(POINTS))
-        read_centerlines(path, "lps", unit="mm", volume=volume_around(POINTS * FLIP))
-        read_centerlines(path, "lps", volume=volume_around(POINTS + 500.0))
+        trees = [
+            read_centerlines(path, volume=volume_around(POINTS)),
+            read_centerlines(path, "lps", unit="mm", volume=volume_around(POINTS * FLIP)),
+            read_centerlines(path, "lps", volume=volume_around(POINTS + 500.0)),
+        ]
+    for tree in trees:
+        np.testing.assert_array_equal(tree[0].points, POINTS)
 
 
 def test_an_unstated_space_is_told_by_the_volume(tmp_path, caplog):

@@ -235,5 +235,12 @@ def test_without_matplotlib_nothing_is_measured_and_the_extra_is_named(files, tm
     assert result.exit_code == 1
     assert 'pip install "lumencut[plot]"' in result.stderr
     assert list(tmp_path.iterdir()) == []
+    # Sections and the report need none, and the numbers beside them are the same.
     assert run(*files, "-o", tmp_path / "p.csv", "--sections", tmp_path / "s.png").exit_code == 0
+    alone = (tmp_path / "p.csv").read_text("utf-8")
     assert run(*files, "-o", tmp_path / "p.csv", "--report", tmp_path / "r.html").exit_code == 0
+    assert (tmp_path / "p.csv").read_text("utf-8") == alone
+    assert {row["vessel"] for row in rows_of(tmp_path / "p.csv")} == {"0"}
+    with Image.open(tmp_path / "s.png") as image:
+        assert np.asarray(image.convert("L")).std() > 10
+    assert "<table" in (tmp_path / "r.html").read_text("utf-8")

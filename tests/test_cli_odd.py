@@ -6,6 +6,7 @@ import os
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 
 from lumencut.cli import main
 from scene_files import bent_line, write_lines, write_volume
@@ -53,6 +54,15 @@ def test_pictures_of_one_series(two_series, tmp_path, command, series):
     )
     assert invoke(*words, "--series", series).exit_code == 0
     assert [path.name for path in folder.iterdir()] == ["view.png"]
+    with Image.open(folder / "view.png") as picture:
+        assert picture.size == (24, 20)
+        asked = picture.convert("RGB").tobytes()
+    # The same picture as of the files of that series alone.
+    for path in two_series.glob("7-*.dcm"):
+        path.unlink()
+    assert invoke(*words).exit_code == 0
+    with Image.open(folder / "view.png") as picture:
+        assert picture.convert("RGB").tobytes() == asked
 
 
 def test_info_lists_the_series(two_series):
@@ -124,7 +134,9 @@ def test_a_view_that_misses_the_volume_is_a_warning(tmp_path, command, who):
         f"lumencut: warning: no pixel of {who} shows the volume: the center is 100000,0,-0.5, "
         "the volume reaches from -0.5,-0.5,-0.5 to 23.5,19.5,31.5 (mm, LPS)"
     )
-    assert (tmp_path / "view.png").exists()
+    with Image.open(tmp_path / "view.png") as picture:
+        # Nothing but the background.
+        assert picture.convert("RGB").getcolors() == [(16 * 16, (0, 0, 0))]
 
 
 def test_frames_that_miss_the_volume_are_counted(tmp_path):

@@ -14,6 +14,7 @@ from dataclasses import FrozenInstanceError
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 
 from device_scenes import pair, scene
 from frame_comparison import assert_alike
@@ -299,12 +300,18 @@ def test_the_commands_compute_where_they_are_told(gpu, command, tmp_path, monkey
     monkeypatch.setenv("LUMENCUT_AUTO_DEVICE", "cpu")
     files = [str(write_volume(tmp_path / "ct.nii.gz")), str(write_lines(tmp_path / "lines.vtk"))]
     more = ["--frames", "2"] if command == "turntable" else []
+    shown = {}
     for device, name in (("gpu", gpu), ("cpu", "cpu"), ("auto", "cpu")):
         output = ["-o", str(tmp_path / f"{device}.png"), "--size", "20x24", "--device", device, "--verbose"]
         result = CliRunner().invoke(main, [command, *files, *output, *more])
         assert result.exit_code == 0, result.output
         assert f"device: {name}\n" in result.stderr
-        assert (tmp_path / f"{device}.png").exists()
+        with Image.open(tmp_path / f"{device}.png") as picture:
+            shown[device] = np.asarray(picture.convert("RGB"))
+    assert shown["gpu"].shape == (24, 20, 3)
+    assert shown["cpu"].std() > 10
+    assert np.array_equal(shown["auto"], shown["cpu"])
+    assert (np.abs(shown["gpu"].astype(int) - shown["cpu"]) > 2).mean() < 0.01
 
 
 def test_a_missing_gpu_is_one_line_and_exit_code_1(tmp_path, monkeypatch):

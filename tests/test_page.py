@@ -9,6 +9,9 @@ import pytest
 
 from script_modules import SCRIPTS, script
 
+BUILT = '<head><script src="./assets/a.js"></script></head>'
+"""The page that the build writes."""
+
 
 @pytest.fixture
 def room(tmp_path, monkeypatch):
@@ -33,9 +36,7 @@ def room(tmp_path, monkeypatch):
         asked.append(" ".join(words[:2]))
         if words == ("run", "build"):
             (tmp_path / "web/dist/assets").mkdir(parents=True, exist_ok=True)
-            (tmp_path / "web/dist/index.html").write_text(
-                '<head><script src="./assets/a.js"></script></head>'
-            )
+            (tmp_path / "web/dist/index.html").write_text(BUILT)
 
     monkeypatch.setattr(module, "npm", npm)
     (tmp_path / "python").mkdir()
@@ -56,7 +57,7 @@ def test_the_page_is_built_with_its_notices_and_put_into_the_package(room):
     assert not room.is_current()
     assert room.build_if_possible()
     assert room.asked == ["ci --no-audit", "notices", "run build"]
-    assert (room.PAGE / "index.html").is_file()
+    assert (room.PAGE / "index.html").read_text("utf-8") == BUILT
     assert not list(room.PAGE.parent.glob("*.new"))
 
 
@@ -112,7 +113,7 @@ def test_a_build_that_fails_leaves_the_page_of_before(room, monkeypatch, capsys)
     monkeypatch.setattr(room, "npm", fails)
     assert not room.build_if_possible()
     assert "the network is unreachable" in capsys.readouterr().err
-    assert (room.PAGE / "index.html").is_file()
+    assert (room.PAGE / "index.html").read_text("utf-8") == BUILT
 
 
 def test_the_site_is_the_page_with_the_licences(room, tmp_path):
