@@ -8,8 +8,8 @@ from enum import IntFlag
 class Flag(IntFlag):
     """What there is to know of a section; sections keep their numbers whatever is set.
 
-    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE` or `RESTLESS_LINE` are left out of what is narrowest, widest
-    or suggested, and of references.
+    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are left out of what is
+    narrowest, widest or suggested, and of references.
     """
 
     #: The diameter is below 1.5 times the width (FWHM) of the point spread.
@@ -24,7 +24,7 @@ class Flag(IntFlag):
     NEIGHBOR = 16
     #: The section reaches beyond the volume.
     OUTSIDE = 32
-    #: No wall was found; numbers are NaN, or too unsure to be used.
+    #: No wall was found, or what it encloses is no lumen; numbers are NaN, or not to be used.
     NO_EDGE = 64
     #: The vessel's point lies outside of the lumen, whose middle was found beside it.
     RECENTERED = 128

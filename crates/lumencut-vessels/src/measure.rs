@@ -2,6 +2,7 @@
 //! lengths and angles.
 
 pub mod along;
+pub mod believed;
 pub mod blooming;
 pub mod blur;
 pub mod branches;

@@ -10,6 +10,7 @@ use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
+use lumencut_vessels::measure::flags::RECENTERED;
 use lumencut_vessels::measure::measuring::{TreeMeasuring, measure, point_spread_of};
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::request::MeasureRequest;
@@ -120,4 +121,21 @@ fn a_vessel_of_one_width_has_no_stenosis() {
     assert!((graded.percent - 100.0 * (1.0 - 15.0_f64.sqrt() / 8.0)).abs() < 0.2);
     let nothing = profile.stenosis(6.0, Method::Nascet, &Compared::default()).unwrap_err();
     assert_eq!(nothing.kind, ErrorKind::Measuring);
+}
+
+#[test]
+fn a_lumen_beside_the_line_does_not_count() {
+    let values = slices(&Ellipse::circle(DVec2::new(9.0, 9.0), 2.0));
+    let affine = DAffine3::from_scale(DVec3::splat(SIDE));
+    let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
+    // From its middle on the line leaves the lumen, whose wall is at 11 mm, slowly.
+    let points = [(9.0, 2.0), (9.0, 8.0), (11.6, 15.0)].map(|(x, z)| DVec3::new(x, 9.0, z));
+    let vessel = Vessel::new(points.to_vec(), Some(vec![2.0; 3])).unwrap();
+    let wall = WallRequest::Automatic;
+    let request = MeasureRequest { step: 0.5, fwhm: Some(FWHM), wall, tree: &[], stop: &|| false };
+    let profile = measure(&volume, &vessel, &request).unwrap();
+    let is_beside = |n: &usize| profile.flags[*n] & RECENTERED != 0;
+    assert!((0..profile.len()).filter(is_beside).count() >= 2);
+    assert!((0..profile.len()).filter(is_beside).all(|n| profile.area[n].is_finite() && !profile.counts(n)));
+    assert!((0..12).all(|n| profile.counts(n)));
 }

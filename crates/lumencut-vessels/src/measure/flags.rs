@@ -12,7 +12,7 @@ pub const METAL: u32 = 1 << 3;
 pub const NEIGHBOR: u32 = 1 << 4;
 /// The section reaches beyond the volume.
 pub const OUTSIDE: u32 = 1 << 5;
-/// No wall was found.
+/// No wall was found, or what it encloses is no lumen.
 pub const NO_EDGE: u32 = 1 << 6;
 /// The vessel's point lies outside of the lumen that was measured.
 pub const RECENTERED: u32 = 1 << 7;
@@ -22,4 +22,4 @@ pub const IRREGULAR: u32 = 1 << 8;
 pub const RESTLESS_LINE: u32 = 1 << 9;
 
 /// Sections with any of these are left out of what is largest, narrowest or suggested.
-pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RESTLESS_LINE;
+pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

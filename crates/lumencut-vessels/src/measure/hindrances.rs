@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR, RECENTERED};
+use super::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR};
 use super::profile::Profile;
 
 /// The lumen that was measured is another one than a little before or behind: it lies elsewhere, or has another level and width.
@@ -13,7 +13,7 @@ pub const FLAP: u32 = 1 << 17;
 pub const UNSURE: u32 = 1 << 18;
 
 /// The flags that keep a section from being suggested.
-const FLAGGED: u32 = LEFT_OUT | METAL | CALCIUM | RECENTERED;
+const FLAGGED: u32 = LEFT_OUT | METAL | CALCIUM;
 
 /// A diameter is not sure where its standard deviation is more than this share of it.
 const UNSURE_SHARE: f64 = 1.0 / 3.0;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::flags::{LEFT_OUT, RECENTERED};
+use super::flags::LEFT_OUT;
 use super::measuring::TreeMeasuring;
 use super::profile::Profile;
 use super::request::MeasureRequest;
@@ -65,11 +65,9 @@ pub fn measured_radii(
 
 /// The radii at the points of a vessel, of circles with the measured areas.
 fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
-    // A lumen beside the line may be that of another vessel.
-    let left_out = LEFT_OUT | RECENTERED;
     let is_told = |n: &usize| {
         let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
-        profile.flags[*n] & left_out == 0 && profile.uncertainty[*n] < UNSURE * diameter
+        profile.flags[*n] & LEFT_OUT == 0 && profile.uncertainty[*n] < UNSURE * diameter
     };
     let told: Vec<(f64, f64)> = (0..profile.len())
         .filter(is_told)

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::believed::{encloses_lumen, lumen_shares};
 use super::blooming;
 use super::blur::Blur;
 use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
@@ -218,6 +219,10 @@ impl Bench<'_, '_> {
         {
             flags |= NO_EDGE;
         }
+        let shares = lumen_shares(fit.lumen[0], beside);
+        if !encloses_lumen(&self.rays, place, ellipse.center, &walls, width, shares) {
+            flags |= NO_EDGE;
+        }
         let contour = points(place, ellipse.center, &walls);
         Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds }
     }
@@ -230,7 +235,10 @@ impl Bench<'_, '_> {
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);
         let bounds = bounds(flags, &ellipse, || blooming::bounds(&rays, |n| walls[n], width));
-        if known.lumen[0] < LEAST_CONTRAST * known.noise() {
+        // Struts within may be as bright as they are.
+        let shares = [lumen_shares(known.lumen[0], 0.0)[0], f64::INFINITY];
+        let is_lumen = encloses_lumen(&self.rays, place, known.ellipse.center, &walls, width, shares);
+        if known.lumen[0] < LEAST_CONTRAST * known.noise() || !is_lumen {
             flags |= NO_EDGE;
         }
         let fit = Fit {

@@ -1,6 +1,7 @@
 use super::super::flags::{AT_LIMIT, BRANCH, NO_EDGE, OUTSIDE, RESTLESS_LINE};
 use super::super::made_profile::profile;
 use super::*;
+use crate::measure::flags::RECENTERED;
 use glam::DVec3;
 
 /// A vessel of 8 mm over 40 mm whose middle runs along z.
