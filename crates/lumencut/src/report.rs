@@ -169,7 +169,7 @@ fn tables(shown: &Shown, vessel: &VesselPage, places: &[Place]) -> Result<String
     offered.extend(profile.offered_widest().map(|spot| widest_row(profile, spot.at, shown)));
     let mut text = "<h2>Places</h2>\n".to_owned();
     if marked.is_empty() && offered.is_empty() {
-        text += &paragraph("", "No place is marked, and no section counts: see the flags.");
+        text += &paragraph("", "No place is marked, and no section is safe to suggest: see the flags.");
         return Ok(text);
     }
     text += &if marked.is_empty() {

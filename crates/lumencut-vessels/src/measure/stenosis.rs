@@ -32,6 +32,9 @@ pub const NARROWED_BESIDE: f64 = 0.87;
 /// The other side of a stenosis: from so far on to so far away from it (mm).
 const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
 
+/// A place is at a section from this share of the way to the next one on.
+const AT_SECTION: f64 = 1e-6;
+
 /// How a stenosis is graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
@@ -139,14 +142,14 @@ impl Profile {
         })
     }
 
-    /// The diameter at an arc length (mm), between sections, and its standard deviation (mm).
+    /// The diameter at an arc length (mm), between sections, and its standard deviation (mm). Between one that counts and one that
+    /// does not it is that of the first.
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured.
     pub fn diameter_at(&self, at: f64) -> Result<(f64, f64)> {
         self.check_place("place on the vessel", at)?;
-        let place = LinePlace::at(&self.arc_length, at);
-        let ends = [place.segment, (place.segment + 1).min(self.len() - 1)];
+        let (place, ends) = self.sections_around(at);
         let diameter = place.between(ends.map(|n| 2.0 * (self.area[n] / PI).sqrt()));
         if diameter.is_nan() {
             return Err(measuring(
@@ -160,10 +163,23 @@ impl Profile {
 
     /// What the standard deviation of the diameter at an arc length (mm) is made of, between sections.
     pub fn uncertainty_at(&self, at: f64) -> Parts {
-        let place = LinePlace::at(&self.arc_length, at);
-        let [a, b] =
-            [place.segment, (place.segment + 1).min(self.len() - 1)].map(|n| &self.uncertainty_parts[n]);
+        let (place, ends) = self.sections_around(at);
+        let [a, b] = ends.map(|n| &self.uncertainty_parts[n]);
         a.with(b, |a, b| place.between([a, b]))
+    }
+
+    /// An arc length (mm) between sections, and those before and behind it; where one alone of them counts, that twice. A place at a
+    /// section is at that one, whether it counts or not.
+    fn sections_around(&self, at: f64) -> (LinePlace, [usize; 2]) {
+        let place = LinePlace::at(&self.arc_length, at);
+        let ends = [place.segment, (place.segment + 1).min(self.len() - 1)];
+        let is_between = place.share > AT_SECTION && place.share < 1.0 - AT_SECTION;
+        let ends = match ends.map(|n| self.counts(n)) {
+            [true, false] if is_between => [ends[0]; 2],
+            [false, true] if is_between => [ends[1]; 2],
+            _ => ends,
+        };
+        (place, ends)
     }
 
     /// The standard deviation of a percentage, times the diameter of the reference (mm): `share` is what is left of that.

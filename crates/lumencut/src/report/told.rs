@@ -11,8 +11,8 @@ use crate::text::{fixed, rounded, shortest};
 
 /// How to read the numbers.
 pub const EXPLAINED: &str = "Diameters are those of the lumen: thrombus and plaque are not lumen, so that an aneurysm may be \
-    wider. Diameter means that of a circle of the same area; ± is one standard deviation from noise and fit. A stenosis is \
-    compared with the median within 1.5 mm of each reference. Suggested places are no findings: a reader must look at them. \
+    wider. Diameter means that of a circle of the same area; ± is one standard deviation: noise, blur, wall, levels and \
+    surroundings. A stenosis is compared with the median within 1.5 mm of each reference. Suggested places are no findings: a reader must look at them. \
     The contour of a section is cyan where it counts for what is narrowest or widest, and orange where its flags leave it out.";
 
 /// Why lengths have no unit.

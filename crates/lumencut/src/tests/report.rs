@@ -189,6 +189,6 @@ fn a_vessel_of_which_nothing_counts_says_so() {
     let mut profile = tube();
     profile.flags.fill(BRANCH);
     let text = html(&shown(), &[page_of(&profile, "LAD", &marked(None, &[]), None)]).expect("a report");
-    assert!(text.contains("No place is marked, and no section counts: see the flags."));
+    assert!(text.contains("No place is marked, and no section is safe to suggest: see the flags."));
     assert!(!text.contains("Sections at these places"));
 }

@@ -1,4 +1,4 @@
-use super::super::flags::{CALCIUM, METAL};
+use super::super::flags::{CALCIUM, METAL, NO_EDGE};
 use super::super::made_profile::profile;
 use super::*;
 
@@ -42,4 +42,16 @@ fn ecst_is_not_doubtful_for_references_that_it_does_not_use() {
     assert_eq!(ecst.doubts, Doubts::default());
     let area = made.stenosis(15.0, Method::Area, &compared).expect("a stenosis");
     assert_eq!(area.doubts, Doubts { flags: CALCIUM, is_branch_between: true });
+}
+
+#[test]
+fn a_section_that_does_not_count_tells_nothing_between_it_and_one_that_does() {
+    let mut made = flagged(&[(10.0, NO_EDGE)]);
+    made.area[20] *= 4.0;
+    made.uncertainty[20] = 2.8;
+    assert_eq!(made.diameter_at(9.9).expect("a diameter"), (4.0, 0.1));
+    assert_eq!(made.diameter_at(10.4).expect("a diameter"), (4.0, 0.1));
+    // At the section itself its own numbers are told, with its flags.
+    assert_eq!(made.diameter_at(10.0).expect("a diameter"), (8.0, 2.8));
+    assert_eq!(made.doubts(9.9, Method::Nascet, &[]).flags, NO_EDGE);
 }
