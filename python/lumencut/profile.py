@@ -156,8 +156,9 @@ class Profile(ProfileNumbers, ProfileOutputs):
     def narrowest(self) -> Spot | None:
         """Return where the vessel is narrowest, of the sections that are safe: a suggestion, not a finding.
 
-        A section is safe that counts, has no flag `METAL` or `CALCIUM`, whose uncertainty is at most a third of
-        its diameter, and that lies more than one diameter from a change of lumen and from a flap. None where no section is safe; :meth:`not_suggested` says why.
+        A section is safe that counts, has no flag `METAL` or `CALCIUM`, whose uncertainty is at most a third
+        of its diameter, and that lies more than one diameter from a change of lumen and from a flap. None
+        where no section is safe; :meth:`not_suggested` says why.
         """
         found = self._core.narrowest()
         return None if found is None else Spot(*found)
