@@ -218,10 +218,24 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
   await viewer.close();
 });
 
-test('all branches from here, of which doubtful ones are accepted and left out', async ({ browser }) => {
+test('all branches from here are those that hang together with the vessel at the cross-hair', async ({
+  browser,
+}) => {
   test.setTimeout(120_000);
   const viewer = await untraced(browser, 'aorta');
   await viewer.press('b');
+  await expect.poll(() => rows(viewer).count(), { timeout: 90_000 }).toBeGreaterThan(20);
+  await viewer.screenshot('trace-branches');
+  await viewer.press('Control+z');
+  await expect(rows(viewer)).toHaveCount(0);
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('all vessels, of which doubtful ones are accepted and left out', async ({ browser }) => {
+  test.setTimeout(120_000);
+  const viewer = await untraced(browser, 'aorta');
+  await button(viewer, 'Find all vessels').last().click();
   const doubtful = viewer.page.locator('.doubtful-rows li');
   await expect(doubtful.first()).toBeVisible({ timeout: 90_000 });
   const [sure, unsure] = [await rows(viewer).count(), await doubtful.count()];
@@ -242,7 +256,7 @@ test('all branches from here, of which doubtful ones are accepted and left out',
   await viewer.press('Control+z', 'Control+z', 'Control+z');
   await expect(doubtful).toHaveCount(unsure);
   await expect(rows(viewer)).toHaveCount(sure);
-  await viewer.screenshot('trace-branches');
+  await viewer.screenshot('find-doubtful');
   viewer.expectNoFault();
   await viewer.close();
 });
