@@ -40,9 +40,11 @@ const MOST_DOUBT: f64 = 3.0;
 const DOUBTS: [f64; 2] = [1.2, 1.7];
 
 /// An organ is paler than the vessels by these parts of their contrast: perhaps one from the first on, surely one from the second on. It
-/// has at least this radius (mm).
+/// has at least this radius (mm). Where the radius is that of a vertebra less will do.
 const PALE: [f64; 2] = [0.45, 0.55];
 const WIDE: f64 = 5.0;
+const PALE_AND_VERY_WIDE: [f64; 2] = [0.2, 0.3];
+const VERY_WIDE: f64 = 14.0;
 
 /// How much confidence is left to an organ, and to marrow in a cortex.
 const LEFT: f64 = 0.15;
@@ -171,8 +173,9 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     let inside = lumen_inside(scan, track, &shape);
     let [flat, uneven] = [by(shape.elongation, ELONGATED) * (1.0 - inside), by(shape.spread, UNEVEN)];
     let lost = ((flat + uneven - DOUBTS[0]) / (DOUBTS[1] - DOUBTS[0])).clamp(0.0, 1.0);
-    let pale = ramp((scan.level - shape.level) / scan.contrast, PALE);
-    let pale = if track.radius() > WIDE { pale } else { 0.0 };
+    let limits = [(VERY_WIDE, PALE_AND_VERY_WIDE), (WIDE, PALE)];
+    let limits = limits.into_iter().find(|(radius, _)| track.radius() > *radius);
+    let pale = limits.map_or(0.0, |(_, limits)| ramp((scan.level - shape.level) / scan.contrast, limits));
     if lost > 0.0 {
         track.doubt = Some(if flat >= uneven { TrackDoubt::Flat } else { TrackDoubt::Uneven });
     }

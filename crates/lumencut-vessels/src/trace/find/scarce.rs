@@ -1,4 +1,4 @@
-//! Scans that show no vessels: what looks like some in them is doubtful as a whole.
+//! Parts that are short, and scans that show no vessels: what looks like some there is doubtful as a whole.
 
 use crate::trace::find::found::FoundVessel;
 use crate::trace::find::track::TrackDoubt;
@@ -10,17 +10,23 @@ use lumencut_core::math::arc_length::arc_lengths;
 const LEAST_LENGTH: f64 = 100.0;
 const OF_DIAGONAL: f64 = 0.3;
 
-/// The same vessels, all doubtful where no part of them has sure vessels as long as those of an angiography.
+/// A part whose sure vessels are shorter together is a speck of calcium as often as a vessel: the same two numbers.
+const LEAST_PART: f64 = 15.0;
+const PART_OF_DIAGONAL: f64 = 0.15;
+
+/// The same vessels: those of short parts doubtful, and all where no part of them has sure vessels as long as those of an angiography.
 pub fn doubted_where_scarce(voxels: &Voxels, mut vessels: Vec<FoundVessel>) -> Vec<FoundVessel> {
     let mut lengths = vec![0.0; vessels.len()];
     for vessel in vessels.iter().filter(|vessel| vessel.doubt.is_none()) {
         lengths[vessel.part] += arc_lengths(&vessel.line.points).last().copied().unwrap_or(0.0);
     }
-    let least = LEAST_LENGTH.min(OF_DIAGONAL * diagonal(voxels));
-    if lengths.iter().all(|length| *length < least) {
-        for vessel in &mut vessels {
-            vessel.doubt = vessel.doubt.or(Some(TrackDoubt::Scarce));
-        }
+    let diagonal = diagonal(voxels);
+    let [least, least_part] =
+        [LEAST_LENGTH.min(OF_DIAGONAL * diagonal), LEAST_PART.min(PART_OF_DIAGONAL * diagonal)];
+    let is_scarce = lengths.iter().all(|length| *length < least);
+    for vessel in vessels.iter_mut().filter(|vessel| is_scarce || lengths[vessel.part] < least_part) {
+        let doubt = if is_scarce { TrackDoubt::Scarce } else { TrackDoubt::Short };
+        vessel.doubt = vessel.doubt.or(Some(doubt));
     }
     vessels
 }
@@ -51,9 +57,11 @@ mod tests {
     }
 
     #[test]
-    fn short_parts_alone_are_doubtful_and_beside_a_long_one_they_are_not() {
+    fn all_is_doubtful_where_no_part_is_long_and_else_what_is_very_short() {
         assert_eq!(doubts(&[20.7, 10.0]), [Some(TrackDoubt::Scarce); 2]);
-        assert_eq!(doubts(&[20.9, 10.0]), [None; 2]);
+        assert_eq!(doubts(&[20.9, 10.5]), [None; 2]);
+        // 0.15 of the diagonal are 10.4 mm.
+        assert_eq!(doubts(&[20.9, 10.3]), [None, Some(TrackDoubt::Short)]);
         assert!(doubts(&[]).is_empty());
     }
 }

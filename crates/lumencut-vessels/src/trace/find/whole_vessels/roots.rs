@@ -1,13 +1,16 @@
 //! Where the root of each part lies, and which parts are most important.
 
 use crate::trace::find::scan::Scan;
-use crate::trace::find::track::Track;
+use crate::trace::find::track::{Track, usual};
 use crate::trace::find::whole_vessels::graph::Graph;
 use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use crate::trace::find::whole_vessels::runs::straightest;
 
 /// Beyond so many voxels the width of a vessel makes it no more important.
 const WIDEST: f64 = 10.0;
+
+/// Levels are alike within this part of the contrast.
+const ALIKE: f64 = 0.2;
 
 /// A part of the graph.
 struct Part {
@@ -46,11 +49,12 @@ pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph) -> Vec<[usize; 2]> {
     parts.iter().map(|part| root(graph, part)).collect()
 }
 
-/// How important a track is: long, bright, sure and wide.
+/// How important a track is: long, sure and wide, with the contrast and the level of vessels.
 fn importance(scan: &Scan, track: &Track) -> f64 {
     let wide = (track.radius() / scan.side).min(WIDEST);
     let contrast = track.points.iter().map(|point| point.contrast).sum::<f64>() / track.points.len() as f64;
-    track.length() * contrast / scan.contrast * track.confidence * wide * wide
+    let away = (usual(&track.points, |point| point.level) - scan.level) / (ALIKE * scan.contrast);
+    track.length() * contrast / scan.contrast * track.confidence * wide * wide * (-away * away).exp()
 }
 
 fn volume(track: &Track) -> f64 {

@@ -91,6 +91,8 @@ fn doubts_take_confidence_between_their_limits() {
     assert_eq!(after(Shape { level: below(0.5), ..even }, 6.0), (518, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 6.0), (135, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 4.0), (900, None));
+    assert_eq!(after(Shape { level: below(0.3), ..even }, 13.0), (900, None));
+    assert_eq!(after(Shape { level: below(0.3), ..even }, 15.0), (135, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { is_marrow: true, ..even }, 3.0), (135, Some(TrackDoubt::Uneven)));
 }
 
