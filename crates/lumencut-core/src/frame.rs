@@ -24,6 +24,8 @@ pub struct Frame {
     pub vessel: Vec<i32>,
     /// Where the cut surface leaps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
+    /// How much of the cut surface each pixel shows amid the context, 0 to 1 ([`crate::stages::focus`]); empty without a focus.
+    pub focus: Vec<f32>,
     /// Projected distance to the nearest centerline (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
@@ -44,6 +46,7 @@ impl Frame {
             image: Vec::new(),
             vessel: Vec::new(),
             leap: Vec::new(),
+            focus: Vec::new(),
             distance: Vec::new(),
             value: Vec::new(),
             context: Vec::new(),
@@ -79,6 +82,7 @@ impl Frame {
             (Image::Depth, !self.depth().is_empty()),
             (Image::Vessel, !self.vessel.is_empty()),
             (Image::Leap, !self.leap.is_empty()),
+            (Image::Focus, !self.focus.is_empty()),
             (Image::Distance, !self.distance.is_empty()),
             (Image::Value, !self.value.is_empty()),
             (Image::Context, !self.context.is_empty()),
@@ -105,6 +109,7 @@ impl Frame {
         keep(&mut self.image, wanted.has(Image::Picture));
         keep(&mut self.vessel, wanted.has(Image::Vessel));
         keep(&mut self.leap, wanted.has(Image::Leap));
+        keep(&mut self.focus, wanted.has(Image::Focus));
         keep(&mut self.distance, wanted.has(Image::Distance));
         keep(&mut self.value, wanted.has(Image::Value));
         keep(&mut self.context, wanted.has(Image::Context));

@@ -15,6 +15,7 @@ pub struct Images {
     pub vessel: Vec<i32>,
     pub sheet: Vec<Sheet>,
     pub leap: Vec<u32>,
+    pub focus: Vec<f32>,
     pub value: Vec<f32>,
     pub strength: Vec<f32>,
     pub start: Vec<f32>,
@@ -28,8 +29,8 @@ impl Images {
     pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
         let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
         let geometry = Geometry::Orthographic { camera, depth };
-        let Self { vessel, leap, distance, .. } = self;
-        Frame { vessel, leap, distance, timings, ..Frame::of(geometry) }
+        let Self { vessel, leap, focus, distance, .. } = self;
+        Frame { vessel, leap, focus, distance, timings, ..Frame::of(geometry) }
     }
 
     /// `frame` with what is shown where it looks.

@@ -1,6 +1,6 @@
 //! Pictures against the CPU's: bytes equal, but for less than one in a thousand that is 1 apart.
 
-use lumencut_core::settings::{Opacity, Settings, Window};
+use lumencut_core::settings::{Context, Opacity, Settings, Window};
 use lumencut_core::stages::composite::{self, CompositeParameters, layer};
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::{BYTE, OTHER_BYTE};
@@ -15,6 +15,7 @@ use crate::recording::Recording;
 struct Scene {
     value: Vec<f32>,
     strength: Vec<f32>,
+    focus: Vec<f32>,
     context: Vec<[f32; 4]>,
 }
 
@@ -32,7 +33,8 @@ impl Scene {
         };
         let context =
             (0..pixels).map(|_| color(&mut random)).map(|[[r, a], [g, _], [b, _]]| [r, g, b, a]).collect();
-        Self { value, strength, context }
+        let focus = (0..pixels).map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0)).collect();
+        Self { value, strength, focus, context }
     }
 }
 
@@ -72,6 +74,10 @@ fn settings() -> Vec<Settings> {
             opacity: opacity.map(|[transparent, opaque]| Opacity { transparent, opaque }),
             silhouette_color: [255, 220, 3],
             background,
+            context: Some(Context {
+                strength: if opacity.is_some() { 0.6 } else { 1.0 },
+                ..Context::default()
+            }),
             ..Settings::default()
         })
         .collect()
@@ -81,7 +87,7 @@ fn on_the_gpu(
     device: &Device,
     composite: &Composite,
     size: [usize; 2],
-    [value, strength]: [Option<&[f32]>; 2],
+    [value, strength, focus]: [Option<&[f32]>; 3],
     context: Option<&[[f32; 4]]>,
     settings: &Settings,
 ) -> Vec<u8> {
@@ -89,7 +95,9 @@ fn on_the_gpu(
     let value = value.map(|value| device.upload("value", &without_holes(value)));
     let strength = strength.map(|strength| device.upload("strength", strength));
     let context = context.map(|context| device.upload("context", context));
-    let layers = Layers { value: value.as_ref(), strength: strength.as_ref(), context: context.as_ref() };
+    let focus = focus.map(|focus| device.upload("focus", focus));
+    let [value, strength, focus] = [&value, &strength, &focus].map(Option::as_ref);
+    let layers = Layers { value, strength, focus, context: context.as_ref() };
     let image = device.image("image", pixels, 4);
     let mut recording = Recording::new(device);
     let view = on_gpu(device, &front(size, 0.5));
@@ -109,14 +117,15 @@ fn pictures_are_those_of_the_cpu() {
         let camera = front(size, 0.5);
         let scene = Scene::new(pixels, 11);
         for settings in settings() {
-            for layers in 0..4 {
+            for layers in 0..8 {
                 let strength = (layers & 1 != 0).then_some(&scene.strength[..]);
                 let context = (layers & 2 != 0).then_some(&scene.context[..]);
+                let focus = (layers & 4 != 0).then_some(&scene.focus[..]);
                 let mut expected = vec![[9; 4]; pixels];
-                let cpu = composite::Layers { value: &scene.value, strength, context };
+                let cpu = composite::Layers { value: &scene.value, strength, focus, context };
                 let parameters = CompositeParameters::new(&settings);
                 composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
-                let images = [Some(&scene.value[..]), strength];
+                let images = [Some(&scene.value[..]), strength, focus];
                 let found = on_the_gpu(device, &composite, size, images, context, &settings);
                 tally.add(&found, &expected, &format!("{size:?}, layers {layers}, {:?}", settings.opacity));
             }
@@ -137,10 +146,11 @@ fn a_context_alone_is_that_of_the_cpu() {
         for settings in settings() {
             let mut expected = vec![[9; 4]; pixels];
             let value = vec![f32::NAN; pixels];
-            let cpu = composite::Layers { value: &value, strength: None, context: Some(&context) };
+            let cpu =
+                composite::Layers { value: &value, strength: None, focus: None, context: Some(&context) };
             let parameters = CompositeParameters::new(&settings);
             composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
-            let found = on_the_gpu(device, &composite, size, [None; 2], Some(&context), &settings);
+            let found = on_the_gpu(device, &composite, size, [None; 3], Some(&context), &settings);
             tally.add(&found, &expected, &format!("{size:?}"));
         }
     }

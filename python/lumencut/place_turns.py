@@ -1,0 +1,140 @@
+"""Turns about a place on a vessel, and the diameter that each view of them cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.annotation import SMALLEST_SIDE
+from lumencut.lettering import Sheet
+from lumencut.turntables import turntable
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.frame import Frame
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+    from lumencut.vessel import Vessel
+
+#: How far from the middle the lumen and what is around it are read, in radii.
+_LUMEN, _AROUND = 0.5, 3.0
+
+
+def turn_about(
+    renderer: Renderer,
+    camera: Camera,
+    radius: float,
+    settings: Settings | None = None,
+    frames: int = 72,
+    degrees: float = 360.0,
+) -> Iterator[Frame]:
+    """Render a turn about the place of a :meth:`Camera.about`, with the diameters written on each frame.
+
+    Parameters
+    ----------
+    renderer : Renderer
+        The scene.
+    camera : Camera
+        The first view.
+    radius : float
+        The radius of the vessel at the place (mm), as :func:`radius_at` tells it.
+    settings : Settings, optional
+        The knobs; their defaults where not given.
+    frames : int, default 72
+        How many frames.
+    degrees : float, default 360
+        How far the viewer moves in all (degrees).
+
+    Yields
+    ------
+    Frame
+        The next view. Its picture says the diameter of this cut, and the least and the largest so far (mm).
+    """
+    return _written(turntable(renderer, camera, settings, frames, degrees, "up"), radius)
+
+
+def radius_at(vessel: Vessel, at: float) -> float:
+    """Return the radius of a vessel (mm) at an arc length (mm), 1 mm where it is not known."""
+    if vessel.radius is None:
+        return 1.0
+    steps = np.linalg.norm(np.diff(vessel.points, axis=0), axis=1)
+    found = float(np.interp(at, np.concatenate([[0.0], np.cumsum(steps)]), vessel.radius))
+    return found if found > 0 else 1.0
+
+
+def cut_diameter(frame: Frame, radius: float) -> float:
+    """Return the diameter of a vessel (mm) across the middle of a frame; NaN where it has no two walls.
+
+    On each side the wall is where the values first pass half way between the lumen, their median within half a
+    radius of the middle, and the value within three radii that differs from it most on the side of the tissue.
+
+    Parameters
+    ----------
+    frame : Frame
+        A frame with ``value``, whose vessel runs upwards through its middle.
+    radius : float
+        About the radius of the vessel (mm).
+    """
+    height, width = frame.value.shape
+    spacing = frame.camera.pixel_spacing
+    values = frame.value[(height - 1) // 2 : height // 2 + 1].mean(axis=0, dtype=np.float64)
+    offset = (np.arange(width) - (width - 1) / 2) * spacing
+    is_lumen = np.abs(offset) <= max(_LUMEN * radius, spacing)
+    is_around = (np.abs(offset) > 1.5 * radius) & (np.abs(offset) <= _AROUND * radius)
+    if np.isnan(values[is_lumen]).any() or not np.isfinite(values[is_around]).any():
+        return float("nan")
+    lumen = float(np.median(values[is_lumen]))
+    sign = 1.0 if np.nanmedian(values[is_around]) <= lumen else -1.0
+    sides = [
+        _wall(sign * (values[side] - lumen)[order], np.abs(offset[side])[order], _AROUND * radius)
+        for side, order in ((offset < 0, np.s_[::-1]), (offset >= 0, np.s_[:]))
+    ]
+    return sum(sides)
+
+
+def _wall(depth: npt.NDArray[np.float64], offset: npt.NDArray[np.float64], reach: float) -> float:
+    """How far out values, from the middle on and less the lumen, first fall to half of their deepest."""
+    depth = depth[offset <= reach]
+    if not len(depth) or not np.nanmin(depth) < 0:
+        return float("nan")
+    half = np.nanmin(depth) / 2
+    beyond = np.flatnonzero(depth <= half)
+    if not len(beyond) or beyond[0] == 0:
+        return float("nan")
+    after = int(beyond[0])
+    share = (depth[after - 1] - half) / (depth[after - 1] - depth[after])
+    return float(offset[after - 1] + share * (offset[after] - offset[after - 1]))
+
+
+def _written(turn: Iterable[Frame], radius: float) -> Iterator[Frame]:
+    """Pass frames on with their diameters in the lower right corner."""
+    seen: list[float] = []
+    for frame in turn:
+        diameter = cut_diameter(frame, radius)
+        if np.isfinite(diameter):
+            seen.append(diameter)
+        yield replace(frame, _image=_with_diameters(frame.image, diameter, seen))
+
+
+def _with_diameters(
+    image: npt.NDArray[np.uint8], diameter: float, seen: list[float]
+) -> npt.NDArray[np.uint8]:
+    if min(image.shape[:2]) < SMALLEST_SIDE:
+        return image
+    sheet = Sheet(image)
+    lines = [f"this cut {_millimetres(diameter)}"]
+    if seen:
+        lines += [f"least so far {_millimetres(min(seen))}", f"largest so far {_millimetres(max(seen))}"]
+    width, height = sheet.size
+    for number, line in enumerate(reversed(lines)):
+        place = (width - sheet.margin, height - sheet.margin - number * sheet.line_height)
+        sheet.write(line, place, "rd")
+    return sheet.pixels()
+
+
+def _millimetres(length: float) -> str:
+    return f"{length:.1f} mm" if np.isfinite(length) else "not seen"
