@@ -31,6 +31,7 @@ IDLE = [
     # What is given, the words that say why, and two values that then give one picture.
     ("--context none", "--context-window 300/100", "with --context none", {"context_window": Window(9, 5)}),
     ("--context none", "--context-step 2", "with --context none", {"context_step": 3.0}),
+    ("", "--context-from whole", "without a focus", {"context_from": "whole"}),
     ("--context none", "--context-shading", "with --context none", {"context_shading": True}),
     ("--context none", "--context-preview", "with --context none", {"context_preview": True}),
     ("--context minip", "--context-transfer bone", "grey in its window", {"context_transfer": POINTS}),

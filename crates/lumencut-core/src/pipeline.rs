@@ -195,7 +195,7 @@ impl CpuRenderer {
         let work = Work { size: frame.size(), isa: self.isa, stop, progress };
         let (mut clock, mut images) = (Clock::start(), Images::default());
         let Frame { geometry, vessel, leap, focus, .. } = &frame;
-        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus };
+        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus, wanted: request.images };
         for stage in Stage::of_look(settings, &frame.geometry, frame.images(), request.images) {
             request.begin_stage(stage);
             pass.run(stage, &mut images)?;

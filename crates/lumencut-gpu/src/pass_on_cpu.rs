@@ -54,13 +54,13 @@ impl Pass<'_> {
             }
             Geometry::Curved(curved) => Geometry::Curved(curved.clone()),
         };
-        let &Request { settings, stop, .. } = self.request;
+        let &Request { settings, images: wanted, stop, .. } = self.request;
         let work = Work { size: self.images.size, isa: Isa::widest(), stop, progress: None };
         let vessel = std::mem::take(&mut images.vessel);
         let leap = std::mem::take(&mut images.leap);
         let focus = std::mem::take(&mut images.focus);
         let (geometry, vessel, leap, focus) = (&geometry, &vessel, &leap, &focus);
-        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus };
+        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus, wanted };
         pass.run(stage, images)?;
         if stage == Stage::Context && images.gathered.is_empty() {
             images.gathered = vec![[0.0; 4]; self.images.pixels()];

@@ -18,7 +18,7 @@ use crate::stages::focus::{FocusParameters, focus};
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
-use crate::stages::{Stage, Work};
+use crate::stages::{Image, ImageSet, Stage, Work};
 
 /// What the stages that find the cut surface share.
 pub struct CutSurfacePass<'a> {
@@ -104,6 +104,8 @@ pub struct LookPass<'a> {
     pub leap: &'a [u32],
     /// How much of the surface is shown; empty where all of it is.
     pub focus: &'a [f32],
+    /// The images that shall come of the view.
+    pub wanted: ImageSet,
 }
 
 impl LookPass<'_> {
@@ -192,7 +194,8 @@ impl LookPass<'_> {
 
     fn composite(&self, images: &mut Images) -> Result<()> {
         let pixels = self.work.pixels();
-        if self.settings.context.is_some() && self.geometry.camera().is_some() {
+        let has_context = self.settings.context.is_some() && self.geometry.camera().is_some();
+        if has_context && self.wanted.has(Image::Context) {
             images.context = vec![[0; 4]; pixels];
             if !images.gathered.is_empty() {
                 layer(&self.work, &images.gathered, &mut images.context)?;

@@ -74,7 +74,7 @@ fn part<'a, T>(layer: Option<&'a [T]>, instead: &'a [T], first: usize, count: us
     layer.map_or_else(|| &instead[..count], |layer| &layer[first..][..count])
 }
 
-/// Writes a layer of colours times opacity and opacity as RGBA with straight alpha.
+/// Writes a layer of colours times opacity and opacity as RGBA with straight alpha into an image that is transparent.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -144,6 +144,16 @@ fn byte(value: f32) -> u32 {
     (smaller(value, 255.0) + 8_388_608.0).to_bits() & 0xFF
 }
 
+/// The pixels in a row that are looked at together for whether they have any context.
+const RUN: usize = 64;
+
+/// Whether a run of colours is nothing at all.
+#[inline(always)]
+fn is_nothing(colors: &[[f32; 4]]) -> bool {
+    // All bits of a run together: a loop without a way out is one of vectors.
+    colors.as_flattened().iter().fold(0, |bits, channel| bits | channel.to_bits()) == 0
+}
+
 struct PaintRows<'a> {
     paint: CompositeParameters,
     value: &'a [f32],
@@ -156,13 +166,23 @@ struct PaintRows<'a> {
 impl Kernel for PaintRows<'_> {
     type Output = ();
 
-    /// One loop over all pixels, which the compiler turns into vectors of as many as the instruction set holds.
+    /// Loops over pixels, which the compiler turns into vectors of as many as the instruction set holds.
     #[inline(always)]
     fn run(self) {
         let Self { paint, value, strength, focus, context, image } = self;
-        let pixels = value.iter().zip(strength).zip(focus).zip(context);
-        for (image, (((value, strength), share), context)) in image.iter_mut().zip(pixels) {
-            *image = straight(paint.pixel(*value, *strength, *share, *context), paint.background);
+        let runs =
+            value.chunks(RUN).zip(strength.chunks(RUN)).zip(focus.chunks(RUN)).zip(context.chunks(RUN));
+        for (image, (((value, strength), focus), context)) in image.chunks_mut(RUN).zip(runs) {
+            let pixels = image.iter_mut().zip(value).zip(strength).zip(focus);
+            if is_nothing(context) {
+                for (((image, value), strength), share) in pixels {
+                    *image = straight(paint.pixel(*value, *strength, *share, [0.0; 4]), paint.background);
+                }
+            } else {
+                for ((((image, value), strength), share), context) in pixels.zip(context) {
+                    *image = straight(paint.pixel(*value, *strength, *share, *context), paint.background);
+                }
+            }
         }
     }
 }
@@ -177,8 +197,13 @@ impl Kernel for StraightRows<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (image, color) in self.image.iter_mut().zip(self.colors) {
-            *image = straight(*color, [0.0; 4]);
+        for (image, colors) in self.image.chunks_mut(RUN).zip(self.colors.chunks(RUN)) {
+            // Most of a picture has no context: what is not written costs no memory either.
+            if !is_nothing(colors) {
+                for (image, color) in image.iter_mut().zip(colors) {
+                    *image = straight(*color, [0.0; 4]);
+                }
+            }
         }
     }
 }

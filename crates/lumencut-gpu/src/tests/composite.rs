@@ -166,7 +166,7 @@ fn the_layer_is_that_of_the_cpu() {
         let pixels = size[0] * size[1];
         let camera = front(size, 0.5);
         let context = Scene::new(pixels, 13).context;
-        let mut expected = vec![[9; 4]; pixels];
+        let mut expected = vec![[0; 4]; pixels];
         layer(&on_cpu(&camera), &context, &mut expected).unwrap();
         let (colors, image) = (device.upload("context", &context), device.image("image", pixels, 4));
         let mut recording = Recording::new(device);
@@ -183,7 +183,7 @@ fn halves_become_the_even_byte() {
     // Opaque: 255 times the colour is a half exactly, where a float holds it.
     let context: Vec<[f32; 4]> = (0..=510).map(|n| [n as f32 / 510.0, 0.0, 0.0, 1.0]).collect();
     let camera = front([511, 1], 1.0);
-    let mut expected = vec![[9; 4]; 511];
+    let mut expected = vec![[0; 4]; 511];
     layer(&on_cpu(&camera), &context, &mut expected).unwrap();
     let (colors, image) = (device.upload("context", &context), device.image("image", 511, 4));
     let mut recording = Recording::new(device);
