@@ -59,7 +59,12 @@ def test_between_two_tubes_the_share_is_that_of_the_nearer_wall() -> None:
         Vessel([[x, 0, -15], [x, depth, 15]], radius) for x, depth, radius in ((-12, 0, 2), (9, 4, 5))
     )
     camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), size=(50, 20), pixel_spacing=1)
-    frame = render(volume, tree, camera, Settings(focus=Focus(1, 5), context=None, silhouettes=False, window=Window(500, 100)))
+    frame = render(
+        volume,
+        tree,
+        camera,
+        Settings(focus=Focus(1, 5), context=None, silhouettes=False, window=Window(500, 100)),
+    )
     x = np.arange(50) - 24.5
     beyond = np.minimum(np.abs(x + 12) - 2, np.abs(x - 9) - 5).clip(0)
     away = ((beyond - 1) / 5).clip(0, 1)
@@ -90,7 +95,9 @@ def test_other_lengths_are_refused(margin: float, fade: float, message: str) -> 
 
 
 def test_a_focus_needs_vessels(scene: phantom.Phantom) -> None:
-    with pytest.raises(SettingsError, match=r"focus: found a focus for a scene without centerlines; .*leave the"):
+    with pytest.raises(
+        SettingsError, match=r"focus: found a focus for a scene without centerlines; .*leave the"
+    ):
         render(scene.volume, None, settings=Settings.focused())
 
 
@@ -102,7 +109,8 @@ def test_a_pair_of_numbers_is_no_focus() -> None:
 def test_the_strength_of_the_context_is_that_of_its_colours(renderer: Renderer, camera: Camera) -> None:
     shown = [
         renderer.render(
-            camera, Settings(focus=Focus(-1e6, 6), context="mip", context_strength=strength, silhouettes=False)
+            camera,
+            Settings(focus=Focus(-1e6, 6), context="mip", context_strength=strength, silhouettes=False),
         ).image[..., :3]
         for strength in (1.0, 0.5)
     ]

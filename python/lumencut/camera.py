@@ -164,10 +164,10 @@ class Camera(Value):
         degrees: float | None = None,
         size: tuple[int, int] = (512, 512),
     ) -> Camera:
-        """Return the view about a place on a vessel: the vessel runs upwards through the middle of the picture.
+        """Return the view about a place on a vessel, which runs upwards through the middle of the picture.
 
-        Turned by an angle it shows another diameter of the place, which stays where it is. The picture reaches
-        eight radii of the vessel there to each side (8 mm where its radius is not known).
+        Turned by an angle it shows another diameter of the place, which stays where it is. The picture
+        reaches eight radii of the vessel there to each side (8 mm where its radius is not known).
 
         Parameters
         ----------
@@ -176,8 +176,8 @@ class Camera(Value):
         at : float
             The place (mm from the vessel's first point).
         angle : float, default 0
-            How far the viewer moves about the vessel (radians), counted as by :meth:`rotated` about "up". 0 is
-            the one of these views that is nearest to the anterior view, the head up.
+            How far the viewer moves about the vessel (radians), counted as by :meth:`rotated` about "up". 0
+            is the one of these views that is nearest to the anterior view, the head up.
         degrees : float
             The angle in degrees, in the place of ``angle``.
         size : (int, int), default (512, 512)
@@ -193,7 +193,8 @@ class Camera(Value):
         if not isinstance(vessel, Vessel):
             raise CameraError("vessel of the view", type(vessel).__name__, "a Vessel, such as tree['LAD']")
         turn = 0.0 if angle is None and degrees is None else _radians(angle, degrees)
-        view = cls(np.zeros(3), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), size)
+        ahead, up = map(np.array, VIEWS["anterior"])
+        view = cls(np.zeros(3), ahead, up, size)
         place = number(CameraError, "place of the view", at)
         return view._moved(_lumencut.about((vessel.points, vessel.radius), place, turn, view.size))
 
@@ -228,8 +229,8 @@ class Camera(Value):
             For an id or a name that no vessel has (the error lists near ones), or a vessel without length.
         """
         chosen = vessel if isinstance(vessel, Vessel) else tree[vessel]
-        ahead = VIEWS["anterior"][0] if start is None else start.direction
-        view = cls(np.zeros(3), ahead, upright(np.asarray(ahead)), size)
+        ahead = np.array(VIEWS["anterior"][0]) if start is None else start.direction
+        view = cls(np.zeros(3), ahead, np.array(upright(ahead)), size)
         return view._moved(_lumencut.refocused(view, (chosen.points, chosen.radius)))
 
     def rotated(

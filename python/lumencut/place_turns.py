@@ -69,8 +69,8 @@ def radius_at(vessel: Vessel, at: float) -> float:
 def cut_diameter(frame: Frame, radius: float) -> float:
     """Return the diameter of a vessel (mm) across the middle of a frame; NaN where it has no two walls.
 
-    On each side the wall is where the values first pass half way between the lumen, their median within half a
-    radius of the middle, and the value within three radii that differs from it most on the side of the tissue.
+    On each side the wall is where the values first pass half way between the lumen, their median within half
+    a radius of the middle, and the value within three radii that differs from it most towards the tissue.
 
     Parameters
     ----------

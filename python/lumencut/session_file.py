@@ -15,10 +15,10 @@ from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, FileError, FormatError, SettingsError
+from lumencut.focus import Focus
 from lumencut.measured_vessel import Marked
 from lumencut.recipe import Recipe
 from lumencut.settings import Settings
-from lumencut.focus import Focus
 from lumencut.slab import Slab
 from lumencut.window import Window
 

@@ -48,14 +48,15 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
     "--axis",
     type=Named(AXIS_NAMES),
     metavar="NAME|X,Y,Z",
-    help="superior (of the patient), the default; up, right or direction (of the first view); or a vector (LPS).",
+    help="superior (of the patient), the default; up, right or direction (of the first view); or a "
+    "vector (LPS).",
 )
 @click.option(
     "--about",
     type=PlaceOnVessel(),
     metavar=PlaceOnVessel.name,
-    help="Turn about this place on a vessel, such as LAD@41mm: the cut sweeps all its diameters, which are written "
-    "on the frames. The place stays in the middle.",
+    help="Turn about this place on a vessel, such as LAD@41mm, which stays in the middle: the cut sweeps all "
+    "its diameters, which are written on the frames.",
 )
 @click.option(
     "--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="How many frames."
@@ -128,8 +129,6 @@ def _check_about(chosen: dict[str, Any]) -> None:
     """Refuse options that place the view beside a place that it turns about."""
     if chosen["about"] is None:
         return
-    if not chosen["centerlines"]:
-        raise click.UsageError("--about does nothing without CENTERLINES; name them, or leave it out")
     for name in ("axis", "center", "up", "tilt", "zoom_to"):
         if chosen[name] not in (None, 0, 0.0, ()):
             found = f"--{name.replace('_', '-')} does nothing with --about"
@@ -145,6 +144,8 @@ def _about(
 
     word, at = chosen["about"]
     tree = renderer.tree
+    if tree is None:
+        raise click.UsageError("--about does nothing without CENTERLINES; name them, or leave it out")
     vessel = tree[int(word) if word.isdecimal() and word not in tree else word]
     first = Camera.about(vessel, at, degrees=chosen["rotate"], size=view.size)
     camera = options.placed_like(first, chosen)
