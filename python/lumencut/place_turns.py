@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.annotation import SMALLEST_SIDE
+from lumencut.errors import VolumeError
 from lumencut.lettering import Sheet
 from lumencut.turntables import turntable
 
@@ -19,9 +20,12 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
     from lumencut.vessel import Vessel
+    from lumencut.volume import Volume
 
 #: How far from the middle the lumen and what is around it are read, in radii.
 _LUMEN, _AROUND = 0.5, 3.0
+#: How many places are read on each side.
+_STEPS = 200
 
 
 def turn_about(
@@ -49,12 +53,20 @@ def turn_about(
     degrees : float, default 360
         How far the viewer moves in all (degrees).
 
+    Raises
+    ------
+    VolumeError
+        For a renderer without a volume.
+
     Yields
     ------
     Frame
         The next view. Its picture says the diameter of this cut, and the least and the largest so far (mm).
     """
-    return _written(turntable(renderer, camera, settings, frames, degrees, "up"), radius)
+    if renderer.volume is None:
+        raise VolumeError("turn about a place", "no volume", "an angiography, whose diameters are told")
+    turn = turntable(renderer, camera, settings, frames, degrees, "up")
+    return _written(turn, renderer.volume, radius)
 
 
 def radius_at(vessel: Vessel, at: float) -> float:
@@ -66,40 +78,37 @@ def radius_at(vessel: Vessel, at: float) -> float:
     return found if found > 0 else 1.0
 
 
-def cut_diameter(frame: Frame, radius: float) -> float:
-    """Return the diameter of a vessel (mm) across the middle of a frame; NaN where it has no two walls.
+def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:
+    """Return the diameter of a vessel (mm) that the view of a place cuts; NaN where it has no two walls.
 
-    On each side the wall is where the values first pass half way between the lumen, their median within half
-    a radius of the middle, and the value within three radii that differs from it most towards the tissue.
+    It is read along the line through the camera's center to the right: the cut runs through it within the
+    lumen, and no other vessel of the picture lies on it unless it touches this one. On each side the wall is
+    where the values first pass half way between the lumen, their median within half a radius of the middle,
+    and the value within three radii that differs from it most towards the tissue.
 
     Parameters
     ----------
-    frame : Frame
-        A frame with ``value``, whose vessel runs upwards through its middle.
+    volume : Volume
+        The angiography.
+    camera : Camera
+        The view, whose center is the place and whose up axis is the direction of the vessel.
     radius : float
         About the radius of the vessel (mm).
     """
-    height, width = frame.value.shape
-    spacing = frame.camera.pixel_spacing
-    values = frame.value[(height - 1) // 2 : height // 2 + 1].mean(axis=0, dtype=np.float64)
-    offset = (np.arange(width) - (width - 1) / 2) * spacing
-    is_lumen = np.abs(offset) <= max(_LUMEN * radius, spacing)
-    is_around = (np.abs(offset) > 1.5 * radius) & (np.abs(offset) <= _AROUND * radius)
+    offset = np.linspace(-_AROUND, _AROUND, 2 * _STEPS + 1) * radius
+    values = volume.sample(camera.center + offset[:, None] * camera.right_axis).astype(np.float64)
+    is_lumen, is_around = np.abs(offset) <= _LUMEN * radius, np.abs(offset) > 1.5 * radius
     if np.isnan(values[is_lumen]).any() or not np.isfinite(values[is_around]).any():
         return float("nan")
     lumen = float(np.median(values[is_lumen]))
     sign = 1.0 if np.nanmedian(values[is_around]) <= lumen else -1.0
-    sides = [
-        _wall(sign * (values[side] - lumen)[order], np.abs(offset[side])[order], _AROUND * radius)
-        for side, order in ((offset < 0, np.s_[::-1]), (offset >= 0, np.s_[:]))
-    ]
-    return sum(sides)
+    depth = sign * (values - lumen)
+    return _wall(depth[_STEPS::-1], -offset[_STEPS::-1]) + _wall(depth[_STEPS:], offset[_STEPS:])
 
 
-def _wall(depth: npt.NDArray[np.float64], offset: npt.NDArray[np.float64], reach: float) -> float:
+def _wall(depth: npt.NDArray[np.float64], offset: npt.NDArray[np.float64]) -> float:
     """How far out values, from the middle on and less the lumen, first fall to half of their deepest."""
-    depth = depth[offset <= reach]
-    if not len(depth) or not np.nanmin(depth) < 0:
+    if not np.nanmin(depth) < 0:
         return float("nan")
     half = np.nanmin(depth) / 2
     beyond = np.flatnonzero(depth <= half)
@@ -110,11 +119,11 @@ def _wall(depth: npt.NDArray[np.float64], offset: npt.NDArray[np.float64], reach
     return float(offset[after - 1] + share * (offset[after] - offset[after - 1]))
 
 
-def _written(turn: Iterable[Frame], radius: float) -> Iterator[Frame]:
+def _written(turn: Iterable[Frame], volume: Volume, radius: float) -> Iterator[Frame]:
     """Pass frames on with their diameters in the lower right corner."""
     seen: list[float] = []
     for frame in turn:
-        diameter = cut_diameter(frame, radius)
+        diameter = cut_diameter(volume, frame.camera, radius)
         if np.isfinite(diameter):
             seen.append(diameter)
         yield replace(frame, _image=_with_diameters(frame.image, diameter, seen))
