@@ -54,6 +54,7 @@ IDLE = [
         "without silhouettes",
         {"silhouette_rule": "gradient"},
     ),
+    ("--no-silhouettes", "--silhouette-reach 5", "without silhouettes", {"silhouette_reach": 9.0}),
     ("--no-silhouettes", "--silhouette-color ff0000", "without silhouettes", {"silhouette_color": (9, 9, 9)}),
     ("", "--silhouette-slope 2", "with --silhouette-rule leap", {"silhouette_slope": 0.1}),
     ("--no-depth-filter", "--zone-filter", "without the depth filter", {"zone_filter": False}),

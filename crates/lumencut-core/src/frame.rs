@@ -1,6 +1,7 @@
 //! What a rendering leaves behind, pixel by pixel, row 0 on top.
 
 use crate::geometry::Geometry;
+use crate::stages::focus::Shares;
 use crate::stages::{Image, ImageSet};
 
 /// How long one stage took.
@@ -24,8 +25,9 @@ pub struct Frame {
     pub vessel: Vec<i32>,
     /// Where the cut surface leaps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// How much of the cut surface each pixel shows amid the context, 0 to 1 ([`crate::stages::focus`]); empty without a focus.
-    pub focus: Vec<f32>,
+    /// How much of the cut surface and of its silhouettes each pixel shows ([`crate::stages::focus`]); empty where all of both is
+    /// shown.
+    pub focus: Vec<Shares>,
     /// Projected distance to the nearest centerline (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.

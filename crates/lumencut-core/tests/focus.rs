@@ -26,9 +26,14 @@ fn framed(scene: &Scene, camera: &Camera, settings: &Settings, isa: Isa) -> Fram
     CpuRenderer::new(isa).render(scene, &Request { images, ..Request::new(camera, settings) }).unwrap()
 }
 
-/// How much each pixel shows, of a tree without a volume.
+/// How much of the cut surface each pixel shows.
+fn of_surface(frame: &Frame) -> Vec<f32> {
+    frame.focus.iter().map(|shares| shares[0]).collect()
+}
+
+/// The same of a tree without a volume.
 fn shares(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Vec<f32> {
-    framed(&Scene::default().with_tree(tree.clone()), camera, settings, Isa::widest()).focus
+    of_surface(&framed(&Scene::default().with_tree(tree.clone()), camera, settings, Isa::widest()))
 }
 
 fn shown(phantom: &Phantom, camera: &Camera, settings: &Settings) -> Frame {
@@ -66,7 +71,7 @@ fn beside_one_tube_the_share_is_the_closed_form() {
     for row in 0..64 {
         let y = camera.view_y(row);
         let expected = share((y.abs() - 4.0).max(0.0), 2.0, 6.0);
-        assert!((f64::from(at(&frame, &frame.focus, 0.25, y)) - expected).abs() < 1e-5, "at {y} mm");
+        assert!((f64::from(at(&frame, &of_surface(&frame), 0.25, y)) - expected).abs() < 1e-5, "at {y} mm");
     }
 }
 
@@ -112,7 +117,8 @@ fn all_instruction_sets_give_the_same_bits() {
     let camera = view([0.1, 0.9, 0.3], [203, 111], 0.7);
     let all =
         Isa::available().into_iter().map(|isa| framed(&scene, &camera, &with_focus(1.0, 4.0), isa).focus);
-    let bits: Vec<Vec<_>> = all.map(|focus| focus.iter().map(|share| share.to_bits()).collect()).collect();
+    let bits: Vec<Vec<_>> =
+        all.map(|focus| focus.as_flattened().iter().map(|share| share.to_bits()).collect()).collect();
     assert!(bits.iter().all(|one| one == &bits[0]));
 }
 
@@ -147,10 +153,10 @@ fn within_the_margin_the_picture_is_plain_csr_to_the_bit() {
             let focused = Settings { focus: Some(Focus { margin: 3.0, fade: 5.0 }), ..plain.clone() };
             let phantom = crossing().unwrap();
             let [csr, found] = [&plain, &focused].map(|settings| shown(&phantom, &camera, settings));
-            let whole = (0..found.image.len()).filter(|n| found.focus[*n] == 1.0);
+            let whole = (0..found.image.len()).filter(|n| found.focus[*n][0] == 1.0);
             assert!(whole.clone().count() > 500);
             assert!(whole.clone().all(|n| found.image[n] == csr.image[n]));
-            assert!(found.focus.contains(&0.0), "the picture reaches beyond the focus");
+            assert!(of_surface(&found).contains(&0.0), "the picture reaches beyond the focus");
         }
     }
 }
@@ -202,12 +208,39 @@ fn between_them_it_is_a_mean_by_the_share() {
     let (csr, found) = (shown(&phantom, &camera, &plain), shown(&phantom, &camera, &focused));
     let behind = context_alone(phantom.volume().unwrap(), &camera, &plain, &|| false).unwrap();
     for n in (0..found.image.len()).filter(|n| !csr.value[*n].is_nan()) {
-        let share = f64::from(found.focus[n]);
+        let share = f64::from(found.focus[n][0]);
         for c in 0..3 {
             let [cut, context] = [&csr, &behind].map(|frame| f64::from(frame.image[n][c]));
             let expected = share * cut + (1.0 - share) * context;
             assert!((f64::from(found.image[n][c]) - expected).abs() <= 1.01, "pixel {n}, channel {c}");
         }
+    }
+}
+
+#[test]
+fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
+    let phantom = crossing().unwrap();
+    // So that lines of zones, which reach to the border of the picture, are seen.
+    let camera = view([0.2, 1.0, 0.3], [220, 180], 0.6);
+    for base in [Settings::default(), Settings::paper()] {
+        let quiet = Settings { silhouette_reach: Some(4.0), ..base.clone() };
+        let none = Settings { silhouettes: false, ..base.clone() };
+        let [all, found, without] = [&base, &quiet, &none].map(|settings| shown(&phantom, &camera, settings));
+        let (mut near, mut far) = (0, 0);
+        for n in 0..found.image.len() {
+            match found.focus[n] {
+                [surface, lines] if lines == 1.0 => {
+                    assert_eq!((surface, found.image[n]), (1.0, all.image[n]));
+                    near += usize::from(all.image[n] != without.image[n]);
+                }
+                [_, lines] if lines == 0.0 => {
+                    assert_eq!(found.image[n], without.image[n]);
+                    far += usize::from(all.image[n] != without.image[n]);
+                }
+                _ => {}
+            }
+        }
+        assert!(near > 10 && far > 10, "{near} pixels of lines near walls, {far} far away");
     }
 }
 

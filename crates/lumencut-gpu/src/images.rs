@@ -51,7 +51,7 @@ impl Images {
             vessel: number("vessel"),
             sheet: device.image("sheet", pixels, MOST_BYTES),
             leap: number("leap"),
-            focus: number("focus"),
+            focus: device.image("focus", pixels, 8),
             value: number("value"),
             raised: number("raised slope"),
             strength: number("strength"),

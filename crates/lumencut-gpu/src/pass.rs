@@ -7,7 +7,7 @@ use lumencut_core::math::blocks::HUGE;
 use lumencut_core::pipeline::Request;
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::SilhouetteRule;
-use lumencut_core::stages::focus::FocusParameters;
+use lumencut_core::stages::focus::{FocusParameters, Shares};
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use wgpu::Buffer;
 
@@ -72,7 +72,7 @@ impl<'a> Pass<'a> {
     ///
     /// # Panics
     /// Where they are not those of every pixel: a mistake in the program, never in its input.
-    pub fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[f32]) {
+    pub fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[Shares]) {
         let depth = self.geometry.depth();
         for (image, bytes) in [
             (Image::Depth, bytemuck::cast_slice::<_, u8>(depth)),
@@ -81,7 +81,8 @@ impl<'a> Pass<'a> {
             (Image::Focus, bytemuck::cast_slice(focus)),
         ] {
             if !bytes.is_empty() {
-                assert_eq!(bytes.len(), 4 * self.images.pixels(), "bytes of the image {image:?}");
+                let expected = bytes_of(image) * self.images.pixels();
+                assert_eq!(bytes.len(), expected, "bytes of the image {image:?}");
                 self.device.write(self.buffer(image), bytes);
                 self.made = self.made.and(ImageSet::of(&[image]));
             }
@@ -157,8 +158,8 @@ impl<'a> Pass<'a> {
     }
 
     fn focus(&mut self) {
-        let (Some(levels), Some(chosen)) = (self.levels, self.request.settings.focus) else { return };
-        let parameters = FocusParameters::new(chosen, self.request.camera);
+        let parameters = FocusParameters::new(self.request.settings, self.request.camera);
+        let (Some(levels), Some(parameters)) = (self.levels, parameters) else { return };
         let Stages { view, cut_surface, .. } = &*self.stages;
         cut_surface.focus(&mut self.recording, view, levels, parameters, self.images);
     }
@@ -261,12 +262,20 @@ impl<'a> Pass<'a> {
     pub async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         for image in wanted {
-            let bytes = if matches!(image, Image::Gathered | Image::Sheet) { 16 } else { 4 };
-            recording.read(self.buffer(*image), bytes * self.images.pixels() as u64);
+            recording.read(self.buffer(*image), (bytes_of(*image) * self.images.pixels()) as u64);
         }
         let mut results = recording.finish(self.request.stop).await?;
         self.timings.append(&mut results.timings);
         Ok(results)
+    }
+}
+
+/// The bytes of a pixel.
+fn bytes_of(image: Image) -> usize {
+    match image {
+        Image::Gathered | Image::Sheet => 16,
+        Image::Focus => 8,
+        _ => 4,
     }
 }
 

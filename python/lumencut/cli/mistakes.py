@@ -122,7 +122,7 @@ def _idle_context(settings: Settings) -> Iterator[_Idle]:
 def _idle_rules(settings: Settings) -> Iterator[_Idle]:
     """Settings of the cut surface and its lines."""
     if not settings.silhouettes:
-        names = ("silhouette_rule", "silhouette_slope", "silhouette_color")
+        names = ("silhouette_rule", "silhouette_slope", "silhouette_reach", "silhouette_color")
         yield names, "without silhouettes", "give --silhouettes"
     if settings.silhouette_rule == "leap":
         why = "with --silhouette-rule leap, which has no slope"

@@ -4,6 +4,7 @@ use crate::camera::Camera;
 use crate::frame::{Frame, Timing};
 use crate::geometry::Geometry;
 use crate::stages::depth::Sheet;
+use crate::stages::focus::Shares;
 
 /// The images by the names that the table of stages gives them; an image that is not there yet is empty.
 #[derive(Debug, Default)]
@@ -15,7 +16,7 @@ pub struct Images {
     pub vessel: Vec<i32>,
     pub sheet: Vec<Sheet>,
     pub leap: Vec<u32>,
-    pub focus: Vec<f32>,
+    pub focus: Vec<Shares>,
     pub value: Vec<f32>,
     pub strength: Vec<f32>,
     pub start: Vec<f32>,

@@ -14,7 +14,7 @@ use crate::stages::context::{SurfaceImages, Surroundings, context, starts};
 use crate::stages::depth::{CutSurface, DepthImages, depth};
 use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
-use crate::stages::focus::{FocusParameters, focus};
+use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
@@ -71,9 +71,10 @@ impl CutSurfacePass<'_> {
     }
 
     fn focus(&self, images: &mut Images) -> Result<()> {
-        let Some(chosen) = self.settings.focus else { return Ok(()) };
-        let parameters = FocusParameters::new(chosen, self.surface.camera());
-        images.focus = vec![0.0; self.work.pixels()];
+        let Some(parameters) = FocusParameters::new(self.settings, self.surface.camera()) else {
+            return Ok(());
+        };
+        images.focus = vec![[0.0; 2]; self.work.pixels()];
         focus(&self.work, &self.surface, &parameters, &mut images.focus)
     }
 
@@ -102,8 +103,8 @@ pub struct LookPass<'a> {
     pub vessel: &'a [i32],
     /// Where the surface leaps; empty where it is not known.
     pub leap: &'a [u32],
-    /// How much of the surface is shown; empty where all of it is.
-    pub focus: &'a [f32],
+    /// How much of the surface and of its silhouettes is shown; empty where all of both is.
+    pub focus: &'a [Shares],
     /// The images that shall come of the view.
     pub wanted: ImageSet,
 }
@@ -141,8 +142,8 @@ impl LookPass<'_> {
         surface(&self.work, &scene, &mut images.value)
     }
 
-    /// How much of the surface is shown, where not all of it is.
-    fn focus(&self) -> Option<&[f32]> {
+    /// How much of the surface and of its silhouettes is shown, where not all of both is.
+    fn focus(&self) -> Option<&[Shares]> {
         Some(self.focus).filter(|focus| !focus.is_empty())
     }
 

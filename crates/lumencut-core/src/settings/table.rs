@@ -91,6 +91,11 @@ settings! {
         /// Slope at which a silhouette of the rule `gradient` has half its strength (mm of depth per mm).
         silhouette_slope: f64 = 24.0, range(1e-3, 1e6, "mm per mm");
 
+        /// How far from the nearest wall silhouettes are drawn in full (mm); from there they fade over the same length again.
+        ///
+        /// Far from all vessels the lines follow borders of zones that mean nothing to a reader. Measured in the picture.
+        silhouette_reach: Option<f64> = None, range(0.0, 1e6, "mm"), open("everywhere");
+
         /// Colour of the silhouettes.
         ///
         /// Red, green and blue.

@@ -3,6 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
+use super::focus::Shares;
 use super::{Image, Work};
 use crate::error::Result;
 use crate::math::lanes::{Kernel, dispatch, smaller};
@@ -16,8 +17,8 @@ pub struct Layers<'a> {
     pub value: &'a [f32],
     /// Strength of the silhouettes, where they are drawn.
     pub strength: Option<&'a [f32]>,
-    /// How much of the surface and its silhouettes is shown, 0 to 1, where not all of it is.
-    pub focus: Option<&'a [f32]>,
+    /// How much of the surface and how much of its silhouettes is shown, 0 to 1, where not all of both is.
+    pub focus: Option<&'a [Shares]>,
     /// The context, colours times opacity and opacity, where there is one.
     pub context: Option<&'a [[f32; 4]]>,
 }
@@ -55,8 +56,8 @@ pub fn composite(
     layers.context.iter().for_each(|context| work.expect_whole(Image::Gathered, context));
     let chunk = work.tile_row();
     // What stands for a layer that is not there.
-    let plain = |is_there: bool, number: f32| vec![number; if is_there { 0 } else { chunk }];
-    let (absent, whole) = (plain(layers.strength.is_some(), 0.0), plain(layers.focus.is_some(), 1.0));
+    let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
+    let whole = vec![[1.0; 2]; if layers.focus.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
     let rows = image.par_chunks_mut(chunk).zip(layers.value.par_chunks(chunk));
     rows.enumerate().try_for_each(|(row, (image, value))| {
@@ -106,12 +107,12 @@ impl CompositeParameters {
     /// The surface, grey with the silhouette's colour over it, over the context over the background, as much of it as is
     /// shown. Where there is no value there is no surface. Colours times opacity, and opacity.
     #[inline(always)]
-    fn pixel(&self, value: f32, strength: f32, share: f32, context: [f32; 4]) -> [f32; 4] {
+    fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
         let nothing = value.is_nan();
         let value = if nothing { 0.0 } else { value };
         let grey = self.grey.at(value);
         let opacity = if nothing { 0.0 } else { self.opacity.at(value) * share };
-        let (through, strength) = (1.0 - opacity, strength * share);
+        let (through, strength) = (1.0 - opacity, strength * (share * lines));
         let rest = (1.0 - context[3]) * self.background[3];
         let mut pixel = [0.0; 4];
         for c in 0..3 {
@@ -158,7 +159,7 @@ struct PaintRows<'a> {
     paint: CompositeParameters,
     value: &'a [f32],
     strength: &'a [f32],
-    focus: &'a [f32],
+    focus: &'a [Shares],
     context: &'a [[f32; 4]],
     image: &'a mut [[u8; 4]],
 }

@@ -31,8 +31,8 @@ struct CompositeParameters {
 @group(0) @binding(3) var<storage, read> parameters: CompositeParameters;
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 @group(0) @binding(5) var<storage, read> strength: array<f32>;
-// How much of the surface and its silhouettes is shown, 0 to 1.
-@group(0) @binding(6) var<storage, read> focus: array<f32>;
+// How much of the surface and how much of its silhouettes is shown, 0 to 1.
+@group(0) @binding(6) var<storage, read> focus: array<vec2f>;
 
 // The nearest whole number to a value from 0 to 255, the even one of two, as which a little more counts too.
 fn byte(value: f32) -> u32 {
@@ -63,14 +63,14 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
     // Where there is no value there is no surface.
     if !ALONE && value[place] < HUGE {
         let grey = ramp_at(parameters.grey, value[place]);
-        var share = 1.0;
+        var shares = vec2f(1.0);
         if HAS_FOCUS {
-            share = focus[place];
+            shares = focus[place];
         }
-        let opacity = ramp_at(parameters.opacity, value[place]) * share;
+        let opacity = ramp_at(parameters.opacity, value[place]) * shares.x;
         var color = vec3f(grey);
         if HAS_STRENGTH {
-            color += (parameters.line - grey) * (strength[place] * share);
+            color += (parameters.line - grey) * (strength[place] * (shares.x * shares.y));
         }
         pixel = vec4f(color, 1.0) * opacity + back * (1.0 - opacity);
     }

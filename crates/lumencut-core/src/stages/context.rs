@@ -13,6 +13,7 @@ pub use self::raster::IN_FRONT;
 use self::raster::{coarse_starts, spread};
 use self::reduced::reduce_raster;
 use self::tile::trace_raster;
+use super::focus::Shares;
 use super::{Image, Work};
 use crate::error::Result;
 use crate::math::context_parameters::{Gathering, StartParameters};
@@ -27,8 +28,8 @@ pub struct SurfaceImages<'a> {
     pub value: &'a [f32],
     /// Its depth (mm).
     pub depth: &'a [f32],
-    /// How much of it is shown, 0 to 1, where not all of it is.
-    pub focus: Option<&'a [f32]>,
+    /// How much of it and of its silhouettes is shown, where not all of both is.
+    pub focus: Option<&'a [Shares]>,
 }
 
 /// Writes where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front
@@ -52,7 +53,7 @@ pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages
             work.expect_whole(Image::Focus, focus);
             places
                 .zip(focus)
-                .for_each(|((start, (value, depth)), share)| *start = start_of(*value, *depth, *share));
+                .for_each(|((start, (value, depth)), [share, _])| *start = start_of(*value, *depth, *share));
         }
     }
 }

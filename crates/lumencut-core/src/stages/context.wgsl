@@ -27,8 +27,8 @@ const IN_FRONT: f32 = NONE / 2.0;
 @group(0) @binding(2) var<storage, read> value: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read_write> start_image: array<f32>;
-// How much of the cut surface is shown, 0 to 1.
-@group(0) @binding(5) var<storage, read> focus: array<f32>;
+// How much of the cut surface and of its silhouettes is shown, 0 to 1.
+@group(0) @binding(5) var<storage, read> focus: array<vec2f>;
 // What the rays read and write.
 @group(0) @binding(5) var<storage, read> start: array<f32>;
 @group(0) @binding(6) var<storage, read_write> context_image: array<vec4f>;
@@ -43,7 +43,7 @@ fn starts(@builtin(global_invocation_id) thread: vec3u) {
     let p = place_of(thread.xy);
     var share = 1.0;
     if HAS_FOCUS {
-        share = focus[p];
+        share = focus[p].x;
     }
     let is_transparent = ramp_at(parameters.opacity, value[p]) * share < 1.0;
     let behind = select(NONE, depth[p] + parameters.behind, is_transparent);

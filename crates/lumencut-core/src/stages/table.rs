@@ -20,7 +20,7 @@ pub enum Image {
     Sheet,
     /// Where the cut surface leaps, as bits of u32 (`stages::leap`).
     Leap,
-    /// How much of the cut surface is shown amid the context, 0 to 1, f32.
+    /// How much of the cut surface and how much of its silhouettes is shown, 0 to 1, two f32.
     Focus,
     /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
@@ -239,13 +239,15 @@ impl Stage {
         let own = settings.level_choice == LevelChoice::Own;
         let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;
         let has_leaps = wanted.has(Image::Leap) || (draws_leaps && wanted.has(Image::Picture));
+        let has_focus =
+            settings.focus.is_some() || (settings.silhouettes && settings.silhouette_reach.is_some());
         let shows = wanted.has(Image::Focus) || wanted.has(Image::Picture) || wanted.has(Image::Context);
         let stages = [
             (Self::Distance, !own || wanted.has(Image::Distance)),
             (Self::Depth, true),
             (Self::Leap, has_leaps),
             (Self::DepthFilter, settings.depth_filter),
-            (Self::Focus, settings.focus.is_some() && shows),
+            (Self::Focus, has_focus && shows),
         ];
         needed(&stages)
     }

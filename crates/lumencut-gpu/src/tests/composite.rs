@@ -2,6 +2,7 @@
 
 use lumencut_core::settings::{Context, Opacity, Settings, Window};
 use lumencut_core::stages::composite::{self, CompositeParameters, layer};
+use lumencut_core::stages::focus::Shares;
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::{BYTE, OTHER_BYTE};
 use lumencut_scenes::views::{front, on_cpu};
@@ -15,7 +16,7 @@ use crate::recording::Recording;
 struct Scene {
     value: Vec<f32>,
     strength: Vec<f32>,
-    focus: Vec<f32>,
+    focus: Vec<Shares>,
     context: Vec<[f32; 4]>,
 }
 
@@ -33,7 +34,7 @@ impl Scene {
         };
         let context =
             (0..pixels).map(|_| color(&mut random)).map(|[[r, a], [g, _], [b, _]]| [r, g, b, a]).collect();
-        let focus = (0..pixels).map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0)).collect();
+        let focus = (0..pixels).map(|_| [0; 2].map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0))).collect();
         Self { value, strength, focus, context }
     }
 }
@@ -83,16 +84,17 @@ fn settings() -> Vec<Settings> {
         .collect()
 }
 
+/// The picture of layers on the GPU; without values there is no cut surface.
 fn on_the_gpu(
     device: &Device,
     composite: &Composite,
     size: [usize; 2],
-    [value, strength, focus]: [Option<&[f32]>; 3],
-    context: Option<&[[f32; 4]]>,
+    layers: &composite::Layers,
     settings: &Settings,
 ) -> Vec<u8> {
     let pixels = size[0] * size[1];
-    let value = value.map(|value| device.upload("value", &without_holes(value)));
+    let composite::Layers { value, strength, focus, context } = *layers;
+    let value = (!value.is_empty()).then(|| device.upload("value", &without_holes(value)));
     let strength = strength.map(|strength| device.upload("strength", strength));
     let context = context.map(|context| device.upload("context", context));
     let focus = focus.map(|focus| device.upload("focus", focus));
@@ -125,8 +127,7 @@ fn pictures_are_those_of_the_cpu() {
                 let cpu = composite::Layers { value: &scene.value, strength, focus, context };
                 let parameters = CompositeParameters::new(&settings);
                 composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
-                let images = [Some(&scene.value[..]), strength, focus];
-                let found = on_the_gpu(device, &composite, size, images, context, &settings);
+                let found = on_the_gpu(device, &composite, size, &cpu, &settings);
                 tally.add(&found, &expected, &format!("{size:?}, layers {layers}, {:?}", settings.opacity));
             }
         }
@@ -150,7 +151,8 @@ fn a_context_alone_is_that_of_the_cpu() {
                 composite::Layers { value: &value, strength: None, focus: None, context: Some(&context) };
             let parameters = CompositeParameters::new(&settings);
             composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
-            let found = on_the_gpu(device, &composite, size, [None; 3], Some(&context), &settings);
+            let alone = composite::Layers { value: &[], ..cpu };
+            let found = on_the_gpu(device, &composite, size, &alone, &settings);
             tally.add(&found, &expected, &format!("{size:?}"));
         }
     }

@@ -10,6 +10,7 @@ use lumencut_core::settings::{
     Context, ContextFrom, ContextMode, Opacity, Preset, Settings, Slab, SlabMode, Window,
 };
 use lumencut_core::stages::context::{SurfaceImages, Surroundings, context, starts};
+use lumencut_core::stages::focus::Shares;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::{calcified_wall, trefoil};
 use lumencut_scenes::settings::{WINDOW, gaps};
@@ -28,7 +29,7 @@ const SIZE: [usize; 3] = [41, 37, 29];
 struct CutSurface {
     value: Vec<f32>,
     depth: Vec<f32>,
-    focus: Option<Vec<f32>>,
+    focus: Option<Vec<Shares>>,
 }
 
 /// Outside, opaque and transparent in turn, in squares of different sizes.
@@ -106,7 +107,7 @@ fn starts_and_context(
     let nowhere = CutSurface { value: vec![0.0; pixels], depth: vec![0.0; pixels], focus: None };
     let CutSurface { value, depth, focus } = surface.unwrap_or(&nowhere);
     let [value, depth] = [placed.image(&without_holes(value)), placed.image(depth)];
-    let focus = focus.as_ref().map(|focus| placed.image(focus));
+    let focus = focus.as_ref().map(|focus| placed.device.upload("focus", focus));
     let start = placed.device.image("start", pixels, 4);
     let gathered = placed.device.image("gathered", pixels, 16);
     let blocks = placed.blocks();
@@ -163,7 +164,7 @@ fn around_a_focus_rays_start_where_those_of_the_cpu_do() {
     let mut stage = ContextStage::new(device);
     for camera in views() {
         let placed = Placed::new(device, &volume, &camera);
-        let share = |n: usize| (n % 13) as f32 / 12.0;
+        let share = |n: usize| [(n % 13) as f32 / 12.0, 1.0];
         let focus = (0..placed.pixels()).map(share).collect();
         let surface = CutSurface { focus: Some(focus), ..cut_surface(&camera) };
         for from in [ContextFrom::Cut, ContextFrom::Whole] {

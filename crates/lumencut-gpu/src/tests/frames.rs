@@ -53,6 +53,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("small leaps", with(|s| s.depth_leap = 0.2)),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
         ("focus", with(|s| s.focus = Some(Focus::default()))),
+        ("quiet surroundings", with(|s| s.silhouette_reach = Some(3.0))),
         ("focus amid whole rays", with(|s| focus_amid(s, ContextFrom::Whole))),
         ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
