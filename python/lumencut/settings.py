@@ -75,6 +75,10 @@ class Settings(CheckedSettings):
         paper.
     silhouette_slope : float, 0.001 to 1000000, default 24
         Slope at which a silhouette of the rule ``gradient`` has half its strength (mm of depth per mm).
+    silhouette_reach : float, 0 to 1000000, optional
+        How far from the nearest wall silhouettes are drawn in full (mm); from there they fade over the same
+        length again. Far from all vessels the lines follow borders of zones that mean nothing to a reader.
+        Measured in the picture. Where not given: everywhere.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     background : (int, int, int, int), default (0, 0, 0, 255)
@@ -141,6 +145,7 @@ class Settings(CheckedSettings):
     silhouettes: bool = True
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
+    silhouette_reach: float | None = None
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
