@@ -229,11 +229,11 @@ fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
         let (mut near, mut far) = (0, 0);
         for n in 0..found.image.len() {
             match found.focus[n] {
-                [surface, lines] if lines == 1.0 => {
+                [surface, 1.0] => {
                     assert_eq!((surface, found.image[n]), (1.0, all.image[n]));
                     near += usize::from(all.image[n] != without.image[n]);
                 }
-                [_, lines] if lines == 0.0 => {
+                [_, 0.0] => {
                     assert_eq!(found.image[n], without.image[n]);
                     far += usize::from(all.image[n] != without.image[n]);
                 }
