@@ -22,7 +22,8 @@ pub struct WallRange {
     pub slack: f32,
 }
 
-/// The most that a lean is (see [`lean`]): beyond it one end of a segment is nearest wherever a pixel lies.
+/// The most that the nearest disc of a segment can stand beside a pixel's foot, for each mm of the pixel's distance from the
+/// line: beyond it one end of the segment is nearest wherever a pixel lies.
 pub const MOST_LEAN: f32 = 1e6;
 
 /// Lowers each pixel's distance (mm) from the wall, negative within, to that of the segment of slot `s`.

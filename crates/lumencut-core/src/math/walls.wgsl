@@ -2,7 +2,8 @@
 // import math/hierarchy
 // import math/nearest
 
-// The most that a lean is: beyond it one end of a segment is nearest wherever a pixel lies.
+// The most that the nearest disc of a segment can stand beside a pixel's foot, for each mm of the pixel's distance from the line:
+// beyond it one end of the segment is nearest wherever a pixel lies.
 const MOST_LEAN: f32 = 1e6;
 
 // The distance (mm) of each pixel of the tile from the wall so far, negative within.
