@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from lumencut import Opacity, Settings, Slab, TransferFunction, Window
+from lumencut import Focus, Opacity, Settings, Slab, TransferFunction, Window
 
 Values = dict[str, Any]
 """Settings by their names."""
@@ -43,7 +43,7 @@ def each(name: str, values: Iterable[Any], **others: Any) -> Iterator[tuple[str,
 
 def worded(value: Any) -> str:
     """A value as a part of a file name."""
-    if isinstance(value, (Window, Opacity, Slab)):
+    if isinstance(value, (Window, Opacity, Slab, Focus)):
         return " ".join(str(one) for one in vars(value).values())
     return " ".join(map(str, value)) if isinstance(value, tuple) else str(value)
 
@@ -99,6 +99,8 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
         yield f"silhouette_rule {rule}, unfiltered", {"silhouette_rule": rule, "depth_filter": False}
     # It acts under this rule alone.
     yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
+    yield from each("silhouette_reach", (0, 1, 5, 40))
+    yield from each("silhouette_reach", (8,), silhouette_rule="gradient")
     yield from each("silhouette_color", ((255, 0, 128), (0, 0, 0)))
     slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
     yield "silhouettes on a filter-free surface", slope
@@ -109,6 +111,8 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
         yield f"background {worded(background)} behind the context", both
     for mode in ("max", "mean", "min"):
         yield from each("slab", (Slab(thickness, mode) for thickness in (0, 0.5, 4, 40, 1000)))
+    yield from each("focus", (Focus(2, 6), Focus(-1, 4), Focus(0, 0), Focus(10, 40), Focus(1e6, 6)))
+    yield "focus and opacity", {"focus": Focus(1, 20), "opacity": SEE_THROUGH}
     yield "slab and opacity", {"slab": Slab(6, "mean"), "opacity": SEE_THROUGH}
 
 
@@ -129,6 +133,11 @@ def context_settings() -> Iterator[tuple[str, Values]]:
                 f"{mode}, context_transfer {name}",
                 {"context": mode, "context_transfer": transfer, **behind},
             )
+    for mode in MODES:
+        for start in ("cut", "whole"):
+            around: Values = {"focus": Focus(1, 10), "context_from": start}
+            yield f"{mode}, context_from {start}", {"context": mode, **around}
+    yield from each("context_strength", (0, 0.5, 0.65), focus=Focus(0, 12))
     for mode in MODES[:2]:
         for step in (0.7, 2.7, 50):
             yield f"{mode}, context_step {step}", {"context": mode, "context_step": step, **behind}

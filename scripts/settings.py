@@ -24,6 +24,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from lumencut._checked_settings import CheckedSettings
+from lumencut.focus import Focus
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
 from lumencut.window import Opacity, Window
@@ -63,6 +64,7 @@ PLAIN = {
     "count": "int",
     "opacity": "Opacity",
     "slab": "Slab",
+    "focus": "Focus",
 }
 """The types of Python that need no more than their name."""
 

@@ -361,7 +361,7 @@ def test_version():
 
 
 @pytest.mark.parametrize(
-    ("command", "examples"), [("render", 7), ("turntable", 2), ("evaluate", 2), ("settings", 1)]
+    ("command", "examples"), [("render", 7), ("turntable", 3), ("evaluate", 2), ("settings", 1)]
 )
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()

@@ -31,6 +31,7 @@ IDLE = [
     # What is given, the words that say why, and two values that then give one picture.
     ("--context none", "--context-window 300/100", "with --context none", {"context_window": Window(9, 5)}),
     ("--context none", "--context-step 2", "with --context none", {"context_step": 3.0}),
+    ("", "--context-from whole", "without a focus", {"context_from": "whole"}),
     ("--context none", "--context-shading", "with --context none", {"context_shading": True}),
     ("--context none", "--context-preview", "with --context none", {"context_preview": True}),
     ("--context minip", "--context-transfer bone", "grey in its window", {"context_transfer": POINTS}),
@@ -53,6 +54,7 @@ IDLE = [
         "without silhouettes",
         {"silhouette_rule": "gradient"},
     ),
+    ("--no-silhouettes", "--silhouette-reach 5", "without silhouettes", {"silhouette_reach": 9.0}),
     ("--no-silhouettes", "--silhouette-color ff0000", "without silhouettes", {"silhouette_color": (9, 9, 9)}),
     ("", "--silhouette-slope 2", "with --silhouette-rule leap", {"silhouette_slope": 0.1}),
     ("--no-depth-filter", "--zone-filter", "without the depth filter", {"zone_filter": False}),

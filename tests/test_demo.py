@@ -28,7 +28,7 @@ from lumencut.recipe import read_recipe
 
 POINTS = demo.STENT_POINTS
 PICTURES = [
-    *("anterior.png", "context.png", "inferior.png", "left.png", "oblique.png", "traced.png"),
+    *("anterior.png", "context.png", "focus.png", "inferior.png", "left.png", "oblique.png", "traced.png"),
     "turntable.webp",
 ]
 

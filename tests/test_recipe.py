@@ -15,6 +15,7 @@ from PIL.PngImagePlugin import PngInfo
 from lumencut import (
     Camera,
     FileError,
+    Focus,
     FormatError,
     Opacity,
     Renderer,
@@ -34,6 +35,9 @@ CHOSEN = [
     Settings(context=None, samples=3, silhouettes=False, cost_weight=np.pi),
     Settings(context="mida", context_transfer=RAMP, context_shading=True, context_gamma=-0.3),
     Settings(context="dvr", context_transfer="bone", context_step=0.7, context_preview=True),
+    Settings.focused(
+        focus=Focus(-1.5, 1 / 3), context_from="whole", context_strength=0.65, silhouette_reach=7
+    ),
 ]
 
 

@@ -114,7 +114,7 @@ def test_a_seed_in_bone_beside_a_vessel_is_told_where_the_vessel_is():
     body = line[len(line) // 2] + np.array([14.0, 0.0, 0.0])
     scene.paint(body[None], 8.0, BONE)
     scene.paint(line, 2.5, LUMEN)
-    with pytest.raises(TracingError, match="no vessel here; the nearest one is 1[234]"):
+    with pytest.raises(TracingError, match=r"no vessel here; the nearest one is 1[234]"):
         trace_from(scene.volume(3), body)
 
 

@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 from lumencut import (
     FileError,
+    Focus,
     FormatError,
     LumencutError,
     Opacity,
@@ -37,6 +38,8 @@ def other(name):
         case "number" | "count":
             low = setting.range[0]
             step = 0.1 + 0.2 if setting.kind == "number" else 1
+            if setting.default == setting.range[1]:
+                return setting.default - step
             return setting.default + step if setting.default else max(step, low)
         case "choice":
             return next(choice for choice in setting.choices if choice != setting.default)
@@ -46,6 +49,8 @@ def other(name):
             return Window(level=-1e-05, width=1e12)
         case "opacity":
             return Opacity(-3.5, 1 / 3)
+        case "focus":
+            return Focus(-2.5, 1 / 3)
         case "slab":
             return Slab(2.5, "min")
         case "transfer":

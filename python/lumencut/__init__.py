@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from lumencut.evaluation import Evaluation, evaluate
     from lumencut.feature_aggregation import FeatureAggregation, cfa
     from lumencut.flags import Flag
+    from lumencut.focus import Focus
     from lumencut.frame import Frame
     from lumencut.mask_tracing import trace_mask
     from lumencut.measurements import Measurements
@@ -95,6 +96,7 @@ _HOME = {
     "evaluation": ("Evaluation", "evaluate"),
     "feature_aggregation": ("FeatureAggregation", "cfa"),
     "flags": ("Flag",),
+    "focus": ("Focus",),
     "frame": ("Frame",),
     "mask_tracing": ("trace_mask",),
     "measurements": ("Measurements",),
@@ -139,6 +141,7 @@ __all__ = [
     "FeatureAggregation",
     "FileError",
     "Flag",
+    "Focus",
     "FormatError",
     "Frame",
     "Gap",

@@ -9,11 +9,12 @@ from lumencut import _lumencut
 from lumencut._checks import choice, flag, integers, number
 from lumencut._wording import a
 from lumencut.errors import SettingsError
+from lumencut.focus import Focus
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
 from lumencut.window import Opacity, checked_window
 
-_CLASSES = {"opacity": Opacity, "slab": Slab}
+_CLASSES = {"opacity": Opacity, "slab": Slab, "focus": Focus}
 
 
 class CheckedSettings:
@@ -46,6 +47,25 @@ class CheckedSettings:
             For a setting outside its range.
         """
         return cls(**{**_lumencut.PAPER, **changes})
+
+    @classmethod
+    def focused(cls, **changes: Any) -> Self:
+        """Return the look *focus*: the exact cut around the vessels amid the shaded body around them.
+
+        It has ``focus=Focus(2.0, 6.0)``, ``context="mida"`` and ``context_shading=True``; all other settings
+        have their defaults.
+
+        Parameters
+        ----------
+        **changes
+            Settings that shall have other values, by their names.
+
+        Raises
+        ------
+        SettingsError
+            For a setting outside its range.
+        """
+        return cls(**{**look_values("focus"), **changes})
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Self:
@@ -109,6 +129,12 @@ class CheckedSettings:
 def checked(settings: CheckedSettings) -> _lumencut.Settings:
     """Return the settings as the core reads them; they were checked when they were made."""
     return settings._checked
+
+
+def look_values(look: str) -> dict[str, Any]:
+    """Return what a look chooses, by the names of the settings."""
+    values = _lumencut.LOOKS[look]
+    return {name: Focus(*value) if isinstance(value, tuple) else value for name, value in values.items()}
 
 
 def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:

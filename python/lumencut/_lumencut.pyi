@@ -38,6 +38,7 @@ __all__ = [
     "DEFAULTS",
     "DICOM_ATTRIBUTES",
     "LARGEST_EXTENT",
+    "LOOKS",
     "MEASURING_FLAGS",
     "MEASURING_NOTICE",
     "MENDS",
@@ -63,11 +64,13 @@ __all__ = [
     "Stenosis",
     "Tracer",
     "__version__",
+    "about",
     "better_place",
     "brightest",
     "c_arm_words",
     "check_camera",
     "check_cr",
+    "check_focus",
     "check_opacity",
     "check_slab",
     "check_transfer_function",
@@ -110,6 +113,7 @@ __all__ = [
     "profile_json",
     "profile_marks",
     "read_session_file",
+    "refocused",
     "report_html",
     "report_plan",
     "rotated",
@@ -133,6 +137,7 @@ __version__: str
 
 # The table of settings by name, in the order to show them to users.
 SETTINGS: dict[str, Setting]
+LOOKS: dict[str, dict[str, Any]]
 PAPER: dict[str, Any]
 WINDOW_PRESETS: list[tuple[str, str, tuple[float, float] | None]]
 
@@ -346,6 +351,12 @@ class Renderer:
         self, camera: Any, settings: Settings, method: tuple[Any, ...]
     ) -> npt.NDArray[np.float32]: ...
 
+def about(
+    vessel: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None],
+    at: float,
+    angle: float,
+    size: tuple[int, int],
+) -> dict[str, Any]: ...
 def better_place(
     points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64], volume: Any
 ) -> tuple[str, tuple[Coordinates, Unit]] | None: ...
@@ -355,6 +366,7 @@ def brightest(
 def c_arm_words(lao: float, cranial: float) -> str: ...
 def check_camera(camera: Any) -> list[list[float]]: ...
 def check_cr(radius_offset: float, arc_threshold: float) -> None: ...
+def check_focus(margin: float, fade: float) -> None: ...
 def check_opacity(transparent: float, opaque: float) -> None: ...
 def check_slab(thickness: float, mode: str) -> None: ...
 def check_transfer_function(points: Sequence[tuple[float, tuple[int, int, int], float]]) -> None: ...
@@ -435,6 +447,9 @@ def read_session_file(content: bytes, name: str) -> str: ...
 def part_name(taken: list[str], whole: str) -> str: ...
 def parts(lines: list[npt.NDArray[np.float64]]) -> list[list[int]]: ...
 def path(vessels: list[_Arrays], words: list[str]) -> _Arrays: ...
+def refocused(
+    camera: Any, vessel: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
+) -> dict[str, Any]: ...
 def report_html(
     options: Mapping[str, Any], window: tuple[float, float], pages: Sequence[Mapping[str, Any]]
 ) -> str: ...

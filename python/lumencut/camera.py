@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, SupportsIndex, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -154,6 +154,85 @@ class Camera(Value):
         """Return the fitted view from below, the patient's front on top, as axial slices are shown."""
         return cls.named("inferior", scene, size)
 
+    @classmethod
+    def about(
+        cls,
+        vessel: Vessel,
+        at: float,
+        angle: float | None = None,
+        *,
+        degrees: float | None = None,
+        size: tuple[int, int] = (512, 512),
+    ) -> Camera:
+        """Return the view about a place on a vessel, which runs upwards through the middle of the picture.
+
+        Turned by an angle it shows another diameter of the place, which stays where it is. The picture
+        reaches eight radii of the vessel there to each side (8 mm where its radius is not known).
+
+        Parameters
+        ----------
+        vessel : Vessel
+            The vessel, such as ``tree["LAD"]``.
+        at : float
+            The place (mm from the vessel's first point).
+        angle : float, default 0
+            How far the viewer moves about the vessel (radians), counted as by :meth:`rotated` about "up". 0
+            is the one of these views that is nearest to the anterior view, the head up.
+        degrees : float
+            The angle in degrees, in the place of ``angle``.
+        size : (int, int), default (512, 512)
+            Width and height (pixels).
+
+        Raises
+        ------
+        CameraError
+            For what is no vessel, a place that is not on it, both angles, or one that is not finite.
+        VesselTreeError
+            For a vessel without length.
+        """
+        if not isinstance(vessel, Vessel):
+            raise CameraError("vessel of the view", type(vessel).__name__, "a Vessel, such as tree['LAD']")
+        turn = 0.0 if angle is None and degrees is None else _radians(angle, degrees)
+        ahead, up = map(np.array, VIEWS["anterior"])
+        view = cls(np.zeros(3), ahead, up, size)
+        place = number(CameraError, "place of the view", at)
+        return view._moved(_lumencut.about((vessel.points, vessel.radius), place, turn, view.size))
+
+    @classmethod
+    def refocused(
+        cls,
+        tree: VesselTree,
+        vessel: Vessel | SupportsIndex | str,
+        size: tuple[int, int] = (512, 512),
+        *,
+        start: Camera | None = None,
+    ) -> Camera:
+        """Return the view from which most of a vessel is seen, fitted to it.
+
+        Of 256 directions all around it is the one along which the vessel is longest where no other stretch of
+        itself lies before it. Half a turn away from ``start`` costs a fifth of the vessel's length.
+
+        Parameters
+        ----------
+        tree : VesselTree
+            The vessels.
+        vessel : Vessel, int or str
+            The vessel, or its id or name in the tree.
+        size : (int, int), default (512, 512)
+            Width and height (pixels).
+        start : Camera, optional
+            The view before; the anterior one where not given.
+
+        Raises
+        ------
+        VesselTreeError
+            For an id or a name that no vessel has (the error lists near ones), or a vessel without length.
+        """
+        chosen = vessel if isinstance(vessel, Vessel) else tree[vessel]
+        ahead = np.array(VIEWS["anterior"][0]) if start is None else start.direction
+        view = cls(np.zeros(3), ahead, np.array(upright(ahead)), size)
+        return view._moved(_lumencut.refocused(view, (chosen.points, chosen.radius)))
+
     def rotated(
         self,
         angle: float | None = None,
@@ -177,14 +256,8 @@ class Camera(Value):
         CameraError
             For both angles or neither, one that is no number, or an axis that is no direction.
         """
-        if (angle is None) == (degrees is None):
-            found = "neither" if angle is None else "an angle in radians and one in degrees"
-            raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
-        if degrees is not None:
-            angle = math.radians(number(CameraError, "degrees of the rotation", degrees))
-        angle = number(CameraError, "angle of the rotation", angle)
         about = checked_axis(axis, ("up", "right", "direction"))
-        return self._moved(_lumencut.rotated(self, angle, about))
+        return self._moved(_lumencut.rotated(self, _radians(angle, degrees), about))
 
     def zoomed(self, factor: float) -> Camera:
         """Return the view magnified by ``factor`` about its center."""
@@ -233,6 +306,16 @@ class Camera(Value):
         column = offset @ self.right_axis / self.pixel_spacing + (width - 1) / 2
         row = (height - 1) / 2 - offset @ self.up / self.pixel_spacing
         return np.stack([column, row, offset @ self.direction], axis=1)
+
+
+def _radians(angle: float | None, degrees: float | None) -> float:
+    """The angle of a rotation (radians), given in one of two units."""
+    if (angle is None) == (degrees is None):
+        found = "neither" if angle is None else "an angle in radians and one in degrees"
+        raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
+    if degrees is not None:
+        return math.radians(number(CameraError, "degrees of the rotation", degrees))
+    return number(CameraError, "angle of the rotation", angle)
 
 
 def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float, float, float]:

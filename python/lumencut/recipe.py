@@ -19,6 +19,7 @@ from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, FileError, FormatError, SettingsError
+from lumencut.focus import Focus
 from lumencut.settings import Settings
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
@@ -30,7 +31,7 @@ KEYWORD, _FORMAT = "Lumencut", 1
 _EXPECTED = "a PNG picture that Lumencut wrote"
 _LONGEST = 100_000
 _PLACE = ("center", "direction", "right_axis", "up", "pixel_spacing")
-_CLASSES: dict[str, Any] = {"window": Window, "opacity": Opacity, "slab": Slab}
+_CLASSES: dict[str, Any] = {"window": Window, "opacity": Opacity, "slab": Slab, "focus": Focus}
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, FileError, FormatError, SettingsError
+from lumencut.focus import Focus
 from lumencut.measured_vessel import Marked
 from lumencut.recipe import Recipe
 from lumencut.settings import Settings
@@ -114,5 +115,5 @@ def _made(name: str, value: Any) -> Any:
     setting = _lumencut.SETTINGS.get(name)
     if setting is None or not isinstance(value, list):
         return value
-    made = {"window": Window, "slab": Slab}.get(setting.kind)
+    made = {"window": Window, "slab": Slab, "focus": Focus}.get(setting.kind)
     return tuple(value) if made is None else made(*value)

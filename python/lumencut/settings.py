@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from lumencut._checked_settings import CheckedSettings
+from lumencut.focus import Focus
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
 from lumencut.window import Opacity, Window
@@ -16,6 +17,7 @@ from lumencut.window import Opacity, Window
 LevelChoiceName: TypeAlias = Literal["own", "nearest"]
 SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
+ContextFromName: TypeAlias = Literal["cut", "whole"]
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,10 @@ class Settings(CheckedSettings):
         paper.
     silhouette_slope : float, 0.001 to 1000000, default 24
         Slope at which a silhouette of the rule ``gradient`` has half its strength (mm of depth per mm).
+    silhouette_reach : float, 0 to 1000000, optional
+        How far from the nearest wall silhouettes are drawn in full (mm); from there they fade over the same
+        length again. Far from all vessels the lines follow borders of zones that mean nothing to a reader.
+        Measured in the picture. Where not given: everywhere.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     background : (int, int, int, int), default (0, 0, 0, 255)
@@ -80,6 +86,11 @@ class Settings(CheckedSettings):
     slab : Slab, optional
         Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its
         far side). Where not given: one point deep.
+    focus : Focus, optional
+        Show the cut surface around the vessels alone, amid the context (mm). From MARGIN mm beyond the
+        nearest wall it fades over FADE mm; both are measured in the picture. A negative margin lets lumens
+        fade too. A fade of 0 is a hard edge, any other is at least two pixels wide. It needs centerlines.
+        Where not given: the cut surface everywhere.
     context : {"mida", "dvr", "mip", "minip", "average"} or None, default "mida"
         What is shown where the cut surface is outside the volume or transparent (name): maximum intensity
         difference accumulation, direct volume rendering, largest, smallest or mean value, or the background
@@ -101,6 +112,12 @@ class Settings(CheckedSettings):
         smallest side of a voxel, all of it in a preview.
     context_shading : bool, default False
         Shade mida and dvr by the gradient, with light from the viewer.
+    context_from : {"cut", "whole"} or None, optional
+        Where the rays of the context start around a ``focus`` (name): at the cut surface, or in front of
+        the volume. Within the focus they start at the cut surface, wherever they start around it. Where not
+        given: cut for mida and dvr, else whole.
+    context_strength : float, 0 to 1, default 1
+        How bright the context is in the picture: what its colours are multiplied by (number, 0 to 1).
     context_preview : bool, default False
         Trace one ray for each square of four pixels: quicker and coarser.
 
@@ -128,13 +145,17 @@ class Settings(CheckedSettings):
     silhouettes: bool = True
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
+    silhouette_reach: float | None = None
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
+    focus: Focus | None = None
     context: ContextName | None = "mida"
     context_gamma: float = 0.0
     context_window: Window | str | None = None
     context_transfer: str | TransferFunction | None = None
     context_step: float | None = None
     context_shading: bool = False
+    context_from: ContextFromName | None = None
+    context_strength: float = 1.0
     context_preview: bool = False

@@ -14,6 +14,7 @@ from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut._wording import listed
 from lumencut.errors import FileError, FormatError, SettingsError
+from lumencut.focus import Focus
 from lumencut.slab import Slab
 from lumencut.transfer import TransferFunction
 from lumencut.window import WINDOW_NAMES, Opacity, Window
@@ -32,6 +33,7 @@ _TABLES: dict[str, tuple[Callable[..., Any], tuple[str, ...]]] = {
     "window": (Window, ("level", "width")),
     "opacity": (Opacity, ("transparent", "opaque")),
     "slab": (Slab, ("thickness", "mode")),
+    "focus": (Focus, ("margin", "fade")),
 }
 _POINT = ("intensity", "color", "opacity")
 
@@ -41,6 +43,8 @@ _EXAMPLES = {
     "window": "{ level = 300.0, width = 900.0 }",
     "opacity": "{ transparent = 50.0, opaque = 150.0 }",
     "slab": '{ thickness = 4.0, mode = "mean" }',
+    "focus": "{ margin = 2.0, fade = 6.0 }",
+    "choice": '"whole"',
     "transfer": '"angio"',
 }
 

@@ -80,6 +80,23 @@ test.describe('streams', () => {
     viewer.expectNoFault();
   });
 
+  test('the look focus is one button, whose margin a slider sets', async () => {
+    await serve(viewer.page, WHOLE);
+    await viewer.page.goto(`./${ADDRESSES}`);
+    await viewer.rest();
+    const everywhere = await viewer.picture();
+    const button = viewer.page.getByRole('button', { name: 'Focus', exact: true });
+    await button.click();
+    await expect(button).toHaveAttribute('aria-pressed', 'true');
+    const focused = await viewer.picture();
+    expect(difference(focused, everywhere, SAME_CODE)).not.toBeNull();
+    await viewer.field('Margin around the vessels').fill('12');
+    expect(difference(await viewer.picture(), focused, SAME_CODE)).not.toBeNull();
+    await button.click();
+    expect(difference(await viewer.picture(), everywhere, SAME_CODE)).toBeNull();
+    viewer.expectNoFault();
+  });
+
   test('a scan is closed, and the start page is back', async () => {
     await viewer.page.goto('./?phantom=stenosis&device=cpu');
     await viewer.rest();

@@ -30,6 +30,7 @@ const TABLE: readonly SettingRow[] = [
     high: null,
   },
   { ...ROW, name: 'slab', kind: 'slab', optional: true, low: null, high: null },
+  { ...ROW, name: 'focus', kind: 'focus', optional: true, low: null, high: null },
 ];
 
 beforeEach(() => {
@@ -66,7 +67,7 @@ test('a view goes into the address and back', () => {
   store.method.value = 'mpcpr';
   store.layout.value = 'four';
   store.isInverted.value = true;
-  store.settings.value = { step: 0.25, context: null, silhouettes: false, slab: [5, 'max'] };
+  store.settings.value = { step: 0.25, context: null, silhouettes: false, slab: [5, 'max'], focus: [2, 6] };
   store.pickedVessel.value = 1;
   store.pickedPlace.value = 12.3456;
   store.cprAngle.value = 0.7;
@@ -190,6 +191,9 @@ describe('what cannot be read is left out', () => {
     { context: 3 },
     { slab: [1e300, 'max'] },
     { slab: 'thick' },
+    { focus: [2, -1] },
+    { focus: [1e300, 6] },
+    { focus: [2] },
     { unknown: 1 },
     { __proto__: { step: 1 } },
   ])('the setting %o', (settings) => {

@@ -1,6 +1,7 @@
 //! What a rendering leaves behind, pixel by pixel, row 0 on top.
 
 use crate::geometry::Geometry;
+use crate::stages::focus::Shares;
 use crate::stages::{Image, ImageSet};
 
 /// How long one stage took.
@@ -24,6 +25,9 @@ pub struct Frame {
     pub vessel: Vec<i32>,
     /// Where the cut surface leaps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
+    /// How much of the cut surface and of its silhouettes each pixel shows ([`crate::stages::focus`]); empty where all of both is
+    /// shown.
+    pub focus: Vec<Shares>,
     /// Projected distance to the nearest centerline (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
@@ -44,6 +48,7 @@ impl Frame {
             image: Vec::new(),
             vessel: Vec::new(),
             leap: Vec::new(),
+            focus: Vec::new(),
             distance: Vec::new(),
             value: Vec::new(),
             context: Vec::new(),
@@ -79,6 +84,7 @@ impl Frame {
             (Image::Depth, !self.depth().is_empty()),
             (Image::Vessel, !self.vessel.is_empty()),
             (Image::Leap, !self.leap.is_empty()),
+            (Image::Focus, !self.focus.is_empty()),
             (Image::Distance, !self.distance.is_empty()),
             (Image::Value, !self.value.is_empty()),
             (Image::Context, !self.context.is_empty()),
@@ -105,6 +111,7 @@ impl Frame {
         keep(&mut self.image, wanted.has(Image::Picture));
         keep(&mut self.vessel, wanted.has(Image::Vessel));
         keep(&mut self.leap, wanted.has(Image::Leap));
+        keep(&mut self.focus, wanted.has(Image::Focus));
         keep(&mut self.distance, wanted.has(Image::Distance));
         keep(&mut self.value, wanted.has(Image::Value));
         keep(&mut self.context, wanted.has(Image::Context));

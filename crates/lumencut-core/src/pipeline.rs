@@ -52,6 +52,20 @@ impl<'a> Request<'a> {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
 
+    /// Checks the settings, and that the scene has what they need.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Settings`] for a setting outside its range, or a focus around vessels that are not there.
+    pub fn check(&self, scene: &Scene) -> Result<()> {
+        self.settings.check()?;
+        if self.settings.focus.is_none() || scene.tree.is_some() {
+            return Ok(());
+        }
+        let found = "a focus for a scene without centerlines";
+        Err(Error::new(ErrorKind::Settings, "focus", found, "centerlines, around whose vessels it is")
+            .mend("give centerlines, or leave the focus out"))
+    }
+
     /// The same without the picture where the scene has no volume to show: nothing is made for it then.
     #[must_use]
     pub fn without_unseen_picture(self, scene: &Scene) -> Self {
@@ -110,10 +124,10 @@ impl CpuRenderer {
     /// alone. `Settings::samples` is not read here: hosts average several pictures.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a setting outside its range, [`ErrorKind::Volume`] for a scene without volume and tree,
+    /// Those of [`Request::check`], [`ErrorKind::Volume`] for a scene without volume and tree,
     /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
-        request.settings.check()?;
+        request.check(scene)?;
         request.begin_view(scene);
         let frame = match &scene.tree {
             Some(tree) => self.cut_surface(tree, &request.without_unseen_picture(scene))?,
@@ -180,8 +194,8 @@ impl CpuRenderer {
         let &Request { settings, stop, progress, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress };
         let (mut clock, mut images) = (Clock::start(), Images::default());
-        let Frame { geometry, vessel, leap, .. } = &frame;
-        let pass = LookPass { work, volume, settings, geometry, vessel, leap };
+        let Frame { geometry, vessel, leap, focus, .. } = &frame;
+        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus, wanted: request.images };
         for stage in Stage::of_look(settings, &frame.geometry, frame.images(), request.images) {
             request.begin_stage(stage);
             pass.run(stage, &mut images)?;
@@ -230,7 +244,7 @@ pub fn picture(value: &[f32], size: [usize; 2], settings: &Settings) -> Result<V
     settings.check()?;
     let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };
     let mut image = vec![[0; 4]; value.len()];
-    let layers = Layers { value, strength: None, context: None };
+    let layers = Layers { value, strength: None, focus: None, context: None };
     composite(&work, &CompositeParameters::new(settings), &layers, &mut image)?;
     clear_outside(&mut image, value);
     Ok(image)

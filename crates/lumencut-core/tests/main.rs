@@ -8,6 +8,7 @@ mod cr;
 mod cut_surface;
 mod depth_filter;
 mod errors;
+mod focus;
 mod hierarchy_equals_brute_force;
 mod independence;
 mod leaps;

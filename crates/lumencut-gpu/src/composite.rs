@@ -21,6 +21,8 @@ pub(crate) struct Layers<'a> {
     pub value: Option<&'a Buffer>,
     /// Strength of the silhouettes, where they are drawn.
     pub strength: Option<&'a Buffer>,
+    /// How much of the surface and its silhouettes is shown, where not all of it is.
+    pub focus: Option<&'a Buffer>,
     /// The context, colours times opacity and opacity, where there is one.
     pub context: Option<&'a Buffer>,
 }
@@ -29,7 +31,7 @@ pub(crate) struct Layers<'a> {
 #[derive(Debug)]
 pub(crate) struct Composite {
     /// With or without each layer, compiled once needed.
-    stages: [OnceLock<Stage>; 8],
+    stages: [OnceLock<Stage>; 16],
     layer: OnceLock<Stage>,
     parameters: Buffer,
     /// Bound where a layer is not there, and never read: it is white, so that one would see it.
@@ -61,17 +63,22 @@ impl Composite {
         image: &Buffer,
     ) {
         let device = recording.device;
-        let Layers { value, strength, context } = layers;
-        let there = [value, strength, context].map(|layer| f64::from(u8::from(layer.is_some())));
+        let Layers { value, strength, focus, context } = layers;
+        let there = [value, strength, focus, context].map(|layer| f64::from(u8::from(layer.is_some())));
         let place = there.iter().fold(0, |place, there| 2 * place + *there as usize);
         let stage = self.stages[place].get_or_init(|| {
-            let constants =
-                [("ALONE", 1.0 - there[0]), ("HAS_STRENGTH", there[1]), ("HAS_CONTEXT", there[2])];
+            let [has_value, has_strength, has_focus, has_context] = there;
+            let constants = [
+                ("ALONE", 1.0 - has_value),
+                ("HAS_STRENGTH", has_strength),
+                ("HAS_FOCUS", has_focus),
+                ("HAS_CONTEXT", has_context),
+            ];
             Stage::new(device, ROOM, &constants)
         });
         let or_nothing = |layer: Option<_>| layer.unwrap_or(&self.nothing);
-        let buffers =
-            [view, or_nothing(context), image, &self.parameters, or_nothing(value), or_nothing(strength)];
+        let [value, strength, focus, context] = [value, strength, focus, context].map(or_nothing);
+        let buffers = [view, context, image, &self.parameters, value, strength, focus];
         recording.run(stage, &buffers.map(Buffer::as_entire_binding), groups(size, GROUP));
     }
 

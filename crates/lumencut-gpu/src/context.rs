@@ -1,12 +1,14 @@
 //! The context on the GPU.
 
+use std::sync::OnceLock;
+
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::context_parameters::{ContextParameters, Gathering};
 use lumencut_core::math::ray::WHOLE;
 use lumencut_core::math::ray_lines::IndexFromView;
 use lumencut_core::math::transfer::Colors;
-use lumencut_core::settings::{Context, Settings};
+use lumencut_core::settings::{Context, ContextFrom, Settings};
 use lumencut_core::stages::context::step;
 use lumencut_core::volume::Volume;
 use wgpu::{BindingResource, Buffer};
@@ -51,7 +53,8 @@ impl Permutation {
 /// The stage, for all that it was asked for so far, and its parameters.
 #[derive(Debug)]
 pub(crate) struct ContextStage {
-    starts: Stage,
+    /// Where rays start: where all of the surface is shown, and around a focus in front of the volume or at the surface.
+    starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
     parameters: Buffer,
     /// The parameters as the shader was last told.
@@ -65,6 +68,8 @@ pub(crate) struct ContextImages<'a> {
     pub size: [usize; 2],
     /// Whether there is a cut surface; without one every ray crosses the whole volume.
     pub has_surface: bool,
+    /// How much of it is shown, where not all of it is.
+    pub focus: Option<&'a Buffer>,
     /// The depth of the cut surface (mm).
     pub depth: &'a Buffer,
     /// The volume there.
@@ -79,7 +84,7 @@ impl ContextStage {
     /// No rays compiled yet.
     pub fn new(device: &Device) -> Self {
         Self {
-            starts: Stage::entry(device, ROOM, "starts", &[]),
+            starts: Default::default(),
             stages: Vec::new(),
             parameters: device.uniform::<ContextParameters>("context parameters"),
             told: Vec::new(),
@@ -111,6 +116,17 @@ impl ContextStage {
         Ok(())
     }
 
+    /// The stage that finds where rays start.
+    fn starts_stage(&self, device: &Device, has_focus: bool, from: ContextFrom) -> &Stage {
+        let from_cut = from == ContextFrom::Cut;
+        let place = if has_focus { 1 + usize::from(from_cut) } else { 0 };
+        self.starts[place].get_or_init(|| {
+            let number = |is: bool| f64::from(u8::from(is));
+            let constants = [("HAS_FOCUS", number(has_focus)), ("FROM_CUT", number(from_cut))];
+            Stage::entry(device, ROOM, "starts", &constants)
+        })
+    }
+
     /// Writes where the rays start, and what they gather. `on_device` is placed in the view by `grid`.
     pub fn record(
         &mut self,
@@ -120,11 +136,14 @@ impl ContextStage {
         context: &Context,
         images: ContextImages,
     ) {
-        let ContextImages { size, has_surface, depth, value, start, gathered } = images;
+        let ContextImages { size, has_surface, depth, value, start, gathered, .. } = images;
         let device = recording.device;
         if has_surface {
-            let buffers = [view, &self.parameters, value, depth, start].map(Buffer::as_entire_binding);
-            recording.run(&self.starts, &buffers, groups(size, [8, 8]));
+            // Where all of it is shown, the binding of the focus is not read.
+            let focus = images.focus.unwrap_or(value);
+            let buffers = [view, &self.parameters, value, depth, start, focus].map(Buffer::as_entire_binding);
+            let stage = self.starts_stage(device, images.focus.is_some(), context.from);
+            recording.run(stage, &buffers, groups(size, [8, 8]));
         } else {
             device.write(start, &vec![WHOLE; size[0] * size[1]]);
         }

@@ -1,11 +1,13 @@
 //! The stages that make the cut surface: projection, distance and depth.
 
 use std::mem::offset_of;
+use std::sync::OnceLock;
 
 use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
 use lumencut_core::pipeline::Request;
 use lumencut_core::settings::{LevelChoice, MAX_LEVELS};
 use lumencut_core::stages::Stage as Table;
+use lumencut_core::stages::focus::FocusParameters;
 use wgpu::Buffer;
 
 use crate::device::Device;
@@ -35,6 +37,9 @@ pub(crate) struct CutSurfaceStages {
     bundle: Stage,
     enclose: Stage,
     distance: Stage,
+    /// Compiled once needed.
+    focus: OnceLock<Stage>,
+    focus_parameters: Buffer,
     /// Depth by each level choice, without and with *lumen first*, without and with a sheet; compiled once needed.
     depth: [[[Option<Stage>; 2]; 2]; 2],
     parameters: Buffer,
@@ -54,6 +59,8 @@ impl CutSurfaceStages {
             bundle: Stage::entry(device, "math/projection", "bundle", &[]).with_first_binding(2),
             enclose: Stage::entry(device, "math/projection", "enclose", &[]).with_first_binding(1),
             distance: Stage::new(device, "stages/distance", &tile),
+            focus: OnceLock::new(),
+            focus_parameters: device.image("focus parameters", 1, size_of::<FocusParameters>()),
             depth: Default::default(),
             group: [across * QUAD * TILES_ACROSS, rows * TILES / TILES_ACROSS],
             told: None,
@@ -87,6 +94,26 @@ impl CutSurfaceStages {
     pub fn distance(&self, recording: &mut Recording, view: &Buffer, levels: &DeviceLevels, images: &Images) {
         let all = [view, &self.parameters, &levels.slots, &levels.boxes, &images.distance];
         recording.run(&self.distance, &all.map(Buffer::as_entire_binding), groups(images.size, self.group));
+    }
+
+    /// How much of the cut surface every pixel shows around a focus.
+    pub fn focus(
+        &self,
+        recording: &mut Recording,
+        view: &Buffer,
+        levels: &DeviceLevels,
+        parameters: FocusParameters,
+        images: &Images,
+    ) {
+        let device = recording.device;
+        device.write(&self.focus_parameters, &[parameters]);
+        let stage = self.focus.get_or_init(|| {
+            let [across, rows] = tile_of(device).map(|n| n as f64);
+            Stage::new(device, "stages/focus", &[("ACROSS", across), ("ROWS", rows)])
+        });
+        let (slots, boxes) = (&levels.slots, &levels.boxes);
+        let all = [view, &self.parameters, slots, boxes, &images.focus, &self.focus_parameters];
+        recording.run(stage, &all.map(Buffer::as_entire_binding), groups(images.size, self.group));
     }
 
     /// Depth, into a buffer of its own choice, vessel and sheet of every pixel.

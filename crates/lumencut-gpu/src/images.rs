@@ -16,6 +16,7 @@ pub(crate) struct Images {
     pub vessel: Buffer,
     pub sheet: Buffer,
     pub leap: Buffer,
+    pub focus: Buffer,
     pub value: Buffer,
     /// The slope that silhouettes are made of; before it, the depth filtered within zones along columns alone.
     pub raised: Buffer,
@@ -50,6 +51,7 @@ impl Images {
             vessel: number("vessel"),
             sheet: device.image("sheet", pixels, MOST_BYTES),
             leap: number("leap"),
+            focus: device.image("focus", pixels, 8),
             value: number("value"),
             raised: number("raised slope"),
             strength: number("strength"),
@@ -69,6 +71,7 @@ impl Images {
             Image::Vessel => &self.vessel,
             Image::Sheet => &self.sheet,
             Image::Leap => &self.leap,
+            Image::Focus => &self.focus,
             Image::Value => &self.value,
             Image::Strength => &self.strength,
             Image::Start => &self.start,

@@ -7,6 +7,7 @@ use lumencut_core::math::blocks::HUGE;
 use lumencut_core::pipeline::Request;
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::SilhouetteRule;
+use lumencut_core::stages::focus::{FocusParameters, Shares};
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use wgpu::Buffer;
 
@@ -67,19 +68,21 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Sends depth, vessels and leaps of a cut surface that was made elsewhere.
+    /// Sends depth, vessels, leaps and focus of a cut surface that was made elsewhere.
     ///
     /// # Panics
     /// Where they are not those of every pixel: a mistake in the program, never in its input.
-    pub fn send_surface(&mut self, vessel: &[i32], leap: &[u32]) {
+    pub fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[Shares]) {
         let depth = self.geometry.depth();
         for (image, bytes) in [
             (Image::Depth, bytemuck::cast_slice::<_, u8>(depth)),
             (Image::Vessel, bytemuck::cast_slice(vessel)),
             (Image::Leap, bytemuck::cast_slice(leap)),
+            (Image::Focus, bytemuck::cast_slice(focus)),
         ] {
             if !bytes.is_empty() {
-                assert_eq!(bytes.len(), 4 * self.images.pixels(), "bytes of the image {image:?}");
+                let expected = bytes_of(image) * self.images.pixels();
+                assert_eq!(bytes.len(), expected, "bytes of the image {image:?}");
                 self.device.write(self.buffer(image), bytes);
                 self.made = self.made.and(ImageSet::of(&[image]));
             }
@@ -103,6 +106,7 @@ impl<'a> Pass<'a> {
             Stage::Depth => self.depth(),
             Stage::Leap => self.leap(),
             Stage::DepthFilter => self.depth_filter(),
+            Stage::Focus => self.focus(),
             Stage::Surface => return self.surface(),
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
@@ -153,6 +157,13 @@ impl<'a> Pass<'a> {
         }
     }
 
+    fn focus(&mut self) {
+        let parameters = FocusParameters::new(self.request.settings, self.request.camera);
+        let (Some(levels), Some(parameters)) = (self.levels, parameters) else { return };
+        let Stages { view, cut_surface, .. } = &*self.stages;
+        cut_surface.focus(&mut self.recording, view, levels, parameters, self.images);
+    }
+
     fn surface(&mut self) -> Result<()> {
         let (Some(on_device), Some(shared)) = (self.volume, &self.scene.volume) else { return Ok(()) };
         self.stages.place(self.device, on_device, &shared.volume, &self.geometry);
@@ -186,7 +197,8 @@ impl<'a> Pass<'a> {
         let blocks = on_device.blocks(self.device, shared, self.request.stop)?;
         let Images { size, depth, value, start, gathered, .. } = self.images;
         let has_surface = self.made.has(Image::Value);
-        let images = ContextImages { size: *size, has_surface, depth, value, start, gathered };
+        let focus = self.made.has(Image::Focus).then(|| self.buffer(Image::Focus));
+        let images = ContextImages { size: *size, has_surface, focus, depth, value, start, gathered };
         let Stages { view, grid, context: stage, .. } = &mut *self.stages;
         stage.write(self.device, settings, context, (&shared.volume, self.request.camera), blocks)?;
         stage.record(&mut self.recording, [view, grid], (on_device, blocks), context, images);
@@ -198,6 +210,7 @@ impl<'a> Pass<'a> {
         let layers = Layers {
             value: layer(Image::Value),
             strength: layer(Image::Strength),
+            focus: layer(Image::Focus),
             context: layer(Image::Gathered),
         };
         let Images { size, context, picture, .. } = self.images;
@@ -229,6 +242,7 @@ impl<'a> Pass<'a> {
                 (Image::Depth, Geometry::Orthographic { depth, .. }) => *depth = results.numbers(n),
                 (Image::Vessel, _) => frame.vessel = results.numbers(n),
                 (Image::Leap, _) => frame.leap = results.numbers(n),
+                (Image::Focus, _) => frame.focus = results.numbers(n),
                 (Image::Value, _) => frame.value = with_holes(results.numbers(n)),
                 (Image::Context, _) => frame.context = results.numbers(n),
                 (Image::Picture, _) => frame.image = results.numbers(n),
@@ -248,12 +262,20 @@ impl<'a> Pass<'a> {
     pub async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         for image in wanted {
-            let bytes = if matches!(image, Image::Gathered | Image::Sheet) { 16 } else { 4 };
-            recording.read(self.buffer(*image), bytes * self.images.pixels() as u64);
+            recording.read(self.buffer(*image), (bytes_of(*image) * self.images.pixels()) as u64);
         }
         let mut results = recording.finish(self.request.stop).await?;
         self.timings.append(&mut results.timings);
         Ok(results)
+    }
+}
+
+/// The bytes of a pixel.
+fn bytes_of(image: Image) -> usize {
+    match image {
+        Image::Gathered | Image::Sheet => 16,
+        Image::Focus => 8,
+        _ => 4,
     }
 }
 

@@ -54,11 +54,13 @@ impl Pass<'_> {
             }
             Geometry::Curved(curved) => Geometry::Curved(curved.clone()),
         };
-        let &Request { settings, stop, .. } = self.request;
+        let &Request { settings, images: wanted, stop, .. } = self.request;
         let work = Work { size: self.images.size, isa: Isa::widest(), stop, progress: None };
         let vessel = std::mem::take(&mut images.vessel);
         let leap = std::mem::take(&mut images.leap);
-        let pass = LookPass { work, volume, settings, geometry: &geometry, vessel: &vessel, leap: &leap };
+        let focus = std::mem::take(&mut images.focus);
+        let (geometry, vessel, leap, focus) = (&geometry, &vessel, &leap, &focus);
+        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus, wanted };
         pass.run(stage, images)?;
         if stage == Stage::Context && images.gathered.is_empty() {
             images.gathered = vec![[0.0; 4]; self.images.pixels()];
@@ -75,6 +77,7 @@ impl Pass<'_> {
             Image::Vessel => bytemuck::cast_slice(&images.vessel),
             Image::Sheet => bytemuck::cast_slice(&images.sheet),
             Image::Leap => bytemuck::cast_slice(&images.leap),
+            Image::Focus => bytemuck::cast_slice(&images.focus),
             Image::Value => &without_holes(&images.value),
             Image::Strength => bytemuck::cast_slice(&images.strength),
             Image::Start => bytemuck::cast_slice(&images.start),
@@ -98,6 +101,7 @@ fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
         Image::Vessel => images.vessel = results.numbers(n),
         Image::Sheet => images.sheet = results.numbers(n),
         Image::Leap => images.leap = results.numbers(n),
+        Image::Focus => images.focus = results.numbers(n),
         Image::Value => images.value = with_holes(results.numbers(n)),
         Image::Strength => images.strength = results.numbers(n),
         Image::Start => images.start = results.numbers(n),

@@ -91,7 +91,7 @@ impl GpuRenderer {
     /// # Errors
     /// As [`lumencut_core::pipeline::CpuRenderer::render`], and [`lumencut_core::error::ErrorKind::Device`] where the GPU has no room or fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
-        request.settings.check()?;
+        request.check(scene)?;
         if scene.volume.is_none() && scene.tree.is_none() {
             return Err(nothing_to_show());
         }
@@ -110,7 +110,7 @@ impl GpuRenderer {
         request: &Request<'_>,
         screen: &mut Screen,
     ) -> Result<()> {
-        request.settings.check()?;
+        request.check(scene)?;
         if scene.volume.is_none() {
             return Err(nothing_to_show());
         }
@@ -153,9 +153,9 @@ impl GpuRenderer {
     ) -> Result<Frame> {
         request.settings.check()?;
         let scene = Scene { volume: Some(volume.clone()), tree: None };
-        let Frame { geometry, vessel, leap, distance, folded, timings, .. } = frame;
+        let Frame { geometry, vessel, leap, focus, distance, folded, timings, .. } = frame;
         let mut pass = self.pass(&scene, geometry, request)?;
-        pass.send_surface(&vessel, &leap);
+        pass.send_surface(&vessel, &leap, &focus);
         pass.look().await?;
         let mut shown = pass.frame().await?;
         shown.timings.splice(..0, timings);

@@ -88,6 +88,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(ranges::check_cr, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_window, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_opacity, module)?)?;
+    module.add_function(wrap_pyfunction!(ranges::check_focus, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_slab, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_transfer_function, module)?)?;
     module.add_function(wrap_pyfunction!(tree::check_vessel, module)?)?;
@@ -95,6 +96,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::smoothed, module)?)?;
     module.add_function(wrap_pyfunction!(tree::path, module)?)?;
     module.add_function(wrap_pyfunction!(tree::parts, module)?)?;
+    module.add_function(wrap_pyfunction!(views::about, module)?)?;
+    module.add_function(wrap_pyfunction!(views::refocused, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted_turn, module)?)?;
     module.add_function(wrap_pyfunction!(views::frame_angles, module)?)?;

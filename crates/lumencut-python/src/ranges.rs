@@ -3,7 +3,7 @@
 
 use lumencut::named::Named;
 use lumencut::reformations::cr::CrParameters;
-use lumencut::settings::{ControlPoint, Opacity, Slab, SlabMode, TransferFunction, Window};
+use lumencut::settings::{ControlPoint, Focus, Opacity, Slab, SlabMode, TransferFunction, Window};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
@@ -18,6 +18,12 @@ pub fn check_window(level: f64, width: f64) -> PyResult<()> {
 #[pyfunction]
 pub fn check_opacity(transparent: f64, opaque: f64) -> PyResult<()> {
     Opacity { transparent, opaque }.check().map_err(to_python)
+}
+
+/// Checks the margin and the fade of a focus against their ranges.
+#[pyfunction]
+pub fn check_focus(margin: f64, fade: f64) -> PyResult<()> {
+    Focus { margin, fade }.check().map_err(to_python)
 }
 
 /// Checks the thickness of a slab against its range, and its mode.

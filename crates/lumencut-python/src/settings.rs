@@ -38,7 +38,7 @@ impl Row {
     }
 }
 
-/// The default of a setting; those that are left open are None.
+/// The value of a setting as Python has it: a focus as its two lengths; what is left open is None.
 fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     match default {
         Value::Flag(flag) => flag.into_py_any(py),
@@ -46,13 +46,14 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
         Value::Count(count) => count.into_py_any(py),
         Value::Color(channels) => PyTuple::new(py, channels)?.into_py_any(py),
         Value::Name(name) => name.into_py_any(py),
+        Value::Focus(focus) => (focus.margin, focus.fade).into_py_any(py),
         Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
             Ok(py.None())
         }
     }
 }
 
-/// Adds the table of settings, by name, to the module, and in what the paper's rules differ from the defaults.
+/// Adds the table of settings, by name, to the module, in what the paper's rules differ from the defaults, and what looks choose.
 pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = PyDict::new(module.py());
     for setting in table() {
@@ -60,11 +61,19 @@ pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     }
     module.add_class::<Row>()?;
     module.add("SETTINGS", rows)?;
-    let paper = PyDict::new(module.py());
-    for (name, value) in Settings::paper_values() {
-        paper.set_item(name, plain(module.py(), value)?)?;
+    module.add("PAPER", values(module.py(), Settings::paper_values())?)?;
+    let looks = PyDict::new(module.py());
+    looks.set_item("focus", values(module.py(), Settings::focus_values())?)?;
+    module.add("LOOKS", looks)
+}
+
+/// The values of some settings by their names.
+fn values<'py>(py: Python<'py>, chosen: Vec<(&'static str, Value)>) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    for (name, value) in chosen {
+        all.set_item(name, plain(py, value)?)?;
     }
-    module.add("PAPER", paper)
+    Ok(all)
 }
 
 /// The settings that the attributes of `lumencut.Settings` stand for: checked when they are made, and read by every

@@ -1,9 +1,11 @@
-//! Values of settings, read from Python objects: numbers, names, and the attributes of windows, opacities, slabs and
-//! transfer functions.
+//! Values of settings, read from Python objects: numbers, names, and the attributes of windows, opacities, slabs,
+//! focuses and transfer functions.
 
 use lumencut::error::Result;
 use lumencut::named::Named;
-use lumencut::settings::{ControlPoint, Kind, Opacity, Slab, SlabMode, TransferFunction, Value, Window};
+use lumencut::settings::{
+    ControlPoint, Focus, Kind, Opacity, Slab, SlabMode, TransferFunction, Value, Window,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
@@ -25,6 +27,7 @@ pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
         Kind::Window => Value::Window(object.extract::<WindowArgument>()?.window()),
         Kind::Opacity => Value::Opacity(object.extract::<OpacityArgument>()?.opacity()),
         Kind::Slab => Value::Slab(object.extract::<SlabArgument>()?.slab().map_err(to_python)?),
+        Kind::Focus => Value::Focus(object.extract::<FocusArgument>()?.focus()),
         Kind::Transfer => match object.extract() {
             Ok(name) => Value::Name(name),
             Err(_) => Value::Transfer(object.extract::<TransferArgument>()?.transfer_function()),
@@ -68,6 +71,19 @@ struct SlabArgument {
 impl SlabArgument {
     fn slab(&self) -> Result<Slab> {
         Ok(Slab { thickness: self.thickness, mode: SlabMode::named("slab mode", &self.mode)? })
+    }
+}
+
+/// The attributes of `lumencut.Focus`.
+#[derive(FromPyObject)]
+struct FocusArgument {
+    margin: f64,
+    fade: f64,
+}
+
+impl FocusArgument {
+    fn focus(&self) -> Focus {
+        Focus { margin: self.margin, fade: self.fade }
     }
 }
 

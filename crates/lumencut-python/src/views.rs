@@ -3,13 +3,13 @@
 use glam::DVec3;
 use lumencut::camera::Camera;
 use lumencut::views::{self, Axis, VIEWS};
-use lumencut::{positions as pixels, turn};
+use lumencut::{positions as pixels, turn, vessel_views};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::to_python;
-use crate::tree::points_of;
+use crate::tree::{self, VesselArrays, points_of};
 
 /// The attributes of a `lumencut.Camera`, whose axes are unit vectors already.
 #[derive(FromPyObject)]
@@ -106,6 +106,21 @@ pub fn fitted_turn(
 ) -> PyResult<Place> {
     let (camera, points, axis) = (camera.camera()?, points_of(&points)?, axis.axis()?);
     placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
+}
+
+/// The view about a place on a vessel: the arc length is in mm, the angle in radians.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn about(vessel: VesselArrays<'_>, at: f64, angle: f64, size: [usize; 2]) -> PyResult<Place> {
+    placed(vessel_views::about(&tree::vessel(&vessel)?, at, angle, size))
+}
+
+/// The view from which most of a vessel is seen, not far from that of a camera.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn refocused(py: Python<'_>, camera: MadeCamera, vessel: VesselArrays<'_>) -> PyResult<Place> {
+    let (camera, vessel) = (camera.camera()?, tree::vessel(&vessel)?);
+    placed(py.detach(|| vessel_views::refocused(&camera, &vessel)))
 }
 
 /// The angles of the frames of a turn (radians).

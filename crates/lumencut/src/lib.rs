@@ -39,6 +39,7 @@ mod text;
 #[path = "tests/tube.rs"]
 mod tube;
 pub mod turn;
+pub mod vessel_views;
 pub mod views;
 pub mod window_presets;
 pub mod windows;

@@ -107,6 +107,7 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
     # A window from the data has the tissue at about a fifth: it and what is darker give way.
     tissue = Opacity(window.level - window.width / 3, window.level - window.width / 6)
     yield "context", oblique, Settings(opacity=tissue)
+    yield "focus", Camera.left(scene, _SIZE), Settings.focused()
 
 
 def _trace(renderer: Renderer, points: Any, path: Path, *, annotate: bool) -> None:

@@ -27,7 +27,9 @@ WITH_FOUND = ("smallest_radius", "doubtful")
 def found_options(command: _Command) -> _Command:
     """Add the options of vessels that are found, from a seed or without one."""
     parts = (
-        click.option("--seed", type=VECTOR, help="A point in a vessel (mm, LPS): find all that hangs together with it."),
+        click.option(
+            "--seed", type=VECTOR, help="A point in a vessel (mm, LPS): find all that hangs together with it."
+        ),
         click.option(
             "--seed-index",
             type=VECTOR,

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 _CONTEXT = tuple(name for name in SETTINGS if name.startswith("context"))
 _OF_ALL = ("background", "samples", *_CONTEXT)
-#: ``--paper`` chooses rules of the cut surface; it is no setting of the table.
-_CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper")
+#: ``--paper`` and ``--look`` choose settings of the cut surface; they are no settings of the table.
+_CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper", "look")
 _DICOM = ("series", "phase", "fill_gaps", "resample_slices")
 _NOTHING = (None, False, 0, ())
 _VESSELS = ("vessel", "exclude", "zoom_to")
@@ -105,6 +105,8 @@ def _idle_context(settings: Settings) -> Iterator[_Idle]:
     if settings.context is None:
         names = tuple(name for name in _CONTEXT if name != "context")
         yield names, "with --context none", "choose a context"
+    elif settings.focus is None:
+        yield ("context_from",), "without a focus, around which it counts", "give --focus"
     if settings.context in ("minip", "average"):
         why = f"with --context {settings.context}, which is grey in its window"
         yield ("context_transfer",), why, "choose another --context"
@@ -120,7 +122,7 @@ def _idle_context(settings: Settings) -> Iterator[_Idle]:
 def _idle_rules(settings: Settings) -> Iterator[_Idle]:
     """Settings of the cut surface and its lines."""
     if not settings.silhouettes:
-        names = ("silhouette_rule", "silhouette_slope", "silhouette_color")
+        names = ("silhouette_rule", "silhouette_slope", "silhouette_reach", "silhouette_color")
         yield names, "without silhouettes", "give --silhouettes"
     if settings.silhouette_rule == "leap":
         why = "with --silhouette-rule leap, which has no slope"

@@ -59,6 +59,25 @@ class Places(_Type):
         return places
 
 
+class PlaceOnVessel(_Type):
+    """A place on a vessel by the vessel's name or id and an arc length in mm."""
+
+    name = "NAME|ID@MM"
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[str, float]:
+        """Return the word for the vessel and the arc length."""
+        if not isinstance(value, str):
+            return tuple(value)
+        word, _, place = value.rpartition("@")
+        try:
+            at = float(place.lower().removesuffix("mm"))
+        except ValueError:
+            at = math.nan
+        if not (word and math.isfinite(at)):
+            self.fail(f"{value!r} is not of the form {self.name}, such as LAD@41mm", param, ctx)
+        return word, at
+
+
 class WallOption(Parts):
     """The level of walls and its standard deviation, no wall, or what the volume says."""
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut._lumencut import PAPER, SETTINGS, Setting
+from lumencut._lumencut import LOOKS, PAPER, SETTINGS, Setting
 from lumencut.cli.options import FILE, Command, added
 from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
@@ -31,6 +31,7 @@ _WRITTEN = {
     "flag": " (yes or no)",
     "color": " (hexadecimal)",
     "slab": ", such as 4mm:mean",
+    "focus": ", such as 2:6",
 }
 
 
@@ -49,6 +50,14 @@ def _words(name: str, value: Any) -> str:
     return f"--{words} {value:g}" if isinstance(value, float) else f"--{words} {value}"
 
 
+#: Several settings under one name, which options change further.
+look_option = click.option(
+    "--look",
+    type=click.Choice(tuple(LOOKS)),
+    help="Start from several settings at once. focus: the cut around the vessels amid the shaded body. "
+    "Options beside it change them further.",
+)
+
 #: A file of settings, which options change further.
 settings_option = click.option(
     "--settings",
@@ -62,7 +71,8 @@ settings_option = click.option(
 def setting_options(command: Command) -> Command:
     """Add one option for each field of `Settings`, under its name."""
     names = [*_FIRST, *(name for name in SETTINGS if name not in _FIRST)]
-    return added((settings_option, *(_option(name, SETTINGS[name]) for name in names)), command)
+    options = (_option(name, SETTINGS[name]) for name in names)
+    return added((settings_option, look_option, *options), command)
 
 
 def look_options(command: Command) -> Command:
@@ -93,6 +103,8 @@ def _type(setting: Setting) -> tuple[Any, str | None]:
             return WINDOW, f"{WINDOW.name}|NAME"
         case "opacity":
             return Parts("TRANSPARENT:OPAQUE", ":", float), None
+        case "focus":
+            return Parts("MARGIN:FADE", ":", float), None
         case "slab":
             return Thickness(setting.choices), None
         case "transfer":
@@ -138,16 +150,24 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
         mend = "lumencut settings --paper writes a file of the paper's rules"
         raise click.UsageError(f"--settings and --paper exclude each other; {mend}")
     start = base or Settings() if path is None else Settings.from_file(path)
-    paper = PAPER if chosen.get("paper") else {}
+    rules = {**(PAPER if chosen.get("paper") else {}), **_look(chosen.get("look"))}
     try:
         fields = {name: _as_field(SETTINGS[name], value) for name, value in given.items()}
-        return replace(start, **{**paper, **fields})
+        return replace(start, **{**rules, **fields})
     except SettingsError as error:
         raise click.UsageError(str(error)) from error
 
 
+def _look(name: str | None) -> dict[str, Any]:
+    """What a look chooses."""
+    from lumencut._checked_settings import look_values
+
+    return {} if name is None else look_values(name)
+
+
 def _as_field(setting: Setting, value: Any) -> Any:
     """What an option holds as what the setting takes."""
+    from lumencut.focus import Focus
     from lumencut.slab import Slab
     from lumencut.transfer import TransferFunction
     from lumencut.window import Opacity, Window
@@ -158,6 +178,8 @@ def _as_field(setting: Setting, value: Any) -> Any:
             return Window(level=level, width=width)
         case "opacity":
             return Opacity(*value)
+        case "focus":
+            return Focus(*value)
         case "slab":
             return Slab(*value)
         case "transfer" if isinstance(value, tuple):

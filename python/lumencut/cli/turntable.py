@@ -10,7 +10,7 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.labels import check_labels, label_options
-from lumencut.cli.parameters import Named
+from lumencut.cli.parameters import Named, PlaceOnVessel
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
 from lumencut.cli.scene import (
     check_scene,
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from lumencut.animation import Writer
     from lumencut.camera import Camera
     from lumencut.frame import Frame
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
 
 AXIS_NAMES = ("superior", "up", "right", "direction")
 
@@ -45,10 +47,16 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @click.option(
     "--axis",
     type=Named(AXIS_NAMES),
-    default="superior",
-    show_default=True,
     metavar="NAME|X,Y,Z",
-    help="superior (of the patient); up, right or direction (of the first view); or a vector (LPS).",
+    help="superior (of the patient), the default; up, right or direction (of the first view); or a "
+    "vector (LPS).",
+)
+@click.option(
+    "--about",
+    type=PlaceOnVessel(),
+    metavar=PlaceOnVessel.name,
+    help="Turn about this place on a vessel, such as LAD@41mm, which stays in the middle: the cut sweeps all "
+    "its diameters, which are written on the frames.",
 )
 @click.option(
     "--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="How many frames."
@@ -82,12 +90,14 @@ def turntable(
     \b
     lumencut turntable ct.nii.gz centerlines.vtp -o spin.webp
     lumencut turntable ct.nii.gz centerlines.vtp -o rock.mp4 --rotate -30 --degrees 60 --seconds 4
+    lumencut turntable ct.nii.gz LAD.mrk.json -o stenosis.webp --about LAD@41mm --degrees 180
     """  # noqa: D301 - click needs the control character itself
     if fps is not None and seconds is not None:
         raise click.UsageError("--fps and --seconds exclude each other")
     is_timed = fps is not None or seconds is not None
     fps = fps or (frames / seconds if seconds else 12.0)
-    degrees, axis = chosen["degrees"], chosen["axis"]
+    degrees, axis = chosen["degrees"], chosen["axis"] or "superior"
+    _check_about(chosen)
     settings, view = settings_from(chosen), options.view_from(chosen)
     files = scene_from(chosen)
     check_scene(files, chosen, settings)
@@ -101,8 +111,11 @@ def turntable(
 
     from lumencut import turntables as library
 
-    camera = options.placed_like(library.fitted_turn(view, scene, degrees, axis), chosen)
-    turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
+    if chosen["about"] is None:
+        camera = options.placed_like(library.fitted_turn(view, scene, degrees, axis), chosen)
+        turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
+    else:
+        camera, turn = _about(renderer, view, chosen, (settings, frames))
     empty: list[Camera] = []
     write(watched(turn, frames, empty), fps)
     detail(f"device: {renderer.device}")
@@ -110,6 +123,35 @@ def turntable(
         who = "no pixel of any frame" if len(empty) == frames else f"no pixel of {len(empty)} frames"
         warn_of_emptiness(who, empty[0], renderer)
     say(f"{output}: {frames} frames, {frames / fps:.3g} s, {shown(camera, settings, renderer)}")
+
+
+def _check_about(chosen: dict[str, Any]) -> None:
+    """Refuse options that place the view beside a place that it turns about."""
+    if chosen["about"] is None:
+        return
+    for name in ("axis", "center", "up", "tilt", "zoom_to"):
+        if chosen[name] not in (None, 0, 0.0, ()):
+            found = f"--{name.replace('_', '-')} does nothing with --about"
+            raise click.UsageError(f"{found}, which says what is in the middle and upwards; leave it out")
+
+
+def _about(
+    renderer: Renderer, view: Camera, chosen: dict[str, Any], how: tuple[Settings, int]
+) -> tuple[Camera, Iterator[Frame]]:
+    """The first view of a turn about a place, and its frames."""
+    from lumencut.camera import Camera
+    from lumencut.place_turns import radius_at, turn_about
+
+    word, at = chosen["about"]
+    tree = renderer.tree
+    if tree is None:
+        raise click.UsageError("--about does nothing without CENTERLINES; name them, or leave it out")
+    vessel = tree[int(word) if word.isdecimal() and word not in tree else word]
+    first = Camera.about(vessel, at, degrees=chosen["rotate"], size=view.size)
+    camera = options.placed_like(first, chosen)
+    settings, frames = how
+    turn = turn_about(renderer, camera, radius_at(vessel, at), settings, frames, chosen["degrees"])
+    return camera, turn
 
 
 def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[Frame]:

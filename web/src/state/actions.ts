@@ -102,6 +102,16 @@ export function setSetting(name: string, value: SettingValue): void {
   store.settings.value = { ...store.settings.value, [name]: value };
 }
 
+/** What the look focus chooses beside the context: its margin and its fade (mm). */
+const FOCUS: readonly number[] = [2, 6];
+
+/** Chooses the look focus, or the cut everywhere again. */
+export function toggleFocus(): void {
+  const look = { focus: FOCUS, context: 'mida', context_shading: true };
+  const chosen = settingOf('focus') === null ? look : { focus: null, context_shading: false };
+  store.settings.value = { ...store.settings.value, ...chosen };
+}
+
 /** Shows a named view of all of the study. */
 export async function showNamedView(engine: EngineClient, name: string): Promise<void> {
   const camera = store.camera.value;

@@ -92,6 +92,10 @@ export const viewSettings = computed<Settings>(() => {
   const windows = report.value?.windows;
   const context = 'context' in chosen ? chosen.context : 'mida';
   chosen.window = window_.value;
+  // Without vessels there is nothing that a focus could lie around.
+  if (!hasTree.value && 'focus' in chosen) {
+    chosen.focus = null;
+  }
   const own = windows?.contexts[String(context)];
   if (windows && own) {
     chosen.context_window = moved(own, windows.main, window_.value);

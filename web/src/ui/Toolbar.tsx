@@ -8,6 +8,7 @@ import { perform, setSetting, settingOf, showLayout } from '../state/actions';
 import { leave } from '../state/leaving';
 import * as store from '../state/store';
 import { close } from '../state/study';
+import { FocusControl } from './FocusControl';
 import { MeasureButton } from './MeasureButton';
 import { OpenMore } from './OpenButtons';
 import { SaveMenu } from './SaveMenu';
@@ -66,6 +67,7 @@ export function Toolbar() {
           ))}
         </select>
       </label>
+      <FocusControl />
       <label>
         <input
           type="checkbox"

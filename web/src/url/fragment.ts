@@ -168,6 +168,11 @@ function knownSettings(settings: Settings): Settings {
   return Object.fromEntries(Object.entries(settings).filter(fits));
 }
 
+/** A length of a focus (mm) within the range that the core allows. */
+function isLength(value: unknown): boolean {
+  return isNumber(value) && Math.abs(value) <= 1e6;
+}
+
 function isValueOf(row: SettingRow, value: unknown): boolean {
   if (value === null) {
     return row.optional;
@@ -180,6 +185,8 @@ function isValueOf(row: SettingRow, value: unknown): boolean {
       return isWithin;
     case 'count':
       return isWithin && Number.isInteger(value);
+    case 'focus':
+      return Array.isArray(value) && value.length === 2 && value.every(isLength) && Number(value[1]) >= 0;
     case 'slab':
       return (
         Array.isArray(value) && value.length === 2 && isPositive(value[0]) && typeof value[1] === 'string'

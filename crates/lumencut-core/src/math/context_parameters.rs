@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::reduce::Reduction;
 use super::transfer::Colors;
 use super::window::Ramp;
-use crate::settings::{Context, ContextMode, MAX_POINTS, Settings};
+use crate::settings::{Context, ContextFrom, ContextMode, MAX_POINTS, Settings};
 
 /// The most rises and gaps between the control points of a transfer function.
 const MOST_RISES: usize = MAX_POINTS - 1;
@@ -162,7 +162,7 @@ impl ContextParameters {
             levels: blocks.levels,
             ..Self::zeroed()
         };
-        let StartParameters { opacity, behind } = StartParameters::new(settings);
+        let StartParameters { opacity, behind, .. } = StartParameters::new(settings);
         (parameters.opacity, parameters.behind) = (opacity, behind);
         for (to, rise) in parameters.rises.iter_mut().zip(colors.rises()) {
             let &super::transfer::Rise { color, opacity, start, per_intensity } = rise;
@@ -182,12 +182,15 @@ pub struct StartParameters {
     pub opacity: Ramp,
     /// How far behind a transparent cut surface rays start (mm): behind its slab.
     pub behind: f32,
+    /// Whether rays around a focus start at the cut surface.
+    pub from_cut: bool,
 }
 
 impl StartParameters {
     /// The parameters of `settings`.
     pub fn new(settings: &Settings) -> Self {
         let behind = settings.slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
-        Self { opacity: Ramp::opacity(settings.opacity), behind }
+        let from_cut = settings.context.as_ref().is_none_or(|context| context.from == ContextFrom::Cut);
+        Self { opacity: Ramp::opacity(settings.opacity), behind, from_cut }
     }
 }

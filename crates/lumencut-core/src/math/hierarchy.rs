@@ -86,6 +86,12 @@ impl Boxes {
         squared
     }
 
+    /// The largest radius in each node (mm).
+    #[inline(always)]
+    pub fn largest_radii(&self) -> &[f32; FAN] {
+        &self.radius
+    }
+
     /// The smallest key that each node's pieces can reach in the tile.
     #[inline(always)]
     pub fn key_bounds<const LUMEN_FIRST: bool>(&self, tile: &Tile, rule: &Rule) -> [f32; FAN] {

@@ -34,4 +34,5 @@ pub mod tile;
 pub mod trace;
 pub mod transfer;
 pub mod walk;
+pub mod walls;
 pub mod window;

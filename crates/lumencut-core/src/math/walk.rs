@@ -11,8 +11,8 @@ use super::tile::{Tile, lane};
 /// Fifteen brothers wait on each of the eight heights that 2³² slots can have.
 const STACK: usize = 8 * FAN;
 
-/// Nodes that wait for their visit, the nearest on top.
-struct Stack {
+/// Nodes that wait for their visit, the nearest on top: bound, height and place.
+pub struct Stack {
     waiting: [(f32, u32, u32); STACK],
     length: usize,
 }
@@ -23,9 +23,18 @@ impl Stack {
         Self { waiting: [(0.0, 0, 0); STACK], length: 0 }
     }
 
+    /// The root of a hierarchy alone.
+    #[inline(always)]
+    pub fn root(hierarchy: &Hierarchy, bound: f32) -> Self {
+        let mut stack = Self::new();
+        stack.waiting[0] = (bound, hierarchy.heights.len() as u32, 0);
+        stack.length = 1;
+        stack
+    }
+
     /// Puts the nodes of one box set within `limit` on the stack, farthest first.
     #[inline(always)]
-    fn push_nodes(&mut self, tile: &Tile, bounds: &[f32; FAN], limit: f32, [height, first]: [u32; 2]) {
+    pub fn push_nodes(&mut self, tile: &Tile, bounds: &[f32; FAN], limit: f32, [height, first]: [u32; 2]) {
         let base = self.length;
         for n in places(tile.bits.within(bounds, limit)) {
             let bound = bounds[n];
@@ -39,8 +48,9 @@ impl Stack {
         }
     }
 
+    /// Takes the nearest node: its bound, its height and its place there.
     #[inline(always)]
-    fn pop(&mut self) -> Option<(f32, u32, u32)> {
+    pub fn pop(&mut self) -> Option<(f32, u32, u32)> {
         self.length = self.length.checked_sub(1)?;
         Some(self.waiting[self.length])
     }
@@ -128,11 +138,9 @@ pub fn smallest_distances(
     nearest: &mut NearestPoint,
     squared: &mut [f32; PIXELS],
 ) {
-    let mut stack = Stack::new();
+    let mut stack = Stack::root(hierarchy, 0.0);
     *nearest = nearest.seen_from(tile);
     let mut limit = nearest.distance + tile.radius;
-    stack.waiting[0] = (0.0, hierarchy.heights.len() as u32, 0);
-    stack.length = 1;
     while let Some((bound, height, node)) = stack.pop() {
         if bound > limit * limit {
             continue;

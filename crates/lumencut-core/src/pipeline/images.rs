@@ -4,6 +4,7 @@ use crate::camera::Camera;
 use crate::frame::{Frame, Timing};
 use crate::geometry::Geometry;
 use crate::stages::depth::Sheet;
+use crate::stages::focus::Shares;
 
 /// The images by the names that the table of stages gives them; an image that is not there yet is empty.
 #[derive(Debug, Default)]
@@ -15,6 +16,7 @@ pub struct Images {
     pub vessel: Vec<i32>,
     pub sheet: Vec<Sheet>,
     pub leap: Vec<u32>,
+    pub focus: Vec<Shares>,
     pub value: Vec<f32>,
     pub strength: Vec<f32>,
     pub start: Vec<f32>,
@@ -28,8 +30,8 @@ impl Images {
     pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
         let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
         let geometry = Geometry::Orthographic { camera, depth };
-        let Self { vessel, leap, distance, .. } = self;
-        Frame { vessel, leap, distance, timings, ..Frame::of(geometry) }
+        let Self { vessel, leap, focus, distance, .. } = self;
+        Frame { vessel, leap, focus, distance, timings, ..Frame::of(geometry) }
     }
 
     /// `frame` with what is shown where it looks.

@@ -10,14 +10,15 @@ use crate::math::ray::{NONE, WHOLE};
 use crate::scene::SharedVolume;
 use crate::settings::{Settings, SilhouetteRule, SlabMode};
 use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
-use crate::stages::context::{Surroundings, context, starts};
+use crate::stages::context::{SurfaceImages, Surroundings, context, starts};
 use crate::stages::depth::{CutSurface, DepthImages, depth};
 use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
+use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
-use crate::stages::{Stage, Work};
+use crate::stages::{Image, ImageSet, Stage, Work};
 
 /// What the stages that find the cut surface share.
 pub struct CutSurfacePass<'a> {
@@ -58,6 +59,7 @@ impl CutSurfacePass<'_> {
                 leap(work, &parameters, &images.unfiltered_depth, &images.sheet, &mut images.leap)
             }
             Stage::DepthFilter => self.depth_filter(images),
+            Stage::Focus => self.focus(images),
             Stage::Levels
             | Stage::Projection
             | Stage::Surface
@@ -66,6 +68,14 @@ impl CutSurfacePass<'_> {
             | Stage::Context
             | Stage::Composite => Ok(()),
         }
+    }
+
+    fn focus(&self, images: &mut Images) -> Result<()> {
+        let Some(parameters) = FocusParameters::new(self.settings, self.surface.camera()) else {
+            return Ok(());
+        };
+        images.focus = vec![[0.0; 2]; self.work.pixels()];
+        focus(&self.work, &self.surface, &parameters, &mut images.focus)
     }
 
     fn depth_filter(&self, images: &mut Images) -> Result<()> {
@@ -93,6 +103,10 @@ pub struct LookPass<'a> {
     pub vessel: &'a [i32],
     /// Where the surface leaps; empty where it is not known.
     pub leap: &'a [u32],
+    /// How much of the surface and of its silhouettes is shown; empty where all of both is.
+    pub focus: &'a [Shares],
+    /// The images that shall come of the view.
+    pub wanted: ImageSet,
 }
 
 impl LookPass<'_> {
@@ -113,7 +127,8 @@ impl LookPass<'_> {
             | Stage::Distance
             | Stage::Depth
             | Stage::Leap
-            | Stage::DepthFilter => Ok(()),
+            | Stage::DepthFilter
+            | Stage::Focus => Ok(()),
         }
     }
 
@@ -125,6 +140,11 @@ impl LookPass<'_> {
         images.value = vec![0.0; self.work.pixels()];
         let scene = SurfaceScene { geometry: self.geometry, volume, blocks, slab };
         surface(&self.work, &scene, &mut images.value)
+    }
+
+    /// How much of the surface and of its silhouettes is shown, where not all of both is.
+    fn focus(&self) -> Option<&[Shares]> {
+        Some(self.focus).filter(|focus| !focus.is_empty())
     }
 
     fn silhouette(&self, images: &mut Images) -> Result<()> {
@@ -150,7 +170,9 @@ impl LookPass<'_> {
         images.start = vec![WHOLE; self.work.pixels()];
         if self.geometry.has_surface() {
             let parameters = StartParameters::new(self.settings);
-            starts(&self.work, &parameters, &images.value, self.geometry.depth(), &mut images.start);
+            let surface =
+                SurfaceImages { value: &images.value, depth: self.geometry.depth(), focus: self.focus() };
+            starts(&self.work, &parameters, &surface, &mut images.start);
         }
     }
 
@@ -173,7 +195,8 @@ impl LookPass<'_> {
 
     fn composite(&self, images: &mut Images) -> Result<()> {
         let pixels = self.work.pixels();
-        if self.settings.context.is_some() && self.geometry.camera().is_some() {
+        let has_context = self.settings.context.is_some() && self.geometry.camera().is_some();
+        if has_context && self.wanted.has(Image::Context) {
             images.context = vec![[0; 4]; pixels];
             if !images.gathered.is_empty() {
                 layer(&self.work, &images.gathered, &mut images.context)?;
@@ -183,6 +206,7 @@ impl LookPass<'_> {
         let layers = Layers {
             value: if images.value.is_empty() { &nothing } else { &images.value },
             strength: Some(&images.strength[..]).filter(|strength| !strength.is_empty()),
+            focus: self.focus(),
             context: Some(&images.gathered[..]).filter(|gathered| !gathered.is_empty()),
         };
         images.picture = vec![[0; 4]; pixels];

@@ -61,12 +61,15 @@ impl ContextChoices {
     pub fn context(&self) -> Context {
         let name = self.context.unwrap_or(ContextName::Mida);
         let transfer = self.context_transfer.clone().unwrap_or(Transfer::Preset(name.default_transfer()));
+        let mode = name.mode(self.context_gamma);
         Context {
-            mode: name.mode(self.context_gamma),
+            mode,
             window: self.context_window,
             transfer: transfer.within(self.context_window),
             step: self.context_step,
             shading: self.context_shading,
+            from: self.context_from.unwrap_or(mode.default_from()),
+            strength: self.context_strength,
             preview: self.context_preview,
         }
     }
@@ -111,6 +114,8 @@ impl From<&Context> for ContextChoices {
             context_transfer: Some(Transfer::Function(context.transfer.clone())),
             context_step: context.step,
             context_shading: context.shading,
+            context_from: Some(context.from),
+            context_strength: context.strength,
             context_preview: context.preview,
         }
     }

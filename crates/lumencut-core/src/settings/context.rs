@@ -50,6 +50,19 @@ impl ContextName {
     }
 }
 
+/// Where the rays of the context start around the focus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContextFrom {
+    /// At the cut surface.
+    Cut,
+    /// In front of the volume.
+    Whole,
+}
+
+impl Named for ContextFrom {
+    const NAMES: &'static [(&'static str, Self)] = &[("cut", Self::Cut), ("whole", Self::Whole)];
+}
+
 /// What the rays of the context gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContextMode {
@@ -66,6 +79,12 @@ pub enum ContextMode {
 }
 
 impl ContextMode {
+    /// Where rays start around the focus unless it is chosen: what opacities hide is not seen from a cut surface on, while the
+    /// largest, smallest or mean value of half a ray leaps where the cut surface does.
+    pub fn default_from(self) -> ContextFrom {
+        if self.is_sampled() { ContextFrom::Cut } else { ContextFrom::Whole }
+    }
+
     /// Whether samples along rays are blended, at a step; the other modes have exact values and no step.
     pub fn is_sampled(self) -> bool {
         matches!(self, Self::Blend { gamma } if gamma < 1.0)
@@ -86,6 +105,10 @@ pub struct Context {
     pub step: Option<f64>,
     /// Shade DVR and MIDA by the gradient, with light from the viewer.
     pub shading: bool,
+    /// Where rays start around the focus.
+    pub from: ContextFrom,
+    /// What its colours are multiplied by in the picture, 0 to 1.
+    pub strength: f64,
     /// Trace one ray for each square of four pixels only.
     pub preview: bool,
 }

@@ -1,5 +1,6 @@
 //! The types that the fields of settings have: what hosts give for them, and how they are checked.
 
+use super::focus::Focus;
 use super::slab::{Slab, SlabMode};
 use super::transfer::{Preset, TransferFunction};
 use super::value::{Kind, Transfer, Value};
@@ -200,6 +201,22 @@ impl Field for Slab {
 
     fn check(&self, _: &str, _: Option<&Limits>) -> Result<()> {
         Slab::check(self)
+    }
+}
+
+impl Field for Focus {
+    const KIND: Kind = Kind::Focus;
+
+    fn from_value(name: &str, value: Value) -> Result<Self> {
+        if let Value::Focus(focus) = value { Ok(focus) } else { Err(of_another_kind::<Self>(name, &value)) }
+    }
+
+    fn to_value(&self) -> Value {
+        Value::Focus(*self)
+    }
+
+    fn check(&self, _: &str, _: Option<&Limits>) -> Result<()> {
+        Focus::check(self)
     }
 }
 

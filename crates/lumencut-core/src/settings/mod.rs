@@ -3,6 +3,7 @@
 mod choices;
 mod context;
 mod field;
+mod focus;
 mod paper;
 mod rules;
 mod setting;
@@ -13,7 +14,8 @@ mod value;
 mod window;
 
 pub use choices::Choices;
-pub use context::{Context, ContextMode, ContextName};
+pub use context::{Context, ContextFrom, ContextMode, ContextName};
+pub use focus::Focus;
 pub use rules::{LevelChoice, SilhouetteRule};
 pub use setting::Setting;
 pub use slab::{Slab, SlabMode};

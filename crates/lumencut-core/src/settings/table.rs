@@ -1,7 +1,8 @@
 //! The table of settings. Checks, the Python class, the options of the command line and the documents come from it.
 
-use super::context::{Context, ContextName};
+use super::context::{Context, ContextFrom, ContextName};
 use super::field::Field;
+use super::focus::Focus;
 use super::rules::{LevelChoice, SilhouetteRule};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
@@ -90,6 +91,11 @@ settings! {
         /// Slope at which a silhouette of the rule `gradient` has half its strength (mm of depth per mm).
         silhouette_slope: f64 = 24.0, range(1e-3, 1e6, "mm per mm");
 
+        /// How far from the nearest wall silhouettes are drawn in full (mm); from there they fade over the same length again.
+        ///
+        /// Far from all vessels the lines follow borders of zones that mean nothing to a reader. Measured in the picture.
+        silhouette_reach: Option<f64> = None, range(0.0, 1e6, "mm"), open("everywhere");
+
         /// Colour of the silhouettes.
         ///
         /// Red, green and blue.
@@ -103,6 +109,13 @@ settings! {
         /// Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its far
         /// side).
         slab: Option<Slab> = None, open("one point deep");
+
+        /// Show the cut surface around the vessels alone, amid the context (mm).
+        ///
+        /// From MARGIN mm beyond the nearest wall it fades over FADE mm; both are measured in the picture. A negative
+        /// margin lets lumens fade too. A fade of 0 is a hard edge, any other is at least two pixels wide. It needs
+        /// centerlines.
+        focus: Option<Focus> = None, open("the cut surface everywhere");
     }
     beside them {
         /// What is shown where the cut surface is outside the volume or transparent; `None` is the background.
@@ -139,6 +152,14 @@ settings! {
 
         /// Shade mida and dvr by the gradient, with light from the viewer.
         context_shading: bool = false;
+
+        /// Where the rays of the context start around a `focus` (name): at the cut surface, or in front of the volume.
+        ///
+        /// Within the focus they start at the cut surface, wherever they start around it.
+        context_from: Option<ContextFrom> = None, open("cut for mida and dvr, else whole");
+
+        /// How bright the context is in the picture: what its colours are multiplied by (number, 0 to 1).
+        context_strength: f64 = 1.0, range(0.0, 1.0, "of its brightness");
 
         /// Trace one ray for each square of four pixels: quicker and coarser.
         context_preview: bool = false;

@@ -1,5 +1,6 @@
 //! The kinds of values that settings have, and such values as hosts give them.
 
+use super::focus::Focus;
 use super::slab::Slab;
 use super::transfer::{Preset, TransferFunction};
 use super::window::{Opacity, Window};
@@ -23,6 +24,8 @@ pub enum Kind {
     Opacity,
     /// A [`Slab`].
     Slab,
+    /// A [`Focus`].
+    Focus,
     /// A [`TransferFunction`], or the name of a [`Preset`].
     Transfer,
 }
@@ -39,6 +42,7 @@ impl Kind {
             Self::Window => "window",
             Self::Opacity => "opacity",
             Self::Slab => "slab",
+            Self::Focus => "focus",
             Self::Transfer => "transfer",
         }
     }
@@ -65,6 +69,8 @@ pub enum Value {
     Opacity(Opacity),
     /// Of [`Kind::Slab`].
     Slab(Slab),
+    /// Of [`Kind::Focus`].
+    Focus(Focus),
     /// Of [`Kind::Transfer`].
     Transfer(TransferFunction),
 }

@@ -3,10 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
+use super::focus::Shares;
 use super::{Image, Work};
 use crate::error::Result;
-use crate::math::accumulate::Rgba;
-use crate::math::lanes::{FAN, Kernel, dispatch, smaller};
+use crate::math::lanes::{Kernel, dispatch, smaller};
 use crate::math::window::Ramp;
 use crate::settings::Settings;
 
@@ -17,6 +17,8 @@ pub struct Layers<'a> {
     pub value: &'a [f32],
     /// Strength of the silhouettes, where they are drawn.
     pub strength: Option<&'a [f32]>,
+    /// How much of the surface and how much of its silhouettes is shown, 0 to 1, where not all of both is.
+    pub focus: Option<&'a [Shares]>,
     /// The context, colours times opacity and opacity, where there is one.
     pub context: Option<&'a [[f32; 4]]>,
 }
@@ -27,8 +29,10 @@ pub struct Layers<'a> {
 pub struct CompositeParameters {
     /// Where there is nothing to show.
     pub background: [f32; 4],
-    /// Of the silhouettes; the last number is not used.
-    pub line: [f32; 4],
+    /// Of the silhouettes.
+    pub line: [f32; 3],
+    /// What the colours of the context are multiplied by.
+    pub context: f32,
     /// The values from black to white.
     pub grey: Ramp,
     /// The values from transparent to opaque.
@@ -48,21 +52,30 @@ pub fn composite(
     work.expect_whole(Image::Picture, image);
     work.expect_whole(Image::Value, layers.value);
     layers.strength.iter().for_each(|strength| work.expect_whole(Image::Strength, strength));
+    layers.focus.iter().for_each(|focus| work.expect_whole(Image::Focus, focus));
     layers.context.iter().for_each(|context| work.expect_whole(Image::Gathered, context));
     let chunk = work.tile_row();
+    // What stands for a layer that is not there.
     let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
+    let whole = vec![[1.0; 2]; if layers.focus.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
     let rows = image.par_chunks_mut(chunk).zip(layers.value.par_chunks(chunk));
     rows.enumerate().try_for_each(|(row, (image, value))| {
         work.begin(image.len())?;
-        let strength = layers.strength.map_or(&absent[..], |s| &s[row * chunk..][..value.len()]);
-        let context = layers.context.map_or(&empty[..], |c| &c[row * chunk..][..value.len()]);
-        dispatch(work.isa, PaintRows { paint: *parameters, value, strength, context, image });
+        let strength = part(layers.strength, &absent, row * chunk, value.len());
+        let focus = part(layers.focus, &whole, row * chunk, value.len());
+        let context = part(layers.context, &empty, row * chunk, value.len());
+        dispatch(work.isa, PaintRows { paint: *parameters, value, strength, focus, context, image });
         Ok(())
     })
 }
 
-/// Writes a layer of colours times opacity and opacity as RGBA with straight alpha.
+/// The pixels of a layer from `first` on; where it is not there, as many of what stands for it.
+fn part<'a, T>(layer: Option<&'a [T]>, instead: &'a [T], first: usize, count: usize) -> &'a [T] {
+    layer.map_or_else(|| &instead[..count], |layer| &layer[first..][..count])
+}
+
+/// Writes a layer of colours times opacity and opacity as RGBA with straight alpha into an image that is transparent.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -80,73 +93,49 @@ pub fn layer(work: &Work, colors: &[[f32; 4]], image: &mut [[u8; 4]]) -> Result<
 impl CompositeParameters {
     /// The colours that `settings` say.
     pub fn new(settings: &Settings) -> Self {
-        let [red, green, blue] = settings.silhouette_color;
-        let unit = |color: [u8; 4]| color.map(|c| f32::from(c) / 255.0);
+        let unit = |color: &u8| f32::from(*color) / 255.0;
+        let strength = settings.context.as_ref().map_or(1.0, |context| context.strength);
         Self {
-            background: unit(settings.background),
-            line: unit([red, green, blue, 0]),
+            background: settings.background.each_ref().map(unit),
+            line: settings.silhouette_color.each_ref().map(unit),
+            context: strength as f32,
             grey: Ramp::grey(settings.window),
             opacity: Ramp::opacity(settings.opacity),
         }
     }
 
-    /// The surface, grey with the silhouette's colour over it, over the context over the background. Where there is no
-    /// value there is no surface. Colours times opacity, and opacity.
+    /// The surface, grey with the silhouette's colour over it, over the context over the background, as much of it as is
+    /// shown. Where there is no value there is no surface. Colours times opacity, and opacity.
     #[inline(always)]
-    fn pixels(&self, value: &[f32; FAN], strength: &[f32; FAN], context: &Rgba) -> Rgba {
-        let mut pixels = [[0.0; FAN]; 4];
-        for l in 0..FAN {
-            let nothing = value[l].is_nan();
-            let value = if nothing { 0.0 } else { value[l] };
-            let grey = self.grey.at(value);
-            let opacity = if nothing { 0.0 } else { self.opacity.at(value) };
-            let through = 1.0 - opacity;
-            let rest = (1.0 - context[3][l]) * self.background[3];
-            for c in 0..3 {
-                let surface = grey + (self.line[c] - grey) * strength[l];
-                pixels[c][l] = surface * opacity + (context[c][l] + self.background[c] * rest) * through;
-            }
-            pixels[3][l] = opacity + (context[3][l] + rest) * through;
-        }
-        pixels
-    }
-}
-
-/// RGBA with straight alpha of colours times opacity; without any opacity the colour is `behind`.
-#[inline(always)]
-fn straight(pixels: &Rgba, behind: [f32; 4]) -> [[u8; 4]; FAN] {
-    let mut packed = [0; FAN];
-    for l in 0..FAN {
-        let alpha = pixels[3][l];
-        let any = alpha > 0.0;
-        let per_alpha = 255.0 / if any { alpha } else { 1.0 };
-        packed[l] = byte(alpha * 255.0) << 24;
+    fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
+        let nothing = value.is_nan();
+        let value = if nothing { 0.0 } else { value };
+        let grey = self.grey.at(value);
+        let opacity = if nothing { 0.0 } else { self.opacity.at(value) * share };
+        let (through, strength) = (1.0 - opacity, strength * (share * lines));
+        let rest = (1.0 - context[3]) * self.background[3];
+        let mut pixel = [0.0; 4];
         for c in 0..3 {
-            let color = pixels[c][l] * per_alpha;
-            packed[l] |= byte(if any { color } else { behind[c] * 255.0 }) << (8 * c);
+            let surface = grey + (self.line[c] - grey) * strength;
+            pixel[c] = surface * opacity + (context[c] * self.context + self.background[c] * rest) * through;
         }
+        pixel[3] = opacity + (context[3] + rest) * through;
+        pixel
     }
-    packed.map(u32::to_le_bytes)
 }
 
-/// Sixteen pixels channel by channel; those beyond the end are nothing.
+/// RGBA with straight alpha of a colour times opacity; without any opacity the colour is `behind`.
 #[inline(always)]
-fn channels(colors: &[[f32; 4]]) -> Rgba {
-    let mut pixels = [[0.0; FAN]; 4];
-    for (l, color) in colors.iter().enumerate() {
-        for c in 0..4 {
-            pixels[c][l] = color[c];
-        }
+fn straight(pixel: [f32; 4], behind: [f32; 4]) -> [u8; 4] {
+    let alpha = pixel[3];
+    let any = alpha > 0.0;
+    let per_alpha = 255.0 / if any { alpha } else { 1.0 };
+    let mut packed = byte(alpha * 255.0) << 24;
+    for c in 0..3 {
+        let color = pixel[c] * per_alpha;
+        packed |= byte(if any { color } else { behind[c] * 255.0 }) << (8 * c);
     }
-    pixels
-}
-
-/// Sixteen numbers; those beyond the end are 0.
-#[inline(always)]
-fn lanes(numbers: &[f32]) -> [f32; FAN] {
-    let mut lanes = [0.0; FAN];
-    lanes[..numbers.len()].copy_from_slice(numbers);
-    lanes
+    packed.to_le_bytes()
 }
 
 /// The nearest whole number to a value from 0 to 255, as which a little more counts too. From 2²³ on, a float's last bit
@@ -156,10 +145,21 @@ fn byte(value: f32) -> u32 {
     (smaller(value, 255.0) + 8_388_608.0).to_bits() & 0xFF
 }
 
+/// The pixels in a row that are looked at together for whether they have any context.
+const RUN: usize = 64;
+
+/// Whether a run of colours is nothing at all.
+#[inline(always)]
+fn is_nothing(colors: &[[f32; 4]]) -> bool {
+    // All bits of a run together: a loop without a way out is one of vectors.
+    colors.as_flattened().iter().fold(0, |bits, channel| bits | channel.to_bits()) == 0
+}
+
 struct PaintRows<'a> {
     paint: CompositeParameters,
     value: &'a [f32],
     strength: &'a [f32],
+    focus: &'a [Shares],
     context: &'a [[f32; 4]],
     image: &'a mut [[u8; 4]],
 }
@@ -167,18 +167,23 @@ struct PaintRows<'a> {
 impl Kernel for PaintRows<'_> {
     type Output = ();
 
+    /// Loops over pixels, which the compiler turns into vectors of as many as the instruction set holds.
     #[inline(always)]
     fn run(self) {
-        let layers = self.value.chunks(FAN).zip(self.strength.chunks(FAN)).zip(self.context.chunks(FAN));
-        for (image, ((value, strength), context)) in self.image.chunks_mut(FAN).zip(layers) {
-            // Most of a picture has no context.
-            let behind = if context.as_flattened().iter().all(|c| *c == 0.0) {
-                [[0.0; FAN]; 4]
+        let Self { paint, value, strength, focus, context, image } = self;
+        let runs =
+            value.chunks(RUN).zip(strength.chunks(RUN)).zip(focus.chunks(RUN)).zip(context.chunks(RUN));
+        for (image, (((value, strength), focus), context)) in image.chunks_mut(RUN).zip(runs) {
+            let pixels = image.iter_mut().zip(value).zip(strength).zip(focus);
+            if is_nothing(context) {
+                for (((image, value), strength), share) in pixels {
+                    *image = straight(paint.pixel(*value, *strength, *share, [0.0; 4]), paint.background);
+                }
             } else {
-                channels(context)
-            };
-            let pixels = self.paint.pixels(&lanes(value), &lanes(&strength[..value.len()]), &behind);
-            image.copy_from_slice(&straight(&pixels, self.paint.background)[..image.len()]);
+                for ((((image, value), strength), share), context) in pixels.zip(context) {
+                    *image = straight(paint.pixel(*value, *strength, *share, *context), paint.background);
+                }
+            }
         }
     }
 }
@@ -193,11 +198,12 @@ impl Kernel for StraightRows<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (image, colors) in self.image.chunks_mut(FAN).zip(self.colors.chunks(FAN)) {
-            if colors.as_flattened().iter().all(|c| *c == 0.0) {
-                image.fill([0; 4]);
-            } else {
-                image.copy_from_slice(&straight(&channels(colors), [0.0; 4])[..image.len()]);
+        for (image, colors) in self.image.chunks_mut(RUN).zip(self.colors.chunks(RUN)) {
+            // Most of a picture has no context: what is not written costs no memory either.
+            if !is_nothing(colors) {
+                for (image, color) in image.iter_mut().zip(colors) {
+                    *image = straight(*color, [0.0; 4]);
+                }
             }
         }
     }

@@ -5,6 +5,8 @@
 
 // Whether silhouettes are drawn; without, their binding holds nothing.
 override HAS_STRENGTH = true;
+// Whether not all of the cut surface is shown; where all of it is, their binding holds nothing.
+override HAS_FOCUS = false;
 // Whether there is a context; without, its binding holds nothing.
 override HAS_CONTEXT = true;
 // Whether there is no cut surface; its binding holds nothing then.
@@ -13,8 +15,10 @@ override ALONE = false;
 // The colours of one picture, 0 to 1.
 struct CompositeParameters {
     background: vec4f,
-    // Of the silhouettes; the last number is not used.
-    line: vec4f,
+    // Of the silhouettes.
+    line: vec3f,
+    // What the colours of the context are multiplied by.
+    context: f32,
     // What an intensity is multiplied by, and what is added then.
     grey: vec2f,
     opacity: vec2f,
@@ -27,6 +31,8 @@ struct CompositeParameters {
 @group(0) @binding(3) var<storage, read> parameters: CompositeParameters;
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 @group(0) @binding(5) var<storage, read> strength: array<f32>;
+// How much of the surface and how much of its silhouettes is shown, 0 to 1.
+@group(0) @binding(6) var<storage, read> focus: array<vec2f>;
 
 // The nearest whole number to a value from 0 to 255, the even one of two, as which a little more counts too.
 fn byte(value: f32) -> u32 {
@@ -49,7 +55,7 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
     let place = place_of(thread.xy);
     var behind = vec4f(0.0);
     if HAS_CONTEXT {
-        behind = context[place];
+        behind = context[place] * vec4f(vec3f(parameters.context), 1.0);
     }
     let rest = (1.0 - behind.w) * parameters.background.w;
     let back = vec4f(behind.xyz + parameters.background.xyz * rest, behind.w + rest);
@@ -57,10 +63,14 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
     // Where there is no value there is no surface.
     if !ALONE && value[place] < HUGE {
         let grey = ramp_at(parameters.grey, value[place]);
-        let opacity = ramp_at(parameters.opacity, value[place]);
+        var shares = vec2f(1.0);
+        if HAS_FOCUS {
+            shares = focus[place];
+        }
+        let opacity = ramp_at(parameters.opacity, value[place]) * shares.x;
         var color = vec3f(grey);
         if HAS_STRENGTH {
-            color += (parameters.line.xyz - grey) * strength[place];
+            color += (parameters.line - grey) * (strength[place] * (shares.x * shares.y));
         }
         pixel = vec4f(color, 1.0) * opacity + back * (1.0 - opacity);
     }

@@ -13,6 +13,7 @@ pub use self::raster::IN_FRONT;
 use self::raster::{coarse_starts, spread};
 use self::reduced::reduce_raster;
 use self::tile::trace_raster;
+use super::focus::Shares;
 use super::{Image, Work};
 use crate::error::Result;
 use crate::math::context_parameters::{Gathering, StartParameters};
@@ -20,22 +21,41 @@ use crate::math::ray::{NONE, WHOLE};
 use crate::math::ray_lines::RayGrid;
 use crate::settings::{Context, Settings};
 
+/// What is known of the cut surface where rays may start.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceImages<'a> {
+    /// The volume there, NaN where it shows nothing.
+    pub value: &'a [f32],
+    /// Its depth (mm).
+    pub depth: &'a [f32],
+    /// How much of it and of its silhouettes is shown, where not all of both is.
+    pub focus: Option<&'a [Shares]>,
+}
+
 /// Writes where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front
-/// of the volume where the cut surface is outside.
-pub fn starts(work: &Work, parameters: &StartParameters, value: &[f32], depth: &[f32], start: &mut [f32]) {
+/// of the volume where the cut surface is outside. Around a focus the rays start as the context says.
+pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages, start: &mut [f32]) {
+    let &SurfaceImages { value, depth, focus } = surface;
     work.expect_whole(Image::Value, value);
     work.expect_whole(Image::Depth, depth);
     work.expect_whole(Image::Start, start);
-    let StartParameters { opacity, behind } = parameters;
-    let start_of = |value: f32, depth: f32| match value {
+    let StartParameters { opacity, behind, from_cut } = parameters;
+    let start_of = |value: f32, depth: f32, share: f32| match value {
         value if value.is_nan() => WHOLE,
-        value if opacity.at(value) < 1.0 => depth + behind,
+        _ if share < 1.0 && !from_cut => WHOLE,
+        value if opacity.at(value) * share < 1.0 => depth + behind,
         _ => NONE,
     };
-    start
-        .par_iter_mut()
-        .zip(value.par_iter().zip(depth))
-        .for_each(|(start, (value, depth))| *start = start_of(*value, *depth));
+    let places = start.par_iter_mut().zip(value.par_iter().zip(depth));
+    match focus {
+        None => places.for_each(|(start, (value, depth))| *start = start_of(*value, *depth, 1.0)),
+        Some(focus) => {
+            work.expect_whole(Image::Focus, focus);
+            places
+                .zip(focus)
+                .for_each(|((start, (value, depth)), [share, _])| *start = start_of(*value, *depth, *share));
+        }
+    }
 }
 
 /// Writes what the rays of `context`, which is that of `settings`, gather: colours times opacity and opacity, 0 to 1;

@@ -14,6 +14,11 @@ override MODE: u32 = 0u;
 // One ray for each square of four pixels.
 override PREVIEW: bool = false;
 
+// Whether not all of the cut surface is shown; where all of it is, their binding holds nothing.
+override HAS_FOCUS: bool = false;
+// Whether rays start at the cut surface where not all of it is shown; else in front of the volume.
+override FROM_CUT: bool = true;
+
 // A start in front of the volume, as the pixels of a square compare theirs: later than behind every cut surface, sooner
 // than nowhere.
 const IN_FRONT: f32 = NONE / 2.0;
@@ -22,21 +27,28 @@ const IN_FRONT: f32 = NONE / 2.0;
 @group(0) @binding(2) var<storage, read> value: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read_write> start_image: array<f32>;
+// How much of the cut surface and of its silhouettes is shown, 0 to 1.
+@group(0) @binding(5) var<storage, read> focus: array<vec2f>;
 // What the rays read and write.
 @group(0) @binding(5) var<storage, read> start: array<f32>;
 @group(0) @binding(6) var<storage, read_write> context_image: array<vec4f>;
 
 // Where the ray of each pixel starts: nowhere behind an opaque cut surface, behind a transparent one, and in front of the
-// volume where the cut surface is outside.
+// volume where the cut surface is outside. Around a focus the rays start as the context says.
 @compute @workgroup_size(8, 8)
 fn starts(@builtin(global_invocation_id) thread: vec3u) {
     if !in_view(thread.xy) {
         return;
     }
     let p = place_of(thread.xy);
-    let is_transparent = ramp_at(parameters.opacity, value[p]) < 1.0;
+    var share = 1.0;
+    if HAS_FOCUS {
+        share = focus[p].x;
+    }
+    let is_transparent = ramp_at(parameters.opacity, value[p]) * share < 1.0;
     let behind = select(NONE, depth[p] + parameters.behind, is_transparent);
-    start_image[p] = select(behind, WHOLE, value[p] >= HUGE);
+    let is_whole = value[p] >= HUGE || (share < 1.0 && !FROM_CUT);
+    start_image[p] = select(behind, WHOLE, is_whole);
 }
 
 fn ray_from(n: vec2f, start: f32) -> vec4f {

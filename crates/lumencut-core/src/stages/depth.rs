@@ -65,6 +65,11 @@ impl<'a> CutSurface<'a> {
         self.hierarchy(0)
     }
 
+    /// More than the rounding error of a projected distance (mm).
+    pub fn distance_slack(&self) -> f32 {
+        self.rule.distance_slack
+    }
+
     /// A level in projection.
     #[inline(always)]
     pub(crate) fn hierarchy(&self, level: usize) -> &'a Hierarchy {

@@ -6,6 +6,7 @@ pub mod context;
 pub mod depth;
 pub mod depth_filter;
 pub mod distance;
+pub mod focus;
 pub mod leap;
 pub mod levels;
 pub mod silhouette;

@@ -20,6 +20,8 @@ pub enum Image {
     Sheet,
     /// Where the cut surface leaps, as bits of u32 (`stages::leap`).
     Leap,
+    /// How much of the cut surface and how much of its silhouettes is shown, 0 to 1, two f32.
+    Focus,
     /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
     /// Strength of the silhouettes, 0 to 1, f32.
@@ -36,13 +38,14 @@ pub enum Image {
 
 impl Image {
     /// Every image.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Distance,
         Self::UnfilteredDepth,
         Self::Depth,
         Self::Vessel,
         Self::Sheet,
         Self::Leap,
+        Self::Focus,
         Self::Value,
         Self::Strength,
         Self::Start,
@@ -135,6 +138,8 @@ pub enum Stage {
     Leap,
     /// The Gaussian over the depth.
     DepthFilter,
+    /// How much of the cut surface is shown around the vessels.
+    Focus,
     /// The volume at the cut surface.
     Surface,
     /// Lines where the cut surface leaps.
@@ -150,13 +155,14 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
         Self::Depth,
         Self::Leap,
         Self::DepthFilter,
+        Self::Focus,
         Self::Surface,
         Self::Silhouette,
         Self::Blocks,
@@ -173,6 +179,7 @@ impl Stage {
             Self::Depth => "depth",
             Self::Leap => "leap",
             Self::DepthFilter => "depth_filter",
+            Self::Focus => "focus",
             Self::Surface => "surface",
             Self::Silhouette => "silhouette",
             Self::Blocks => "blocks",
@@ -188,7 +195,7 @@ impl Stage {
             Self::Levels | Self::Projection | Self::Blocks => 0,
             Self::Distance => 8,
             Self::Depth => 12,
-            Self::Leap | Self::Surface => 4,
+            Self::Leap | Self::Focus | Self::Surface => 4,
             Self::DepthFilter | Self::Silhouette => 2,
             Self::Context => 14,
             Self::Composite => 10,
@@ -198,14 +205,14 @@ impl Stage {
     /// The images that it reads, where they are there.
     pub const fn reads(self) -> &'static [Image] {
         match self {
-            Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
+            Self::Levels | Self::Projection | Self::Distance | Self::Focus | Self::Blocks => &[],
             Self::Depth => &[Image::Distance],
             Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
             Self::Surface => &[Image::Depth],
             Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
-            Self::Context => &[Image::Depth, Image::Value],
-            Self::Composite => &[Image::Value, Image::Strength, Image::Gathered],
+            Self::Context => &[Image::Depth, Image::Focus, Image::Value],
+            Self::Composite => &[Image::Focus, Image::Value, Image::Strength, Image::Gathered],
         }
     }
 
@@ -218,6 +225,7 @@ impl Stage {
             Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet],
             Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
+            Self::Focus => &[Image::Focus],
             Self::Surface => &[Image::Value],
             Self::Silhouette => &[Image::Strength],
             Self::Context => &[Image::Start, Image::Gathered],
@@ -231,18 +239,22 @@ impl Stage {
         let own = settings.level_choice == LevelChoice::Own;
         let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;
         let has_leaps = wanted.has(Image::Leap) || (draws_leaps && wanted.has(Image::Picture));
+        let has_focus =
+            settings.focus.is_some() || (settings.silhouettes && settings.silhouette_reach.is_some());
+        let shows = wanted.has(Image::Focus) || wanted.has(Image::Picture) || wanted.has(Image::Context);
         let stages = [
             (Self::Distance, !own || wanted.has(Image::Distance)),
             (Self::Depth, true),
             (Self::Leap, has_leaps),
             (Self::DepthFilter, settings.depth_filter),
+            (Self::Focus, has_focus && shows),
         ];
         needed(&stages)
     }
 
     /// Whether it is one of those that find the cut surface.
     pub const fn is_of_cut_surface(self) -> bool {
-        matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter)
+        matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus)
     }
 
     /// Whether the stage `depth` of such a view writes the sheet: for leaps, or where it is wanted.

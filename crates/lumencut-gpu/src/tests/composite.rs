@@ -1,7 +1,8 @@
 //! Pictures against the CPU's: bytes equal, but for less than one in a thousand that is 1 apart.
 
-use lumencut_core::settings::{Opacity, Settings, Window};
+use lumencut_core::settings::{Context, Opacity, Settings, Window};
 use lumencut_core::stages::composite::{self, CompositeParameters, layer};
+use lumencut_core::stages::focus::Shares;
 use lumencut_scenes::random::Random;
 use lumencut_scenes::tolerances::{BYTE, OTHER_BYTE};
 use lumencut_scenes::views::{front, on_cpu};
@@ -15,6 +16,7 @@ use crate::recording::Recording;
 struct Scene {
     value: Vec<f32>,
     strength: Vec<f32>,
+    focus: Vec<Shares>,
     context: Vec<[f32; 4]>,
 }
 
@@ -32,7 +34,8 @@ impl Scene {
         };
         let context =
             (0..pixels).map(|_| color(&mut random)).map(|[[r, a], [g, _], [b, _]]| [r, g, b, a]).collect();
-        Self { value, strength, context }
+        let focus = (0..pixels).map(|_| [0; 2].map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0))).collect();
+        Self { value, strength, focus, context }
     }
 }
 
@@ -72,24 +75,31 @@ fn settings() -> Vec<Settings> {
             opacity: opacity.map(|[transparent, opaque]| Opacity { transparent, opaque }),
             silhouette_color: [255, 220, 3],
             background,
+            context: Some(Context {
+                strength: if opacity.is_some() { 0.6 } else { 1.0 },
+                ..Context::default()
+            }),
             ..Settings::default()
         })
         .collect()
 }
 
+/// The picture of layers on the GPU; without values there is no cut surface.
 fn on_the_gpu(
     device: &Device,
     composite: &Composite,
     size: [usize; 2],
-    [value, strength]: [Option<&[f32]>; 2],
-    context: Option<&[[f32; 4]]>,
+    layers: &composite::Layers,
     settings: &Settings,
 ) -> Vec<u8> {
     let pixels = size[0] * size[1];
-    let value = value.map(|value| device.upload("value", &without_holes(value)));
+    let composite::Layers { value, strength, focus, context } = *layers;
+    let value = (!value.is_empty()).then(|| device.upload("value", &without_holes(value)));
     let strength = strength.map(|strength| device.upload("strength", strength));
     let context = context.map(|context| device.upload("context", context));
-    let layers = Layers { value: value.as_ref(), strength: strength.as_ref(), context: context.as_ref() };
+    let focus = focus.map(|focus| device.upload("focus", focus));
+    let [value, strength, focus] = [&value, &strength, &focus].map(Option::as_ref);
+    let layers = Layers { value, strength, focus, context: context.as_ref() };
     let image = device.image("image", pixels, 4);
     let mut recording = Recording::new(device);
     let view = on_gpu(device, &front(size, 0.5));
@@ -109,15 +119,15 @@ fn pictures_are_those_of_the_cpu() {
         let camera = front(size, 0.5);
         let scene = Scene::new(pixels, 11);
         for settings in settings() {
-            for layers in 0..4 {
+            for layers in 0..8 {
                 let strength = (layers & 1 != 0).then_some(&scene.strength[..]);
                 let context = (layers & 2 != 0).then_some(&scene.context[..]);
+                let focus = (layers & 4 != 0).then_some(&scene.focus[..]);
                 let mut expected = vec![[9; 4]; pixels];
-                let cpu = composite::Layers { value: &scene.value, strength, context };
+                let cpu = composite::Layers { value: &scene.value, strength, focus, context };
                 let parameters = CompositeParameters::new(&settings);
                 composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
-                let images = [Some(&scene.value[..]), strength];
-                let found = on_the_gpu(device, &composite, size, images, context, &settings);
+                let found = on_the_gpu(device, &composite, size, &cpu, &settings);
                 tally.add(&found, &expected, &format!("{size:?}, layers {layers}, {:?}", settings.opacity));
             }
         }
@@ -137,10 +147,12 @@ fn a_context_alone_is_that_of_the_cpu() {
         for settings in settings() {
             let mut expected = vec![[9; 4]; pixels];
             let value = vec![f32::NAN; pixels];
-            let cpu = composite::Layers { value: &value, strength: None, context: Some(&context) };
+            let cpu =
+                composite::Layers { value: &value, strength: None, focus: None, context: Some(&context) };
             let parameters = CompositeParameters::new(&settings);
             composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
-            let found = on_the_gpu(device, &composite, size, [None; 2], Some(&context), &settings);
+            let alone = composite::Layers { value: &[], ..cpu };
+            let found = on_the_gpu(device, &composite, size, &alone, &settings);
             tally.add(&found, &expected, &format!("{size:?}"));
         }
     }
@@ -156,7 +168,7 @@ fn the_layer_is_that_of_the_cpu() {
         let pixels = size[0] * size[1];
         let camera = front(size, 0.5);
         let context = Scene::new(pixels, 13).context;
-        let mut expected = vec![[9; 4]; pixels];
+        let mut expected = vec![[0; 4]; pixels];
         layer(&on_cpu(&camera), &context, &mut expected).unwrap();
         let (colors, image) = (device.upload("context", &context), device.image("image", pixels, 4));
         let mut recording = Recording::new(device);
@@ -173,7 +185,7 @@ fn halves_become_the_even_byte() {
     // Opaque: 255 times the colour is a half exactly, where a float holds it.
     let context: Vec<[f32; 4]> = (0..=510).map(|n| [n as f32 / 510.0, 0.0, 0.0, 1.0]).collect();
     let camera = front([511, 1], 1.0);
-    let mut expected = vec![[9; 4]; 511];
+    let mut expected = vec![[0; 4]; 511];
     layer(&on_cpu(&camera), &context, &mut expected).unwrap();
     let (colors, image) = (device.upload("context", &context), device.image("image", 511, 4));
     let mut recording = Recording::new(device);

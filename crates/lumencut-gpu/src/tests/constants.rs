@@ -9,7 +9,7 @@ use lumencut_core::math::context_parameters::Gathering;
 use lumencut_core::math::reduce::Reduction;
 use lumencut_core::math::{
     accumulate, blocks, cell_walk, cubic, hierarchy, lanes, leaps, light, projection, ray, sampling,
-    thickness, transfer,
+    thickness, transfer, walls,
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
@@ -91,6 +91,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/thickness": thickness::ROOT_HALF, consts::LOG2_E, consts::LN_2;
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
+        "math/walls": walls::MOST_LEAN;
         "stages/context": context::IN_FRONT;
         "stages/leap": leap::SMALLEST_LEAP;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;

@@ -6,8 +6,11 @@ use lumencut_core::camera::Camera;
 use lumencut_core::math::blocks::Blocks;
 use lumencut_core::math::context_parameters::StartParameters;
 use lumencut_core::math::ray::WHOLE;
-use lumencut_core::settings::{Context, ContextMode, Opacity, Preset, Settings, Slab, SlabMode, Window};
-use lumencut_core::stages::context::{Surroundings, context, starts};
+use lumencut_core::settings::{
+    Context, ContextFrom, ContextMode, Opacity, Preset, Settings, Slab, SlabMode, Window,
+};
+use lumencut_core::stages::context::{SurfaceImages, Surroundings, context, starts};
+use lumencut_core::stages::focus::Shares;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::{calcified_wall, trefoil};
 use lumencut_scenes::settings::{WINDOW, gaps};
@@ -22,10 +25,11 @@ use crate::recording::Recording;
 
 const SIZE: [usize; 3] = [41, 37, 29];
 
-/// A cut surface: values, NaN where it is outside, and depths.
+/// A cut surface: values, NaN where it is outside, depths, and how much of it is shown.
 struct CutSurface {
     value: Vec<f32>,
     depth: Vec<f32>,
+    focus: Option<Vec<Shares>>,
 }
 
 /// Outside, opaque and transparent in turn, in squares of different sizes.
@@ -40,6 +44,7 @@ fn cut_surface(camera: &Camera) -> CutSurface {
     CutSurface {
         value: (0..width * height).map(value).collect(),
         depth: (0..width * height).map(depth).collect(),
+        focus: None,
     }
 }
 
@@ -67,7 +72,9 @@ fn contexts() -> Vec<Context> {
 fn starts_on_cpu(camera: &Camera, settings: &Settings, surface: &CutSurface) -> Vec<f32> {
     let mut start = vec![0.0; surface.value.len()];
     let parameters = StartParameters::new(settings);
-    starts(&views::on_cpu(camera), &parameters, &surface.value, &surface.depth, &mut start);
+    let CutSurface { value, depth, focus } = surface;
+    let images = SurfaceImages { value, depth, focus: focus.as_deref() };
+    starts(&views::on_cpu(camera), &parameters, &images, &mut start);
     start
 }
 
@@ -97,9 +104,10 @@ fn starts_and_context(
     surface: Option<&CutSurface>,
 ) -> (Vec<f32>, Vec<[f32; 4]>) {
     let pixels = placed.pixels();
-    let nowhere = CutSurface { value: vec![0.0; pixels], depth: vec![0.0; pixels] };
-    let CutSurface { value, depth } = surface.unwrap_or(&nowhere);
+    let nowhere = CutSurface { value: vec![0.0; pixels], depth: vec![0.0; pixels], focus: None };
+    let CutSurface { value, depth, focus } = surface.unwrap_or(&nowhere);
     let [value, depth] = [placed.image(&without_holes(value)), placed.image(depth)];
+    let focus = focus.as_ref().map(|focus| placed.device.upload("focus", focus));
     let start = placed.device.image("start", pixels, 4);
     let gathered = placed.device.image("gathered", pixels, 16);
     let blocks = placed.blocks();
@@ -108,6 +116,7 @@ fn starts_and_context(
     let images = ContextImages {
         size: placed.camera.size(),
         has_surface: surface.is_some(),
+        focus: focus.as_ref(),
         depth: &depth,
         value: &value,
         start: &start,
@@ -143,6 +152,28 @@ fn rays_start_where_those_of_the_cpu_do() {
             assert_eq!(found, starts_on_cpu(&camera, &settings, &surface), "{opacity:?}");
             let (alone, _) = starts_and_context(&mut stage, &placed, &settings, None);
             assert!(alone.iter().all(|start| start.to_bits() == WHOLE.to_bits()));
+        }
+    }
+}
+
+#[test]
+fn around_a_focus_rays_start_where_those_of_the_cpu_do() {
+    let Some(device) = device() else { return };
+    let voxels = ball_and_rod(SIZE);
+    let volume = volume(Voxels::I16(&voxels), SIZE, sheared(SIZE));
+    let mut stage = ContextStage::new(device);
+    for camera in views() {
+        let placed = Placed::new(device, &volume, &camera);
+        let share = |n: usize| [(n % 13) as f32 / 12.0, 1.0];
+        let focus = (0..placed.pixels()).map(share).collect();
+        let surface = CutSurface { focus: Some(focus), ..cut_surface(&camera) };
+        for from in [ContextFrom::Cut, ContextFrom::Whole] {
+            for opacity in [None, Some(Opacity { transparent: 100.5, opaque: 400.5 })] {
+                let context = Some(Context { from, ..Context::default() });
+                let settings = Settings { opacity, context, ..Settings::default() };
+                let (found, _) = starts_and_context(&mut stage, &placed, &settings, Some(&surface));
+                assert_eq!(found, starts_on_cpu(&camera, &settings, &surface), "{from:?}, {opacity:?}");
+            }
         }
     }
 }

@@ -7,7 +7,9 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::math::leaps::LEAPS;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
-use lumencut_core::settings::{Context, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode};
+use lumencut_core::settings::{
+    Context, ContextFrom, Focus, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode,
+};
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, trefoil, y_junction};
 use lumencut_scenes::pictures::context_alone;
@@ -50,9 +52,20 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("filter within the paper's zones", Settings { zone_filter: true, ..Settings::paper() }),
         ("small leaps", with(|s| s.depth_leap = 0.2)),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
+        ("focus", with(|s| s.focus = Some(Focus::default()))),
+        ("quiet surroundings", with(|s| s.silhouette_reach = Some(3.0))),
+        ("focus amid whole rays", with(|s| focus_amid(s, ContextFrom::Whole))),
+        ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
         ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
     ]
+}
+
+/// A wide focus in a dimmed context whose rays start there.
+fn focus_amid(settings: &mut Settings, from: ContextFrom) {
+    settings.focus = Some(Focus { margin: 0.5, fade: 30.0 });
+    settings.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
+    settings.context = Some(Context { from, strength: 0.6, ..Context::default() });
 }
 
 fn with_all_settings(phantom: Phantom, camera: &Camera) {
@@ -111,10 +124,11 @@ fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
     on_either().map(move |stage| (stage, others(stage)))
 }
 
-/// Something of everything: a filter within zones, a slab, silhouettes, and context behind what is transparent.
+/// Something of everything: a filter within zones, a slab, silhouettes, a focus, and context behind what is transparent.
 fn everything() -> Settings {
     with(|s| {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
+        s.focus = Some(Focus { margin: 1.0, fade: 20.0 });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
 }

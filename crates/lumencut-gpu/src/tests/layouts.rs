@@ -9,6 +9,7 @@ use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
+use lumencut_core::stages::focus::FocusParameters;
 use lumencut_core::stages::leap::LeapParameters;
 use lumencut_core::stages::silhouette::SilhouetteParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
@@ -91,6 +92,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
             Projected { point, radius, edge, before, inverse_length, arc_length, stands, padding }
         ),
         host!("math/levels", Span { first, end, level }),
+        host!("stages/focus", FocusParameters { margin, per_fade, near, far }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
         host!(
             "math/sampling",
@@ -142,7 +144,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
             }
         ),
         host!("math/context_parameters", RiseParameters { color, opacity, start, per_intensity, padding }),
-        host!("stages/composite", CompositeParameters { background, line, grey, opacity }),
+        host!("stages/composite", CompositeParameters { background, line, context, grey, opacity }),
         host!("stages/depth_filter", DepthFilterParameters { weights, leap, padding, more_padding }),
         host!("stages/silhouette", SilhouetteParameters { per_slope, half, line_width }),
         host!("stages/surface", CurvedPlace { whole, part, per_mm }),

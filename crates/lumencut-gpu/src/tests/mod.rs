@@ -9,6 +9,7 @@ mod coverage;
 mod depth_filter;
 mod device;
 mod failures;
+mod focus;
 mod frames;
 mod imports;
 mod layouts;

@@ -1,7 +1,9 @@
 //! Settings by name, as JSON: the same table as everywhere.
 
 use lumencut_core::named::Named;
-use lumencut_core::settings::{Choices, Kind, Setting, Settings, Slab, SlabMode, Value, Window, table};
+use lumencut_core::settings::{
+    Choices, Focus, Kind, Setting, Settings, Slab, SlabMode, Value, Window, table,
+};
 use serde::Serialize;
 use serde_json::{Map, Value as Json};
 
@@ -58,9 +60,12 @@ fn default_of(value: Value) -> Json {
         Value::Count(count) => count.into(),
         Value::Color(channels) => channels.into(),
         Value::Name(name) => name.into(),
-        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
-            Json::Null
-        }
+        Value::None
+        | Value::Window(_)
+        | Value::Opacity(_)
+        | Value::Slab(_)
+        | Value::Focus(_)
+        | Value::Transfer(_) => Json::Null,
     }
 }
 
@@ -93,6 +98,7 @@ fn value(name: &str, kind: Kind, json: &Json) -> Result<Value> {
         Kind::Choice | Kind::Transfer => json.as_str().map(|name| Value::Name(name.to_owned())),
         Kind::Window => pair(json).map(|[level, width]| Value::Window(Window { level, width })),
         Kind::Slab => slab(json)?.map(Value::Slab),
+        Kind::Focus => pair(json).map(|[margin, fade]| Value::Focus(Focus { margin, fade })),
         Kind::Opacity => None,
     };
     read.ok_or_else(|| Failure::of_message(name, json, &format!("a value of the kind {}", kind.name())))
@@ -123,10 +129,11 @@ mod tests {
     #[test]
     fn names_and_values_become_settings() {
         let made =
-            of(&json!({"levels": 3, "context": "mip", "window": [300.0, 900.0], "slab": [5.0, "max"]}))
+            of(&json!({"levels": 3, "context": "mip", "window": [300.0, 900.0], "slab": [5.0, "max"], "focus": [1.0, 4.0]}))
                 .expect("settings");
         assert_eq!((made.levels, made.window), (3, Window { level: 300.0, width: 900.0 }));
         assert_eq!(made.slab.map(|slab| slab.thickness), Some(5.0));
+        assert_eq!(made.focus, Some(Focus { margin: 1.0, fade: 4.0 }));
         assert!(of(&json!({"context": null})).expect("settings").context.is_none());
     }
 

@@ -1,0 +1,106 @@
+//! The distance of pixels to the nearest wall of any vessel, in the view plane.
+//!
+//! Seen along the view, a vessel is the union of the discs around the points of its centerline. Its outline is therefore no
+//! farther from a pixel than from any neighbour by more than they are apart: the distance has no leaps and a slope of at most 1,
+//! however the radius changes along the vessel.
+
+use super::hierarchy::{Boxes, Hierarchy};
+use super::lanes::{FAN, FAR, PIXELS, larger, largest, places, smaller};
+use super::nearest::squared_distances_to_segments;
+use super::pieces::Bundle;
+use super::tile::Tile;
+use super::walk::Stack;
+
+/// What is asked of the distances: they need to be exact between two lengths alone.
+#[derive(Clone, Copy, Debug)]
+pub struct WallRange {
+    /// What is nearer than this (mm) counts as this near.
+    pub near: f32,
+    /// What is farther than this (mm) counts as this far.
+    pub far: f32,
+    /// More than the rounding error of a projected distance (mm).
+    pub slack: f32,
+}
+
+/// The most that the nearest disc of a segment can stand beside a pixel's foot, for each mm of the pixel's distance from the
+/// line: beyond it one end of the segment is nearest wherever a pixel lies.
+pub const MOST_LEAN: f32 = 1e6;
+
+/// Lowers each pixel's distance (mm) from the wall, negative within, to that of the segment of slot `s`.
+///
+/// The outline of a segment whose radius changes touches its largest disc towards the pixel, which stands beside the foot
+/// of the pixel: by its distance from the line, times the lean.
+#[inline(always)]
+fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
+    let (x, y) = (bundle.x[s], bundle.y[s]);
+    let (ex, ey) = (bundle.edge_x[s], bundle.edge_y[s]);
+    let per_square = bundle.inverse_length[s] * bundle.inverse_length[s];
+    let (radius, change) = (bundle.radius[s], bundle.radius_change[s]);
+    let lean = lean(change * bundle.inverse_length[s]) * per_square;
+    for l in 0..PIXELS {
+        let (ux, uy) = (tile.x[l] - x, tile.y[l] - y);
+        let aside = (ux * ey - uy * ex).abs();
+        let t = smaller(larger((ux * ex + uy * ey) * per_square + aside * lean, 0.0), 1.0);
+        let (dx, dy) = (ux - t * ex, uy - t * ey);
+        let distance = (dx * dx + dy * dy).sqrt();
+        beyond[l] = smaller(distance - (radius + t * change), beyond[l]);
+    }
+}
+
+/// How far beside the foot of a pixel its nearest disc stands, for each mm of its distance from the line, where the radius
+/// changes by `taper` mm for each mm.
+#[inline(always)]
+fn lean(taper: f32) -> f32 {
+    let rest = larger(1.0 - taper * taper, 1.0 / (MOST_LEAN * MOST_LEAN));
+    smaller(larger(taper / rest.sqrt(), -MOST_LEAN), MOST_LEAN)
+}
+
+/// Lowers the distance (mm) of every pixel of the tile from the wall of its nearest vessel, negative within, as far as
+/// `range` asks: nothing farther is looked for, and nothing more once all pixels are near.
+#[inline(always)]
+pub fn nearest_walls(hierarchy: &Hierarchy, tile: &Tile, range: &WallRange, beyond: &mut [f32; PIXELS]) {
+    let mut stack = Stack::root(hierarchy, -FAR);
+    let mut limit = range.far;
+    while let Some((bound, height, node)) = stack.pop() {
+        if bound > limit {
+            continue;
+        }
+        if height > 0 {
+            let bounds = hierarchy.heights[height as usize - 1][node as usize].wall_bounds(tile, range.slack);
+            stack.push_nodes(tile, &bounds, limit, [height - 1, node * FAN as u32]);
+            continue;
+        }
+        let bundle = &hierarchy.bundles[node as usize];
+        for s in places(tile.bits.within(&segment_bounds(bundle, tile, range.slack), limit)) {
+            lower_beyond(tile, beyond, bundle, s);
+        }
+        let farthest = largest(beyond);
+        // Once all are near, no node can matter.
+        limit = if farthest <= range.near { -2.0 * FAR } else { smaller(farthest, range.far) };
+    }
+}
+
+/// The smallest distance (mm) that a pixel of the tile can have from the wall of each segment.
+#[inline(always)]
+fn segment_bounds(bundle: &Bundle, tile: &Tile, slack: f32) -> [f32; FAN] {
+    let [cx, cy] = tile.area.center;
+    let mut bounds = squared_distances_to_segments(bundle, cx, cy);
+    for s in 0..FAN {
+        let widest = bundle.radius[s] + larger(bundle.radius_change[s], 0.0);
+        bounds[s] = bounds[s].sqrt() - tile.radius - widest - slack;
+    }
+    bounds
+}
+
+impl Boxes {
+    /// The smallest distance (mm) that a pixel of the tile can have from the walls within each node.
+    #[inline(always)]
+    fn wall_bounds(&self, tile: &Tile, slack: f32) -> [f32; FAN] {
+        let mut bounds = self.squared_distances(&tile.area);
+        let widest = self.largest_radii();
+        for n in 0..FAN {
+            bounds[n] = bounds[n].sqrt() - widest[n] - slack;
+        }
+        bounds
+    }
+}

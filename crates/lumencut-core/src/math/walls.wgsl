@@ -1,0 +1,89 @@
+// The distance of pixels to the nearest wall of any vessel, in the view plane.
+// import math/hierarchy
+// import math/nearest
+
+// The most that the nearest disc of a segment can stand beside a pixel's foot, for each mm of the pixel's distance from the line:
+// beyond it one end of the segment is nearest wherever a pixel lies.
+const MOST_LEAN: f32 = 1e6;
+
+// The distance (mm) of each pixel of the tile from the wall so far, negative within.
+var<private> beyond: array<vec4f, MAX_QUADS>;
+
+// How far beside the foot of a pixel its nearest disc stands, for each mm of its distance from the line, where the radius
+// changes by `taper` mm for each mm.
+fn lean(taper: f32) -> f32 {
+    let rest = max(1.0 - taper * taper, 1.0 / (MOST_LEAN * MOST_LEAN));
+    return clamp(taper / sqrt(rest), -MOST_LEAN, MOST_LEAN);
+}
+
+// Lowers each pixel's distance from the wall to that of the segment.
+fn lower_beyond(slot: Slot) {
+    let per_square = slot.inverse_length * slot.inverse_length;
+    let leaning = lean(slot.radius_change * slot.inverse_length) * per_square;
+    for (var a = 0u; a < ACROSS; a++) {
+        let ux = quad_x[a] - slot.start.x;
+        for (var r = 0u; r < ROWS; r++) {
+            let uy = row_y[r] - slot.start.y;
+            let aside = abs(ux * slot.edge.y - uy * slot.edge.x);
+            let foot = (ux * slot.edge.x + uy * slot.edge.y) * per_square;
+            let t = clamp(foot + aside * leaning, vec4f(0.0), vec4f(1.0));
+            let dx = ux - t * slot.edge.x;
+            let dy = uy - t * slot.edge.y;
+            let q = quad_of(a, r);
+            beyond[q] = min(sqrt(dx * dx + dy * dy) - (slot.radius + t * slot.radius_change), beyond[q]);
+        }
+    }
+}
+
+// The smallest distance that a pixel of the tile can have from the walls within a node.
+fn wall_bound(tile: Tile, node: Node) -> f32 {
+    let around = boxes[box_of(0u, node)];
+    return sqrt(squared_distance(tile, around.low, around.high)) - around.radius - parameters.distance_slack;
+}
+
+// The next bundle, from a node on, that can lower a distance; beyond the last node if there is none.
+fn next_walls(tile: Tile, first: Node, limit: f32) -> Node {
+    var node = first;
+    while !is_beyond(0u, node) {
+        let is_near = wall_bound(tile, node) <= limit;
+        if is_near && node.height == 0u {
+            break;
+        }
+        if is_near {
+            node = within(node);
+        } else {
+            node = after(node);
+        }
+    }
+    return node;
+}
+
+// Meets the segments of a bundle that can lower a distance.
+fn meet_walls(tile: Tile, bundle: u32, limit: f32) {
+    for (var s = 0u; s < FAN; s++) {
+        let slot = slots[bundle * FAN + s];
+        let widest = slot.radius + max(slot.radius_change, 0.0);
+        if sqrt(square_to_segment(tile, slot)) - tile.radius - widest - parameters.distance_slack <= limit {
+            lower_beyond(slot);
+        }
+    }
+}
+
+// Lowers the distance of every pixel of the tile from the wall of its nearest vessel: nothing farther than `far` is looked
+// for, and nothing more once all pixels are nearer than `near`.
+fn nearest_walls(tile: Tile, near: f32, far: f32) {
+    for (var q = 0u; q < ACROSS * ROWS; q++) {
+        beyond[q] = vec4f(FAR);
+    }
+    var limit = far;
+    var node = next_walls(tile, first_node(0u), limit);
+    while !is_beyond(0u, node) {
+        meet_walls(tile, node.index, limit);
+        let farthest = largest(beyond);
+        if farthest <= near {
+            break;
+        }
+        limit = min(farthest, far);
+        node = next_walls(tile, after(node), limit);
+    }
+}

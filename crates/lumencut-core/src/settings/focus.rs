@@ -1,0 +1,35 @@
+//! The focus: how far around the vessels the cut surface is shown, and how it fades into the context.
+
+use crate::error::Result;
+use crate::limits::Limits;
+
+/// Margins; those far below 0 leave the context alone.
+const MARGIN: Limits = Limits::new(-1e6, 1e6, "mm");
+/// Fades.
+const FADE: Limits = Limits::new(0.0, 1e6, "mm");
+
+/// The cut surface around the vessels amid the context.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Focus {
+    /// How far beyond the nearest wall, in the view plane, all of the cut surface is shown (mm). Below 0 lumens fade too.
+    pub margin: f64,
+    /// Over which distance from there the cut surface fades into the context (mm); 0 is a hard edge.
+    pub fade: f64,
+}
+
+impl Focus {
+    /// Checks margin and fade.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Settings`] for one outside its range.
+    pub fn check(&self) -> Result<()> {
+        MARGIN.check("focus margin", self.margin)?;
+        FADE.check("focus fade", self.fade)
+    }
+}
+
+impl Default for Focus {
+    fn default() -> Self {
+        Self { margin: 2.0, fade: 6.0 }
+    }
+}

@@ -1,0 +1,41 @@
+// The focus: how much of the cut surface and of its silhouettes each pixel shows, by its distance from the nearest wall of any vessel.
+// import math/walls
+
+struct FocusParameters {
+    // How far from the wall all of the cut surface and all of its silhouettes are shown (mm).
+    margin: vec2f,
+    // 1 / fade of both (per mm); 0 where they are shown everywhere.
+    per_fade: vec2f,
+    // Between which distances from the wall (mm) it matters how far a pixel is.
+    near: f32,
+    far: f32,
+}
+
+@group(0) @binding(4) var<storage, read_write> focus_image: array<vec2f>;
+@group(0) @binding(5) var<storage, read> focus_parameters: FocusParameters;
+
+// How much of the cut surface and of its silhouettes is shown this far (mm) from the wall, 0 to 1.
+fn shares(beyond_wall: f32) -> vec2f {
+    let past = (max(beyond_wall, 0.0) - focus_parameters.margin) * focus_parameters.per_fade;
+    let away = clamp(past, vec2f(0.0), vec2f(1.0));
+    return 1.0 - away * away * (3.0 - 2.0 * away);
+}
+
+@compute @workgroup_size(TILES)
+fn focus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) thread: u32) {
+    let tile = tile_at(group.xy, thread);
+    if !in_view(tile.pixel) {
+        return;
+    }
+    nearest_walls(tile, focus_parameters.near, focus_parameters.far + parameters.distance_slack);
+    for (var r = 0u; r < ROWS; r++) {
+        for (var a = 0u; a < ACROSS; a++) {
+            for (var c = 0u; c < QUAD; c++) {
+                let pixel = pixel_of(tile, a, r, c);
+                if in_view(pixel) {
+                    focus_image[place_of(pixel)] = shares(beyond[quad_of(a, r)][c]);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,149 @@
+"""Turns about a place on a vessel, and the diameter that each view of them cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut.annotation import SMALLEST_SIDE
+from lumencut.errors import VolumeError
+from lumencut.lettering import Sheet
+from lumencut.turntables import turntable
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.frame import Frame
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+    from lumencut.vessel import Vessel
+    from lumencut.volume import Volume
+
+#: How far from the middle the lumen and what is around it are read, in radii.
+_LUMEN, _AROUND = 0.5, 3.0
+#: How many places are read on each side.
+_STEPS = 200
+
+
+def turn_about(
+    renderer: Renderer,
+    camera: Camera,
+    radius: float,
+    settings: Settings | None = None,
+    frames: int = 72,
+    degrees: float = 360.0,
+) -> Iterator[Frame]:
+    """Render a turn about the place of a :meth:`Camera.about`, with the diameters written on each frame.
+
+    Parameters
+    ----------
+    renderer : Renderer
+        The scene.
+    camera : Camera
+        The first view.
+    radius : float
+        The radius of the vessel at the place (mm), as :func:`radius_at` tells it.
+    settings : Settings, optional
+        The knobs; their defaults where not given.
+    frames : int, default 72
+        How many frames.
+    degrees : float, default 360
+        How far the viewer moves in all (degrees).
+
+    Raises
+    ------
+    VolumeError
+        For a renderer without a volume.
+
+    Yields
+    ------
+    Frame
+        The next view. Its picture says the diameter of this cut, and the least and the largest so far (mm).
+    """
+    if renderer.volume is None:
+        raise VolumeError("turn about a place", "no volume", "an angiography, whose diameters are told")
+    turn = turntable(renderer, camera, settings, frames, degrees, "up")
+    return _written(turn, renderer.volume, radius)
+
+
+def radius_at(vessel: Vessel, at: float) -> float:
+    """Return the radius of a vessel (mm) at an arc length (mm), 1 mm where it is not known."""
+    if vessel.radius is None:
+        return 1.0
+    steps = np.linalg.norm(np.diff(vessel.points, axis=0), axis=1)
+    found = float(np.interp(at, np.concatenate([[0.0], np.cumsum(steps)]), vessel.radius))
+    return found if found > 0 else 1.0
+
+
+def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:
+    """Return the diameter of a vessel (mm) that the view of a place cuts; NaN where it has no two walls.
+
+    It is read along the line through the camera's center to the right: the cut runs through it within the
+    lumen, and no other vessel of the picture lies on it unless it touches this one. On each side the wall is
+    where the values first pass half way between the lumen, their median within half a radius of the middle,
+    and the value within three radii that differs from it most towards the tissue.
+
+    Parameters
+    ----------
+    volume : Volume
+        The angiography.
+    camera : Camera
+        The view, whose center is the place and whose up axis is the direction of the vessel.
+    radius : float
+        About the radius of the vessel (mm).
+    """
+    offset = np.linspace(-_AROUND, _AROUND, 2 * _STEPS + 1) * radius
+    values = volume.sample(camera.center + offset[:, None] * camera.right_axis).astype(np.float64)
+    is_lumen, is_around = np.abs(offset) <= _LUMEN * radius, np.abs(offset) > 1.5 * radius
+    if np.isnan(values[is_lumen]).any() or not np.isfinite(values[is_around]).any():
+        return float("nan")
+    lumen = float(np.median(values[is_lumen]))
+    sign = 1.0 if np.nanmedian(values[is_around]) <= lumen else -1.0
+    depth = sign * (values - lumen)
+    return _wall(depth[_STEPS::-1], -offset[_STEPS::-1]) + _wall(depth[_STEPS:], offset[_STEPS:])
+
+
+def _wall(depth: npt.NDArray[np.float64], offset: npt.NDArray[np.float64]) -> float:
+    """How far out values, from the middle on and less the lumen, first fall to half of their deepest."""
+    if not np.nanmin(depth) < 0:
+        return float("nan")
+    half = np.nanmin(depth) / 2
+    beyond = np.flatnonzero(depth <= half)
+    if not len(beyond) or beyond[0] == 0:
+        return float("nan")
+    after = int(beyond[0])
+    share = (depth[after - 1] - half) / (depth[after - 1] - depth[after])
+    return float(offset[after - 1] + share * (offset[after] - offset[after - 1]))
+
+
+def _written(turn: Iterable[Frame], volume: Volume, radius: float) -> Iterator[Frame]:
+    """Pass frames on with their diameters in the lower right corner."""
+    seen: list[float] = []
+    for frame in turn:
+        diameter = cut_diameter(volume, frame.camera, radius)
+        if np.isfinite(diameter):
+            seen.append(diameter)
+        yield replace(frame, _image=_with_diameters(frame.image, diameter, seen))
+
+
+def _with_diameters(
+    image: npt.NDArray[np.uint8], diameter: float, seen: list[float]
+) -> npt.NDArray[np.uint8]:
+    if min(image.shape[:2]) < SMALLEST_SIDE:
+        return image
+    sheet = Sheet(image)
+    lines = [f"this cut {_millimetres(diameter)}"]
+    if seen:
+        lines += [f"least so far {_millimetres(min(seen))}", f"largest so far {_millimetres(max(seen))}"]
+    width, height = sheet.size
+    for number, line in enumerate(reversed(lines)):
+        place = (width - sheet.margin, height - sheet.margin - number * sheet.line_height)
+        sheet.write(line, place, "rd")
+    return sheet.pixels()
+
+
+def _millimetres(length: float) -> str:
+    return f"{length:.1f} mm" if np.isfinite(length) else "not seen"

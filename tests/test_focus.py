@@ -1,0 +1,119 @@
+"""The focus from Python and the command line: its laws on a phantom, its look, and what is refused."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from lumencut import (
+    Camera,
+    Focus,
+    Renderer,
+    Settings,
+    SettingsError,
+    Vessel,
+    VesselTree,
+    Volume,
+    Window,
+    phantom,
+    render,
+)
+
+
+@pytest.fixture(scope="module")
+def scene() -> phantom.Phantom:
+    return phantom.y_junction()
+
+
+@pytest.fixture(scope="module")
+def renderer(scene: phantom.Phantom) -> Renderer:
+    return Renderer(scene.volume, scene.tree, device="cpu")
+
+
+@pytest.fixture(scope="module")
+def camera(scene: phantom.Phantom) -> Camera:
+    return Camera.anterior(scene.tree, size=(120, 100)).rotated(degrees=20)
+
+
+def test_a_margin_beyond_the_picture_is_csr(renderer: Renderer, camera: Camera) -> None:
+    plain = renderer.render(camera, Settings())
+    focused = renderer.render(camera, Settings(focus=Focus(1e6, 6)))
+    assert (focused.image == plain.image).all()
+
+
+def test_a_margin_far_below_zero_with_whole_rays_is_the_context_alone(
+    scene: phantom.Phantom, renderer: Renderer, camera: Camera
+) -> None:
+    window = Window(100, 400)
+    settings = Settings(focus=Focus(-1e6, 6), context_from="whole", window=window, context_window=window)
+    alone = Renderer(scene.volume, None, device="cpu").render(
+        camera, dataclasses.replace(settings, focus=None)
+    )
+    assert (renderer.render(camera, settings).image == alone.image).all()
+
+
+def test_between_two_tubes_the_share_is_that_of_the_nearer_wall() -> None:
+    """White tubes in a white volume before a black background without a context show the share itself."""
+    volume = Volume(np.full((40, 40, 60), 1000, np.int16), origin=(-30, -20, -20))
+    tree = VesselTree(
+        Vessel([[x, 0, -15], [x, depth, 15]], radius) for x, depth, radius in ((-12, 0, 2), (9, 4, 5))
+    )
+    camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), size=(50, 20), pixel_spacing=1)
+    frame = render(
+        volume,
+        tree,
+        camera,
+        Settings(focus=Focus(1, 5), context=None, silhouettes=False, window=Window(500, 100)),
+    )
+    x = np.arange(50) - 24.5
+    beyond = np.minimum(np.abs(x + 12) - 2, np.abs(x - 9) - 5).clip(0)
+    away = ((beyond - 1) / 5).clip(0, 1)
+    share = 1 - away**2 * (3 - 2 * away)
+    assert np.abs(frame.image[10, :, 0] - 255 * share).max() <= 1
+
+
+def test_the_look_is_a_focus_in_a_shaded_body() -> None:
+    look = Settings.focused(samples=2)
+    assert look == Settings(focus=Focus(2, 6), context="mida", context_shading=True, samples=2)
+    assert Settings().focus is None
+    assert Settings.focused(focus=Focus(0, 3)).focus == Focus(0, 3)
+
+
+@pytest.mark.parametrize(
+    ("margin", "fade", "message"),
+    [
+        (float("nan"), 6, "focus margin: found NaN"),
+        (float("inf"), 6, "focus margin: found inf"),
+        (2, -1, "focus fade: found -1"),
+        (2, float("nan"), "focus fade: found NaN"),
+        ("2", 6, "focus margin"),
+    ],
+)
+def test_other_lengths_are_refused(margin: float, fade: float, message: str) -> None:
+    with pytest.raises(SettingsError, match=message):
+        Focus(margin, fade)
+
+
+def test_a_focus_needs_vessels(scene: phantom.Phantom) -> None:
+    with pytest.raises(
+        SettingsError, match=r"focus: found a focus for a scene without centerlines; .*leave the"
+    ):
+        render(scene.volume, None, settings=Settings.focused())
+
+
+def test_a_pair_of_numbers_is_no_focus() -> None:
+    with pytest.raises(SettingsError, match=r"focus: found \(2, 6\); expected a Focus or None"):
+        Settings(focus=(2, 6))  # type: ignore[arg-type]
+
+
+def test_the_strength_of_the_context_is_that_of_its_colours(renderer: Renderer, camera: Camera) -> None:
+    shown = [
+        renderer.render(
+            camera,
+            Settings(focus=Focus(-1e6, 6), context="mip", context_strength=strength, silhouettes=False),
+        ).image[..., :3]
+        for strength in (1.0, 0.5)
+    ]
+    assert np.abs(shown[0] * 0.5 - shown[1]).max() <= 1
+    with pytest.raises(SettingsError, match="context_strength"):
+        Settings(context_strength=1.1)
