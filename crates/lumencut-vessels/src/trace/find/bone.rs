@@ -63,6 +63,11 @@ const EVEN: [f64; 2] = [0.10, 0.06];
 const ALIKE: [f64; 2] = [0.18, 0.10];
 const SEEN: [f64; 2] = [2.0, 4.0];
 
+/// Beyond this radius (mm) such a lumen is not flat, as bodies of even tissue are: its elongation is below these, wholly so at the
+/// last one.
+const ROUND: f64 = 7.0;
+const ELONGATED_BODY: [f64; 2] = [1.9, 1.5];
+
 /// What tells the usual level once more: at least so sure, no more elongated, and no less even.
 const LUMEN_CONFIDENCE: f64 = 0.85;
 const LUMEN_ELONGATION: f64 = 1.25;
@@ -197,7 +202,8 @@ fn lumen_inside(scan: &Scan, track: &Track, shape: &Shape) -> f64 {
         return 0.0;
     }
     let away = (shape.level - scan.level).abs() / scan.contrast;
-    ramp(shape.spread, EVEN) * ramp(away, ALIKE) * ramp(track.radius() / scan.side, SEEN)
+    let round = if track.radius() > ROUND { ramp(shape.elongation, ELONGATED_BODY) } else { 1.0 };
+    round * ramp(shape.spread, EVEN) * ramp(away, ALIKE) * ramp(track.radius() / scan.side, SEEN)
 }
 
 /// How far a value is on the way from nothing to the whole, 0 to 1.

@@ -101,6 +101,9 @@ fn a_wide_even_lumen_as_bright_as_vessels_may_be_flat_and_marrow_may_not() {
     let flat = Shape { level: LEVEL, elongation: 2.5, ..EVEN_AND_PALE };
     // Half of what speaks against it counts: 0.9 to the power of a half.
     assert_eq!(after(flat, 3.0), (949, None));
+    // What is wide as well is a body of even tissue.
+    assert_eq!(after(flat, 8.0).0, 0);
+    assert_eq!(after(Shape { elongation: 1.4, ..flat }, 8.0), (949, None));
     assert_eq!(after(Shape { level: below(0.2), ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { spread: 0.11, ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { is_marrow: true, ..flat }, 3.0).0, 0);
