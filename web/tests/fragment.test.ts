@@ -9,6 +9,7 @@ const ROW: SettingRow = {
   kind: 'number',
   optional: false,
   default: 0.5,
+  focused: null,
   low: 0.1,
   high: 2,
   unit: 'mm',

@@ -102,12 +102,10 @@ export function setSetting(name: string, value: SettingValue): void {
   store.settings.value = { ...store.settings.value, [name]: value };
 }
 
-/** What the look focus chooses beside the context: its margin and its fade (mm). */
-const FOCUS: readonly number[] = [2, 6];
-
-/** Chooses the look focus, or the cut everywhere again. */
+/** Chooses the look focus, as the table of settings says what that is, or the cut everywhere again. */
 export function toggleFocus(): void {
-  const look = { focus: FOCUS, context: 'mida', context_shading: true };
+  const rows = store.started.value?.table.filter((row) => row.focused !== null) ?? [];
+  const look = Object.fromEntries(rows.map((row) => [row.name, row.focused]));
   const chosen = settingOf('focus') === null ? look : { focus: null, context_shading: false };
   store.settings.value = { ...store.settings.value, ...chosen };
 }

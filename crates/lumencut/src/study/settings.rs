@@ -22,6 +22,9 @@ pub struct SettingRow {
     /// The value where nothing is chosen.
     #[cfg_attr(test, ts(type = "SettingValue"))]
     default: Json,
+    /// The value that the look *focus* chooses; none where it leaves the setting alone.
+    #[cfg_attr(test, ts(type = "SettingValue"))]
+    focused: Json,
     /// The smallest number.
     low: Option<f64>,
     /// The largest number.
@@ -38,11 +41,15 @@ pub struct SettingRow {
 
 /// The table of settings for viewers.
 pub fn rows() -> Vec<SettingRow> {
+    let look = Settings::focus_values();
+    let focused =
+        |name: &str| look.iter().find(|(chosen, _)| *chosen == name).map(|(_, value)| value.clone());
     let row = |setting: &Setting| SettingRow {
         name: setting.name,
         kind: setting.kind.name(),
         optional: setting.optional,
-        default: default_of(setting.default()),
+        default: json_of(setting.default()),
+        focused: focused(setting.name).map_or(Json::Null, json_of),
         low: setting.limits.map(|limits| limits.low),
         high: setting.limits.map(|limits| limits.high),
         unit: setting.limits.map(|limits| limits.unit),
@@ -53,19 +60,17 @@ pub fn rows() -> Vec<SettingRow> {
     table().map(row).collect()
 }
 
-fn default_of(value: Value) -> Json {
+fn json_of(value: Value) -> Json {
     match value {
         Value::Flag(flag) => flag.into(),
         Value::Number(number) => number.into(),
         Value::Count(count) => count.into(),
         Value::Color(channels) => channels.into(),
         Value::Name(name) => name.into(),
-        Value::None
-        | Value::Window(_)
-        | Value::Opacity(_)
-        | Value::Slab(_)
-        | Value::Focus(_)
-        | Value::Transfer(_) => Json::Null,
+        Value::Focus(Focus { margin, fade }) => vec![margin, fade].into(),
+        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
+            Json::Null
+        }
     }
 }
 
@@ -147,5 +152,10 @@ mod tests {
     #[test]
     fn the_table_has_a_row_for_every_setting() {
         assert_eq!(rows().len(), table().count());
+        let chosen: Vec<&str> =
+            rows().iter().filter(|row| !row.focused.is_null()).map(|row| row.name).collect();
+        let mut expected: Vec<&str> = Settings::focus_values().into_iter().map(|(name, _)| name).collect();
+        expected.sort_by_key(|name| table().position(|setting| setting.name == *name));
+        assert_eq!(chosen, expected);
     }
 }

@@ -534,6 +534,8 @@ export type SettingRow = {
   readonly optional: boolean;
   /** The value where nothing is chosen. */
   readonly default: SettingValue;
+  /** The value that the look *focus* chooses; none where it leaves the setting alone. */
+  readonly focused: SettingValue;
   /** The smallest number. */
   readonly low: number | null;
   /** The largest number. */
