@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.annotation import SMALLEST_SIDE
 from lumencut.errors import VolumeError
 from lumencut.lettering import Sheet
@@ -71,11 +72,7 @@ def turn_about(
 
 def radius_at(vessel: Vessel, at: float) -> float:
     """Return the radius of a vessel (mm) at an arc length (mm), 1 mm where it is not known."""
-    if vessel.radius is None:
-        return 1.0
-    steps = np.linalg.norm(np.diff(vessel.points, axis=0), axis=1)
-    found = float(np.interp(at, np.concatenate([[0.0], np.cumsum(steps)]), vessel.radius))
-    return found if found > 0 else 1.0
+    return _lumencut.radius_at((vessel.points, vessel.radius), at)
 
 
 def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:

@@ -97,6 +97,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::path, module)?)?;
     module.add_function(wrap_pyfunction!(tree::parts, module)?)?;
     module.add_function(wrap_pyfunction!(views::about, module)?)?;
+    module.add_function(wrap_pyfunction!(views::radius_at, module)?)?;
     module.add_function(wrap_pyfunction!(views::refocused, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted_turn, module)?)?;

@@ -115,6 +115,13 @@ pub fn about(vessel: VesselArrays<'_>, at: f64, angle: f64, size: [usize; 2]) ->
     placed(vessel_views::about(&tree::vessel(&vessel)?, at, angle, size))
 }
 
+/// The radius of a vessel at an arc length (mm).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn radius_at(vessel: VesselArrays<'_>, at: f64) -> PyResult<f64> {
+    Ok(vessel_views::radius_at(&tree::vessel(&vessel)?, at))
+}
+
 /// The view from which most of a vessel is seen, not far from that of a camera.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]

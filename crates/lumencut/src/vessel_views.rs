@@ -54,8 +54,8 @@ fn tangent_at(path: &CenterlinePath, at: f64) -> DVec3 {
     Frames::new(path, first).at(at).tangent.normalize()
 }
 
-/// The radius of a vessel at a place (mm), linear between its points.
-fn radius_at(vessel: &Vessel, at: f64) -> f64 {
+/// The radius of a vessel at a place (mm), linear between its points; 1 mm where it is not known.
+pub fn radius_at(vessel: &Vessel, at: f64) -> f64 {
     let lengths = vessel.arc_length();
     let after = lengths.partition_point(|length| *length < at).clamp(1, lengths.len() - 1);
     let step = lengths[after] - lengths[after - 1];
