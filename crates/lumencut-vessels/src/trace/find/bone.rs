@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use crate::trace::find::bone::neighbourhood::beside;
 use crate::trace::find::bone::raw_section::RawSection;
+use crate::trace::find::confidence::ramp;
 use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackDoubt, TrackPoint};
@@ -50,7 +51,7 @@ const VERY_WIDE: f64 = 14.0;
 const LEFT: f64 = 0.15;
 
 /// A flat track that is otherwise the tube of a large vessel may be a lumen beside another one, as in a dissection: it keeps so much
-/// confidence and remains doubtful. Before it is judged it has at least this confidence, length and radius (mm), and it is even inside.
+/// confidence and remains doubtful. Before its flatness counts it has at least this confidence, length and radius (mm), and it is even inside.
 const FLAT_LUMEN_LEFT: f64 = 0.35;
 const FLAT_LUMEN: f64 = 0.85;
 const FLAT_LUMEN_LENGTH: f64 = 40.0;
@@ -180,7 +181,8 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     let lost = ((flat + uneven - DOUBTS[0]) / (DOUBTS[1] - DOUBTS[0])).clamp(0.0, 1.0);
     let limits = [(VERY_WIDE, PALE_AND_VERY_WIDE), (WIDE, PALE)];
     let limits = limits.into_iter().find(|(radius, _)| track.radius() > *radius);
-    let pale = limits.map_or(0.0, |(_, limits)| ramp((scan.level - shape.level) / scan.contrast, limits));
+    let pale = limits
+        .map_or(0.0, |(_, limits)| ramp((scan.level - shape.level) / scan.contrast, limits[0], limits[1]));
     if lost > 0.0 {
         track.doubt = Some(if flat >= uneven { TrackDoubt::Flat } else { TrackDoubt::Uneven });
     }
@@ -201,14 +203,10 @@ fn lumen_inside(scan: &Scan, track: &Track, shape: &Shape) -> f64 {
     if shape.is_marrow || track.doubt == Some(TrackDoubt::Faint) {
         return 0.0;
     }
+    let ramp = |value: f64, [none, whole]: [f64; 2]| ramp(value, none, whole);
     let away = (shape.level - scan.level).abs() / scan.contrast;
     let round = if track.radius() > ROUND { ramp(shape.elongation, ELONGATED_BODY) } else { 1.0 };
     round * ramp(shape.spread, EVEN) * ramp(away, ALIKE) * ramp(track.radius() / scan.side, SEEN)
-}
-
-/// How far a value is on the way from nothing to the whole, 0 to 1.
-fn ramp(value: f64, [none, whole]: [f64; 2]) -> f64 {
-    ((value - none) / (whole - none)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

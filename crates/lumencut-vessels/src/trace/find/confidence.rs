@@ -56,7 +56,7 @@ struct Around {
 }
 
 /// A value between 0 and 1 as it passes from one limit to another.
-fn ramp(value: f64, from: f64, to: f64) -> f64 {
+pub fn ramp(value: f64, from: f64, to: f64) -> f64 {
     ((value - from) / (to - from)).clamp(0.0, 1.0)
 }
 

@@ -8,7 +8,7 @@ use crate::trace::find::track::Track;
 use lumencut_core::math::arc_length::arc_lengths;
 
 /// A loop that is shorter than so many of the larger radius at the link that closes it, or than this (mm), goes round no tissue.
-const SMALL_LOOP: f64 = 12.0;
+pub const SMALL_LOOP: f64 = 12.0;
 const SMALL_LOOP_LENGTH: f64 = 10.0;
 
 /// Tracks in groups that hang together.

@@ -1,13 +1,13 @@
 //! Rings: a run that comes back to where it began ends on its first point.
 
+use crate::trace::find::links::groups::SMALL_LOOP;
 use crate::trace::find::whole_vessels::attached::Attached;
 use crate::trace::find::whole_vessels::centered::LinePoint;
 use crate::trace::lumen::refine::STEP;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Both ends of a ring are nearer to each other than so many radii, and it is at least so many radii long.
+/// Both ends of a ring are nearer to each other than so many radii, and it is no small loop.
 const NEAR: f64 = 1.0;
-const LEAST_LENGTH: f64 = 12.0;
 
 /// The run, closed where it is a ring whose ends both are free.
 pub fn closed(mut run: Attached) -> Attached {
@@ -16,7 +16,7 @@ pub fn closed(mut run: Attached) -> Attached {
     let radius = first.radius.min(last.radius);
     let places: Vec<_> = run.points.iter().map(|point| point.place).collect();
     let length = arc_lengths(&places).last().copied().unwrap_or(0.0);
-    let is_ring = run.met == [None; 2] && gap < NEAR * radius && length >= LEAST_LENGTH * radius;
+    let is_ring = run.met == [None; 2] && gap < NEAR * radius && length >= SMALL_LOOP * radius;
     if is_ring && gap > 0.0 {
         let count = (gap / STEP).ceil();
         let between = |n: usize| LinePoint { place: last.place.lerp(first.place, n as f64 / count), ..last };
