@@ -23,6 +23,8 @@ PHANTOMS = ("aorta", "cervical", "runoff")
 NEGATIVE = ("noise", "tissue", "constant", "empty", "bones-aorta", "bones-cervical")
 WALL, LUMEN, BONE, STENT = 60.0, 350.0, 900.0, 1600.0
 """Values of lumen, its wall, and what is put beside them (HU)."""
+VEINS = (75.0, 160.0)
+"""Between these lie the veins of the phantoms, which have no truth, and organs as bright as they are (HU)."""
 
 Floats = npt.NDArray[np.float64]
 Values = npt.NDArray[np.float32]
@@ -188,7 +190,7 @@ def _across(points: Floats) -> Floats:
 
 
 def without_vessels(scene: Scene) -> Volume:
-    """Return the volume with tissue in place of its lumen."""
+    """Return the volume with tissue in place of its lumen, and of what is as bright as its veins."""
     assert scene.truth is not None
     values, made = _values(scene.volume)
     side = voxel_of(scene.volume)
@@ -196,6 +198,7 @@ def without_vessels(scene: Scene) -> Volume:
         points, radius = resampled(vessel, side)
         for box, beyond, _ in _around(scene.volume, points, radius, 2 * side):
             values[box] = np.where((beyond < 1.5 * side) & (values[box] > WALL), WALL, values[box])
+    values[(values > VEINS[0]) & (values < VEINS[1])] = WALL
     return made(values)
 
 

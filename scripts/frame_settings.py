@@ -99,7 +99,7 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
         yield f"silhouette_rule {rule}, unfiltered", {"silhouette_rule": rule, "depth_filter": False}
     # It acts under this rule alone.
     yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
-    yield from each("silhouette_reach", (0, 1, 5, 40))
+    yield from each("silhouette_reach", (None, 0, 1, 5, 40))
     yield from each("silhouette_reach", (8,), silhouette_rule="gradient")
     yield from each("silhouette_color", ((255, 0, 128), (0, 0, 0)))
     slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
@@ -112,6 +112,11 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     for mode in ("max", "mean", "min"):
         yield from each("slab", (Slab(thickness, mode) for thickness in (0, 0.5, 4, 40, 1000)))
     yield from each("focus", (Focus(2, 6), Focus(-1, 4), Focus(0, 0), Focus(10, 40), Focus(1e6, 6)))
+    yield from each("focus_vessels", ((0,), (2, 7)))
+    levels: Values = {"focus_vessels": (2, 7), "level_choice": "nearest", "silhouettes": False}
+    yield "focus_vessels 2 7, level_choice nearest", levels
+    chosen: Values = {"focus": Focus(1, 9), "focus_vessels": (2,)}
+    yield from each("others_strength", (0, 0.8, 1), **chosen)
     yield "focus and opacity", {"focus": Focus(1, 20), "opacity": SEE_THROUGH}
     yield "slab and opacity", {"slab": Slab(6, "mean"), "opacity": SEE_THROUGH}
 

@@ -65,6 +65,7 @@ PLAIN = {
     "opacity": "Opacity",
     "slab": "Slab",
     "focus": "Focus",
+    "vessels": "tuple[int | str, ...]",
 }
 """The types of Python that need no more than their name."""
 
@@ -114,7 +115,9 @@ def kind_in_words(setting: Setting) -> str:
             return f"{{{names(setting)}}} or TransferFunction"
         case "window":
             return f"Window or {{{window_names()}}}"
-    return PLAIN[setting.kind]
+        case "vessels":
+            return "tuple of int or str"
+    return PLAIN[setting.kind] + (" or None" if setting.optional and setting.open is None else "")
 
 
 def annotation(name: str, setting: Setting) -> str:
@@ -188,8 +191,11 @@ def page_kind(setting: Setting) -> str:
             return "name or `TransferFunction`"
         case "window":
             return "`Window` or " + ", ".join(f"`{name}`" for name in WINDOW_NAMES)
+        case "vessels":
+            return "ids and names"
         case "flag" | "number" | "count":
-            return {"flag": "yes or no", "number": "number", "count": "whole number"}[setting.kind]
+            none = " or None" if setting.optional and setting.open is None else ""
+            return {"flag": "yes or no", "number": "number", "count": "whole number"}[setting.kind] + none
     return f"`{PLAIN[setting.kind]}`"
 
 
@@ -198,6 +204,8 @@ def page_default(setting: Setting) -> str:
     match setting.default:
         case None:
             return setting.open or "none"
+        case ():
+            return "none"
         case bool(flag):
             return "yes" if flag else "no"
         case float(number):

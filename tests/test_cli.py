@@ -79,7 +79,7 @@ def test_every_setting_has_an_option_that_states_its_unit_and_default(command, f
         "Settings keeps defaults"
     )
     default = field.default
-    if default is None:
+    if default is None or default == ():
         stated = "default: "
     elif isinstance(default, bool):
         stated = f"default {'yes' if default else 'no'}."
@@ -90,7 +90,7 @@ def test_every_setting_has_an_option_that_states_its_unit_and_default(command, f
     else:
         stated = f"default {default:g}."
     assert stated in option.help
-    units = "mm|radii|count|name|number|yes or no|hexadecimal|unit of the volume"
+    units = "mm|radii|count|names?|number|yes or no|hexadecimal|unit of the volume"
     assert re.search(rf"\(({units})\b", option.help)
 
 
@@ -266,8 +266,15 @@ def test_centerlines_in_ras_are_read_so_where_only_that_fits_and_the_option_is_n
     assert result.exit_code == 0
     assert "0 of 25 points lie inside the volume in lps in mm, but 25 in ras in mm" in one_line(result)
     assert "--coordinates ras confirms it" in one_line(result)
+    warned = (tmp_path / "out.png").read_bytes()
     result = CliRunner().invoke(main, [*command, "--coordinates", "ras"])
     assert (result.exit_code, result.stderr) == (0, "")
+    assert (tmp_path / "out.png").read_bytes() == warned
+    # As they are written, the lines lie beside the volume: nothing else makes this picture.
+    write_lines(Path(files[1]), bent_line())
+    result = CliRunner().invoke(main, [*command, "--coordinates", "lps"])
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert (tmp_path / "out.png").read_bytes() == warned
 
 
 def test_centerlines_beside_the_volume_are_an_error_that_names_the_option(files, tmp_path):
@@ -361,7 +368,7 @@ def test_version():
 
 
 @pytest.mark.parametrize(
-    ("command", "examples"), [("render", 7), ("turntable", 3), ("evaluate", 2), ("settings", 1)]
+    ("command", "examples"), [("render", 7), ("turntable", 4), ("evaluate", 2), ("settings", 1)]
 )
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()

@@ -117,8 +117,15 @@ def test_a_doubtful_space_is_told_once_and_can_be_answered(tmp_path, command):
     result = invoke(*words)
     assert result.exit_code == 0
     assert one_line(result).startswith("lumencut: warning: ")
+    warned = result.stdout if command == "info" else (tmp_path / "view.png").read_bytes()
     result = invoke(*words, "--coordinates", "lps")
     assert (result.exit_code, result.stderr) == (0, "")
+    # What the answer names was taken before it: only who said so changes.
+    if command == "info":
+        assert "lps (as asked)" in result.stdout
+        assert result.stdout.replace("as asked", "stated in the file") == warned
+    else:
+        assert (tmp_path / "view.png").read_bytes() == warned
 
 
 @pytest.mark.parametrize(("command", "who"), [("render", "the view"), ("turntable", "any frame")])

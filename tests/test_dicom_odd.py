@@ -109,7 +109,10 @@ def test_a_series_asked_for_in_vain_is_an_error_of_info(tmp_path):
     assert found.exit_code == 1
     assert "number or UID '99'" in found.stderr
     assert json.loads(found.stdout)["files"][0]["kind"] == "series"
-    assert CliRunner().invoke(main, ["info", str(tmp_path)]).exit_code == 0
+    found = CliRunner().invoke(main, ["info", "--json", str(tmp_path)])
+    assert (found.exit_code, found.stderr) == (0, "")
+    (described,) = json.loads(found.stdout)["files"]
+    assert described["size"] == [*read_volume(tmp_path).size]
 
 
 @pytest.mark.parametrize("name", ["/etc/{}.dcm", "../../{}.dcm", "a/b/c/{}", "\x1b[31m\n{}"])

@@ -184,6 +184,27 @@ def test_a_constant_volume_has_no_vessel(value):
         find_vessels(Volume(np.full((30, 30, 30), value, kind), spacing=(1, 1, 1)))
 
 
+def ct_of(lumen, around):
+    """A CT, with noise of 10 HU, of a vessel of one level among tissue of another one, and air beside it."""
+    line = arc(120)
+    scene = Scene(room(line, 0.8), (0.8,) * 3)
+    scene.values[:] = around
+    scene.values[:, :4] = -1000
+    scene.paint(line, 3.0, lumen)
+    return line, scene.volume(3, 10)
+
+
+def test_a_faint_artery_of_a_ct_is_sure():
+    line, volume = ct_of(115, TISSUE)
+    assert away(line[8:-8], find_vessels(volume).points).max() < 2
+
+
+def test_a_vessel_without_contrast_medium_is_doubtful():
+    _, volume = ct_of(45, FAT)
+    with pytest.raises(TracingError, match="none that is sure, but"):
+        find_vessels(volume)
+
+
 # Odd input
 
 

@@ -83,8 +83,8 @@ def test_fields_of_a_frame(size):
     assert (frame.distance >= 0).all()
     assert frame.camera is camera
     assert list(bare.timings) == ["levels", "projection", "depth", "depth_filter"]
-    stages = ["levels", "projection", "depth", "leap", "depth_filter", "surface", "silhouette"]
-    assert list(frame.timings)[:7] == stages
+    stages = ["levels", "projection", "depth", "leap", "depth_filter", "focus", "surface", "silhouette"]
+    assert list(frame.timings)[:8] == stages
     assert list(frame.timings)[-2:] == ["context", "composite"]
     paper = renderer.render(camera, Settings.paper())
     stages = ["levels", "projection", "distance", "depth", "depth_filter", "surface", "silhouette"]
@@ -134,7 +134,8 @@ def test_the_image_is_the_value_through_the_window_and_the_opacity():
 def test_silhouettes_stand_where_the_surface_leaps():
     made = phantom.crossing()
     flat, lined = (
-        Renderer(made.volume, made.tree).render(None, Settings(silhouettes=s)) for s in (False, True)
+        Renderer(made.volume, made.tree).render(None, Settings(silhouettes=s, silhouette_reach=None))
+        for s in (False, True)
     )
     assert (flat.image[..., 0] == flat.image[..., 2]).all()
     yellow = lined.image[..., 0].astype(int) - lined.image[..., 2] > 100

@@ -53,6 +53,8 @@ def other(name):
             return Focus(-2.5, 1 / 3)
         case "slab":
             return Slab(2.5, "min")
+        case "vessels":
+            return ('back\u0009"quoted" \\ ', 3)
         case "transfer":
             return POINTS
 
@@ -75,8 +77,10 @@ def test_every_setting_survives(tmp_path, name):
         Settings(context_transfer="bone"),
         Settings(window="mra", context_window="full"),
         Settings(window="cta"),
-        # Other contexts than mida have no gamma.
-        Settings(**{name: other(name) for name in _lumencut.SETTINGS if name != "context"}),
+        # Other contexts than mida have no gamma, and chosen vessels need lumen first.
+        Settings(
+            **{name: other(name) for name in _lumencut.SETTINGS if name not in ("context", "lumen_first")}
+        ),
     ],
     ids=["default", "paper", "no-context", "named-transfer", "named-windows", "fixed-window", "all"],
 )

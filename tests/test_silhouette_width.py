@@ -16,6 +16,7 @@ SETTINGS = Settings(
     context=None,
     depth_filter=False,
     levels=0,
+    silhouette_reach=None,
     # A low cost would move the border between two vessels.
     cost_weight=1e4,
     window=Window(level=0, width=100),

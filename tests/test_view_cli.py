@@ -206,6 +206,7 @@ def test_the_demo_is_a_scene_too(run, monkeypatch, tmp_path):
     np.testing.assert_array_equal(read_centerlines(lines)[0].points, tree[0].points)
     assert run("--demo", "--no-centerlines").exit_code == 0
     assert (found[2].status, found[3].status) == (200, 404)
+    assert found[2].body == found[0].body
 
 
 # How it ends

@@ -178,8 +178,10 @@ def test_the_connection_ends_early_where_the_header_is_sent(page):
         asked.set()
         with pytest.raises(IncompleteRead):
             response.read()
-        assert client.ask("data/problem").status == 200
+        problem = client.ask("data/problem")
         connection.close()
+    assert problem.status == 200
+    assert problem.body.decode() == "made.nrrd: found 7 bytes; expected 120 bytes; copy the file again"
 
 
 def test_before_the_header_the_error_is_told_in_parts(page):

@@ -247,6 +247,8 @@ def test_a_websocket_is_no_way_in(client):
     upgrade = ("Connection: Upgrade, close", "Upgrade: websocket", "Sec-WebSocket-Version: 13")
     received = client.raw(head(client, *upgrade, "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="))
     assert status_of(received) == 200
+    assert not {"upgrade", "sec-websocket-accept"} & set(parsed(received))
+    assert received.endswith(client.ask().body)
 
 
 def test_several_requests_at_once_are_answered_in_order(client):

@@ -28,6 +28,7 @@ from lumencut import (
 )
 from lumencut.cli import main
 from lumencut.cli.parameters import WINDOW_NAMES as CLI_NAMES
+from lumencut.recipe import read_recipe
 from lumencut.window import WINDOW_NAMES
 from window_measures import background, contrast, share, shares
 from window_scenes import FAT, KINDS, SOFT, angiography, tree
@@ -286,10 +287,14 @@ def test_the_command_line_takes_names_and_numbers(files, tmp_path):
         "turntable", volume, lines, "-o", turned, "--frames", 2, "--size", "20x20", "--window", "mra"
     )
     assert result.exit_code == 0, result.output
+    scene = angiography("CTA, HU")
+    window = Window.named("mra", scene.volume, scene.tree)
+    assert f"window {window.width:.4g}/{window.level:.4g}" in result.output
     worst = tmp_path / "worst"
     options = ("--views", 1, "--size", "40x40", "--pictures", worst, "--window", "bone", "--methods", "csr")
     result = run("evaluate", volume, lines, *options)
     assert result.exit_code == 0, result.output
+    assert read_recipe(worst / "csr.png").settings.window == Window.named("bone")
 
 
 def test_a_window_that_shows_one_grey_is_warned_of(files, tmp_path):

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from lumencut.evaluation import Evaluation, evaluate
     from lumencut.feature_aggregation import FeatureAggregation, cfa
     from lumencut.flags import Flag
+    from lumencut.flights import flight
     from lumencut.focus import Focus
     from lumencut.frame import Frame
     from lumencut.mask_tracing import trace_mask
@@ -96,6 +97,7 @@ _HOME = {
     "evaluation": ("Evaluation", "evaluate"),
     "feature_aggregation": ("FeatureAggregation", "cfa"),
     "flags": ("Flag",),
+    "flights": ("flight",),
     "focus": ("Focus",),
     "frame": ("Frame",),
     "mask_tracing": ("trace_mask",),
@@ -183,6 +185,7 @@ __all__ = [
     "evaluate",
     "find_vessels",
     "fitted_turn",
+    "flight",
     "get_threads",
     "list_series",
     "measure",

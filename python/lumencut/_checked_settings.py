@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from typing import Any, Self
 
@@ -156,6 +157,8 @@ def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
             choice(SettingsError, name, value, setting.choices, or_none)
         case "window":
             return checked_window(name, value)
+        case "vessels":
+            return _vessels(name, value)
         case "transfer":
             if not isinstance(value, TransferFunction):
                 choice(SettingsError, name, value, setting.choices, f", a TransferFunction{or_none}")
@@ -163,3 +166,21 @@ def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
             if not isinstance(value, _CLASSES[kind]):
                 raise SettingsError(name, repr(value), f"{a(_CLASSES[kind].__name__)}{or_none}")
     return value
+
+
+def _vessels(name: str, value: Any) -> tuple[int | str, ...]:
+    """Ids and names of vessels, which are looked for once there is a tree."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return tuple(_id_or_name(one) for one in value)
+    except TypeError:
+        expected = "several ids and names of vessels, such as ('LAD', 2)"
+        raise SettingsError(name, f"{value!r:.80}", expected) from None
+
+
+def _id_or_name(one: Any) -> int | str:
+    """An id or a name as it is; TypeError for what is neither, such as a truth value or an array."""
+    if isinstance(one, bool):
+        raise TypeError
+    return one if isinstance(one, str) else operator.index(one)

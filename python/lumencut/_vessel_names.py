@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from lumencut._wording import listed
 from lumencut.errors import VesselTreeError
@@ -11,10 +11,19 @@ from lumencut.vessel import Vessel
 
 #: How many names an error lists.
 _MOST_NAMES = 24
+#: The most digits of a word that may be an id; Python refuses to read thousands of them.
+_MOST_DIGITS = 18
 
 
 class _VesselNameError(VesselTreeError, KeyError):
     """A name that no vessel of a tree has, or several have."""
+
+
+def id_or_name(vessels: Iterable[Vessel], word: int | str) -> int | str:
+    """Return the id that a word of digits tells, unless a vessel has the word as its name."""
+    if not isinstance(word, str) or any(vessel.name == word for vessel in vessels):
+        return word
+    return int(word) if word.isascii() and word.isdecimal() and len(word) <= _MOST_DIGITS else word
 
 
 def all_named(vessels: Sequence[Vessel], name: str) -> list[int]:
@@ -31,7 +40,7 @@ def all_named(vessels: Sequence[Vessel], name: str) -> list[int]:
         else "an id: no vessel of the tree has a name"
     )
     mend = f"perhaps {alike[close[0]]!r} is meant" if close else ""
-    raise _VesselNameError(f"vessel {name!r}", "no vessel of this name", expected, mend)
+    raise _VesselNameError(f"vessel {name!r:.80}", "no vessel of this name", expected, mend)
 
 
 def the_one_named(vessels: Sequence[Vessel], name: str) -> int:
@@ -40,4 +49,4 @@ def the_one_named(vessels: Sequence[Vessel], name: str) -> int:
     if len(meant) == 1:
         return meant[0]
     found = f"{len(meant)} vessels of this name: {listed([str(index) for index in meant])}"
-    raise _VesselNameError(f"vessel {name!r}", found, "one vessel", "take it by its id")
+    raise _VesselNameError(f"vessel {name!r:.80}", found, "one vessel", "take it by its id")

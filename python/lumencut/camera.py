@@ -207,7 +207,7 @@ class Camera(Value):
         *,
         start: Camera | None = None,
     ) -> Camera:
-        """Return the view from which most of a vessel is seen, fitted to it.
+        """Return the view from which most of a vessel is seen, fitted to all within two radii of it.
 
         Of 256 directions all around it is the one along which the vessel is longest where no other stretch of
         itself lies before it. Half a turn away from ``start`` costs a fifth of the vessel's length.

@@ -23,11 +23,6 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.volume import Volume
 
-#: How far from the middle the lumen and what is around it are read, in radii.
-_LUMEN, _AROUND = 0.5, 3.0
-#: How many places are read on each side.
-_STEPS = 200
-
 
 def turn_about(
     renderer: Renderer,
@@ -81,7 +76,8 @@ def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:
     It is read along the line through the camera's center to the right: the cut runs through it within the
     lumen, and no other vessel of the picture lies on it unless it touches this one. On each side the wall is
     where the values first pass half way between the lumen, their median within half a radius of the middle,
-    and the value within three radii that differs from it most towards the tissue.
+    and the value within three radii that differs from it most towards the tissue. A wall that would lie
+    beyond 1.5 radii is that of another vessel which touches this one: then the diameter is NaN, too.
 
     Parameters
     ----------
@@ -92,28 +88,7 @@ def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:
     radius : float
         About the radius of the vessel (mm).
     """
-    offset = np.linspace(-_AROUND, _AROUND, 2 * _STEPS + 1) * radius
-    values = volume.sample(camera.center + offset[:, None] * camera.right_axis).astype(np.float64)
-    is_lumen, is_around = np.abs(offset) <= _LUMEN * radius, np.abs(offset) > 1.5 * radius
-    if np.isnan(values[is_lumen]).any() or not np.isfinite(values[is_around]).any():
-        return float("nan")
-    lumen = float(np.median(values[is_lumen]))
-    sign = 1.0 if np.nanmedian(values[is_around]) <= lumen else -1.0
-    depth = sign * (values - lumen)
-    return _wall(depth[_STEPS::-1], -offset[_STEPS::-1]) + _wall(depth[_STEPS:], offset[_STEPS:])
-
-
-def _wall(depth: npt.NDArray[np.float64], offset: npt.NDArray[np.float64]) -> float:
-    """How far out values, from the middle on and less the lumen, first fall to half of their deepest."""
-    if not np.nanmin(depth) < 0:
-        return float("nan")
-    half = np.nanmin(depth) / 2
-    beyond = np.flatnonzero(depth <= half)
-    if not len(beyond) or beyond[0] == 0:
-        return float("nan")
-    after = int(beyond[0])
-    share = (depth[after - 1] - half) / (depth[after - 1] - depth[after])
-    return float(offset[after - 1] + share * (offset[after] - offset[after - 1]))
+    return _lumencut.cut_diameter(volume, camera, radius)
 
 
 def _written(turn: Iterable[Frame], volume: Volume, radius: float) -> Iterator[Frame]:

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut._checked_settings import checked
 from lumencut._checks import choice, number, numbers
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.reformation import Reformation, radians
@@ -76,7 +77,8 @@ def cpr(
         Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000); its
         ends stay.
     settings : Settings, optional
-        Window, opacity, background and slab count; silhouettes, context and samples do nothing here.
+        Window, opacity, background and slab count; silhouettes, context and samples do nothing here. A focus
+        and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What computes, as for :class:`lumencut.Renderer`.
     degrees : float, optional
@@ -94,7 +96,8 @@ def cpr(
         For vectors, an angle, a width or a pixel spacing that are none, a width beyond the diagonal of the
         volume, an image of too many pixels, or a vessel that lies in one row of it.
     SettingsError
-        For another mode or device, a smoothing out of range, or a slab that is invalid or not thicker than 0.
+        For another mode or device, a smoothing out of range, a slab that is invalid or not thicker than 0, or
+        a focus.
     VolumeError
         For an image that is no volume.
     """
@@ -146,6 +149,7 @@ def cpr_of(
         raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
     thick = _thick(settings or Settings(), slab)
     given = replace(thick, context=None, samples=1)
+    checked(given).refuse_focus()
     towards = None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,))
     upwards, turned = (
         numbers(CameraError, "up of the CPR", up, (3,)),

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any, Literal
 
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
 from lumencut._checks import choice
+from lumencut._vessel_names import id_or_name
 from lumencut.camera import Camera
 from lumencut.device import look_for_no_display
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
@@ -167,6 +169,8 @@ class Renderer:
         ------
         VolumeError
             Without a volume.
+        VesselTreeError
+            For a name or an id in ``focus_vessels`` that no vessel has; the error lists near names.
         SettingsError
             For an image of another name, without a tree for settings without a context, or for a
             ``context_step`` too small for the volume.
@@ -272,7 +276,20 @@ class Renderer:
             raise CameraError("camera", type(camera).__name__, "a Camera or None")
         if not isinstance(settings, (Settings, type(None))):
             raise SettingsError("settings", type(settings).__name__, "Settings or None")
-        return camera or Camera.anterior(self._scene), settings or Settings()
+        return camera or Camera.anterior(self._scene), self._choosing(settings or Settings())
+
+    def _choosing(self, settings: Settings) -> Settings:
+        """The settings with ids in the place of names of chosen vessels; a word that is a name is no id."""
+        words, tree = settings.focus_vessels, self._tree
+        if not words:
+            return settings
+        if tree is None:
+            expected = "centerlines, around whose vessels it is"
+            mend = "give centerlines, or leave the focus_vessels out"
+            found = "chosen vessels for a scene without centerlines"
+            raise SettingsError("focus_vessels", found, expected, mend)
+        ids = tuple(tree.ids(*(id_or_name(tree, word) for word in words)))
+        return settings if ids == words else replace(settings, focus_vessels=ids)
 
     def windowed(self, settings: Settings) -> Settings:
         """Return the settings as :meth:`render` uses them: with windows from the data where they name none.

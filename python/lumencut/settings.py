@@ -75,10 +75,10 @@ class Settings(CheckedSettings):
         paper.
     silhouette_slope : float, 0.001 to 1000000, default 24
         Slope at which a silhouette of the rule ``gradient`` has half its strength (mm of depth per mm).
-    silhouette_reach : float, 0 to 1000000, optional
+    silhouette_reach : float or None, 0 to 1000000, default 10
         How far from the nearest wall silhouettes are drawn in full (mm); from there they fade over the same
         length again. Far from all vessels the lines follow borders of zones that mean nothing to a reader.
-        Measured in the picture. Where not given: everywhere.
+        Measured in the picture. ``None`` draws them everywhere, as in the paper.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     background : (int, int, int, int), default (0, 0, 0, 255)
@@ -91,6 +91,14 @@ class Settings(CheckedSettings):
         nearest wall it fades over FADE mm; both are measured in the picture. A negative margin lets lumens
         fade too. A fade of 0 is a hard edge, any other is at least two pixels wide. It needs centerlines.
         Where not given: the cut surface everywhere.
+    focus_vessels : tuple of int or str, default ()
+        Show lumen and wall of these vessels before all others, whatever the depth (names or ids). It needs
+        ``lumen_first``. Silhouettes are drawn then even where ``silhouettes`` leaves them out: a vessel
+        that is shown before one nearer to the viewer looks wrong without its outline. All vessels, or none,
+        set none apart.
+    others_strength : float, 0 to 1, default 0.5
+        How much of the other vessels a ``focus`` leaves where ``focus_vessels`` are chosen (number, 0 to
+        1). With 0 the context takes their place, with 1 they are shown as the chosen ones are.
     context : {"mida", "dvr", "mip", "minip", "average"} or None, default "mida"
         What is shown where the cut surface is outside the volume or transparent (name): maximum intensity
         difference accumulation, direct volume rendering, largest, smallest or mean value, or the background
@@ -145,11 +153,13 @@ class Settings(CheckedSettings):
     silhouettes: bool = True
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
-    silhouette_reach: float | None = None
+    silhouette_reach: float | None = 10.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
     focus: Focus | None = None
+    focus_vessels: tuple[int | str, ...] = ()
+    others_strength: float = 0.5
     context: ContextName | None = "mida"
     context_gamma: float = 0.0
     context_window: Window | str | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import json
 import os
 import textwrap
 import tomllib
@@ -57,7 +58,7 @@ def settings_text(settings: Any) -> str:
         if value is None and setting.default is None:
             line = f"# {name} = {_EXAMPLES[setting.kind]}"
         else:
-            line = f"{name} = {_written(value)}"
+            line = f"{name} = {_line(setting, value)}"
         blocks.append("\n".join([*_comment(setting), line]))
     return "\n\n".join(blocks) + "\n"
 
@@ -83,7 +84,7 @@ def read_settings(path: str | os.PathLike[str], make: Callable[..., _Settings]) 
 
 def _comment(setting: _lumencut.Setting) -> list[str]:
     """What the setting does, its default, and what else it can be."""
-    default = setting.open if setting.default is None else _written(setting.default)
+    default = setting.open if setting.default is None else _line(setting, setting.default)
     others = ""
     if setting.kind == "choice":
         names = [*setting.choices, *([_NONE] if setting.optional else [])]
@@ -91,9 +92,15 @@ def _comment(setting: _lumencut.Setting) -> list[str]:
     elif setting.kind == "window":
         others = f"; or one of {', '.join(map(_written, WINDOW_NAMES))}"
     elif setting.range is not None:
-        others = f"; {setting.range[0]:g} to {setting.range[1]:g}"
+        none = f", or {_written(None)}" if setting.optional and setting.default is not None else ""
+        others = f"; {setting.range[0]:g} to {setting.range[1]:g}{none}"
     texts = (setting.sentence.replace("`", ""), f"Default: {default}{others}.")
     return [line for text in texts for line in textwrap.wrap(f"# {text}", _WIDTH, subsequent_indent="# ")]
+
+
+def _line(setting: _lumencut.Setting, value: Any) -> str:
+    """The value of a setting as TOML."""
+    return f"[{', '.join(map(_written, value))}]" if setting.kind == "vessels" else _written(value)
 
 
 def _written(value: Any) -> str:
@@ -106,7 +113,8 @@ def _written(value: Any) -> str:
         case int() | float():
             return repr(value)
         case str():
-            return f'"{value}"'
+            # JSON escapes what TOML has to, but for one character.
+            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
         case tuple():
             return f'"#{bytes(value).hex()}"'
         case TransferFunction():
@@ -154,6 +162,8 @@ def _read(subject: str, setting: _lumencut.Setting, value: Any) -> Any:
             return _of_type(subject, value, (int, float), "a number")
         case "choice":
             return _of_type(subject, value, str, ", ".join(f'"{name}"' for name in setting.choices))
+        case "vessels":
+            return tuple(_of_type(subject, value, list, 'an array of ids and names, such as ["LAD", 2]'))
         case "color":
             return _color(subject, value, len(setting.default))
         case "window" if isinstance(value, str):

@@ -56,7 +56,8 @@ def mpcpr(
     settings : Settings, optional
         The knobs; their defaults, with windows from the data, where not given. Those that make the cut
         surface of CSR do nothing but for ``centerline_smoothing``, ``silhouette_rule``, and
-        ``unknown_radius``, which tells silhouettes what is lumen. There is no depth filter.
+        ``unknown_radius``, which tells silhouettes what is lumen. There is no depth filter, silhouettes are
+        drawn everywhere, and a focus and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
         What shows the volume, as for :class:`Renderer`; where the pixels look the CPU finds.
 
@@ -116,7 +117,7 @@ def cr(
     Raises
     ------
     SettingsError
-        For a threshold that is negative, not finite or above a million pixels.
+        For a focus or chosen vessels, or a threshold that is negative, not finite or above a million pixels.
     VesselTreeError, CameraError, VolumeError, DeviceError, KeyboardInterrupt
         As for :func:`mpcpr`.
     """

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLike
 
-_MOST_FRAMES = 1_000_000
+MOST_FRAMES = 1_000_000
 
 
 def turntable(
@@ -94,7 +94,7 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
 
 def frame_angles(frames: int, degrees: float) -> npt.NDArray[np.float64]:
     """Angles of the frames (radians), shape (frames,); the last of a whole turn comes before its end."""
-    (count,) = integers(CameraError, "frames of the turntable", [frames], 1, _MOST_FRAMES, 1)
+    (count,) = integers(CameraError, "frames of the turntable", [frames], 1, MOST_FRAMES, 1)
     angle = number(CameraError, "degrees of the turntable", degrees)
     return np.array(_lumencut.frame_angles(count, angle))
 

@@ -11,6 +11,16 @@ test('a page without vessels offers to find all of them, in one step that can be
   const count = await rows(viewer).count();
   await expect(button(viewer, 'Find all vessels')).toHaveCount(1);
   await viewer.screenshot('find-vessels');
+  // What is told of them goes away by Escape and by a press elsewhere, and the vessels stay.
+  const notes = viewer.page.locator('footer summary');
+  const note = viewer.page.locator('footer .menu-body li').first();
+  for (const close of [() => viewer.press('Escape'), () => viewer.click([0.5, 0.1])]) {
+    await notes.click();
+    await expect(note).toBeVisible();
+    await close();
+    await expect(note).toBeHidden();
+  }
+  await expect(rows(viewer)).toHaveCount(count);
   await viewer.press('Control+z');
   await expect(rows(viewer)).toHaveCount(0);
   await viewer.press('Control+y');

@@ -76,7 +76,7 @@ const FEW = [160, 120] as const;
 /** The view with all its samples, which is the same on every device. */
 async function complete(viewer: Viewer): Promise<Pixels> {
   await viewer.rest();
-  await expect(viewer.pane().locator('canvas')).toHaveAttribute('data-stage', 'samples');
+  await expect(viewer.pane().locator('canvas')).toHaveAttribute('data-stage', 'samples', { timeout: 30_000 });
   return viewer.pixels();
 }
 
@@ -166,5 +166,37 @@ test('a vessel that two clicks trace is cut open on the GPU as on the CPU', asyn
   for (const [n, picture] of (await tracedOn(browser, 'cpu')).entries()) {
     expect(isEmpty(picture)).toBe(false);
     expect(difference(onGpu[n] ?? picture, picture, OTHER_DEVICE_WITH_CONTEXT)).toBeNull();
+  }
+});
+
+/** A margin within the lumen: half of the cut is left there, and fades outwards, so that a tube alone shows its context. */
+const FADING = viewFragment({ layout: 'one', settings: { focus: [-2, 4], context_shading: true } });
+
+/** What a device shows of a focus, in few pixels; on the CPU, which has the time, without the focus too. */
+async function focusedOn(browser: Browser, device: 'any' | 'cpu'): Promise<Pixels[]> {
+  const viewer = await Viewer.open(browser, `?phantom=stenosis&device=${device}${FADING}`);
+  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  // The first picture of a GPU in software has the size of the window and the context: it takes long, more so beside other work.
+  await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU', { timeout: 60_000 });
+  await viewer.pin([64, 48]);
+  const pictures = [await complete(viewer)];
+  await viewer.screenshot(`focus-${device}`);
+  if (device === 'cpu') {
+    await button(viewer, 'Focus').click();
+    pictures.push(await complete(viewer));
+  }
+  viewer.expectNoFault();
+  await viewer.close();
+  return pictures;
+}
+
+test('a focus is the same on both', async ({ browser }) => {
+  test.setTimeout(180_000);
+  const found = await focusedOn(browser, 'any');
+  const [focused, cut] = await focusedOn(browser, 'cpu');
+  expect(focused && cut).toBeDefined();
+  if (focused && cut) {
+    expect(difference(focused, cut, OTHER_DEVICE_WITH_CONTEXT)).not.toBeNull();
+    expect(difference(found[0] ?? cut, focused, OTHER_DEVICE_WITH_CONTEXT)).toBeNull();
   }
 });

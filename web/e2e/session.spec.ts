@@ -1,6 +1,6 @@
 /** A session is saved, the page forgets it, and its file brings everything back, in the page and on the command line. */
 import { spawnSync } from 'node:child_process';
-import { existsSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type Browser, expect, test } from '@playwright/test';
 import { difference, OTHER_DEVICE } from './compare';
@@ -211,6 +211,14 @@ test('a damaged session is refused in words, and nothing changes', async () => {
   }
 });
 
+/** What a PNG has under a keyword: the chunk says where it ends, for the bytes after it may be letters too. */
+function textOf(png: Buffer, keyword: string): string {
+  const begin = png.indexOf(`tEXt${keyword}\0`);
+  expect(begin).toBeGreaterThan(0);
+  const text = begin + 'tEXt'.length;
+  return png.toString('latin1', text + keyword.length + 1, text + png.readUInt32BE(begin - 4));
+}
+
 test('the command line measures and renders what the session tells', async () => {
   test.skip(!existsSync(PYTHON), 'there is no Python package beside the repository');
   const [scan, made] = ['tubes.nrrd', 'session.mrk.json'].map((name) => test.info().outputPath(name));
@@ -224,4 +232,17 @@ test('the command line measures and renders what the session tells', async () =>
   expect(measured.stdout + measured.stderr).toContain(before.stenosis ?? 'a stenosis');
   const drawn = lumencut('render', scan, '--like', made, '-o', rendered);
   expect(drawn.status, drawn.stderr).toBe(0);
+  // A picture tells how it was rendered: in the view of the session, of the one vessel that is not hidden.
+  const recipe = JSON.parse(textOf(readFileSync(rendered ?? ''), 'Lumencut'));
+  const { camera } = JSON.parse(session.toString('utf-8')).LumencutSession.view;
+  // Its axes were made unit vectors once more.
+  for (const name of ['center', 'direction', 'up', 'size', 'pixel_spacing']) {
+    const found: number[] = [recipe.camera[name]].flat();
+    const expected: number[] = [camera[name]].flat();
+    expect(found).toHaveLength(expected.length);
+    found.forEach((number, n) => {
+      expect(number).toBeCloseTo(expected[n] ?? Number.NaN, 12);
+    });
+  }
+  expect(recipe.vessels).toBe(1);
 });

@@ -133,12 +133,17 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   expect(texts.size).toBeGreaterThanOrEqual(6);
   await viewer.press('2');
   await expect(viewer.window).toHaveText('W 900 L 300');
-  await viewer.page.getByLabel('Window preset').selectOption({ label: 'Soft tissue (3)' });
+  const presets = viewer.page.getByLabel('Window preset');
+  const chosen = presets.locator('option:checked');
+  await expect(chosen).toHaveText('CT angiography (2)');
+  await presets.selectOption({ label: 'Soft tissue (3)' });
   await expect(viewer.window).toHaveText('W 400 L 40');
+  await expect(chosen).toHaveText('Soft tissue (3)');
   const level = viewer.page.getByRole('slider', { name: 'Level of the window' });
   await level.focus();
   await viewer.press('ArrowRight', 'ArrowRight');
   await expect(viewer.window).not.toHaveText('W 400 L 40');
+  await expect(chosen).toHaveText('Own window');
   const white = viewer.page.getByRole('slider', { name: 'White of the window' });
   const value = Number(await white.getAttribute('aria-valuenow'));
   const box = await white.boundingBox();
@@ -226,11 +231,12 @@ test('the help lists every row of the table of bindings', async () => {
 });
 
 test('a picture is saved with and without labels', async () => {
+  await viewer.press('a');
   const summary = viewer.page.getByText('Save', { exact: true });
   for (const kind of ['with', 'without']) {
     await summary.click();
     const download = viewer.page.waitForEvent('download');
     await viewer.page.getByRole('button', { name: `Picture ${kind} labels (PNG)` }).click();
-    expect((await download).suggestedFilename()).toBe('lumencut.png');
+    expect((await download).suggestedFilename()).toMatch(/-picture-anterior-\d{4}-\d\d-\d\d-\d{4}\.png$/);
   }
 });

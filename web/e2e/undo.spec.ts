@@ -65,6 +65,12 @@ async function editVessels(): Promise<number> {
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
   await step(/delete a vessel/, () => rows(viewer).nth(1).getByRole('button', { name: 'Delete' }).click());
+  await viewer.press('Control+z');
+  await step(/show a vessel|hide a vessel/, async () => undefined);
+  await rows(viewer).nth(0).getByRole('radio').check();
+  await step(/delete a vessel/, () => viewer.press('Delete'));
+  await viewer.press('Control+z');
+  await step(/delete a vessel/, () => rows(viewer).nth(1).getByRole('button', { name: 'Delete' }).click());
   return 2 + 4 + 10;
 }
 

@@ -97,7 +97,7 @@ test('with Shift held the cross-hair follows the pointer', async () => {
   await expect(viewer.readOut).not.toHaveText(text);
 });
 
-test('the wheel goes from slice to slice, by the distance of the slices', async () => {
+test('a notch of the wheel goes one slice, with Shift ten, by the distance of the slices', async () => {
   await layOut('four');
   await viewer.click([0.5, 0.5], 'axial');
   const height = async () => {
@@ -105,10 +105,13 @@ test('the wheel goes from slice to slice, by the distance of the slices', async 
     return (side === 'S' ? 1 : -1) * Number(number);
   };
   const before = await height();
-  await viewer.wheel([0.5, 0.5], 80, 'axial');
-  await expect.poll(height).not.toBe(before);
-  // Two slices of 0.5 mm towards the feet.
-  expect((await height()) - before).toBeCloseTo(-1, 5);
+  await viewer.wheel([0.5, 0.5], 120, 'axial');
+  // One slice of 0.5 mm towards the feet, and ten of them back.
+  await expect.poll(async () => (await height()) - before).toBeCloseTo(-0.5, 5);
+  await viewer.page.keyboard.down('Shift');
+  await viewer.wheel([0.5, 0.5], -100, 'axial');
+  await viewer.page.keyboard.up('Shift');
+  await expect.poll(async () => (await height()) - before).toBeCloseTo(4.5, 5);
 });
 
 test('in a slice Ctrl and the wheel zoom, Shift and a drag pan, a drag windows', async () => {

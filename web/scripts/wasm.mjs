@@ -40,16 +40,21 @@ function run(command, commandArguments, environment = {}) {
   }
 }
 
-/** Compiles a crate for the browser, and writes its module to a folder. */
-function build({ crate, folder, name }) {
+/** Compiles the crates for the browser, all at once: what they share is compiled once, and one is linked beside the other. */
+function compile() {
+  const packages = modules.flatMap(({ crate }) => ['--package', crate]);
   run(
     'cargo',
     [
-      ...['build', '--locked', '--quiet', '--package', crate, '--lib', '--profile', profile],
+      ...['build', '--locked', '--quiet', ...packages, '--lib', '--profile', profile],
       ...['--target', target, '--target-dir', 'target', '-Z', 'build-std=std', '-Z', 'build-std-features='],
     ],
     { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') },
   );
+}
+
+/** Writes the module of a compiled crate to its folder, as a browser loads it. */
+function write({ crate, folder, name }) {
   const compiled = join(root, 'target', target, profile, `${crate.replaceAll('-', '_')}.wasm`);
   const fresh = join(root, 'target/page-module');
   rmSync(fresh, { recursive: true, force: true });
@@ -74,4 +79,5 @@ const bindings = [
   '--target-dir',
   'target/xtask',
 ];
-modules.forEach(build);
+compile();
+modules.forEach(write);

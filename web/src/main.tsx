@@ -1,13 +1,16 @@
 /** Starts the page: the engine, the keys, and what its address names. */
 import { render } from 'preact';
-import { engine } from './core/shared';
+import { engine } from './client/shared';
 import { followEdits } from './edit/following';
 import { followGuide } from './guide/steps';
-import { listenToKeys } from './input/keys';
 import { start } from './state/device';
+import { followPlaceTurn } from './state/place-turn';
 import { report } from './state/store';
-import { openAddresses, openPhantom } from './state/study';
+import { openAddresses, openPhantom } from './study/study';
+import { listenToKeys } from './ui/keys';
 import './style/page.css';
+import './style/views.css';
+import './style/panels.css';
 import './style/editing.css';
 import './style/measure.css';
 import { App } from './ui/App';
@@ -53,6 +56,7 @@ if (root) {
 }
 listenToKeys();
 followEdits(engine);
+followPlaceTurn();
 if (asked.has('test')) {
   // What the tests of the page need and no user: the size of the memory, and what the engine answers.
   Object.assign(window, {

@@ -5,10 +5,10 @@ import { addMask, findVessels } from '../src/edit/branches';
 import { addClick, beginVessel, setBridge } from '../src/edit/clicks';
 import { dropEdits, refusal, waiting } from '../src/edit/committing';
 import { centerlineFile } from '../src/edit/files';
-import { document_, redo, redoWords, undo, undoWords } from '../src/edit/history';
 import { beginStudy } from '../src/edit/shown';
 import { addStopper } from '../src/edit/stoppers';
 import { hide, recolor, remove, rename } from '../src/edit/vessels';
+import { document_, redo, redoWords, undo, undoWords } from '../src/state/history';
 import * as store from '../src/state/store';
 import { documentOf, FakeTracing, FLOOR } from './fake-tracing';
 
@@ -146,7 +146,7 @@ test('what is changed while a vessel is traced stays', async () => {
     open = resolve;
   });
   const adding = addClick(tracing, id, C);
-  const { change } = await import('../src/edit/history');
+  const { change } = await import('../src/state/history');
   change('mark', { ...document_.value, rulers: [{ from: A, to: B }] });
   open();
   await adding;

@@ -11,11 +11,11 @@ import {
   livePaths,
   target,
 } from '../src/edit/drawing';
-import { document_, undo } from '../src/edit/history';
 import { acceptCandidate, endVessel, enter, leave, removeLast, setPoint } from '../src/edit/pointing';
 import { beginStudy } from '../src/edit/shown';
-import { active, tool } from '../src/edit/tool';
+import { document_, undo } from '../src/state/history';
 import * as store from '../src/state/store';
+import { active, tool } from '../src/state/tool';
 import { documentOf, FakeTracing, FLOOR } from './fake-tracing';
 
 const A: Vector = [0, 0, 0];

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
-import type { EngineClient } from '../src/core/engine';
+import type { EngineClient } from '../src/client/engine';
 import { Failure } from '../src/core/failure';
 import type { Drawn, View } from '../src/core/messages';
 import { FrameLoop, type Shown } from '../src/views/frame-loop';
@@ -237,6 +237,30 @@ describe('failures', () => {
     await vi.advanceTimersByTimeAsync(2000);
     expect(stages()).toEqual(['moving', 'full', 'samples']);
   });
+});
+
+test('the first picture of a device may be slow: only the next one tells whether there is time for samples', async () => {
+  const slow = { pictures: 1 };
+  const { engine, loop } = loopOf((view) => {
+    const isSlow = !view.settings.context_preview && slow.pictures > 0;
+    slow.pictures -= isSlow ? 1 : 0;
+    return isSlow ? 900 : 50;
+  });
+  loop.want(VIEW);
+  await vi.advanceTimersByTimeAsync(5000);
+  expect(stages()).toEqual(['moving', 'full']);
+  for (const [pictures, expected] of [
+    [1, ['moving', 'full', 'full', 'samples']],
+    // One that goes on to be slow is not drawn again and again.
+    [9, ['moving', 'full', 'full']],
+  ] as const) {
+    shown = [];
+    slow.pictures = pictures;
+    loop.again();
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(stages()).toEqual(expected);
+  }
+  expect(engine.most).toBe(1);
 });
 
 test('nothing is shown after the end', async () => {

@@ -1,8 +1,8 @@
 /** What was not saved is not lost unasked. */
 import { beforeEach, expect, test } from 'vitest';
-import { EMPTY } from '../src/edit/document';
-import { begin, change, document_, markSaved, undo } from '../src/edit/history';
-import { leave, leaving, lossWords } from '../src/state/leaving';
+import { EMPTY } from '../src/state/document';
+import { begin, change, document_, markSaved, undo } from '../src/state/history';
+import { leave, leaving, lossWords } from '../src/study/leaving';
 import { withLines } from './fake-tracing';
 
 const more = (...lines: number[]) => withLines(document_.value, ...lines);

@@ -1,7 +1,6 @@
 /** What a reader marks on a vessel, and what is suggested meanwhile. */
 import { describe, expect, test } from 'vitest';
 import type { Pair, Vector } from '../src/core/messages';
-import { EMPTY } from '../src/edit/document';
 import {
   allConfirmed,
   comparedIn,
@@ -18,6 +17,7 @@ import {
 import { centerAt, seenNearest, snapped } from '../src/measure/sections';
 import { marksOf, withMarks } from '../src/measure/vessels';
 import { placeName } from '../src/measure/words';
+import { EMPTY } from '../src/state/document';
 import { madeProfile, marks } from './measured';
 
 const profile = madeProfile();

@@ -13,7 +13,7 @@ import {
   profiles,
   stopMeasuring,
   stopped,
-} from '../src/measure/profiles';
+} from '../src/state/profiles';
 import * as store from '../src/state/store';
 import { madeProfile } from './measured';
 

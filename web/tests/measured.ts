@@ -1,6 +1,6 @@
 /** A vessel that is measured, made by formulas. */
 import type { Profile, Vector } from '../src/core/messages';
-import { NO_MARKS, type VesselMarks } from '../src/edit/document';
+import { NO_MARKS, type VesselMarks } from '../src/state/document';
 
 /** So many mm long, with a section every 0.5 mm; 8 mm wide but for 4 mm at the middle, and not measured in its first 1 mm. */
 export function madeProfile(length = 60): Profile {

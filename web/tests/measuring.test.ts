@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { MeasuredVessel, Pair, Profile } from '../src/core/messages';
-import { NO_MARKS } from '../src/edit/document';
+import { NO_MARKS } from '../src/state/document';
 import { opened } from './traced';
 
 /** Two compilers round sums and sines differently: by parts of a number, or of a mm. */

@@ -1,6 +1,6 @@
 /** In which order work runs: `Latest` and `Queue`. */
 import { describe, expect, test } from 'vitest';
-import { Latest } from '../src/views/latest';
+import { Latest } from '../src/core/latest';
 import { Queue } from '../src/worker/queue';
 
 /** Work that ends when it is told to. */

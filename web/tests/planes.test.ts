@@ -11,7 +11,7 @@ import {
   type SliceName,
   sliceDistance,
   zoomedLook,
-} from '../src/views/planes';
+} from '../src/core/planes';
 import { expectNear } from './helpers';
 
 const NAMES: readonly SliceName[] = ['axial', 'coronal', 'sagittal'];

@@ -38,7 +38,7 @@ beforeEach(() => {
   vi.clearAllMocks();
   page = new EventTarget();
   vi.stubGlobal('window', page);
-  vi.stubGlobal('WheelEvent', { DOM_DELTA_LINE: 1 });
+  vi.stubGlobal('WheelEvent', { DOM_DELTA_PIXEL: 0, DOM_DELTA_LINE: 1 });
   pane = new Pane();
   begin();
 });
@@ -246,14 +246,40 @@ describe('wheel', () => {
     expect(handlers.zoom.mock.calls[0]?.[1]).toEqual([40, 30]);
   });
 
-  test('scrolls slices in whole steps and keeps the rest; with Ctrl it zooms', () => {
+  test('goes one slice for each notch of a mouse, whatever a browser says of it', () => {
+    begin('flat');
+    wheel(100);
+    wheel(-120);
+    wheel(3, { deltaMode: 1 });
+    wheel(-1, { deltaMode: 1 });
+    expect(handlers.scroll.mock.calls.flat()).toEqual([1, -1, 1, -1]);
+  });
+
+  test('goes as many slices as notches that come together', () => {
+    begin('flat');
+    wheel(200);
+    wheel(-240);
+    wheel(360);
+    wheel(-9, { deltaMode: 1 });
+    expect(handlers.scroll.mock.calls.flat()).toEqual([2, -2, 3, -3]);
+  });
+
+  test('with Shift goes ten slices for each, also where it is told as one across', () => {
+    begin('flat');
+    wheel(100, { shiftKey: true });
+    wheel(0, { deltaX: -120, shiftKey: true });
+    wheel(0, { deltaX: -120 });
+    expect(handlers.scroll.mock.calls.flat()).toEqual([10, -10]);
+  });
+
+  test('of a trackpad adds small movements up to slices and keeps the rest; with Ctrl it zooms', () => {
     begin('flat');
     wheel(30);
     expect(handlers.scroll).not.toHaveBeenCalled();
     wheel(30);
-    wheel(-100);
-    wheel(1, { deltaMode: 1 });
-    expect(handlers.scroll.mock.calls.flat()).toEqual([1, -2, 1]);
+    wheel(-50);
+    wheel(-30);
+    expect(handlers.scroll.mock.calls.flat()).toEqual([1, -1]);
     wheel(-50, { ctrlKey: true });
     expect(handlers.zoom).toHaveBeenCalledOnce();
   });

@@ -1,8 +1,8 @@
 /** A document goes into a session file and comes back. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
-import { type Document, NO_MARKS } from '../src/edit/document';
 import { cameraOf, contentOf, documentOf, type Looked } from '../src/session/content';
+import { type Document, NO_MARKS } from '../src/state/document';
 
 const GRID = [
   [0.5, 0, 0, -10],

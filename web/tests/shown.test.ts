@@ -1,11 +1,11 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
-import { changed } from '../src/edit/changes';
-import { change, document_, redo, undo } from '../src/edit/history';
 import { contents, followLines, forgetLines, lengthOf } from '../src/edit/lines';
 import { beginStudy, followDocument, listedLines, pickedId, successor, tree } from '../src/edit/shown';
-import { active } from '../src/edit/tool';
 import { hide, remove } from '../src/edit/vessels';
+import { changed } from '../src/state/changes';
+import { change, document_, redo, undo } from '../src/state/history';
 import * as store from '../src/state/store';
+import { active } from '../src/state/tool';
 import { documentOf, FakeTracing, reportOf, withLines } from './fake-tracing';
 
 let tracing: FakeTracing;

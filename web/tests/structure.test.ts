@@ -1,4 +1,4 @@
-/** What holds of all files of the page: they are short, need each other in no circle, and one file alone touches the wasm. */
+/** What holds of all files of the page: they are short, need each other in no circle, nor do their folders, and one file alone touches the wasm. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
 import { describe, expect, test } from 'vitest';
@@ -19,6 +19,9 @@ function imported(name: string): string[] {
   const paths = found.map((path) => normalize(join(dirname(name), path)));
   return paths.flatMap((path) => files.filter((file) => [path, `${path}.ts`, `${path}.tsx`].includes(file)));
 }
+
+/** The folder of a file within the sources; the first file of all lies in none. */
+const folderOf = (name: string): string => name.split(/[/\\]/).slice(0, -1)[0] ?? name;
 
 /** A circle of files that need each other; none where there is none. */
 function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
@@ -51,6 +54,20 @@ describe('the files of the page', () => {
 
   test('need each other in no circle', () => {
     expect(circle(new Map(files.map((name) => [name, imported(name)])))).toEqual([]);
+  });
+
+  test('lie in folders that need each other in no circle', () => {
+    const folders = [...new Set(files.map(folderOf))];
+    const needed = (folder: string) =>
+      files
+        .filter((name) => folderOf(name) === folder)
+        .flatMap(imported)
+        .map(folderOf);
+    const graph = new Map(
+      folders.map((folder) => [folder, needed(folder).filter((other) => other !== folder)]),
+    );
+    expect(folders.length).toBeGreaterThan(10);
+    expect(circle(graph)).toEqual([]);
   });
 
   test('a circle would be found', () => {

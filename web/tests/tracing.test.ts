@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import { nextColor, PALETTE } from '../src/edit/palette';
+import { nextColor, PALETTE } from '../src/state/palette';
 import { distance, EMPTY, edited, lineOf, opened, refusal } from './traced';
 
 test('a vessel between two clicks follows the one that is there', async () => {

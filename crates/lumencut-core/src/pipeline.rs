@@ -8,6 +8,7 @@ mod details;
 mod images;
 mod pass;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -21,6 +22,7 @@ use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::frame::{Frame, clear_outside};
 use crate::geometry::Geometry;
+use crate::math::chosen_slots::chosen_slots;
 use crate::math::lanes::Isa;
 use crate::math::projection::{Level, ProjectedLevel, Radii};
 use crate::progress::Progress;
@@ -52,18 +54,21 @@ impl<'a> Request<'a> {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
 
-    /// Checks the settings, and that the scene has what they need.
+    /// The settings as they are for the vessels of the scene, checked.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for a setting outside its range, or a focus around vessels that are not there.
-    pub fn check(&self, scene: &Scene) -> Result<()> {
+    /// [`ErrorKind::Settings`] for a setting outside its range, or a focus or chosen vessels that are not there.
+    pub fn settings_for(&self, scene: &Scene) -> Result<Cow<'a, Settings>> {
         self.settings.check()?;
-        if self.settings.focus.is_none() || scene.tree.is_some() {
-            return Ok(());
+        if let Some(tree) = &scene.tree {
+            return self.settings.for_vessels(tree.tree().vessels().len());
         }
-        let found = "a focus for a scene without centerlines";
-        Err(Error::new(ErrorKind::Settings, "focus", found, "centerlines, around whose vessels it is")
-            .mend("give centerlines, or leave the focus out"))
+        let Some((setting, what)) = self.settings.focused() else {
+            return Ok(Cow::Borrowed(self.settings));
+        };
+        let found = format!("{what} for a scene without centerlines");
+        Err(Error::new(ErrorKind::Settings, setting, found, "centerlines, around whose vessels it is")
+            .mend(format!("give centerlines, or leave the {setting} out")))
     }
 
     /// The same without the picture where the scene has no volume to show: nothing is made for it then.
@@ -103,6 +108,8 @@ impl<'a> Request<'a> {
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
+    /// The vessels that come before all others in them.
+    first: Vec<usize>,
     /// The sheet of the view before: the largest of the images that no frame keeps.
     sheet: Vec<Sheet>,
     isa: Isa,
@@ -117,17 +124,18 @@ impl Default for CpuRenderer {
 impl CpuRenderer {
     /// A renderer with the kernels for `isa`; the pictures are the same to the bit.
     pub fn new(isa: Isa) -> Self {
-        Self { levels: Arc::default(), projected: Vec::new(), sheet: Vec::new(), isa }
+        Self { levels: Arc::default(), projected: Vec::new(), first: Vec::new(), sheet: Vec::new(), isa }
     }
 
     /// One view of a scene: the whole picture; without a volume the cut surface alone, and without a tree the context
     /// alone. `Settings::samples` is not read here: hosts average several pictures.
     ///
     /// # Errors
-    /// Those of [`Request::check`], [`ErrorKind::Volume`] for a scene without volume and tree,
+    /// Those of [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree,
     /// [`ErrorKind::Interrupted`] once the caller asks to stop.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
-        request.check(scene)?;
+        let settings = request.settings_for(scene)?;
+        let request = &Request { settings: &settings, ..*request };
         request.begin_view(scene);
         let frame = match &scene.tree {
             Some(tree) => self.cut_surface(tree, &request.without_unseen_picture(scene))?,
@@ -146,9 +154,10 @@ impl CpuRenderer {
     /// As [`CpuRenderer::render`].
     pub fn details(&mut self, tree: &LeveledTree, request: &Request) -> Result<SurfaceDetails> {
         request.settings.check()?;
-        self.prepare(tree, request.settings);
-        self.project(request.camera, request.settings);
-        SurfaceDetails::of(&self.pass(&Request { images: SurfaceDetails::WANTED, ..*request }))
+        let settings = &*request.settings.for_vessels(tree.tree().vessels().len())?;
+        self.prepare(tree, settings);
+        self.project(request.camera, settings);
+        SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))
     }
 
     /// The strength of the silhouettes of a frame that a reformation made, 0 to 1, as if all of it showed something. Its request
@@ -205,12 +214,19 @@ impl CpuRenderer {
     }
 
     /// Takes over the levels of a tree that is another one than in the view before, or smoothed in another way, or shown
-    /// with more levels.
+    /// with more levels, and the vessels that come before all others.
     pub fn prepare(&mut self, tree: &LeveledTree, settings: &Settings) {
         let levels = tree.levels(settings.levels, settings.centerline_smoothing);
         if !Arc::ptr_eq(&self.levels, &levels) {
             self.projected = levels.iter().map(ProjectedLevel::new).collect();
             self.levels = levels;
+            self.first = Vec::new();
+        }
+        if self.first != settings.focus_vessels {
+            self.first.clone_from(&settings.focus_vessels);
+            for (projected, level) in self.projected.iter_mut().zip(self.levels.iter()) {
+                projected.put_first(level, &chosen_slots(level, &self.first));
+            }
         }
     }
 
@@ -231,6 +247,7 @@ impl CpuRenderer {
             work: Work { size: camera.size(), isa: self.isa, stop, progress },
             surface: CutSurface::new(levels, projected, camera, settings),
             has_sheet: Stage::has_sheet(settings, images),
+            wanted: images,
             settings,
         }
     }

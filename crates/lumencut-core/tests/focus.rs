@@ -8,7 +8,7 @@ use lumencut_core::frame::Frame;
 use lumencut_core::math::lanes::Isa;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
-use lumencut_core::settings::{Context, ContextFrom, ContextMode, Focus, Opacity, Settings};
+use lumencut_core::settings::{Context, ContextFrom, ContextMode, Focus, Opacity, Settings, SilhouetteRule};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_phantom::{Phantom, crossing, y_junction};
@@ -241,6 +241,42 @@ fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
             }
         }
         assert!(near > 10 && far > 10, "{near} pixels of lines near walls, {far} far away");
+    }
+}
+
+#[test]
+fn where_no_line_can_lie_the_picture_needs_no_distance() {
+    // Only a picture whose shares are asked for too has them everywhere.
+    let whole = ImageSet::ALL.and(ImageSet::of(&[Image::Focus]));
+    let settings = |reach: f64, focus: Option<Focus>, first: &[usize]| Settings {
+        silhouette_reach: Some(reach),
+        focus,
+        focus_vessels: first.to_vec(),
+        ..Settings::default()
+    };
+    let focus = Some(Focus { margin: 1.0, fade: 3.0 });
+    let all = [
+        settings(4.0, None, &[]),
+        settings(0.5, None, &[1]),
+        settings(4.0, focus, &[]),
+        settings(12.0, focus, &[0]),
+        Settings { silhouette_rule: SilhouetteRule::Gradient, ..settings(4.0, None, &[]) },
+    ];
+    let phantom = crossing().unwrap();
+    let volume = phantom.volume().unwrap();
+    for tree in [phantom.tree.clone(), random_tree(5, 9, 20, 3.0, 40.0).unwrap()] {
+        let scene = Scene::new(volume, tree);
+        for (camera, settings) in [([221, 183], 0.6), ([70, 40], 2.0), ([17, 9], 6.0)]
+            .map(|(size, spacing)| view([0.2, 1.0, 0.3], size, spacing))
+            .iter()
+            .flat_map(|camera| all.iter().map(move |settings| (camera, settings)))
+        {
+            let [expected, found] = [whole, ImageSet::ALL].map(|images| {
+                let request = Request { images, ..Request::new(camera, settings) };
+                CpuRenderer::default().render(&scene, &request).unwrap()
+            });
+            assert_eq!(expected.image, found.image, "{:?}, {settings:?}", camera.size());
+        }
     }
 }
 

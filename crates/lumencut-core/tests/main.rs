@@ -3,6 +3,7 @@
 mod along_rays;
 mod bad_input;
 mod centerline_smoothing;
+mod chosen;
 mod context;
 mod cr;
 mod cut_surface;

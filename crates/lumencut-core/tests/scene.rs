@@ -113,9 +113,10 @@ fn looking_again_shows_the_same() {
     let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 1.5), scene(&phantom));
     let request = Request::new(&camera, &settings);
     let whole = shown(&scene, &camera, &settings);
-    // A cut surface alone has leaps only where they are asked for.
+    // A cut surface alone has leaps, and how far their lines reach, only where they are asked for.
     let cut = Scene { volume: None, ..scene.clone() };
-    let with_leaps = Request { images: ImageSet::ALL.and(ImageSet::of(&[Image::Leap])), ..request };
+    let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
+    let with_leaps = Request { images, ..request };
     let surface = CpuRenderer::default().render(&cut, &with_leaps).unwrap();
     assert!(surface.value.is_empty() && surface.image.is_empty());
     assert!(surface.leap.iter().any(|leap| *leap & LEAPS != 0), "no silhouettes to show");

@@ -78,7 +78,7 @@ fn what_is_not_wanted_is_not_run() {
 
 #[test]
 fn what_nothing_reads_is_not_made() {
-    let leaps = Settings { depth_filter: false, ..Settings::default() };
+    let leaps = Settings { depth_filter: false, silhouette_reach: None, ..Settings::default() };
     let own = Settings { silhouette_rule: SilhouetteRule::Gradient, ..leaps.clone() };
     let stages = |settings: &Settings, wanted: &[Image]| {
         let wanted = ImageSet::of(wanted);
@@ -89,6 +89,10 @@ fn what_nothing_reads_is_not_made() {
     assert_eq!(stages(&own, &[Image::Sheet]), (vec![Stage::Depth], true));
     assert_eq!(stages(&leaps, &[Image::Depth]), (vec![Stage::Depth], false));
     assert_eq!(stages(&leaps, &[Image::Picture]), (vec![Stage::Depth, Stage::Leap], true));
+    let quiet = Settings { silhouette_reach: Some(10.0), ..leaps };
+    let with_reach = vec![Stage::Depth, Stage::Leap, Stage::Focus];
+    assert_eq!(stages(&quiet, &[Image::Picture]), (with_reach, true));
+    assert_eq!(stages(&quiet, &[Image::Depth, Image::Context]), (vec![Stage::Depth], false));
     let paper = Settings { depth_filter: false, ..Settings::paper() };
     assert_eq!(stages(&paper, &[Image::Picture]), (vec![Stage::Distance, Stage::Depth], false));
 }

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
+use lumencut_core::math::chosen_slots::chosen_slots;
 use lumencut_core::math::hierarchy::{Hierarchy, NO_SLOT};
 use lumencut_core::math::lanes::{ABSENT, FAN, FAR};
 use lumencut_core::math::levels::{CutSurfaceParameters, LevelPlace};
@@ -48,6 +49,9 @@ pub struct Span {
     pub end: u32,
     /// The first slot of its level.
     pub level: u32,
+    /// The first slot whose lumen and wall come before those of all other vessels, and the slot after the last.
+    pub first_chosen: u32,
+    pub end_chosen: u32,
 }
 
 /// `Projected` of `math/levels.wgsl`: a point in projection, written and read on the GPU alone.
@@ -81,7 +85,7 @@ pub struct Slot {
     pub radius: f32,
     pub radius_change: f32,
     pub slot: u32,
-    pub padding: u32,
+    pub tiers: f32,
 }
 
 impl Slot {
@@ -98,7 +102,7 @@ impl Slot {
         radius: 0.0,
         radius_change: 0.0,
         slot: NO_SLOT,
-        padding: 0,
+        tiers: 0.0,
     };
 }
 
@@ -111,12 +115,14 @@ pub struct NodeBox {
     pub high: [f32; 2],
     pub z: f32,
     pub radius: f32,
-    pub padding: [f32; 2],
+    pub tiers: f32,
+    pub padding: f32,
 }
 
 impl NodeBox {
     /// A node with nothing inside.
-    const EMPTY: Self = Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, padding: [0.0; 2] };
+    const EMPTY: Self =
+        Self { low: [FAR; 2], high: [FAR; 2], z: ABSENT, radius: 0.0, tiers: 0.0, padding: 0.0 };
 }
 
 /// A tree's levels on the GPU.
@@ -130,6 +136,9 @@ pub(crate) struct DeviceLevels {
     origin: DVec3,
     reach: f64,
     unit: f64,
+    /// The vessels that come before all others, as the GPU was last told, and all spans.
+    first: Vec<usize>,
+    all_spans: Vec<Span>,
     pub spans: Buffer,
     pub points: Buffer,
     pub alongs: Buffer,
@@ -168,6 +177,7 @@ impl DeviceLevels {
             origin,
             reach,
             unit,
+            first: Vec::new(),
             spans: device.upload("spans", &all.spans),
             points: device.upload("points", &all.points),
             alongs: device.upload("along vessels", &all.alongs),
@@ -175,7 +185,22 @@ impl DeviceLevels {
             slots: device.upload("slots", &vec![Slot::EMPTY; all.bundles * FAN]),
             boxes: device.upload("boxes", &vec![NodeBox::EMPTY; all.boxes]),
             vessel_of_slot: device.upload("vessels", &all.vessel_of_slot),
+            all_spans: all.spans,
         })
+    }
+
+    /// Puts lumen and wall of these vessels before those of all others, in all views from now on, from where they leave the others'
+    /// lumens; `levels` are those of the tree.
+    pub fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
+        if self.first == vessels {
+            return;
+        }
+        let chosen = levels.iter().flat_map(|level| chosen_slots(level, vessels));
+        for (span, chosen) in self.all_spans.iter_mut().zip(chosen) {
+            (span.first_chosen, span.end_chosen) = (span.level + chosen.start, span.level + chosen.end);
+        }
+        device.write(&self.spans, &self.all_spans);
+        self.first = vessels.to_vec();
     }
 
     /// The vessels of the first levels, each counted once per level.
@@ -236,8 +261,13 @@ impl Arrays {
             let (coarse, fine) = (split.map(|s| s[0]), split.map(|s| s[1]));
             self.points.push(Point { coarse, radius: *radius, fine, place });
         }
-        let span =
-            |ends: &[u32]| Span { first: first_slot + ends[0], end: first_slot + ends[1], level: first_slot };
+        let span = |ends: &[u32]| Span {
+            first: first_slot + ends[0],
+            end: first_slot + ends[1],
+            level: first_slot,
+            first_chosen: 0,
+            end_chosen: 0,
+        };
         self.spans.extend(level.first_slot.windows(2).map(span));
         for ends in level.first_slot.windows(2) {
             let [first, last] = [ends[0], ends[1] - 1].map(|slot| first_slot + slot);

@@ -91,7 +91,8 @@ impl GpuRenderer {
     /// # Errors
     /// As [`lumencut_core::pipeline::CpuRenderer::render`], and [`lumencut_core::error::ErrorKind::Device`] where the GPU has no room or fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
-        request.check(scene)?;
+        let settings = request.settings_for(scene)?;
+        let request = &Request { settings: &settings, ..*request };
         if scene.volume.is_none() && scene.tree.is_none() {
             return Err(nothing_to_show());
         }
@@ -110,7 +111,8 @@ impl GpuRenderer {
         request: &Request<'_>,
         screen: &mut Screen,
     ) -> Result<()> {
-        request.check(scene)?;
+        let settings = request.settings_for(scene)?;
+        let request = &Request { settings: &settings, ..*request };
         if scene.volume.is_none() {
             return Err(nothing_to_show());
         }
@@ -212,6 +214,9 @@ impl GpuRenderer {
                 self.tree = None;
                 let on_device = DeviceLevels::new(&self.device, &levels)?;
                 self.tree = Some(DeviceTree { levels, on_device });
+            }
+            if let Some(tree) = &mut self.tree {
+                tree.on_device.put_first(&self.device, &tree.levels, &settings.focus_vessels);
             }
         }
         Ok(())

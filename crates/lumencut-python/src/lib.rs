@@ -98,10 +98,12 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::parts, module)?)?;
     module.add_function(wrap_pyfunction!(views::about, module)?)?;
     module.add_function(wrap_pyfunction!(views::radius_at, module)?)?;
+    module.add_function(wrap_pyfunction!(views::cut_diameter, module)?)?;
     module.add_function(wrap_pyfunction!(views::refocused, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted_turn, module)?)?;
     module.add_function(wrap_pyfunction!(views::frame_angles, module)?)?;
+    module.add_function(wrap_pyfunction!(views::flight, module)?)?;
     module.add_function(wrap_pyfunction!(views::rotated, module)?)?;
     module.add_function(wrap_pyfunction!(views::zoomed, module)?)?;
     module.add_function(wrap_pyfunction!(views::panned, module)?)?;

@@ -90,7 +90,8 @@ impl Renderer {
             pool::install(|| CpuRenderer::default().details(tree, &request))?.map_err(to_python)
         })?;
         let [width, height] = camera.size();
-        let gap = details.sheet.iter().map(|sheet| if sheet[3] < FAR { sheet[3] } else { f32::INFINITY });
+        let gap =
+            details.sheet.iter().map(|sheet| if sheet[3] < FAR { sheet[3].max(0.0) } else { f32::INFINITY });
         let strength = settings.silhouettes.then_some(("strength", details.strength));
         for (name, numbers) in [("sheet_gap", gap.collect())].into_iter().chain(strength) {
             all.set_item(name, PyArray1::from_vec(py, numbers).reshape([height, width])?)?;

@@ -1,5 +1,6 @@
 //! The table of settings for Python, and the settings read from the attributes of `lumencut.Settings`.
 
+use lumencut::method::refuse_focus;
 use lumencut::settings::{Choices, Setting, Settings, Value, table};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -47,6 +48,7 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
         Value::Color(channels) => PyTuple::new(py, channels)?.into_py_any(py),
         Value::Name(name) => name.into_py_any(py),
         Value::Focus(focus) => (focus.margin, focus.fade).into_py_any(py),
+        Value::Vessels(ids) => PyTuple::new(py, ids)?.into_py_any(py),
         Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
             Ok(py.None())
         }
@@ -91,5 +93,10 @@ impl Checked {
             choices.set(setting.name, value).map_err(to_python)?;
         }
         choices.settings().map(Self).map_err(to_python)
+    }
+
+    /// Refuses what pictures by another method than the cut surface have no place for.
+    fn refuse_focus(&self) -> PyResult<()> {
+        refuse_focus(&self.0).map_err(to_python)
     }
 }

@@ -28,11 +28,18 @@ pub fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
         Kind::Opacity => Value::Opacity(object.extract::<OpacityArgument>()?.opacity()),
         Kind::Slab => Value::Slab(object.extract::<SlabArgument>()?.slab().map_err(to_python)?),
         Kind::Focus => Value::Focus(object.extract::<FocusArgument>()?.focus()),
+        // What is not known before there is a tree stands for a vessel that no tree has.
+        Kind::Vessels => Value::Vessels(ids(object)?),
         Kind::Transfer => match object.extract() {
             Ok(name) => Value::Name(name),
             Err(_) => Value::Transfer(object.extract::<TransferArgument>()?.transfer_function()),
         },
     })
+}
+
+/// The ids of some vessels; [`usize::MAX`] for names, and for ids counted from the end.
+fn ids(vessels: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+    vessels.try_iter()?.map(|one| Ok(one?.extract().unwrap_or(usize::MAX))).collect()
 }
 
 /// The attributes of `lumencut.Window`.

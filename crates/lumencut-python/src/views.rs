@@ -3,13 +3,14 @@
 use glam::DVec3;
 use lumencut::camera::Camera;
 use lumencut::views::{self, Axis, VIEWS};
-use lumencut::{positions as pixels, turn, vessel_views};
+use lumencut::{flight as flights, positions as pixels, turn, vessel_views};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::to_python;
 use crate::tree::{self, VesselArrays, points_of};
+use crate::volume::VolumeArgument;
 
 /// The attributes of a `lumencut.Camera`, whose axes are unit vectors already.
 #[derive(FromPyObject)]
@@ -122,12 +123,29 @@ pub fn radius_at(vessel: VesselArrays<'_>, at: f64) -> PyResult<f64> {
     Ok(vessel_views::radius_at(&tree::vessel(&vessel)?, at))
 }
 
+/// The diameter of a vessel (mm) that the view of a place cuts; NaN where it has no two walls.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn cut_diameter(volume: VolumeArgument<'_>, camera: MadeCamera, radius: f64) -> PyResult<f64> {
+    let borrowed = volume.borrow()?;
+    let found = lumencut::cut_diameter::cut_diameter(&volume.volume(&borrowed)?, &camera.camera()?, radius);
+    Ok(found.unwrap_or(f64::NAN))
+}
+
 /// The view from which most of a vessel is seen, not far from that of a camera.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn refocused(py: Python<'_>, camera: MadeCamera, vessel: VesselArrays<'_>) -> PyResult<Place> {
     let (camera, vessel) = (camera.camera()?, tree::vessel(&vessel)?);
     placed(py.detach(|| vessel_views::refocused(&camera, &vessel)))
+}
+
+/// The views of a flight from one camera to another, but for the first and the last, which are the cameras themselves.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyResult<Vec<Place>> {
+    let views = flights::flight(&start.camera()?, &end.camera()?, frames).map_err(to_python)?;
+    Ok(views[1..views.len() - 1].iter().map(Place::of).collect())
 }
 
 /// The angles of the frames of a turn (radians).

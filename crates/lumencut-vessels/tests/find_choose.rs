@@ -19,7 +19,7 @@ fn straight(x: f64, radius: f64, part: usize, doubt: Option<TrackDoubt>) -> Foun
 }
 
 fn trees(vessels: Vec<FoundVessel>) -> Trees {
-    Trees { vessels, level: 300.0, contrast: 250.0, noise: 10.0 }
+    Trees { vessels, level: 300.0, contrast: 250.0, noise: 10.0, is_angiography: true }
 }
 
 #[test]

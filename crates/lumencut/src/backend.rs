@@ -10,7 +10,7 @@ use lumencut_gpu::renderer::GpuRenderer;
 use lumencut_gpu::screen::Screen;
 
 use crate::devices::{self, Choice, Wanted};
-use crate::method::Method;
+use crate::method::{Method, refuse_focus};
 use crate::samples::{Mean, sub_views};
 
 /// The environment variable that names the stages that the CPU does in place of the GPU, with commas between: to find
@@ -165,6 +165,7 @@ impl Backend {
         places: impl Fn() -> Result<Frame>,
         request: &Request<'_>,
     ) -> Result<Rendered> {
+        refuse_focus(request.settings)?;
         let gpu = match &mut self.computer {
             Computer::Cpu(cpu) => return Ok((cpu.look(volume, places()?, request)?, self.untold.take())),
             Computer::Gpu(gpu) => gpu,

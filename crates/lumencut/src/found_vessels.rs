@@ -115,7 +115,7 @@ mod tests {
         let [short, flat] = [TrackDoubt::Short, TrackDoubt::Flat].map(Some);
         let vessels = [(0, None), (0, flat), (0, None), (1, short), (2, None), (2, short)];
         let vessels = vessels.map(|(part, doubt)| vessel(part, doubt)).to_vec();
-        let tree = found(Trees { vessels, level: 330.4, contrast: 322.2, noise: 12.0 });
+        let tree = found(Trees { vessels, level: 330.4, contrast: 322.2, noise: 12.0, is_angiography: true });
         assert_eq!(sure_parts(&tree), [vec![0, 1], vec![2]]);
         let parts: Vec<usize> = tree.vessels.iter().map(|vessel| vessel.part).collect();
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);

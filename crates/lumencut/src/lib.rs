@@ -6,10 +6,12 @@
 
 pub mod backend;
 mod choice;
+pub mod cut_diameter;
 pub mod devices;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod flag_table;
+pub mod flight;
 pub mod found_vessels;
 mod fused;
 pub mod kept_profiles;

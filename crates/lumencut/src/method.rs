@@ -6,7 +6,19 @@ use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::reformations::cr::{CrParameters, cr};
 use lumencut_core::reformations::mpcpr::mpcpr;
 use lumencut_core::scene::Scene;
+use lumencut_core::settings::Settings;
 use lumencut_gpu::renderer::GpuRenderer;
+
+/// Refuses a focus and chosen vessels in pictures by another method than the cut surface, which has a place for neither.
+///
+/// # Errors
+/// [`ErrorKind::Settings`] for settings that have one.
+pub fn refuse_focus(settings: &Settings) -> Result<()> {
+    let Some((setting, what)) = settings.focused() else { return Ok(()) };
+    let found = format!("{what} for another picture than a cut surface");
+    Err(Error::new(ErrorKind::Settings, setting, found, "none: CPR, mpCPR and CR show all of their surface")
+        .mend(format!("leave the {setting} out")))
+}
 
 /// How the places where the pixels look are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +70,7 @@ impl Method {
             let expected = "a vessel tree to lay the image through";
             return Err(Error::new(ErrorKind::VesselTree, "tree of the scene", "none", expected));
         };
+        refuse_focus(request.settings)?;
         let request = &request.without_unseen_picture(scene);
         match self {
             Self::CutSurface => Ok(None),

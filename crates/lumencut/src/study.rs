@@ -26,6 +26,7 @@ pub mod open_study;
 mod opening;
 pub mod palette;
 pub mod picking;
+pub mod place_turn;
 pub mod planes;
 mod points_along;
 pub mod profiles;

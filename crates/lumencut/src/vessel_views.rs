@@ -22,6 +22,8 @@ const ALONG: f64 = 0.05;
 const DIRECTIONS: usize = 256;
 /// The steps along the vessel at which it is judged what is seen.
 const STEPS: usize = 200;
+/// How far around a vessel the view of all of it reaches at least, in radii.
+const AROUND: f64 = 2.0;
 /// What a turn by half a circle costs, as a share of the length of the vessel.
 const TURN_COST: f64 = 0.2;
 
@@ -33,6 +35,24 @@ const TURN_COST: f64 = 0.2;
 /// [`ErrorKind::Camera`] for a place that is not on the vessel, an angle that is not finite, or a size that makes no camera;
 /// [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn about(vessel: &Vessel, at: f64, angle: f64, size: [usize; 2]) -> Result<Camera> {
+    let first = about_lumen(vessel, Lumen { at, radius: radius_at(vessel, at) }, size)?;
+    rotated(&first, angle, Axis::Up)
+}
+
+/// The lumen at a place on a vessel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lumen {
+    /// How far the place is from the vessel's first point (mm).
+    pub at: f64,
+    /// Its radius there (mm).
+    pub radius: f64,
+}
+
+/// The view of [`about`] at angle 0, for a radius that is known otherwise than from the vessel.
+///
+/// # Errors
+/// As [`about`].
+pub fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [usize; 2]) -> Result<Camera> {
     let path = CenterlinePath::new(vessel, 0.0)?;
     if !(0.0..=path.length()).contains(&at) {
         let found = format!("{} mm on a vessel of {} mm", rounded(at, 6), rounded(path.length(), 6));
@@ -44,8 +64,8 @@ pub fn about(vessel: &Vessel, at: f64, angle: f64, size: [usize; 2]) -> Result<C
     let across = DVec3::Y.reject_from_normalized(up);
     let ahead = if across.length() < ALONG { DVec3::Z.reject_from_normalized(up) } else { across };
     let shorter = size[0].min(size[1]).max(1) as f64;
-    let spacing = (2.0 * REACH * radius_at(vessel, at) / shorter).max(FINEST);
-    rotated(&Camera::new(path.at(at), ahead, up, size, spacing)?, angle, Axis::Up)
+    let spacing = (2.0 * REACH * radius / shorter).max(FINEST);
+    Camera::new(path.at(at), ahead, up, size, spacing)
 }
 
 /// The direction of a path at a place, whose corners are rounded.
@@ -56,16 +76,21 @@ fn tangent_at(path: &CenterlinePath, at: f64) -> DVec3 {
 
 /// The radius of a vessel at a place (mm), linear between its points; 1 mm where it is not known.
 pub fn radius_at(vessel: &Vessel, at: f64) -> f64 {
+    known_radius_at(vessel, at).unwrap_or(UNKNOWN_RADIUS)
+}
+
+/// The same; None where it is not known.
+pub fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
     let lengths = vessel.arc_length();
     let after = lengths.partition_point(|length| *length < at).clamp(1, lengths.len() - 1);
     let step = lengths[after] - lengths[after - 1];
     let t = if step > 0.0 { ((at - lengths[after - 1]) / step).clamp(0.0, 1.0) } else { 0.0 };
     let [from, to] = [after - 1, after].map(|point| vessel.radius_or_zero(point));
-    let radius = from + (to - from) * t;
-    if radius > 0.0 { radius } else { UNKNOWN_RADIUS }
+    Some(from + (to - from) * t).filter(|radius| *radius > 0.0)
 }
 
-/// The view from which most of a vessel is seen, fitted to it: of 256 directions the one with the largest
+/// The view from which most of a vessel is seen, fitted to all within two radii of it, so that a short one is seen amid what lies
+/// beside it: of 256 directions the one with the largest
 /// ∫ visible·|T × v| ds − 0.2·L·turn/π, where T is the direction of the vessel, v that of the view, L the length of the vessel and
 /// the turn the angle from `camera`. A place is visible where no other stretch of the vessel lies before it. Head, or front, is up;
 /// the size is that of `camera`.
@@ -88,7 +113,8 @@ pub fn refocused(camera: &Camera, vessel: &Vessel) -> Result<Camera> {
             |best, next| if next.0 > best.0 { next } else { best },
         );
     let up = upright(best.1);
-    fitted(&Camera::new(camera.center(), best.1, up, camera.size(), 1.0)?, vessel.points())
+    let view = Camera::new(camera.center(), best.1, up, camera.size(), 1.0)?;
+    fitted(&view, &steps.surroundings(&view))
 }
 
 /// Directions that lie evenly all around: along a spiral by the golden angle.
@@ -133,6 +159,15 @@ impl Steps {
     fn seen(&self, direction: DVec3) -> f64 {
         let seen = |n: usize| self.tangents[n].cross(direction).length();
         (0..STEPS).filter(|n| !self.is_hidden(*n, direction)).map(seen).sum::<f64>() * self.length
+    }
+
+    /// The outermost points of all that is to be seen around the vessel in a view.
+    fn surroundings(&self, view: &Camera) -> Vec<DVec3> {
+        let around = |n: usize| {
+            let reach = AROUND * self.radii[n];
+            [view.right(), -view.right(), view.up(), -view.up()].map(|side| self.points[n] + side * reach)
+        };
+        (0..STEPS).flat_map(around).collect()
     }
 
     /// Whether another stretch of the vessel, farther along it than both are wide, lies before a place.

@@ -64,11 +64,12 @@ pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
 /// A window that shows lumen light grey, tissue dark, calcifications and stents white.
 ///
 /// The median along the centerlines stands for the lumen, the median 10 mm beyond the vessels' walls for the tissue
-/// around it; where most of that is padding or outside the volume, the edges of the vessels do. Black lies 1.5 times their
-/// difference below the lumen, farther for a lumen that is noisy and where the darkest tissue, such as fat, would be black; at
-/// most 2.2 times, and not below what the volume holds. White lies where the brightest voxels are, so far as the lumen
-/// stays at 60 to 72 % of the range. Where the lumen is the darker of the two, all this is mirrored: it lies at 28 to 40 %,
-/// or darker where the volume holds nothing that is as dark as black would be; its surroundings lie above.
+/// around it; where most of that is padding or outside the volume, the edges of the vessels do, or what is shown if it is
+/// darker. Black lies 1.5 times their difference below the lumen, farther for a lumen that is noisy and where the darkest
+/// tissue, such as fat, would be black; at most 2.2 times, and not below what the volume holds. White lies where the brightest
+/// voxels are, so far as the lumen stays at 60 to 72 % of the range. Where the lumen is the darker of the two, all this is
+/// mirrored: it lies at 28 to 40 %, or darker where the volume holds nothing that is as dark as black would be; its
+/// surroundings lie above.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values beyond all windows.
@@ -103,20 +104,22 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     })
 }
 
-/// The median around the vessels. Where most of that is padding or outside, and vessels have edges, these.
+/// The median around the vessels. Where most of that is padding or outside, the darker of what is shown of it and of the
+/// edges of the vessels, if they have any: in a scan whose dark values are cut off, most of the tissue looks like padding, and
+/// the only edges that are left may lie between lumens and bone.
 fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, looked: &mut Looked) -> Option<f64> {
     let places = beside(tree, BESIDE);
     let mut around = finite(&sample(volume, &places));
     let padding = padding(&mut looked.voxels).unwrap_or(f64::NEG_INFINITY);
-    let shown = around.iter().filter(|value| **value > padding).count();
-    if (shown as f64) < SHOWN * places.len() as f64 {
-        let edges = Populations::of(looked)
-            .filter(|found| found.tissue < lumen && (found.has_edges || around.is_empty()))
-            .map(|found| found.tissue);
-        return edges.or_else(|| median(&mut around));
+    let mut shown: Vec<f64> = around.iter().copied().filter(|value| *value > padding).collect();
+    let middle = median(&mut shown);
+    if shown.len() as f64 >= SHOWN * places.len() as f64 {
+        return middle;
     }
-    around.retain(|value| *value > padding);
-    median(&mut around)
+    let edges = Populations::of(looked)
+        .filter(|found| found.tissue < lumen && (found.has_edges || around.is_empty()))
+        .map(|found| found.tissue);
+    edges.map(|edges| middle.map_or(edges, |middle| edges.min(middle))).or_else(|| median(&mut around))
 }
 
 /// What lies around a lumen that is brighter.

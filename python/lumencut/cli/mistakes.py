@@ -121,7 +121,11 @@ def _idle_context(settings: Settings) -> Iterator[_Idle]:
 
 def _idle_rules(settings: Settings) -> Iterator[_Idle]:
     """Settings of the cut surface and its lines."""
-    if not settings.silhouettes:
+    if settings.focus is None:
+        yield ("others_strength",), "without a focus, in which it counts", "give --focus"
+    if not settings.focus_vessels:
+        yield ("others_strength",), "without chosen vessels", "give --focus-vessels"
+    if not (settings.silhouettes or settings.focus_vessels):
         names = ("silhouette_rule", "silhouette_slope", "silhouette_reach", "silhouette_color")
         yield names, "without silhouettes", "give --silhouettes"
     if settings.silhouette_rule == "leap":

@@ -41,6 +41,21 @@ class Parts(_Type):
         return numbers
 
 
+class NumberOrNone(_Type):
+    """A number, or the word none."""
+
+    name = "NUMBER|none"
+
+    def convert(self, value: Any, param: _Parameter, ctx: _Context) -> float | str:
+        """Return the number, or the word."""
+        if value == "none":
+            return "none"
+        try:
+            return float(value)
+        except ValueError:
+            self.fail(f"{value!r} is neither a number nor none", param, ctx)
+
+
 class Places(_Type):
     """One place on a vessel, or two: arc lengths in mm."""
 

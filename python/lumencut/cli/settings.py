@@ -10,7 +10,7 @@ import click
 
 from lumencut._lumencut import LOOKS, PAPER, SETTINGS, Setting
 from lumencut.cli.options import FILE, Command, added
-from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, Parts, Thickness, Transfer
+from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, NumberOrNone, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ _WRITTEN = {
     "color": " (hexadecimal)",
     "slab": ", such as 4mm:mean",
     "focus": ", such as 2:6",
+    "vessels": "; may be given several times",
 }
 
 
@@ -45,6 +46,8 @@ def paper_option(command: Command) -> Command:
 def _words(name: str, value: Any) -> str:
     """The option that gives a setting this value, as it is typed."""
     words = name.replace("_", "-")
+    if value is None:
+        return f"--{words} {NO_CONTEXT}"
     if isinstance(value, bool):
         return f"--{words}" if value else f"--no-{words}"
     return f"--{words} {value:g}" if isinstance(value, float) else f"--{words} {value}"
@@ -86,6 +89,8 @@ def _option(name: str, setting: Setting) -> Any:
     words = f"--{name.replace('_', '-')}"
     if setting.kind == "flag":
         return click.option(f"{words}/--no-{words[2:]}", default=None, help=_help(setting))
+    if setting.kind == "vessels":
+        return click.option(words, multiple=True, metavar="NAME|ID", help=_help(setting))
     kind, metavar = _type(setting)
     return click.option(words, type=kind, metavar=metavar, help=_help(setting))
 
@@ -94,7 +99,9 @@ def _type(setting: Setting) -> tuple[Any, str | None]:
     """How the value of an option is written, and what the help calls it."""
     match setting.kind:
         case "number":
-            return float, _METAVARS.get(setting.unit or "", "NUMBER")
+            metavar = _METAVARS.get(setting.unit or "", "NUMBER")
+            has_none = setting.optional and setting.open is None
+            return (NumberOrNone(), f"{metavar}|{NO_CONTEXT}") if has_none else (float, metavar)
         case "count":
             return int, "N"
         case "color":
@@ -126,6 +133,8 @@ def _default(setting: Setting) -> str:
     match setting.default:
         case bool(flag):
             return f"default {'yes' if flag else 'no'}"
+        case ():
+            return "default: none"
         case tuple(channels):
             return f"default {bytes(channels).hex()}"
         case str(name):
@@ -141,7 +150,7 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
     """
     from lumencut.settings import Settings
 
-    given = {name: chosen[name] for name in SETTINGS if chosen.get(name) is not None}
+    given = {name: chosen[name] for name in SETTINGS if chosen.get(name) not in (None, ())}
     path = chosen.get("settings_file")
     if path is not None and base is not None:
         found = "--settings and --like exclude each other: both name all settings"
@@ -184,7 +193,7 @@ def _as_field(setting: Setting, value: Any) -> Any:
             return Slab(*value)
         case "transfer" if isinstance(value, tuple):
             return TransferFunction(value)
-        case "choice" if setting.optional and value == NO_CONTEXT:
+        case "choice" | "number" if setting.optional and value == NO_CONTEXT:
             return None
         case "color" if len(value) < len(setting.default):
             return (*value, 255)

@@ -59,6 +59,11 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
     "its diameters, which are written on the frames.",
 )
 @click.option(
+    "--fly-to",
+    metavar="NAME|ID",
+    help="Fly to the view from which most of this vessel is seen, in the place of a turn.",
+)
+@click.option(
     "--frames", type=click.IntRange(1, 10000), default=72, show_default=True, help="How many frames."
 )
 @click.option(
@@ -91,6 +96,7 @@ def turntable(
     lumencut turntable ct.nii.gz centerlines.vtp -o spin.webp
     lumencut turntable ct.nii.gz centerlines.vtp -o rock.mp4 --rotate -30 --degrees 60 --seconds 4
     lumencut turntable ct.nii.gz LAD.mrk.json -o stenosis.webp --about LAD@41mm --degrees 180
+    lumencut turntable ct.nii.gz tree.vtp -o LAD.mp4 --fly-to LAD --focus-vessels LAD
     """  # noqa: D301 - click needs the control character itself
     if fps is not None and seconds is not None:
         raise click.UsageError("--fps and --seconds exclude each other")
@@ -98,6 +104,7 @@ def turntable(
     fps = fps or (frames / seconds if seconds else 12.0)
     degrees, axis = chosen["degrees"], chosen["axis"] or "superior"
     _check_about(chosen)
+    _check_flight(chosen, frames)
     settings, view = settings_from(chosen), options.view_from(chosen)
     files = scene_from(chosen)
     check_scene(files, chosen, settings)
@@ -111,7 +118,10 @@ def turntable(
 
     from lumencut import turntables as library
 
-    if chosen["about"] is None:
+    if chosen["fly_to"] is not None:
+        first = library.fitted_turn(view, scene, 0.0)
+        camera, turn = _flight(renderer, options.placed_like(first, chosen), chosen, (settings, frames))
+    elif chosen["about"] is None:
         camera = options.placed_like(library.fitted_turn(view, scene, degrees, axis), chosen)
         turn = library.turntable(renderer, camera, settings, frames, degrees, axis)
     else:
@@ -139,6 +149,7 @@ def _about(
     renderer: Renderer, view: Camera, chosen: dict[str, Any], how: tuple[Settings, int]
 ) -> tuple[Camera, Iterator[Frame]]:
     """The first view of a turn about a place, and its frames."""
+    from lumencut._vessel_names import id_or_name
     from lumencut.camera import Camera
     from lumencut.place_turns import radius_at, turn_about
 
@@ -146,12 +157,39 @@ def _about(
     tree = renderer.tree
     if tree is None:
         raise click.UsageError("--about does nothing without CENTERLINES; name them, or leave it out")
-    vessel = tree[int(word) if word.isdecimal() and word not in tree else word]
+    vessel = tree[id_or_name(tree, word)]
     first = Camera.about(vessel, at, degrees=chosen["rotate"], size=view.size)
     camera = options.placed_like(first, chosen)
     settings, frames = how
     turn = turn_about(renderer, camera, radius_at(vessel, at), settings, frames, chosen["degrees"])
     return camera, turn
+
+
+def _check_flight(chosen: dict[str, Any], frames: int) -> None:
+    """Refuse options that say how a view turns beside a flight."""
+    if chosen["fly_to"] is None:
+        return
+    for name, idle in (("about", None), ("axis", None), ("degrees", 360.0)):
+        if chosen[name] != idle:
+            found = f"--{name} does nothing with --fly-to"
+            raise click.UsageError(f"{found}, which says how the view moves; leave it out")
+    if frames < 2:
+        raise click.UsageError("a flight has at least 2 frames; give --frames 2 or more")
+
+
+def _flight(
+    renderer: Renderer, first: Camera, chosen: dict[str, Any], how: tuple[Settings, int]
+) -> tuple[Camera, Iterator[Frame]]:
+    """The first view of a flight to a vessel, and its frames."""
+    from lumencut._vessel_names import id_or_name
+    from lumencut.camera import Camera
+    from lumencut.flights import flight
+
+    word, tree = chosen["fly_to"], renderer.tree
+    if tree is None:
+        raise click.UsageError("--fly-to does nothing without CENTERLINES; name them, or leave it out")
+    vessel = tree[id_or_name(tree, word)]
+    return first, flight(renderer, first, Camera.refocused(tree, vessel, first.size, start=first), *how)
 
 
 def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[Frame]:

@@ -40,11 +40,9 @@ def shown_ids(tree: VesselTree, chosen: dict[str, Any]) -> list[int]:
 
 def ids_of(tree: VesselTree, words: tuple[str, ...]) -> list[int]:
     """Return the ids that words stand for; a word that is a name is no id."""
-    return [
-        index
-        for word in words
-        for index in tree.ids(int(word) if word.isdecimal() and word not in tree else word)
-    ]
+    from lumencut._vessel_names import id_or_name
+
+    return [index for word in words for index in tree.ids(id_or_name(tree, word))]
 
 
 def named_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:

@@ -71,7 +71,7 @@ def _picture(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
 
 
 def _details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str, npt.NDArray[np.float32]]:
-    return renderer._core.details(camera, checked(settings))
+    return renderer._core.details(camera, checked(renderer._choosing(settings)))
 
 
 def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
@@ -91,7 +91,7 @@ def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
         width, height = camera.size
         found = {"sheet_gap": np.zeros((height, width), np.float32)}
         if settings.silhouettes:
-            found["strength"] = renderer._core.strength(camera, checked(settings), method)
+            found["strength"] = renderer._core.strength(camera, checked(renderer._choosing(settings)), method)
         return found
 
     return Method(_own, surface, more.pop("picture", picture), details, is_filtered=False, **more)

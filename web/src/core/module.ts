@@ -1,5 +1,5 @@
 /** The WebAssembly module: the only file that touches it. */
-import type { Judge } from '../io/dicom/wanted';
+import type { Judge } from './judge';
 import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.js';
 
 export { Engine };

@@ -7,10 +7,10 @@ import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { Edit, Edited, GivenFile, Progress } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
+import { afterEdit } from '../state/changes';
+import type { Document } from '../state/document';
+import { change, document_ } from '../state/history';
 import { problem, progress } from '../state/store';
-import { afterEdit } from './changes';
-import type { Document } from './document';
-import { change, document_ } from './history';
 
 /** An edit that was refused; it can be tried again with gaps bridged where that may help. */
 export interface Refusal {
@@ -63,8 +63,9 @@ function inTurn<T>(work: Work<T>, bridge: (() => void) | null): Promise<T | null
 
 async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null): Promise<T | null> {
   forgetRefusal();
+  const tell = teller(own);
   try {
-    const { words, after, result } = await work(teller(own));
+    const { words, after, result } = await work(tell.told);
     if (own !== generation) {
       return null;
     }
@@ -75,6 +76,8 @@ async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null
       refuse(Failure.of(error), bridge);
     }
     return null;
+  } finally {
+    tell.end();
   }
 }
 
@@ -109,14 +112,31 @@ export function forgetRefusal(): void {
 let shownProgress: Progress | null = null;
 const isOurs = (told: Progress | null): boolean => told !== null && told === shownProgress;
 
-function teller(own: number): (told: Progress) => void {
-  const begun = performance.now();
-  return (told) => {
-    if (own === generation && performance.now() - begun > SHOWN_AFTER) {
-      shownProgress = told;
-      progress.value = told;
+/** Shows how far an edit is, from a moment after its begin to its end: also where nothing new is told of it then. */
+function teller(own: number): { told: (progress: Progress) => void; end: () => void } {
+  let newest: Progress | null = null;
+  let isDue = false;
+  const show = () => {
+    if (own === generation && isDue && newest) {
+      shownProgress = newest;
+      progress.value = newest;
     }
   };
+  const begin = () => {
+    isDue = true;
+    show();
+  };
+  const timer = setTimeout(begin, SHOWN_AFTER);
+  const told = (heard: Progress) => {
+    newest = heard;
+    show();
+  };
+  // What is heard after the end, on a way of its own, is no longer shown.
+  const end = () => {
+    clearTimeout(timer);
+    isDue = false;
+  };
+  return { told, end };
 }
 
 /** A change of the page's own, of the document as it is in its turn. */

@@ -1,13 +1,13 @@
 /** The vessel that is being drawn: its clicks that are no vessel yet, and the way to the pointer. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
+import { Latest } from '../core/latest';
 import type { PathRequest, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
-import { Latest } from '../views/latest';
-import { vesselOf } from './changes';
-import { document_ } from './history';
-import { nextColor } from './palette';
-import { active, tool } from './tool';
+import { vesselOf } from '../state/changes';
+import { document_ } from '../state/history';
+import { nextColor } from '../state/palette';
+import { active, tool } from '../state/tool';
 
 /** The first point of a vessel that has no second one yet. */
 export const first = signal<Vector | null>(null);

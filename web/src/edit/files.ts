@@ -1,9 +1,9 @@
 /** The document's vessels as files of centerlines, and centerlines that come to a document. */
 import type { Asked } from '../core/asked';
 import type { CenterlineKind, NamedLine } from '../core/messages';
-import { nameOf } from './changes';
+import { nameOf } from '../state/changes';
+import { document_ } from '../state/history';
 import { commit, isDone } from './committing';
-import { document_ } from './history';
 
 /** All vessels that are not doubtful as a file, also those that are hidden. */
 export async function centerlineFile(engine: Asked, kind: CenterlineKind): Promise<Blob> {

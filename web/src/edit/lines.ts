@@ -4,8 +4,8 @@ import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { LineContent, LineId } from '../core/messages';
 import { length, subtract } from '../core/vectors';
+import { document_ } from '../state/history';
 import { problem } from '../state/store';
-import { document_ } from './history';
 
 /** By the numbers of the lines; lines never change. Those of a study that was closed are forgotten. */
 export const contents = signal<ReadonlyMap<LineId, LineContent>>(new Map());

@@ -4,8 +4,8 @@ import type { SettingValue } from '../core/messages';
 import { moveTo } from '../link/along';
 import { setSetting, settingOf } from '../state/actions';
 import * as store from '../state/store';
+import { type Tool, tool } from '../state/tool';
 import { endVessel } from './pointing';
-import { type Tool, tool } from './tool';
 
 /** Whether the list of vessels is shown. */
 export const isListOpen = signal(false);

@@ -1,15 +1,17 @@
 /** Does what a key or a button stands for: edits of vessels here, all else in the actions of the page. */
-import type { EngineClient } from '../core/engine';
+import type { EngineClient } from '../client/engine';
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
-import { crossHair, hasVolume, isHelpOpen, problem, progress } from '../state/store';
+import { redo, undo } from '../state/history';
+import { crossHair, hasVolume, isHelpOpen, layout, problem, progress } from '../state/store';
+import { tool } from '../state/tool';
 import { addBranches } from './branches';
 import { dropEdits, waiting } from './committing';
 import { candidate, first, target } from './drawing';
-import { redo, undo } from './history';
 import { isListOpen, isTracing, toggleTool } from './mode';
 import { enter, leave, removeLast } from './pointing';
-import { tool } from './tool';
+import { pickedId } from './shown';
+import { remove } from './vessels';
 
 export function performAny(engine: EngineClient, action: Action): void {
   const edits = hasVolume.value ? edit(engine, action) : false;
@@ -39,18 +41,28 @@ function edit(engine: EngineClient, action: Action): boolean {
     case 'cancel':
       return cancelEdit(engine);
     default:
-      return isTracing() && point(engine, action);
+      return isTracing() ? point(engine, action) : action === 'remove' && removePicked(engine);
   }
 }
 
 function point(engine: EngineClient, action: Action): boolean {
   if (action === 'enter') {
     enter(engine);
-  } else if (action === 'remove point' && tool.value === 'trace') {
+  } else if ((action === 'remove point' || action === 'remove') && tool.value === 'trace') {
     removeLast(engine);
   } else {
     return false;
   }
+  return true;
+}
+
+/** Deletes the picked vessel while the list is open, where one sees which one that is; not while its marks are worked on. */
+function removePicked(engine: EngineClient): boolean {
+  const id = pickedId();
+  if (!isListOpen.value || layout.value === 'measure' || id === null) {
+    return false;
+  }
+  void remove(engine, [id]);
   return true;
 }
 

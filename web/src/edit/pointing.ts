@@ -5,11 +5,11 @@ import { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { crossHair } from '../state/store';
+import { active, tool } from '../state/tool';
 import { addClick, beginVessel, removeClick } from './clicks';
 import { forgetRefusal, refusal, tellRefusal } from './committing';
 import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
 import { addStopper } from './stoppers';
-import { active, tool } from './tool';
 
 /** Places as near as this are one place (mm). */
 const SAME = 0.05;

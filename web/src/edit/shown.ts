@@ -3,12 +3,12 @@ import { batch, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
+import { shownVessels } from '../state/changes';
+import { type Document, EMPTY } from '../state/document';
+import { begin, document_ } from '../state/history';
 import * as store from '../state/store';
-import { shownVessels } from './changes';
+import { active } from '../state/tool';
 import { dropEdits } from './committing';
-import { type Document, EMPTY } from './document';
-import { begin, document_ } from './history';
-import { active } from './tool';
 
 /** The vessels of the tree that is shown: those of `store.report`, in the same order. */
 export const tree = signal<readonly DocumentVessel[]>([]);

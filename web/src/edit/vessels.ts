@@ -1,7 +1,7 @@
 /** Vessels as wholes: their names, colours, whether they are shown, and cutting and joining them. */
 import type { Asked } from '../core/asked';
 import type { DocumentVessel } from '../core/messages';
-import { changed, vesselOf } from './changes';
+import { changed, vesselOf } from '../state/changes';
 import { commit, commitPlain, isDone } from './committing';
 
 export const rename = (id: number, name: string): Promise<boolean> => set('rename a vessel', id, { name });

@@ -1,14 +1,14 @@
 /** The guided try: a phantom, and one step after the other, each done once the user did it. */
 import { effect, signal } from '@preact/signals';
+import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
-import { engine } from '../core/shared';
 import { dot } from '../core/vectors';
-import { EMPTY } from '../edit/document';
-import { document_ } from '../edit/history';
 import { isTracing } from '../edit/mode';
 import { beginDocument } from '../edit/shown';
+import { EMPTY } from '../state/document';
+import { document_ } from '../state/history';
 import * as store from '../state/store';
-import { openPhantom } from '../state/study';
+import { openPhantom } from '../study/study';
 
 export interface GuideStep {
   readonly title: string;

@@ -14,7 +14,15 @@ export type Gesture =
 export type Button = 'left' | 'middle' | 'right';
 export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
 /** Edits of vessels, which `edit/performing.ts` does. */
-export type EditAction = 'trace' | 'branches' | 'vessels' | 'enter' | 'remove point' | 'undo' | 'redo';
+export type EditAction =
+  | 'trace'
+  | 'branches'
+  | 'vessels'
+  | 'enter'
+  | 'remove point'
+  | 'remove'
+  | 'undo'
+  | 'redo';
 
 export type Action =
   | 'rotate'
@@ -23,6 +31,7 @@ export type Action =
   | 'zoom'
   | 'window'
   | 'scroll'
+  | 'scroll by ten'
   | 'pick'
   | 'move cross-hair'
   | 'maximise'
@@ -32,6 +41,8 @@ export type Action =
   | 'context'
   | 'silhouettes'
   | 'measure'
+  | 'best view'
+  | 'turn about place'
   | 'turn'
   | 'help'
   | 'pane'
@@ -108,13 +119,15 @@ export const BINDINGS: readonly Binding[] = [
   mouse('turning', 'right', '', 'zoom', 'zoom'),
   other('turning', 'wheel', '', 'zoom', 'zoom at the pointer'),
   other('turning', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
+  other('turning', 'wheel', 'Shift', 'zoom', 'zoom at the pointer'),
   other('turning', 'touch drag', '', 'rotate', 'rotate'),
   mouse('flat', 'left', '', 'window', 'window: across its width, up and down its level'),
   mouse('flat', 'left', 'Ctrl', 'window', 'window: across its width, up and down its level'),
   mouse('flat', 'left', 'Shift', 'pan', 'pan'),
   mouse('flat', 'middle', '', 'pan', 'pan'),
   mouse('flat', 'right', '', 'zoom', 'zoom'),
-  other('flat', 'wheel', '', 'scroll', 'scroll through the slices, or turn the straightened vessel'),
+  other('flat', 'wheel', '', 'scroll', 'scroll, one slice a notch, or turn the straightened vessel'),
+  other('flat', 'wheel', 'Shift', 'scroll by ten', 'scroll by ten'),
   other('flat', 'wheel', 'Ctrl', 'zoom', 'zoom at the pointer'),
   other('flat', 'touch drag', '', 'scroll', 'scroll'),
   other('tracing', 'click', '', 'set point', 'set a point of the vessel, or a stopper'),
@@ -130,7 +143,7 @@ export const BINDINGS: readonly Binding[] = [
   pane('tracing', 'Arrows in a slice', 'move the cross-hair by a voxel, with Shift by ten'),
   pane('tracing', 'Page up and down', 'scroll through the slices, with Shift by ten'),
   key('Enter', 'enter', 'while tracing, set a point at the cross-hair; twice at one place ends the vessel'),
-  key('Delete', 'remove point', 'while tracing, remove the last point'),
+  key('Delete', 'remove', 'while tracing, remove the last point; else delete the picked vessel of the list'),
   key('Backspace', 'remove point', 'while tracing, remove the last point'),
   other('everywhere', 'two-finger drag', '', 'pan', 'pan'),
   other('everywhere', 'pinch', '', 'zoom', 'zoom'),
@@ -138,6 +151,7 @@ export const BINDINGS: readonly Binding[] = [
   other('everywhere', 'double click', '', 'maximise', 'show this view alone, or all views again'),
   pane('turning', 'Arrow keys', 'rotate; with Shift pan'),
   pane('turning', '+ and -', 'zoom'),
+  pane('turning', 'Drag to the side', 'while the view turns about a place: sweep the cut about it'),
   pane('flat', 'Up and down', 'scroll'),
   pane('flat', 'Page up and down', 'scroll by ten'),
   pane('flat', '+ and -', 'zoom'),
@@ -163,6 +177,8 @@ export const BINDINGS: readonly Binding[] = [
   key('c', 'context', 'context on and off'),
   key('s', 'silhouettes', 'silhouettes on and off'),
   key('m', 'measure', 'measure the picked vessel, or back to the layout before'),
+  key('f', 'best view', 'best view of the picked vessel'),
+  key('o', 'turn about place', 'turn about the place of the section, or end that'),
   key(' ', 'turn', 'turn slowly, or stop'),
   key('t', 'trace', 'trace vessels by clicks, or stop'),
   key('b', 'branches', 'find all branches from the cross-hair'),

@@ -1,5 +1,6 @@
 /** Gestures of mouse, pen and touch on an element. A press becomes a drag only beyond 4 pixels; else it is a click. */
 import { type Action, actionOf, type Button, type Modifier, type Where } from './bindings';
+import { alongWheel, Steps } from './wheel';
 
 /** How far a pointer moves before a press is a drag (CSS pixels). */
 const DRAG_FROM = 4;
@@ -7,8 +8,10 @@ const DRAG_FROM = 4;
 const ZOOM_PER_PIXEL = 0.006;
 const ZOOM_PER_WHEEL = 0.0016;
 const MOST_WHEEL = 120;
-/** The pixels of a wheel that are one slice. */
-const WHEEL_STEP = 40;
+/** The pixels that a line of the wheel stands for, in browsers that count lines. */
+const LINE = 40;
+/** With Shift the wheel goes so many slices at once. */
+const MANY = 10;
 /** Within which time a second click makes a double click (ms), and how near (pixels). */
 export const DOUBLE_WITHIN = 350;
 export const DOUBLE_NEAR = 6;
@@ -61,7 +64,7 @@ class Pointers {
   private clickAction: Action | null = null;
   private isDragging = false;
   private spread = 0;
-  private scrolled = 0;
+  private readonly steps = new Steps();
   private lastClick = { time: Number.NEGATIVE_INFINITY, at: [0, 0] as Place };
 
   constructor(
@@ -160,7 +163,7 @@ class Pointers {
     if (this.action === 'zoom') {
       this.handlers.zoom(Math.exp(-by[1] * ZOOM_PER_PIXEL), this.start);
     } else if (this.action === 'scroll') {
-      this.scrollBy(by[1] * 4);
+      this.scrollBy(this.steps.ofPixels(by[1] * 4));
     } else if (this.action) {
       this.handlers.drag(this.action, by, at);
     }
@@ -219,23 +222,20 @@ class Pointers {
 
   wheel(event: WheelEvent): void {
     event.preventDefault();
-    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? WHEEL_STEP : 1);
     // A pinch on a trackpad comes as a wheel with Ctrl.
-    const modifier: Modifier = event.ctrlKey || event.metaKey ? 'Ctrl' : '';
+    const modifier: Modifier = event.ctrlKey || event.metaKey ? 'Ctrl' : event.shiftKey ? 'Shift' : '';
     const action = actionOf(this.where, 'wheel', null, modifier);
     if (action === 'zoom') {
+      const pixels = alongWheel(event) * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1);
       const bounded = Math.max(-MOST_WHEEL, Math.min(MOST_WHEEL, pixels));
       this.handlers.zoom(Math.exp(-bounded * ZOOM_PER_WHEEL), this.placeOf(event));
-    } else if (action === 'scroll') {
-      this.scrollBy(pixels);
+    } else if (action === 'scroll' || action === 'scroll by ten') {
+      this.scrollBy(this.steps.ofWheel(event) * (action === 'scroll' ? 1 : MANY));
     }
   }
 
-  private scrollBy(pixels: number): void {
-    this.scrolled += pixels;
-    const steps = Math.trunc(this.scrolled / WHEEL_STEP);
+  private scrollBy(steps: number): void {
     if (steps !== 0) {
-      this.scrolled -= steps * WHEEL_STEP;
       this.handlers.scroll(steps);
     }
   }

@@ -1,6 +1,8 @@
 /** What was dropped, chosen or fetched becomes the study: one volume, its centerlines, or both. */
+
+import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
-import type { Judge, Wanted } from './dicom/wanted';
+import type { Wanted } from './dicom/wanted';
 import { type Known, known } from './kinds';
 import { openMetaImage } from './metaimage';
 import { openNifti } from './nifti';

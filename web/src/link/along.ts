@@ -1,8 +1,8 @@
 /** The place of the section on the picked vessel, which the views share. */
-import { engine } from '../core/shared';
+import { engine } from '../client/shared';
+import { Latest } from '../core/latest';
 import { recover } from '../state/device';
 import { pickedPlace, pickedVessel, report } from '../state/store';
-import { Latest } from '../views/latest';
 import { placeCrossHair } from './cross-hair';
 
 const latest = new Latest();

@@ -1,12 +1,12 @@
 /** The straightened CPR of the picked vessel, lying with its first point on the left. */
 import { useCallback, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
 import type { Cpr, Pair } from '../core/messages';
-import { engine } from '../core/shared';
 import { moveTo } from '../link/along';
+import { CprControls, TURN_STEP } from '../pane/CprControls';
+import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
-import { CprControls, TURN_STEP } from '../views/CprControls';
-import { FlatPicture } from '../views/FlatPicture';
 import { type Lying, lyingBox, lyingPicture } from './lying';
 import { type Axis, valueAt } from './scale';
 

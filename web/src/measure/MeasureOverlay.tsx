@@ -1,10 +1,11 @@
 /** What is measured, over the turning view and over slices. */
+
+import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
 import type { Camera, Pair, Plane, Vector } from '../core/messages';
-import { engine } from '../core/shared';
+import { pixelOn, pointOn } from '../core/planes';
 import { cross, dot, subtract } from '../core/vectors';
 import * as store from '../state/store';
-import { pixelOn, pointOn } from '../views/planes';
 import { currentProfile } from './current';
 import { PlaceHandles } from './PlaceHandles';
 import { RulerLayer } from './RulerLayer';

@@ -1,8 +1,8 @@
 /** What stands in the place of a profile that is not there yet, or that cannot be. */
 import type { Pair } from '../core/messages';
+import { beingMeasured, measureAgain, stopped } from '../state/profiles';
 import * as store from '../state/store';
 import { currentFailure } from './current';
-import { beingMeasured, measureAgain, stopped } from './profiles';
 
 export function NoProfile({ size }: { readonly size: Pair }) {
   return (

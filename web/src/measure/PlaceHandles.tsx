@@ -1,6 +1,6 @@
 /** The places of the picked vessel as handles over a picture: the same in the profile, the CPR and the turning view. */
 import type { Pair } from '../core/messages';
-import { Handle } from '../views/Handle';
+import { Handle } from '../pane/Handle';
 import { currentPlaces } from './current';
 import { beginMove, confirm, endMove, isCrossed, move, putBack, remove } from './editing';
 import type { Kind, Place } from './marks';

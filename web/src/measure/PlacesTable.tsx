@@ -1,7 +1,9 @@
 /** The marked and suggested places of a vessel with their numbers, and the widest place. */
+import { engine } from '../client/shared';
 import type { Profile } from '../core/messages';
-import type { VesselMarks } from '../edit/document';
 import { moveTo } from '../link/along';
+import type { VesselMarks } from '../state/document';
+import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
 import { currentMarks, currentPlaces } from './current';
 import { confirm, markHere, remove } from './editing';
@@ -35,6 +37,7 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
         <NotSuggested reasons={profile.not_suggested} />
       )}
       {marks && <MarkButtons marks={marks} />}
+      <TurnButton />
     </section>
   );
 }
@@ -64,6 +67,22 @@ function MarkButtons({ marks }: { readonly marks: VesselMarks }) {
         </button>
       )}
     </div>
+  );
+}
+
+/** Turns the view about the place of the section. */
+function TurnButton() {
+  const turn = placeTurn.value;
+  return (
+    <button
+      type="button"
+      class="small"
+      aria-pressed={turn !== null}
+      title="The cut sweeps the diameters of the lumen, while the place stays where it is (o)"
+      onClick={() => void togglePlaceTurn(engine)}
+    >
+      {`Turn about ${mm(turn?.at ?? store.pickedPlace.value, 1)}`}
+    </button>
   );
 }
 

@@ -1,8 +1,8 @@
 /** The picked vessel lying, and under it, along the same axis, its diameter; with the places that are marked on it. */
 import { useMemo, useRef, useState } from 'preact/hooks';
 import type { Pair, Profile } from '../core/messages';
+import { usePaneSize } from '../pane/pane-size';
 import * as store from '../state/store';
-import { usePaneSize } from '../views/pane-size';
 import { axisAlong, chartLayout } from './chart-layout';
 import { currentPlaces, currentProfile, currentVessel } from './current';
 import { LyingCpr } from './LyingCpr';

@@ -1,12 +1,11 @@
 /** Rulers over a picture: those of which both ends are seen there, and the first point of one that is drawn. */
 import { useLayoutEffect, useRef } from 'preact/hooks';
+import { Latest } from '../core/latest';
 import type { Pair, Vector } from '../core/messages';
-import type { Ruler } from '../edit/document';
-import { document_ } from '../edit/history';
-import { tool } from '../edit/tool';
+import { Handle } from '../pane/Handle';
 import { recover } from '../state/device';
-import { Handle } from '../views/Handle';
-import { Latest } from '../views/latest';
+import type { Ruler } from '../state/document';
+import { document_ } from '../state/history';
 import {
   beginRulerMove,
   type End,
@@ -17,7 +16,8 @@ import {
   removeRuler,
   rulerLength,
   setRulerPoint,
-} from './rulers';
+} from '../state/rulers';
+import { tool } from '../state/tool';
 import { mm } from './words';
 
 const COLOR = '#ffdc00';

@@ -1,7 +1,7 @@
 /** Distances between two points that are picked in slices or in the turning view. */
-import { document_ } from '../edit/history';
-import { tool } from '../edit/tool';
-import { firstEnd, removeRuler, rulerLength, toggleRuler } from './rulers';
+import { document_ } from '../state/history';
+import { firstEnd, removeRuler, rulerLength, toggleRuler } from '../state/rulers';
+import { tool } from '../state/tool';
 import { mm } from './words';
 
 export function RulersPart() {

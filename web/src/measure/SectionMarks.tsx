@@ -1,10 +1,10 @@
 /** The lumen of a measured section: its contour, its shortest and its longest diameter, and its numbers. */
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
+import { Latest } from '../core/latest';
 import type { LineId, MeasuredSection, Pair, Plane, Vector } from '../core/messages';
-import { engine } from '../core/shared';
+import { pixelOn } from '../core/planes';
 import { pickedPlace } from '../state/store';
-import { Latest } from '../views/latest';
-import { pixelOn } from '../views/planes';
 import { currentProfile, currentVessel } from './current';
 import { meanings } from './flags';
 import { nearestSection, sectionNumbers } from './sections';

@@ -1,8 +1,10 @@
 /** A marked stretch of a vessel: its lengths, and how a C-arm is turned that shows it in its whole length. */
 
+import { engine } from '../client/shared';
 import type { Pair, Profile, Stretch } from '../core/messages';
 import { middle } from '../core/vectors';
-import type { VesselMarks } from '../edit/document';
+import type { VesselMarks } from '../state/document';
+import { flyTo } from '../state/flight';
 import * as store from '../state/store';
 import { answers, currentMarks } from './current';
 import { changeMarks } from './editing';
@@ -91,11 +93,11 @@ function turnThere({ view }: Stretch, ends: Pair, profile: Profile): void {
   const camera = store.camera.value;
   const points = ends.map((at) => centerAt(profile, at)).filter((point) => point !== null);
   if (camera) {
-    store.camera.value = {
+    flyTo(engine, {
       ...camera,
       direction: view.direction,
       up: view.up,
       center: points.length > 0 ? middle(points) : camera.center,
-    };
+    });
   }
 }

@@ -1,18 +1,18 @@
 /** Asks the engine what the marks measure, whenever they or the vessel change. */
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
+import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
+import { Latest } from '../core/latest';
 import type { LineId, Profile } from '../core/messages';
-import { engine } from '../core/shared';
-import type { VesselMarks } from '../edit/document';
 import { listedLines } from '../edit/shown';
 import { moveTo } from '../link/along';
+import { isArriving } from '../state/arriving';
+import type { VesselMarks } from '../state/document';
+import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../state/profiles';
 import * as store from '../state/store';
-import { Latest } from '../views/latest';
-import { isArriving } from './arriving';
 import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
 import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
-import { beingMeasured, forgetProfiles, measure, profiles, stopped } from './profiles';
 
 /** Keeps profile and answers of the picked vessel up to date; the layout uses it once. */
 export function useMeasuring(): void {

@@ -2,8 +2,9 @@
 import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import type { LineId, Profile, Stenosis, Stretch } from '../core/messages';
-import type { VesselMarks } from '../edit/document';
-import { document_ } from '../edit/history';
+import type { VesselMarks } from '../state/document';
+import { document_ } from '../state/history';
+import { profiles } from '../state/profiles';
 import * as store from '../state/store';
 import {
   type ComparedPlaces,
@@ -13,7 +14,6 @@ import {
   placesOf,
   type Suggested,
 } from './marks';
-import { profiles } from './profiles';
 import { marksOf } from './vessels';
 
 export interface CurrentVessel {

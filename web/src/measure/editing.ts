@@ -1,8 +1,8 @@
 /** Changes marks in the document: a drag is previewed and becomes one step that can be undone. */
 import { batch, signal } from '@preact/signals';
-import { type Document, NO_MARKS, type VesselMarks } from '../edit/document';
-import { change, document_, endPreview, preview } from '../edit/history';
 import { moveTo } from '../link/along';
+import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
+import { change, document_, endPreview, preview } from '../state/history';
 import { pickedPlace } from '../state/store';
 import { answers, comparedPlaces, currentMarks, currentProfile, currentVessel } from './current';
 import { allConfirmed, moved, type Place, placeAfter, removed, taken } from './marks';

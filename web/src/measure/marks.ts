@@ -1,6 +1,6 @@
 /** Places on a vessel that a reader marked, and those that are suggested for what is not marked yet. */
 import type { Pair, Profile, Spot } from '../core/messages';
-import type { VesselMarks } from '../edit/document';
+import type { VesselMarks } from '../state/document';
 import { lengthOf } from './sections';
 
 /** `place` is that of a stenosis; slot 0 lies before slot 1 along the vessel. */

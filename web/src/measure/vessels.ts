@@ -1,6 +1,6 @@
 /** Marks of vessels in the document. */
 import type { LineId } from '../core/messages';
-import { type Document, NO_MARKS, type VesselMarks } from '../edit/document';
+import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
 
 const byLine = (document: Document, line: LineId) => document.vessels.find((vessel) => vessel.line === line);
 

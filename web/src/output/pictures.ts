@@ -1,11 +1,14 @@
 /** Pictures of the turning view as files: with or without labels. */
+
+import { engine } from '../client/shared';
 import { rightOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera, PictureLabels } from '../core/messages';
-import { engine } from '../core/shared';
 import { negate } from '../core/vectors';
 import * as store from '../state/store';
 import { tell } from '../state/telling';
+import { sideOf } from './file-names';
+import { studyFileName } from './study-file-names';
 
 /** The canvas of the turning view as it is shown, with its labels where they are wanted. */
 export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasElement> {
@@ -87,8 +90,14 @@ export async function savePng(labels: 'labels' | 'plain'): Promise<void> {
   const canvas = await composed(labels);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
   if (blob) {
-    saveAs(blob, 'lumencut.png');
+    saveAs(blob, studyFileName({ content: 'picture', side: sideOfView(), ending: 'png' }));
   }
+}
+
+/** From where the turning view looks at the patient; null where the scan does not tell how the patient lies. */
+export function sideOfView(): string | null {
+  const camera = store.camera.value;
+  return camera && store.states.value.orientation ? sideOf(camera.direction) : null;
 }
 
 /** Hands a file to the browser's downloads, and says so, with a remark where there is one. */

@@ -1,4 +1,6 @@
 /** The pictures of a report, drawn on canvases. */
+
+import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type {
@@ -12,13 +14,12 @@ import type {
   ReportPlan,
   ReportRequest,
 } from '../core/messages';
-import { engine } from '../core/shared';
+import { pixelOn } from '../core/planes';
 import { lyingPicture } from '../measure/lying';
 import { COLORS } from '../measure/PlaceHandles';
 import { CONTOUR } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
-import { pixelOn } from '../views/planes';
 import { composed } from './pictures';
 
 /** The side of a picture of a section (pixels). */

@@ -1,13 +1,14 @@
 /** The report of the picked vessel: the engine writes it, the page gives its pictures. */
 import { signal } from '@preact/signals';
+import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { MeasuredVessel, Profile } from '../core/messages';
-import { engine } from '../core/shared';
-import { document_ } from '../edit/history';
 import { currentMarks, currentProfile, currentVessel } from '../measure/current';
-import { rulerLength } from '../measure/rulers';
 import { notGradedWords } from '../measure/words';
+import { document_ } from '../state/history';
+import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
+import { fileName } from './file-names';
 import { saveAs } from './pictures';
 import { sectionPair, straightened, viewPicture } from './report-pictures';
 
@@ -19,8 +20,9 @@ export async function saveReport(): Promise<void> {
   const [vessel, profile] = measuredVessel();
   const html = await reportOf(vessel, profile);
   const { not_graded: notGraded } = await engine.ask('grade', { line: vessel.line, marks: vessel.marks });
+  const name = fileName({ scan: namedScan(), content: 'report', ending: 'html' });
   const words = notGraded === null ? '' : notGradedWords({ notGraded });
-  saveAs(new Blob([html], { type: 'text/html' }), 'lumencut-report.html', words);
+  saveAs(new Blob([html], { type: 'text/html' }), name, words);
 }
 
 /** The picked vessel by the id that it has in tables, which is its number, and its profile. */
@@ -35,6 +37,10 @@ function measuredVessel(): [MeasuredVessel, Profile] {
   return [{ id: String(number), name, line: vessel.line, marks }, profile];
 }
 
+/** The scan by its name, where the reader wants the report to tell it. */
+const namedScan = (): string | null =>
+  isScanNamed.value && store.studyName.value !== '' ? store.studyName.value : null;
+
 async function reportOf(vessel: MeasuredVessel, profile: Profile): Promise<string> {
   const number = Number(vessel.id);
   const plan = await engine.ask('report_plan', vessel);
@@ -46,7 +52,7 @@ async function reportOf(vessel: MeasuredVessel, profile: Profile): Promise<strin
   const { stretch, secondStretch } = currentMarks.value ?? {};
   return engine.ask('measured_report', {
     vessel,
-    scan: isScanNamed.value && store.studyName.value !== '' ? store.studyName.value : null,
+    scan: namedScan(),
     saved: new Date().toLocaleString('sv-SE', { dateStyle: 'short', timeStyle: 'short' }),
     has_units: hasUnits,
     has_orientation: orientation,

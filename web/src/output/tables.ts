@@ -1,12 +1,14 @@
 /** The numbers of measured vessels as files. */
+
+import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { MeasuredVessel } from '../core/messages';
-import { engine } from '../core/shared';
-import { document_ } from '../edit/history';
-import { profiles } from '../measure/profiles';
 import { marksOf } from '../measure/vessels';
+import { document_ } from '../state/history';
+import { profiles } from '../state/profiles';
 import * as store from '../state/store';
 import { saveAs } from './pictures';
+import { studyFileName } from './study-file-names';
 
 /** Saves the table or the JSON of all vessels that were measured. */
 export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
@@ -24,7 +26,7 @@ export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
     ? engine.ask('profiles_csv', vessels)
     : engine.ask('profiles_json', vessels));
   const type = kind === 'csv' ? 'text/csv' : 'application/json';
-  saveAs(new Blob([text], { type }), `lumencut-profile.${kind}`);
+  saveAs(new Blob([text], { type }), studyFileName({ content: 'profile', ending: kind }));
 }
 
 /** The vessels that were measured, in the order of the tree; their ids are those of `lumencut measure`. */

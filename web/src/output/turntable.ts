@@ -4,6 +4,7 @@ import { Failure } from '../core/failure';
 import type { Camera } from '../core/messages';
 import * as store from '../state/store';
 import { composed, saveAs } from './pictures';
+import { studyFileName } from './study-file-names';
 
 const FRAMES = 72;
 const PER_SECOND = 18;
@@ -16,16 +17,16 @@ interface Album {
 }
 
 /** Saves a turn as a film. */
-export const saveFilm = (): Promise<void> => saveTurn(new Film(), 'lumencut.webm');
+export const saveFilm = (): Promise<void> => saveTurn(new Film(), 'webm');
 
 /** Saves a turn as pictures. */
 export const savePictures = async (): Promise<void> => {
   const { PictureArchive } = await import('./picture-archive');
-  return saveTurn(new PictureArchive(), 'lumencut.zip');
+  return saveTurn(new PictureArchive(), 'zip');
 };
 
 /** Renders a turn of the view and saves it; the view is as it was then. Escape ends it early and saves nothing. */
-async function saveTurn(album: Album, name: string): Promise<void> {
+async function saveTurn(album: Album, ending: string): Promise<void> {
   const camera = store.camera.value;
   if (!camera || store.progress.value) {
     return;
@@ -41,7 +42,8 @@ async function saveTurn(album: Album, name: string): Promise<void> {
         return;
       }
     }
-    saveAs(await album.finish(), name);
+    const film = await album.finish();
+    saveAs(film, studyFileName({ content: 'turntable', ending }));
   } catch (error) {
     store.problem.value = Failure.of(error);
   } finally {

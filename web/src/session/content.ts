@@ -11,7 +11,7 @@ import type {
   Vector,
 } from '../core/messages';
 import type { SavedMarks, SavedScan, SavedView } from '../core/session-file';
-import type { Document, VesselMarks } from '../edit/document';
+import type { Document, VesselMarks } from '../state/document';
 
 /** How a scan is looked at when it is saved. */
 export interface Looked {

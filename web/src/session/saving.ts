@@ -1,15 +1,15 @@
 /** Saving the session, and going on with a saved one. */
 import { batch, effect, untracked } from '@preact/signals';
+import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Bytes, DocumentVessel, GivenFile, Method } from '../core/messages';
 import type { SavedView } from '../core/session-file';
-import { engine } from '../core/shared';
-import { shownVessels } from '../edit/changes';
-import type { Document } from '../edit/document';
-import { document_ } from '../edit/history';
 import { beginDocument, pickedId, tree } from '../edit/shown';
-import { giveFwhm, givenFwhm } from '../measure/profiles';
+import { shownVessels } from '../state/changes';
 import { recover } from '../state/device';
+import type { Document } from '../state/document';
+import { document_ } from '../state/history';
+import { giveFwhm, givenFwhm } from '../state/profiles';
 import * as store from '../state/store';
 import { cameraOf, contentOf, documentOf, type Looked } from './content';
 

@@ -1,14 +1,17 @@
 /** What the user can do: each action writes the store, and nothing else. */
 import { batch } from '@preact/signals';
-import { panned, trackballed, turnedAbout, zoomed } from '../core/camera';
-import type { EngineClient } from '../core/engine';
+import type { EngineClient } from '../client/engine';
+import type { Asked } from '../core/asked';
+import { panned, resized, trackballed, turnedAbout, zoomed } from '../core/camera';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
-import { tool } from '../edit/tool';
 import type { Action } from '../input/bindings';
-import { isArriving } from '../measure/arriving';
-import { stopMeasuring } from '../measure/profiles';
-import { putRulerAway } from '../measure/rulers';
+import { isArriving } from './arriving';
+import { destination, flyToAnswer } from './flight';
+import { dragPlaceTurn, endPlaceTurn, placeTurn, togglePlaceTurn } from './place-turn';
+import { stopMeasuring } from './profiles';
+import { putRulerAway } from './rulers';
 import * as store from './store';
+import { tool } from './tool';
 
 /** How much of the window a drag of one pixel changes. */
 const WINDOW_PER_PIXEL = 0.004;
@@ -29,6 +32,10 @@ function pivot(camera: Camera): Vector {
 
 /** A drag in the turning view, in CSS pixels. */
 export function dragTurning(action: Action, by: Pair, axis: Vector | null): void {
+  if (placeTurn.value && (action === 'rotate' || action === 'rotate about vessel')) {
+    dragPlaceTurn(by[0], store.camera.value?.size[1] ?? 1);
+    return;
+  }
   switch (action) {
     case 'rotate':
       changeCamera((camera) => trackballed(camera, pivot(camera), by));
@@ -55,19 +62,30 @@ export function zoomTurning(factor: number, at: Pair): void {
 }
 
 /** What a drag changes, kept at its beginning, so that Escape puts it back. */
-let before = { camera: store.camera.value, window: store.window_.value };
+let before = kept();
+
+function kept() {
+  const [camera, to] = [store.camera.value, destination.value];
+  // A drag ends a flight; taken back, it leaves the view that was flown to.
+  return {
+    camera: camera && to ? resized(to, camera.size) : camera,
+    window: store.window_.value,
+    turn: placeTurn.value,
+  };
+}
 
 /** The beginning, the end and the taking back of a drag, for the handlers of a view. */
 export function windowBack(): { begin(): void; end(): void; putBack(): void } {
   return {
     begin: () => {
-      before = { camera: store.camera.value, window: store.window_.value };
+      before = kept();
     },
     end: () => undefined,
     putBack: () =>
       batch(() => {
         store.camera.value = before.camera;
         store.window_.value = before.window;
+        placeTurn.value = before.turn;
       }),
   };
 }
@@ -114,7 +132,15 @@ export function toggleFocus(): void {
 export async function showNamedView(engine: EngineClient, name: string): Promise<void> {
   const camera = store.camera.value;
   if (camera && store.report.value) {
-    store.camera.value = await engine.ask('fitted', { view: name, size: camera.size });
+    await flyToAnswer(engine, engine.ask('fitted', { view: name, size: camera.size }));
+  }
+}
+
+/** Shows the view from which most of the picked vessel is seen. */
+export async function showBestView(engine: Asked): Promise<void> {
+  const [camera, vessel] = [store.camera.value, store.pickedVessel.value];
+  if (camera && vessel !== null) {
+    await flyToAnswer(engine, engine.ask('best_view', { camera, vessel }));
   }
 }
 
@@ -171,6 +197,12 @@ function performSimple(engine: EngineClient, action: Action): void {
     case 'measure':
       toggleMeasuring();
       break;
+    case 'best view':
+      void showBestView(engine);
+      break;
+    case 'turn about place':
+      void togglePlaceTurn(engine);
+      break;
     case 'turn':
       store.isTurning.value = !store.isTurning.value;
       break;
@@ -194,6 +226,7 @@ function cancel(engine: EngineClient): void {
     store.progress.value = null;
   }
   stopMeasuring();
+  endPlaceTurn();
   batch(() => {
     store.isHelpOpen.value = false;
     store.isTurning.value = false;

@@ -1,7 +1,7 @@
 /** What computes: found at the start, and again after a GPU was lost. */
 import { batch } from '@preact/signals';
+import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
-import { engine } from '../core/shared';
 import * as store from './store';
 
 /** A GPU that fails again within this time is given up, and the CPU goes on (ms). */

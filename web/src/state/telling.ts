@@ -1,5 +1,7 @@
 /** Short messages that go by themselves. */
 import { signal } from '@preact/signals';
+import { Failure } from '../core/failure';
+import { problem, report } from './store';
 
 /** How long one stays (ms). */
 const STAYS = 8000;
@@ -14,4 +16,12 @@ export function tell(words: string): void {
   timer = window.setTimeout(() => {
     told.value = null;
   }, STAYS);
+}
+
+/** Shows why something was not done; nothing where it was interrupted, or asked of a study that is closed meanwhile. */
+export function tellFailure(error: unknown): void {
+  const failure = Failure.of(error);
+  if (failure.kind !== 'interrupted' && report.value) {
+    problem.value = failure;
+  }
 }

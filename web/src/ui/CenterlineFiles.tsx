@@ -1,10 +1,12 @@
 /** Vessels as files, and files as vessels. */
+
+import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { CenterlineKind } from '../core/messages';
-import { engine } from '../core/shared';
 import { centerlineFile } from '../edit/files';
-import { document_, markSaved } from '../edit/history';
 import { saveAs } from '../output/pictures';
+import { studyFileName } from '../output/study-file-names';
+import { document_, markSaved } from '../state/history';
 import { problem } from '../state/store';
 import { OpenMore } from './OpenButtons';
 
@@ -36,7 +38,7 @@ export function CenterlineFiles() {
 async function save(kind: CenterlineKind): Promise<void> {
   const document = document_.value;
   try {
-    saveAs(await centerlineFile(engine, kind), `centerlines.${kind}`);
+    saveAs(await centerlineFile(engine, kind), studyFileName({ content: 'centerlines', ending: kind }));
     markSaved(document);
   } catch (error) {
     problem.value = Failure.of(error);

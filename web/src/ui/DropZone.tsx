@@ -1,9 +1,9 @@
 /** All of the page takes files that are dropped on it, and shows so while they are over it. */
 import { useSignal, useSignalEffect } from '@preact/signals';
-import { engine } from '../core/shared';
+import { engine } from '../client/shared';
 import { dropped } from '../input/dropped';
-import { takeFiles } from '../state/opening';
 import { hasVolume, started } from '../state/store';
+import { takeFiles } from '../study/opening';
 
 export function DropZone() {
   const isOver = useSignal(false);

@@ -1,8 +1,8 @@
 /** Asks what a volume is that came while a scan is open. */
-import { engine } from '../core/shared';
+import { engine } from '../client/shared';
 import { addMask } from '../edit/branches';
-import { leave } from '../state/leaving';
-import { openFiles, question } from '../state/opening';
+import { leave } from '../study/leaving';
+import { openFiles, question } from '../study/opening';
 
 export function FileQuestion() {
   const files = question.value;

@@ -2,7 +2,6 @@
 import { type Signal, signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useMeasuring } from '../measure/asking';
-import { NumbersPanel } from '../measure/NumbersPanel';
 import { ProfilePane } from '../measure/ProfilePane';
 import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
 import { CprView } from '../views/CprView';
@@ -10,6 +9,7 @@ import { SectionView } from '../views/SectionView';
 import { SliceView } from '../views/SliceView';
 import { TurningView } from '../views/TurningView';
 import { Divider } from './Divider';
+import { NumbersPanel } from './NumbersPanel';
 
 const VIEWS: Readonly<Record<Name, readonly ViewName[]>> = {
   one: ['turning'],

@@ -1,8 +1,8 @@
 /** Asks before what was not saved is lost. */
 import { Failure } from '../core/failure';
 import { saveSession } from '../output/session';
-import { leaving } from '../state/leaving';
 import { problem } from '../state/store';
+import { leaving } from '../study/leaving';
 
 export function LeaveQuestion() {
   const waiting = leaving.value;

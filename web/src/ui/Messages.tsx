@@ -1,6 +1,7 @@
 /** What went wrong, and how far long work is. */
+
+import { engine } from '../client/shared';
 import type { Failure } from '../core/failure';
-import { engine } from '../core/shared';
 import { refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
 import { problem, progress } from '../state/store';

@@ -1,9 +1,9 @@
 /** Buttons that open files, and a folder of DICOM. */
 import { useRef } from 'preact/hooks';
-import { engine } from '../core/shared';
+import { engine } from '../client/shared';
 import { chosen } from '../input/dropped';
-import { takeFiles } from '../state/opening';
 import { started } from '../state/store';
+import { takeFiles } from '../study/opening';
 
 export function OpenButtons() {
   return (

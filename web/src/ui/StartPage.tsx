@@ -1,8 +1,8 @@
 /** What the page shows while nothing is open: what to do, and a phantom to try it with. */
-import { engine } from '../core/shared';
+import { engine } from '../client/shared';
 import { startGuide } from '../guide/steps';
 import { started } from '../state/store';
-import { openPhantom } from '../state/study';
+import { openPhantom } from '../study/study';
 import { OpenButtons } from './OpenButtons';
 
 const PHANTOMS: readonly (readonly [string, string])[] = [

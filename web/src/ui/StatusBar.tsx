@@ -1,8 +1,10 @@
 /** The read-out: where the cross-hair is, what is there, and how fast the page is. */
-import { nameOf } from '../edit/changes';
+
 import { tree } from '../edit/shown';
+import { nameOf } from '../state/changes';
 import * as store from '../state/store';
 import { positionText } from '../views/position';
+import { useClosing } from './closing-menu';
 
 export function StatusBar() {
   return (
@@ -75,12 +77,13 @@ function deviceText(): string {
 
 /** What was odd about the scan, one sentence each. */
 function Notes() {
+  const menu = useClosing();
   const notes = store.notes.value;
   if (notes.length === 0) {
     return null;
   }
   return (
-    <details class="menu upwards">
+    <details class="menu upwards" ref={menu}>
       <summary>{notes.length === 1 ? '1 note' : `${notes.length} notes`}</summary>
       <ul class="menu-body">
         {notes.map((note) => (

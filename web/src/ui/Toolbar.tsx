@@ -1,13 +1,14 @@
 /** The bar at the top: tracing, measuring and saving; method, context, silhouettes, slab, presets, layout. */
+
+import { engine } from '../client/shared';
 import type { Method } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
-import { engine } from '../core/shared';
 import { isListOpen, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { perform, setSetting, settingOf, showLayout } from '../state/actions';
-import { leave } from '../state/leaving';
 import * as store from '../state/store';
-import { close } from '../state/study';
+import { leave } from '../study/leaving';
+import { close } from '../study/study';
 import { FocusControl } from './FocusControl';
 import { MeasureButton } from './MeasureButton';
 import { OpenMore } from './OpenButtons';

@@ -1,17 +1,17 @@
 /** What can be done next about vessels, over the views: the offer to trace, what a click does now, and a doubtful branch. */
 import { useSignal } from '@preact/signals';
-import { engine } from '../core/shared';
+import { engine } from '../client/shared';
 import { accept, findVessels, leaveOut } from '../edit/branches';
-import { nameOf, vesselOf } from '../edit/changes';
 import { waiting } from '../edit/committing';
 import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
-import { document_ } from '../edit/history';
 import { chosenDoubt } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel } from '../edit/pointing';
 import { STOPPER } from '../edit/stoppers';
-import { type Tool, tool } from '../edit/tool';
+import { nameOf, vesselOf } from '../state/changes';
+import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
+import { type Tool, tool } from '../state/tool';
 
 export function TraceBar() {
   const doubt = vesselOf(document_.value, chosenDoubt.value);

@@ -1,16 +1,16 @@
 /** The list of vessels: their names, colours and lengths, and what can be done with all of them. */
 
+import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
-import { engine } from '../core/shared';
 import { accept, findVessels, leaveOut } from '../edit/branches';
-import { doubtful, nameOf } from '../edit/changes';
 import { setBridge } from '../edit/clicks';
-import { document_, redo, redoWords, undoWords } from '../edit/history';
 import { lengthOf } from '../edit/lines';
 import { isListOpen, isTracing, toggleTool } from '../edit/mode';
 import { performAny, undoLast } from '../edit/performing';
 import { STOPPER } from '../edit/stoppers';
 import { remove } from '../edit/vessels';
+import { doubtful, nameOf } from '../state/changes';
+import { document_, redo, redoWords, undoWords } from '../state/history';
 import { states } from '../state/store';
 import { CenterlineFiles } from './CenterlineFiles';
 import { VesselRow } from './VesselRow';

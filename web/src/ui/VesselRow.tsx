@@ -1,18 +1,19 @@
 /** A vessel of the list; the one that is picked shows what can be done with it. */
 import { batch } from '@preact/signals';
 import { useState } from 'preact/hooks';
+import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
-import { engine } from '../core/shared';
-import { nameOf } from '../edit/changes';
-import { document_ } from '../edit/history';
 import { lengthOf } from '../edit/lines';
-import { PALETTE } from '../edit/palette';
 import { pickedId, tree } from '../edit/shown';
-import { active, tool } from '../edit/tool';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { placeCrossHair } from '../link/cross-hair';
+import { showBestView } from '../state/actions';
+import { nameOf } from '../state/changes';
 import { recover } from '../state/device';
+import { document_ } from '../state/history';
+import { PALETTE } from '../state/palette';
 import { pickedPlace, pickedVessel, report, states } from '../state/store';
+import { active, tool } from '../state/tool';
 
 interface RowProps {
   readonly vessel: DocumentVessel;
@@ -68,12 +69,13 @@ function NameField({ vessel }: RowProps) {
   );
 }
 
-/** The length of a vessel; as long as it is traced anew, what it was. */
+/** The length of a vessel; as long as it is traced anew, what it was, and where that is not known yet, no number. */
 function lengthText({ id, line }: DocumentVessel): string {
   const shown = report.value?.vessels ?? [];
   const before = shown[tree.value.findIndex((vessel) => vessel.id === id)];
   const now = shown.find((vessel) => vessel.line === line)?.length ?? lengthOf(line);
-  return (now || (before?.length ?? 0)).toFixed(1);
+  const length = now || (before?.length ?? 0);
+  return length > 0 ? length.toFixed(1) : '…';
 }
 
 function ColorChoice({ vessel }: RowProps) {
@@ -104,6 +106,15 @@ function Means({ vessel }: RowProps) {
   };
   return (
     <div class="buttons">
+      {!vessel.isHidden && (
+        <button
+          type="button"
+          title="From where most of it is seen (f)"
+          onClick={() => void showBestView(engine)}
+        >
+          Best view
+        </button>
+      )}
       {vessel.clicks && !vessel.isHidden && (
         <button type="button" title="Add points at its end" onClick={goOn}>
           Go on

@@ -13,6 +13,8 @@ export function WindowStrip() {
   if (!histogram) {
     return null;
   }
+  const presets = store.report.value?.windows?.presets ?? [];
+  const chosen = presets.findIndex((preset) => preset.window[0] === level && preset.window[1] === width);
   const scale = new Scale(histogram, store.report.value?.windows?.main ?? store.window_.value);
   return (
     <div class="window-strip">
@@ -39,11 +41,11 @@ export function WindowStrip() {
       />
       <label>
         <span class="hidden-words">Window preset</span>
-        <select value="" onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
-          <option value="" disabled>
-            Window
+        <select value={chosen} onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
+          <option value={-1} disabled>
+            Own window
           </option>
-          {store.report.value?.windows?.presets.map((preset, number) => (
+          {presets.map((preset, number) => (
             <option key={preset.name} value={number}>{`${preset.words} (${number + 1})`}</option>
           ))}
         </select>

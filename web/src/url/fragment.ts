@@ -6,6 +6,7 @@ import { batch, effect } from '@preact/signals';
 import type { Camera, Method, SettingRow, Settings, Vector } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
 import { dot, length } from '../core/vectors';
+import { destination } from '../state/flight';
 import * as store from '../state/store';
 
 /** How long nothing changes before the address does (ms). */
@@ -205,7 +206,8 @@ export function followView(): void {
     const isOpen = store.report.value !== null;
     window.clearTimeout(timer);
     dataset.address = isOpen ? 'pending' : 'none';
-    if (isOpen) {
+    // A view on the way to another is none to come back to.
+    if (isOpen && !destination.value) {
       timer = window.setTimeout(() => {
         history.replaceState(null, '', `#${fragmentOf(state)}`);
         dataset.address = 'written';

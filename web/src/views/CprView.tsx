@@ -1,13 +1,13 @@
 /** The straightened CPR of the picked vessel. */
 import { useCallback, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
 import type { Cpr, Pair } from '../core/messages';
-import { engine } from '../core/shared';
 import { placeCrossHair } from '../link/cross-hair';
 import { UprightPlaces } from '../measure/UprightPlaces';
+import { CprControls, TURN_STEP } from '../pane/CprControls';
+import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
-import { CprControls, TURN_STEP } from './CprControls';
-import { FlatPicture } from './FlatPicture';
 
 /** The width that is shown (mm). */
 const WIDTH = 50;

@@ -1,21 +1,21 @@
 /** The section across the picked vessel. */
 import { useEffect, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
 import type { Answer } from '../core/asked';
 import type { Pair, Plane } from '../core/messages';
-import { engine } from '../core/shared';
+import { pixelOn, pointOn } from '../core/planes';
 import { moveAlong } from '../link/along';
 import { placeCrossHair } from '../link/cross-hair';
 import { currentProfile } from '../measure/current';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { SectionMarks } from '../measure/SectionMarks';
+import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import { recover } from '../state/device';
 import * as store from '../state/store';
 import { pickedLine } from '../state/store';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
-import { FlatPicture } from './FlatPicture';
-import { pixelOn, pointOn } from './planes';
 import { HairLines } from './TurningOverlay';
 
 /** The side of the section at first (mm). */

@@ -1,20 +1,9 @@
 /** An axial, coronal or sagittal slice through the cross-hair. */
 import { batch } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
+import { Latest } from '../core/latest';
 import type { Pair, Plane, Vector } from '../core/messages';
-import { engine } from '../core/shared';
-import { add, cross, scale } from '../core/vectors';
-import { target } from '../edit/drawing';
-import { isTracing } from '../edit/mode';
-import type { Handlers } from '../input/pointer';
-import { placeCrossHair } from '../link/cross-hair';
-import { SliceMeasures } from '../measure/MeasureOverlay';
-import { dragWindow, windowBack } from '../state/actions';
-import * as store from '../state/store';
-import { useAsked } from './asked';
-import { EdgeLabels } from './EdgeLabels';
-import { FlatPicture } from './FlatPicture';
-import { Latest } from './latest';
 import {
   AXES,
   fittedLook,
@@ -27,7 +16,18 @@ import {
   type SliceName,
   sliceDistance,
   zoomedLook,
-} from './planes';
+} from '../core/planes';
+import { add, cross, scale } from '../core/vectors';
+import { target } from '../edit/drawing';
+import { isTracing } from '../edit/mode';
+import type { Handlers } from '../input/pointer';
+import { placeCrossHair } from '../link/cross-hair';
+import { SliceMeasures } from '../measure/MeasureOverlay';
+import { FlatPicture } from '../pane/FlatPicture';
+import { dragWindow, windowBack } from '../state/actions';
+import * as store from '../state/store';
+import { useAsked } from './asked';
+import { EdgeLabels } from './EdgeLabels';
 import { ofPlane, type Projection } from './projection';
 import { TracedOverlay } from './TracedOverlay';
 import { HairLines } from './TurningOverlay';

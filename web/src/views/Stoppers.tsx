@@ -1,13 +1,13 @@
 /** Stoppers over a view: the circles that slices cut out of them, which can be dragged and removed. */
 
+import { engine } from '../client/shared';
 import type { Stopper, Vector } from '../core/messages';
-import { engine } from '../core/shared';
 import { add } from '../core/vectors';
 import { draggedStopper } from '../edit/drawing';
-import { document_ } from '../edit/history';
 import { isTracing } from '../edit/mode';
 import { moveStopper, removeStopper } from '../edit/stoppers';
-import { Handle } from './Handle';
+import { Handle } from '../pane/Handle';
+import { document_ } from '../state/history';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';
 

@@ -2,6 +2,7 @@
 import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
 import { TurningMeasures } from '../measure/MeasureOverlay';
+import { PlaceTurnBar } from '../measure/PlaceTurnBar';
 import { camera, crossHair, report, states } from '../state/store';
 import { Cube } from './Cube';
 import { EdgeLabels } from './EdgeLabels';
@@ -28,6 +29,7 @@ export function TurningOverlay() {
       <TracedOverlay projection={ofCamera(seen, volume)} />
       {place && <HairLines at={place} />}
       {states.value.orientation && <Cube camera={seen} />}
+      <PlaceTurnBar />
     </div>
   );
 }

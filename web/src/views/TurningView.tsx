@@ -1,19 +1,19 @@
 /** The main view: the vessels cut open, freely turned. */
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
+import { engine } from '../client/shared';
 import { resized, zoomed } from '../core/camera';
 import type { Pair, Picture, Settings, Vector, View } from '../core/messages';
-import { engine } from '../core/shared';
 import { cross } from '../core/vectors';
 import { isTracing } from '../edit/mode';
 import type { Action } from '../input/bindings';
 import { listen } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
+import { usePaneSize } from '../pane/pane-size';
 import * as actions from '../state/actions';
 import { recover } from '../state/device';
 import * as store from '../state/store';
 import { FrameLoop, type Shown } from './frame-loop';
-import { usePaneSize } from './pane-size';
 import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';
 import { clickWithTool, followPointerAt, type Pointed, toolRows } from './tool-clicks';

@@ -2,13 +2,13 @@
 
 import type { DocumentVessel, Vector } from '../core/messages';
 import { drawnColor, livePaths } from '../edit/drawing';
-import { document_ } from '../edit/history';
 import { contents } from '../edit/lines';
 import { isTracing } from '../edit/mode';
-import { DOUBTFUL } from '../edit/palette';
 import { tree } from '../edit/shown';
-import { tool } from '../edit/tool';
+import { document_ } from '../state/history';
+import { DOUBTFUL } from '../state/palette';
 import { pickedVessel } from '../state/store';
+import { tool } from '../state/tool';
 import { pathData } from './curves';
 import type { Projection } from './projection';
 

@@ -1,18 +1,18 @@
 /** The points of vessels over a view: each can be dragged, moved by keys and removed. */
 
+import { engine } from '../client/shared';
 import type { DocumentVessel, Vector } from '../core/messages';
-import { engine } from '../core/shared';
 import { add } from '../core/vectors';
-import { nameOf } from '../edit/changes';
 import { moveClick, removeClick } from '../edit/clicks';
 import { dragged, isDrawing } from '../edit/drawing';
-import { document_ } from '../edit/history';
 import { isTracing } from '../edit/mode';
 import { setPoint } from '../edit/pointing';
 import { pickedId } from '../edit/shown';
-import { active, tool } from '../edit/tool';
+import { Handle } from '../pane/Handle';
+import { nameOf } from '../state/changes';
+import { document_ } from '../state/history';
+import { active, tool } from '../state/tool';
 import { isNear } from './curves';
-import { Handle } from './Handle';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';
 

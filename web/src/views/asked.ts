@@ -1,7 +1,7 @@
 /** What a flat view asks the engine for. */
 import { useCallback } from 'preact/hooks';
+import { engine } from '../client/shared';
 import type { Picture, Plane, Window } from '../core/messages';
-import { engine } from '../core/shared';
 
 /** The question for the picture of a plane, which changes only where the picture does; none without a plane. */
 export function useAsked(plane: Plane | null, window: Window): (() => Promise<Picture>) | null {

@@ -1,8 +1,8 @@
 /** Lines in space as curves over a view: their paths, and which of them a pixel is on. */
 
 import type { DocumentVessel, Pair, Vector } from '../core/messages';
-import { document_ } from '../edit/history';
 import { contents } from '../edit/lines';
+import { document_ } from '../state/history';
 import type { Projection } from './projection';
 
 /** What is nearer to a slice than this is drawn as lying in it (mm). */

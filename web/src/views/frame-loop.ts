@@ -2,8 +2,9 @@
  * The loop of the turning view: while something changes, pictures of as many pixels as the rate allows; at rest one with
  * all pixels, and then one with several samples for each. One picture is under way at a time, and the latest view wins.
  */
+
+import type { EngineClient } from '../client/engine';
 import { sampled } from '../core/camera';
-import type { EngineClient } from '../core/engine';
 import { Failure } from '../core/failure';
 import type { Drawn, View } from '../core/messages';
 
@@ -39,6 +40,8 @@ export class FrameLoop {
   private isStopped = false;
   /** What draws was exchanged while a picture was under way: that one counts no longer, nor does its failure. */
   private isOutdated = false;
+  /** The next picture at rest is the first of a device: its time is also that of compiling shaders. */
+  private isFirst = false;
   private factor = 1;
   /** How often in a row the view gave way to something else. */
   private gaveWay = 0;
@@ -67,7 +70,8 @@ export class FrameLoop {
     if (this.isBusy) {
       this.isOutdated = true;
     } else if (this.wanted) {
-      // From the start, since the first picture of a device also takes the time that its shaders need to be compiled.
+      // From the start, since the first pictures of a device also take the time that its shaders need to be compiled.
+      this.isFirst = true;
       this.want(this.wanted);
     }
   }
@@ -150,8 +154,13 @@ export class FrameLoop {
   }
 
   private goOn(view: View, stage: Stage, milliseconds: number): void {
+    const isFirst = stage === 'full' && this.isFirst;
+    this.isFirst &&= !isFirst;
     if (this.wanted !== view) {
       this.next();
+    } else if (isFirst && milliseconds > SAMPLED_WITHIN) {
+      // Only the next one tells whether there is time for samples.
+      this.advance('full');
     } else if (stage === 'moving') {
       const rest = REST_AFTER - (performance.now() - this.changed);
       this.timer = window.setTimeout(() => this.advance('full'), Math.max(rest, 0));

@@ -1,8 +1,8 @@
 /** The letters and the scale bar of a picture, as the engine decides them. */
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
+import { Latest } from '../core/latest';
 import type { LaidPicture, PictureLabels } from '../core/messages';
-import { engine } from '../core/shared';
-import { Latest } from './latest';
 
 /** The labels of a picture; those of the one before until they are known. */
 export function useLabels(picture: LaidPicture): PictureLabels | null {

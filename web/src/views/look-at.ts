@@ -1,6 +1,7 @@
 /** Puts the cross-hair of all views at a place. */
+
+import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
-import { engine } from '../core/shared';
 import { placeCrossHair } from '../link/cross-hair';
 import { recover } from '../state/device';
 

@@ -1,8 +1,8 @@
 /** Where points of the world are seen in a view, and the way back: the same questions to slices and to the turning view. */
 import { pixelOf, rightOf } from '../core/camera';
 import type { Camera, Pair, Plane, Vector, VolumeReport } from '../core/messages';
+import { pixelOn, pointOn, voxelSide } from '../core/planes';
 import { add, cross, dot, negate, scale, subtract } from '../core/vectors';
-import { pixelOn, pointOn, voxelSide } from './planes';
 
 export interface Projection {
   /** CSS pixels. */

@@ -1,17 +1,18 @@
 /** Clicks and moves of the pointer in a view, while a tool is in use that sets points. */
+
+import { engine } from '../client/shared';
+import { Latest } from '../core/latest';
 import type { Pair, Vector } from '../core/messages';
-import { engine } from '../core/shared';
 import { addClickOnLine } from '../edit/clicks';
 import { anchor, candidate, drawn, first, target } from '../edit/drawing';
 import { chosenDoubt, isTracing } from '../edit/mode';
 import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
-import { tool } from '../edit/tool';
 import type { Action, Where } from '../input/bindings';
 import { placeCrossHair } from '../link/cross-hair';
 import { recover } from '../state/device';
 import { crossHair, type ViewName } from '../state/store';
+import { tool } from '../state/tool';
 import { curveAt, isAt } from './curves';
-import { Latest } from './latest';
 import type { Projection } from './projection';
 
 /** Which rows of the table hold besides those of the view. */

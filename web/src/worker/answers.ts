@@ -16,6 +16,9 @@ export function ask<N extends Question>(
   { bytes = NO_FILE, told }: Beside = {},
 ): Answer<N> {
   const words = wordsOf(name, message);
+  if (words) {
+    told?.({ words, done: 0, total: null });
+  }
   return answer(
     engine.ask(name, JSON.stringify(message), bytes, words && told ? hearing(words, told) : null),
   );

@@ -85,13 +85,14 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
         let change = inverse * inverse * dz;
         let near = larger(z0 + start * change - along * change.abs(), smaller(z0, z0 + dz));
         let across = ((ux * ey - uy * ex).abs() - (sx * ey.abs() + sy * ex.abs())) * inverse;
-        let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, larger(r0, r0 + bundle.radius_change[s]));
+        let widest = larger(r0, r0 + bundle.radius_change[s]);
+        let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, widest, bundle.tiers[s]);
         stripe[s] = if in_stripe { stripe_key } else { ABSENT };
 
         // The distance from the point is at least that across its edge, and that from the box.
         let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
         let away = larger(across, (gx * gx + gy * gy).sqrt());
-        let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0);
+        let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0, bundle.tiers[s]);
         wedge[s] = if in_wedge { wedge_key } else { ABSENT };
     }
     (stripe, wedge)

@@ -22,10 +22,10 @@ fn smallest_keys(tile: Tile, slot: Slot) -> vec2f {
     let change = inverse * inverse * slot.stripe_dz;
     let near = max(z0 + start * change - along * abs(change), min(z0, z0 + slot.stripe_dz));
     let across = (abs(u.x * edge.y - u.y * edge.x) - dot(sides, abs(edge.yx))) * inverse;
-    let stripe = key_bound(near, across, max(slot.radius, slot.radius + slot.radius_change));
+    let stripe = key_bound(near, across, max(slot.radius, slot.radius + slot.radius_change), slot.tiers);
 
     // The distance from the point is at least that across its edge, and that from the box.
     let away = max(across, length(max(abs(u) - tile.half, vec2f(0.0))));
-    let wedge = key_bound(slot.wedge_z, away, slot.radius);
+    let wedge = key_bound(slot.wedge_z, away, slot.radius, slot.tiers);
     return select(vec2f(ABSENT), vec2f(stripe, wedge), vec2<bool>(in_stripe, in_wedge));
 }

@@ -10,8 +10,8 @@ pub struct Rule {
     pub weight: f32,
     /// How thick the wall around a lumen is (mm).
     pub margin: f32,
-    /// More than the depth range of the tree (mm): under *lumen first* it lifts every wall before all surroundings, and
-    /// every lumen before every wall.
+    /// More than the depth range of the tree (mm), the height of a tier: under *lumen first* it lifts every wall before all
+    /// surroundings, every lumen before every wall, and both of a chosen vessel before those of all others.
     pub lift: f32,
     /// More than the rounding error of a projected distance (mm).
     pub distance_slack: f32,
@@ -33,15 +33,16 @@ impl Rule {
         }
     }
 
-    /// The key of a piece at depth `z` with lumen radius `r`, at distance `d` from its own centerline.
+    /// The key of a piece at depth `z` with lumen radius `r`, at distance `d` from its own centerline. Under *lumen first* its
+    /// lumen and its wall come `tiers` before those of other vessels.
     #[inline(always)]
-    pub fn key<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32) -> f32 {
+    pub fn key<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32, tiers: f32) -> f32 {
         let beyond = d - r;
         let cost = z + self.weight * larger(beyond, 0.0);
         if !LUMEN_FIRST {
             return cost;
         }
-        let lifted = if beyond <= 0.0 { z - 2.0 * self.lift } else { z - self.lift };
+        let lifted = z - self.lift * (tiers + if beyond <= 0.0 { 2.0 } else { 1.0 });
         if beyond <= self.margin { lifted } else { cost }
     }
 
@@ -58,14 +59,21 @@ impl Rule {
     /// Whether a piece at distance `d` from its centerline, of radius `r`, shows its lumen; under *lumen first* the key tells.
     #[inline(always)]
     pub fn is_lumen<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> bool {
-        // Walls have keys of half a mm above −3/2·lift and more, lumens of half a mm below it and less.
-        if LUMEN_FIRST { key < -1.5 * self.lift } else { d - r <= 0.0 }
+        // The keys of a tier lie within half a lift around it, and half a mm away from its borders.
+        let is_beside = (key >= -1.5 * self.lift) | (self.is_first(key) & (key >= -3.5 * self.lift));
+        if LUMEN_FIRST { !is_beside } else { d - r <= 0.0 }
     }
 
-    /// A key that nothing at depth ≥ `z` with radius ≤ `r` falls below from a distance ≥ `d`.
+    /// Whether a key under *lumen first* is that of the lumen or the wall of a chosen vessel.
     #[inline(always)]
-    pub fn bound<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32) -> f32 {
-        self.key::<LUMEN_FIRST>(z - self.depth_slack, d - self.distance_slack, r)
+    pub fn is_first(&self, key: f32) -> bool {
+        key < -2.5 * self.lift
+    }
+
+    /// A key that nothing at depth ≥ `z` with radius ≤ `r` and no more `tiers` falls below from a distance ≥ `d`.
+    #[inline(always)]
+    pub fn bound<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32, tiers: f32) -> f32 {
+        self.key::<LUMEN_FIRST>(z - self.depth_slack, d - self.distance_slack, r, tiers)
     }
 
     /// The bound beyond which nothing can beat or tie with `key`.

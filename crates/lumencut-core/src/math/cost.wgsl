@@ -3,12 +3,13 @@
 
 override LUMEN_FIRST: bool = false;
 
-// The keys of a piece at depths `z` with lumen radii `r`, at distances `d` from its own centerline.
-fn keys(z: vec4f, d: vec4f, r: vec4f) -> vec4f {
+// The keys of a piece at depths `z` with lumen radii `r`, at distances `d` from its own centerline. Under *lumen first* its lumen
+// and its wall come `tiers` before those of other vessels.
+fn keys(z: vec4f, d: vec4f, r: vec4f, tiers: f32) -> vec4f {
     let beyond = d - r;
     let cost = z + parameters.weight * max(beyond, vec4f(0.0));
     if LUMEN_FIRST {
-        let lifted = z - select(vec4f(parameters.lift), vec4f(2.0 * parameters.lift), beyond <= vec4f(0.0));
+        let lifted = z - parameters.lift * (tiers + select(vec4f(1.0), vec4f(2.0), beyond <= vec4f(0.0)));
         return select(cost, lifted, beyond <= vec4f(parameters.margin));
     }
     return cost;
@@ -26,17 +27,23 @@ fn beyond_wall(key: f32, d: f32, r: f32) -> f32 {
 
 // Whether a piece at distance `d` from its centerline, of radius `r`, shows its lumen; under *lumen first* the key tells.
 fn is_lumen(key: f32, d: f32, r: f32) -> bool {
-    // Walls have keys of half a mm above -3/2·lift and more, lumens of half a mm below it and less.
-    return select(d - r <= 0.0, key < -1.5 * parameters.lift, LUMEN_FIRST);
+    // The keys of a tier lie within half a lift around it, and half a mm away from its borders.
+    let is_beside = key >= -1.5 * parameters.lift || (is_first(key) && key >= -3.5 * parameters.lift);
+    return select(d - r <= 0.0, !is_beside, LUMEN_FIRST);
 }
 
-// A key that nothing at depth ≥ `z` with radius ≤ `r` falls below from a distance ≥ `d`.
-fn key_bound(z: f32, d: f32, r: f32) -> f32 {
+// Whether a key is that of the lumen or the wall of a chosen vessel.
+fn is_first(key: f32) -> bool {
+    return LUMEN_FIRST && key < -2.5 * parameters.lift;
+}
+
+// A key that nothing at depth ≥ `z` with radius ≤ `r` and no more `tiers` falls below from a distance ≥ `d`.
+fn key_bound(z: f32, d: f32, r: f32, tiers: f32) -> f32 {
     let beyond = d - parameters.distance_slack - r;
     let nearest = z - parameters.depth_slack;
     let cost = nearest + parameters.weight * max(beyond, 0.0);
     if LUMEN_FIRST {
-        let lifted = nearest - select(parameters.lift, 2.0 * parameters.lift, beyond <= 0.0);
+        let lifted = nearest - parameters.lift * (tiers + select(1.0, 2.0, beyond <= 0.0));
         return select(cost, lifted, beyond <= parameters.margin);
     }
     return cost;

@@ -20,6 +20,8 @@ pub struct Decision {
     pub radius: [f32; PIXELS],
     /// Whether the pixel shows the lumen of the vessel.
     pub is_lumen: [bool; PIXELS],
+    /// Whether the pixel shows a chosen vessel before all others.
+    pub is_first: [bool; PIXELS],
     /// How the depth changes to the right and upwards (mm per mm).
     pub slope: [[f32; PIXELS]; 2],
 }
@@ -40,6 +42,7 @@ impl Decision {
             beyond_wall: zero,
             radius: zero,
             is_lumen: [false; PIXELS],
+            is_first: [false; PIXELS],
             slope: [zero; 2],
         };
         // First all that is read from here and there, then all that is computed: the second in vectors.
@@ -66,6 +69,7 @@ impl Decision {
             decision.radius[l] = radius;
             decision.beyond_wall[l] = rule.beyond_wall::<LUMEN_FIRST>(winners.key[l], distance, radius);
             decision.is_lumen[l] = rule.is_lumen::<LUMEN_FIRST>(winners.key[l], distance, radius);
+            decision.is_first[l] = LUMEN_FIRST && rule.is_first(winners.key[l]);
             decision.arc_length[l] = starts.arc_length[l] + t * (ends.arc_length[l] - starts.arc_length[l]);
             decision.slope[0][l] = edge[0] * per_mm;
             decision.slope[1][l] = edge[1] * per_mm;

@@ -15,7 +15,7 @@ use super::tile::{Area, Tile};
 pub const NO_SLOT: u32 = u32::MAX;
 
 /// Sixteen nodes of one height, field by field: the box around a node's segments in the view plane, its
-/// nearest depth and its largest radius (mm).
+/// nearest depth, its largest radius (mm), and its most tiers ([`Rule::key`]).
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Boxes {
@@ -25,6 +25,7 @@ pub struct Boxes {
     high_y: [f32; FAN],
     z: [f32; FAN],
     radius: [f32; FAN],
+    tiers: [f32; FAN],
 }
 
 impl Boxes {
@@ -36,6 +37,7 @@ impl Boxes {
         high_y: [FAR; FAN],
         z: [ABSENT; FAN],
         radius: [0.0; FAN],
+        tiers: [0.0; FAN],
     };
 
     /// Sets node `n` to hold all slots of `bundle`.
@@ -49,6 +51,7 @@ impl Boxes {
             one.high_y = one.high_y.max(bundle.y[s]).max(bundle.next_y[s]);
             one.z = one.z.min(bundle.stripe_z[s]).min(end_z).min(bundle.wedge_z[s]);
             one.radius = one.radius.max(bundle.radius[s]).max(bundle.radius[s] + bundle.radius_change[s]);
+            one.tiers = one.tiers.max(bundle.tiers[s]);
         }
         self.set(n, one);
     }
@@ -63,6 +66,7 @@ impl Boxes {
             one.high_y = one.high_y.max(inner.high_y[s]);
             one.z = one.z.min(inner.z[s]);
             one.radius = one.radius.max(inner.radius[s]);
+            one.tiers = one.tiers.max(inner.tiers[s]);
         }
         self.set(n, one);
     }
@@ -70,7 +74,7 @@ impl Boxes {
     fn set(&mut self, n: usize, node: Node) {
         (self.low_x[n], self.high_x[n]) = (node.low_x, node.high_x);
         (self.low_y[n], self.high_y[n]) = (node.low_y, node.high_y);
-        (self.z[n], self.radius[n]) = (node.z, node.radius);
+        (self.z[n], self.radius[n], self.tiers[n]) = (node.z, node.radius, node.tiers);
     }
 
     /// The squared distance (mm²) between the area and each node's box.
@@ -92,12 +96,18 @@ impl Boxes {
         &self.radius
     }
 
+    /// Whether each node has slots of chosen vessels.
+    #[inline(always)]
+    pub fn has_first(&self, n: usize) -> bool {
+        self.tiers[n] > 0.0
+    }
+
     /// The smallest key that each node's pieces can reach in the tile.
     #[inline(always)]
     pub fn key_bounds<const LUMEN_FIRST: bool>(&self, tile: &Tile, rule: &Rule) -> [f32; FAN] {
         let mut bounds = self.squared_distances(&tile.area);
         for n in 0..FAN {
-            bounds[n] = rule.bound::<LUMEN_FIRST>(self.z[n], bounds[n].sqrt(), self.radius[n]);
+            bounds[n] = rule.bound::<LUMEN_FIRST>(self.z[n], bounds[n].sqrt(), self.radius[n], self.tiers[n]);
         }
         bounds
     }
@@ -111,10 +121,12 @@ struct Node {
     high_y: f32,
     z: f32,
     radius: f32,
+    tiers: f32,
 }
 
 impl Node {
-    const NOTHING: Self = Self { low_x: FAR, high_x: -FAR, low_y: FAR, high_y: -FAR, z: ABSENT, radius: 0.0 };
+    const NOTHING: Self =
+        Self { low_x: FAR, high_x: -FAR, low_y: FAR, high_y: -FAR, z: ABSENT, radius: 0.0, tiers: 0.0 };
 }
 
 /// The slots of a level in bundles, and the boxes above them; `heights[0]` encloses the bundles, the last

@@ -5,13 +5,14 @@
 // import math/tile
 // import math/pieces
 
-// The box around a node's segments in the view plane, its nearest depth and its largest radius (mm).
+// The box around a node's segments in the view plane, its nearest depth, its largest radius (mm), and its most tiers.
 struct NodeBox {
     low: vec2f,
     high: vec2f,
     z: f32,
     radius: f32,
-    padding: vec2f,
+    tiers: f32,
+    padding: f32,
 }
 
 @group(0) @binding(2) var<storage, read> slots: array<Slot>;

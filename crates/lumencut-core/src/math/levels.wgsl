@@ -21,6 +21,9 @@ struct Span {
     end: u32,
     // The first point of its level.
     level: u32,
+    // The first point whose lumen and wall come before those of all other vessels, and the point after the last.
+    first_chosen: u32,
+    end_chosen: u32,
 }
 
 // A point in projection (mm), written once in a view: whoever needs an edge reads it here, so that both neighbours of a

@@ -7,6 +7,7 @@ pub mod candidates;
 pub mod cell_walk;
 pub mod centerline_path;
 pub mod centerline_smoothing;
+pub mod chosen_slots;
 pub mod context_parameters;
 pub mod cost;
 pub mod cubic;

@@ -222,7 +222,7 @@ impl OwnPieces<'_> {
         for l in 0..PART_PIXELS {
             let Foot { covered, t, distance } = stripe.foot(part.x[l], part.y[l]);
             let z = z0 + t * dz;
-            let cost = self.rule.key::<false>(z, distance, r0 + t * dr);
+            let cost = self.rule.key::<false>(z, distance, r0 + t * dr, 0.0);
             let along = (s0 + t * ds) - part.arc_length[l];
             let is_own = part.vessel[l] == here.vessel;
             nearest.offer::<SHEET>(l, covered & is_own, Offered { along, cost, piece, z, slope });
@@ -235,7 +235,7 @@ impl OwnPieces<'_> {
         let (z, slope, piece) = (here.point[2], [0.0; 2], slot as u32 * 2);
         for l in 0..PART_PIXELS {
             let (covered, distance) = wedge.cover(part.x[l], part.y[l]);
-            let cost = self.rule.key::<false>(z, distance, here.radius);
+            let cost = self.rule.key::<false>(z, distance, here.radius, 0.0);
             let along = here.arc_length - part.arc_length[l];
             let is_own = part.vessel[l] == here.vessel;
             nearest.offer::<SHEET>(l, covered & is_own, Offered { along, cost, piece, z, slope });

@@ -18,6 +18,8 @@ struct Decision {
     sheet_radius: f32,
     // How the depth changes to the right and upwards (mm per mm).
     slope: vec2f,
+    // Whether the pixel shows a chosen vessel before all others.
+    is_first: bool,
 }
 
 // How a pixel lies to a stripe.
@@ -57,7 +59,8 @@ fn decide(level: u32, key: f32, piece: u32, vessel: i32, q: vec2f) -> Decision {
     let radius = here.radius + t * (next.radius - here.radius);
     let s = here.arc_length + t * (next.arc_length - here.arc_length);
     let sheet_radius = select(-radius, radius, is_lumen(key, distance, radius));
-    return Decision(vessel, s, beyond_wall(key, distance, radius), sheet_radius, slope_of(here, next));
+    let beyond = beyond_wall(key, distance, radius);
+    return Decision(vessel, s, beyond, sheet_radius, slope_of(here, next), is_first(key));
 }
 
 // The piece of a pixel's vessel so far whose arc length is nearest.

@@ -43,6 +43,8 @@ pub struct Bundle {
     pub radius: [f32; FAN],
     /// Change of radius along the stripe (mm).
     pub radius_change: [f32; FAN],
+    /// How many tiers lumen and wall come before those of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
+    pub tiers: [f32; FAN],
     /// The slot's number in its level: rises along each vessel and from vessel to vessel.
     pub slot: [u32; FAN],
 }
@@ -64,6 +66,7 @@ impl Bundle {
         wedge_z: [ABSENT; FAN],
         radius: [0.0; FAN],
         radius_change: [0.0; FAN],
+        tiers: [0.0; FAN],
         slot: [u32::MAX; FAN],
     };
 }
@@ -140,12 +143,12 @@ impl<const N: usize> Pixels<'_, N> {
             bundle.inverse_length[s],
         );
         let (z0, dz) = (bundle.stripe_z[s], bundle.stripe_dz[s]);
-        let (r0, dr) = (bundle.radius[s], bundle.radius_change[s]);
+        let (r0, dr, tiers) = (bundle.radius[s], bundle.radius_change[s], bundle.tiers[s]);
         let piece = bundle.slot[s] * 2 + 1;
         for l in 0..N {
             let Foot { covered, t, distance } = stripe.foot(self.x[l], self.y[l]);
             let z = z0 + t * dz;
-            let key = rule.key::<LUMEN_FIRST>(z, distance, r0 + t * dr);
+            let key = rule.key::<LUMEN_FIRST>(z, distance, r0 + t * dr, tiers);
             self.offer(l, covered, key, z, piece);
         }
     }
@@ -158,11 +161,11 @@ impl<const N: usize> Pixels<'_, N> {
             before: [bundle.before_x[s], bundle.before_y[s]],
             edge: [bundle.edge_x[s], bundle.edge_y[s]],
         };
-        let (z, r) = (bundle.wedge_z[s], bundle.radius[s]);
+        let (z, r, tiers) = (bundle.wedge_z[s], bundle.radius[s], bundle.tiers[s]);
         let piece = bundle.slot[s] * 2;
         for l in 0..N {
             let (covered, distance) = wedge.cover(self.x[l], self.y[l]);
-            let key = rule.key::<LUMEN_FIRST>(z, distance, r);
+            let key = rule.key::<LUMEN_FIRST>(z, distance, r, tiers);
             self.offer(l, covered, key, z, piece);
         }
     }

@@ -25,7 +25,8 @@ struct Slot {
     radius_change: f32,
     // The slot's number in its level; NO_SLOT where a bundle is not full.
     slot: u32,
-    padding: u32,
+    // How many tiers lumen and wall come before those of other vessels: 2 for chosen vessels, else 0.
+    tiers: f32,
 }
 
 // The winner of each pixel of the tile so far: its key, its depth (mm), and twice its slot, plus 1 for the stripe.
@@ -59,7 +60,7 @@ fn offer_stripe(slot: Slot) {
             let d = abs(ux * unit.y - uy * unit.x);
             let z = slot.stripe_z + t * slot.stripe_dz;
             let covered = (after_start >= vec4f(0.0)) & (beyond_end <= vec4f(0.0));
-            let key = keys(z, d, slot.radius + t * slot.radius_change);
+            let key = keys(z, d, slot.radius + t * slot.radius_change, slot.tiers);
             offer(quad_of(a, r), covered, key, z, slot.slot * 2u + 1u);
         }
     }
@@ -76,7 +77,8 @@ fn offer_wedge(slot: Slot) {
             let after_start = ux * slot.edge.x + uy * slot.edge.y;
             let d = sqrt(ux * ux + uy * uy);
             let covered = (beyond_before >= vec4f(0.0)) & (after_start <= vec4f(0.0));
-            offer(quad_of(a, r), covered, keys(z, d, vec4f(slot.radius)), z, slot.slot * 2u);
+            let key = keys(z, d, vec4f(slot.radius), slot.tiers);
+            offer(quad_of(a, r), covered, key, z, slot.slot * 2u);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The projection of a level's slots for one view: edges, depths, and what stands at each point.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::hierarchy::{Hierarchy, NO_SLOT, spatial_order};
@@ -12,6 +14,9 @@ use crate::vessel_tree::VesselTree;
 /// A segment whose projection is shorter than this (mm) is collinear with the view direction: it gives no
 /// stripe. A thousandth of a millimetre is far below any voxel and well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
+
+/// How many tiers lumen and wall of a chosen vessel come before those of others: both before both.
+const TIERS_OF_FIRST: f32 = 2.0;
 
 /// One level of detail, made once per tree: its distinct points as slots, and their order in space.
 #[derive(Debug)]
@@ -161,6 +166,15 @@ impl ProjectedLevel {
         };
         let projected = along.map(place).collect();
         Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
+    }
+
+    /// Puts lumen and wall of these slots, a range for each vessel, two tiers before those of all others, in all views from now on.
+    pub fn put_first(&mut self, level: &Level, chosen: &[Range<u32>]) {
+        for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
+            let is_first = chosen[level.vessel_of_slot[*slot as usize] as usize].contains(slot);
+            let tiers = if is_first { TIERS_OF_FIRST } else { 0.0 };
+            self.hierarchy.bundles[place / FAN].tiers[place % FAN] = tiers;
+        }
     }
 
     /// Projects all slots of `level` into the view of `camera`.

@@ -163,6 +163,7 @@ fn place(span: Span, i: u32) {
     slot.radius = here.radius;
     slot.radius_change = end.radius - here.radius;
     slot.slot = i - span.level;
+    slot.tiers = select(0.0, 2.0, span.first_chosen <= i && i < span.end_chosen);
     bundled[points[i].place] = slot;
 }
 
@@ -189,7 +190,7 @@ fn bundle(
 
 // A box with nothing inside.
 fn nothing() -> NodeBox {
-    return NodeBox(vec2f(FAR), vec2f(-FAR), ABSENT, 0.0, vec2f(0.0));
+    return NodeBox(vec2f(FAR), vec2f(-FAR), ABSENT, 0.0, 0.0, 0.0);
 }
 
 // Draws the box of a node around all slots of its bundle.
@@ -203,6 +204,7 @@ fn enclose_bundle(level: u32, n: u32) {
             box.high = max(box.high, max(slot.start, slot.next));
             box.z = min(box.z, min(min(slot.stripe_z, slot.stripe_z + slot.stripe_dz), slot.wedge_z));
             box.radius = max(box.radius, max(slot.radius, slot.radius + slot.radius_change));
+            box.tiers = max(box.tiers, slot.tiers);
         }
     }
     drawn[first_box(level, 0u) + n] = box;
@@ -219,6 +221,7 @@ fn enclose_boxes(level: u32, height: u32, n: u32) {
             box.high = max(box.high, inner.high);
             box.z = min(box.z, inner.z);
             box.radius = max(box.radius, inner.radius);
+            box.tiers = max(box.tiers, inner.tiers);
         }
     }
     drawn[first_box(level, height) + n] = box;

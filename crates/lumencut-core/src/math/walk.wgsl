@@ -6,7 +6,8 @@
 // The smallest key that a node's pieces can reach in the tile.
 fn node_bound(tile: Tile, level: u32, node: Node) -> f32 {
     let around = boxes[box_of(level, node)];
-    return key_bound(around.z, sqrt(squared_distance(tile, around.low, around.high)), around.radius);
+    let away = sqrt(squared_distance(tile, around.low, around.high));
+    return key_bound(around.z, away, around.radius, around.tiers);
 }
 
 // The most promising of a node and its brothers after it.

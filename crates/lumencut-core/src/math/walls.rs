@@ -5,7 +5,7 @@
 //! however the radius changes along the vessel.
 
 use super::hierarchy::{Boxes, Hierarchy};
-use super::lanes::{FAN, FAR, PIXELS, larger, largest, places, smaller};
+use super::lanes::{ABSENT, FAN, FAR, PIXELS, larger, largest, places, smaller};
 use super::nearest::squared_distances_to_segments;
 use super::pieces::Bundle;
 use super::tile::Tile;
@@ -55,10 +55,15 @@ fn lean(taper: f32) -> f32 {
     smaller(larger(taper / rest.sqrt(), -MOST_LEAN), MOST_LEAN)
 }
 
-/// Lowers the distance (mm) of every pixel of the tile from the wall of its nearest vessel, negative within, as far as
-/// `range` asks: nothing farther is looked for, and nothing more once all pixels are near.
+/// Lowers the distance (mm) of every pixel of the tile from the wall of its nearest vessel, or chosen vessel, negative within,
+/// as far as `range` asks: nothing farther is looked for, and nothing more once all pixels are near.
 #[inline(always)]
-pub fn nearest_walls(hierarchy: &Hierarchy, tile: &Tile, range: &WallRange, beyond: &mut [f32; PIXELS]) {
+pub fn nearest_walls<const OF_FIRST: bool>(
+    hierarchy: &Hierarchy,
+    tile: &Tile,
+    range: &WallRange,
+    beyond: &mut [f32; PIXELS],
+) {
     let mut stack = Stack::root(hierarchy, -FAR);
     let mut limit = range.far;
     while let Some((bound, height, node)) = stack.pop() {
@@ -66,12 +71,14 @@ pub fn nearest_walls(hierarchy: &Hierarchy, tile: &Tile, range: &WallRange, beyo
             continue;
         }
         if height > 0 {
-            let bounds = hierarchy.heights[height as usize - 1][node as usize].wall_bounds(tile, range.slack);
+            let bounds = hierarchy.heights[height as usize - 1][node as usize]
+                .wall_bounds::<OF_FIRST>(tile, range.slack);
             stack.push_nodes(tile, &bounds, limit, [height - 1, node * FAN as u32]);
             continue;
         }
         let bundle = &hierarchy.bundles[node as usize];
-        for s in places(tile.bits.within(&segment_bounds(bundle, tile, range.slack), limit)) {
+        let bounds = segment_bounds::<OF_FIRST>(bundle, tile, range.slack);
+        for s in places(tile.bits.within(&bounds, limit)) {
             lower_beyond(tile, beyond, bundle, s);
         }
         let farthest = largest(beyond);
@@ -80,26 +87,30 @@ pub fn nearest_walls(hierarchy: &Hierarchy, tile: &Tile, range: &WallRange, beyo
     }
 }
 
-/// The smallest distance (mm) that a pixel of the tile can have from the wall of each segment.
+/// The smallest distance (mm) that a pixel of the tile can have from the wall of each segment; [`ABSENT`] for one that does not
+/// count.
 #[inline(always)]
-fn segment_bounds(bundle: &Bundle, tile: &Tile, slack: f32) -> [f32; FAN] {
+fn segment_bounds<const OF_FIRST: bool>(bundle: &Bundle, tile: &Tile, slack: f32) -> [f32; FAN] {
     let [cx, cy] = tile.area.center;
     let mut bounds = squared_distances_to_segments(bundle, cx, cy);
     for s in 0..FAN {
         let widest = bundle.radius[s] + larger(bundle.radius_change[s], 0.0);
-        bounds[s] = bounds[s].sqrt() - tile.radius - widest - slack;
+        let bound = bounds[s].sqrt() - tile.radius - widest - slack;
+        bounds[s] = if OF_FIRST & (bundle.tiers[s] <= 0.0) { ABSENT } else { bound };
     }
     bounds
 }
 
 impl Boxes {
-    /// The smallest distance (mm) that a pixel of the tile can have from the walls within each node.
+    /// The smallest distance (mm) that a pixel of the tile can have from the walls within each node; [`ABSENT`] where none
+    /// counts.
     #[inline(always)]
-    fn wall_bounds(&self, tile: &Tile, slack: f32) -> [f32; FAN] {
+    fn wall_bounds<const OF_FIRST: bool>(&self, tile: &Tile, slack: f32) -> [f32; FAN] {
         let mut bounds = self.squared_distances(&tile.area);
         let widest = self.largest_radii();
         for n in 0..FAN {
-            bounds[n] = bounds[n].sqrt() - widest[n] - slack;
+            let bound = bounds[n].sqrt() - widest[n] - slack;
+            bounds[n] = if OF_FIRST & !self.has_first(n) { ABSENT } else { bound };
         }
         bounds
     }

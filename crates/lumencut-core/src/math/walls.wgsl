@@ -35,17 +35,20 @@ fn lower_beyond(slot: Slot) {
     }
 }
 
-// The smallest distance that a pixel of the tile can have from the walls within a node.
-fn wall_bound(tile: Tile, node: Node) -> f32 {
+// The smallest distance that a pixel of the tile can have from the walls within a node; ABSENT where none counts.
+fn wall_bound(tile: Tile, node: Node, of_first: bool) -> f32 {
     let around = boxes[box_of(0u, node)];
+    if of_first && around.tiers <= 0.0 {
+        return ABSENT;
+    }
     return sqrt(squared_distance(tile, around.low, around.high)) - around.radius - parameters.distance_slack;
 }
 
 // The next bundle, from a node on, that can lower a distance; beyond the last node if there is none.
-fn next_walls(tile: Tile, first: Node, limit: f32) -> Node {
+fn next_walls(tile: Tile, first: Node, limit: f32, of_first: bool) -> Node {
     var node = first;
     while !is_beyond(0u, node) {
-        let is_near = wall_bound(tile, node) <= limit;
+        let is_near = wall_bound(tile, node, of_first) <= limit;
         if is_near && node.height == 0u {
             break;
         }
@@ -59,31 +62,33 @@ fn next_walls(tile: Tile, first: Node, limit: f32) -> Node {
 }
 
 // Meets the segments of a bundle that can lower a distance.
-fn meet_walls(tile: Tile, bundle: u32, limit: f32) {
+fn meet_walls(tile: Tile, bundle: u32, limit: f32, of_first: bool) {
     for (var s = 0u; s < FAN; s++) {
         let slot = slots[bundle * FAN + s];
+        let counts = !of_first || slot.tiers > 0.0;
         let widest = slot.radius + max(slot.radius_change, 0.0);
-        if sqrt(square_to_segment(tile, slot)) - tile.radius - widest - parameters.distance_slack <= limit {
+        let nearest = sqrt(square_to_segment(tile, slot)) - tile.radius - widest - parameters.distance_slack;
+        if counts && nearest <= limit {
             lower_beyond(slot);
         }
     }
 }
 
-// Lowers the distance of every pixel of the tile from the wall of its nearest vessel: nothing farther than `far` is looked
-// for, and nothing more once all pixels are nearer than `near`.
-fn nearest_walls(tile: Tile, near: f32, far: f32) {
+// Finds the distance of every pixel of the tile from the wall of its nearest vessel, or chosen vessel: nothing farther than `far`
+// is looked for, and nothing more once all pixels are nearer than `near`.
+fn nearest_walls(tile: Tile, near: f32, far: f32, of_first: bool) {
     for (var q = 0u; q < ACROSS * ROWS; q++) {
         beyond[q] = vec4f(FAR);
     }
     var limit = far;
-    var node = next_walls(tile, first_node(0u), limit);
+    var node = next_walls(tile, first_node(0u), limit, of_first);
     while !is_beyond(0u, node) {
-        meet_walls(tile, node.index, limit);
+        meet_walls(tile, node.index, limit, of_first);
         let farthest = largest(beyond);
         if farthest <= near {
             break;
         }
         limit = min(farthest, far);
-        node = next_walls(tile, after(node), limit);
+        node = next_walls(tile, after(node), limit, of_first);
     }
 }

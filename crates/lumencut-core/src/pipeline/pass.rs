@@ -28,6 +28,8 @@ pub struct CutSurfacePass<'a> {
     pub surface: CutSurface<'a>,
     /// Whether the stage `depth` writes the sheet.
     pub has_sheet: bool,
+    /// The images that shall come of the view.
+    pub wanted: ImageSet,
     /// How the cut surface is made.
     pub settings: &'a Settings,
 }
@@ -75,7 +77,10 @@ impl CutSurfacePass<'_> {
             return Ok(());
         };
         images.focus = vec![[0.0; 2]; self.work.pixels()];
-        focus(&self.work, &self.surface, &parameters, &mut images.focus)
+        // An image that is asked for is whole.
+        let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
+        let leap = if is_whole { &[][..] } else { &images.leap };
+        focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)
     }
 
     fn depth_filter(&self, images: &mut Images) -> Result<()> {

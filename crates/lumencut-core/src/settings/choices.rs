@@ -35,6 +35,7 @@ impl Choices {
         self.context.check_gamma()?;
         self.context.check_step()?;
         self.settings.check_rows()?;
+        self.settings.check_chosen()?;
         self.context.check_rows()?;
         let context = self.context.context.is_some().then(|| self.context.context());
         Ok(Settings { context, ..self.settings.clone() })
@@ -48,6 +49,7 @@ impl Settings {
     /// [`ErrorKind::Settings`] naming the first setting outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
+        self.check_chosen()?;
         self.context.as_ref().map_or(Ok(()), |context| {
             let choices = ContextChoices::from(context);
             choices.check_rows()?;

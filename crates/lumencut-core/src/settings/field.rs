@@ -220,6 +220,23 @@ impl Field for Focus {
     }
 }
 
+/// Names of vessels are known once there is a tree: hosts leave the ids open until then.
+impl Field for Vec<usize> {
+    const KIND: Kind = Kind::Vessels;
+
+    fn from_value(name: &str, value: Value) -> Result<Self> {
+        match value {
+            Value::None => Ok(Self::new()),
+            Value::Vessels(ids) => Ok(ids),
+            other => Err(of_another_kind::<Self>(name, &other)),
+        }
+    }
+
+    fn to_value(&self) -> Value {
+        Value::Vessels(self.clone())
+    }
+}
+
 impl Field for Transfer {
     const KIND: Kind = Kind::Transfer;
 

@@ -1,6 +1,7 @@
 //! Every setting of the method: what it is called, its range, unit and default, and what it does.
 
 mod choices;
+mod chosen;
 mod context;
 mod field;
 mod focus;

@@ -16,6 +16,7 @@ impl Settings {
             level_choice: LevelChoice::Nearest,
             zone_filter: false,
             silhouette_rule: SilhouetteRule::Gradient,
+            silhouette_reach: None,
             ..Self::default()
         }
     }

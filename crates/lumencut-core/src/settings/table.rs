@@ -94,7 +94,8 @@ settings! {
         /// How far from the nearest wall silhouettes are drawn in full (mm); from there they fade over the same length again.
         ///
         /// Far from all vessels the lines follow borders of zones that mean nothing to a reader. Measured in the picture.
-        silhouette_reach: Option<f64> = None, range(0.0, 1e6, "mm"), open("everywhere");
+        /// `None` draws them everywhere, as in the paper.
+        silhouette_reach: Option<f64> = Some(10.0), range(0.0, 1e6, "mm");
 
         /// Colour of the silhouettes.
         ///
@@ -116,6 +117,17 @@ settings! {
         /// margin lets lumens fade too. A fade of 0 is a hard edge, any other is at least two pixels wide. It needs
         /// centerlines.
         focus: Option<Focus> = None, open("the cut surface everywhere");
+
+        /// Show lumen and wall of these vessels before all others, whatever the depth (names or ids).
+        ///
+        /// It needs `lumen_first`. Silhouettes are drawn then even where `silhouettes` leaves them out: a vessel that is
+        /// shown before one nearer to the viewer looks wrong without its outline. All vessels, or none, set none apart.
+        focus_vessels: Vec<usize> = Vec::new();
+
+        /// How much of the other vessels a `focus` leaves where `focus_vessels` are chosen (number, 0 to 1).
+        ///
+        /// With 0 the context takes their place, with 1 they are shown as the chosen ones are.
+        others_strength: f64 = 0.5, range(0.0, 1.0, "of their share");
     }
     beside them {
         /// What is shown where the cut surface is outside the volume or transparent; `None` is the background.

@@ -26,6 +26,8 @@ pub enum Kind {
     Slab,
     /// A [`Focus`].
     Focus,
+    /// Some vessels of the tree, by their ids.
+    Vessels,
     /// A [`TransferFunction`], or the name of a [`Preset`].
     Transfer,
 }
@@ -43,6 +45,7 @@ impl Kind {
             Self::Opacity => "opacity",
             Self::Slab => "slab",
             Self::Focus => "focus",
+            Self::Vessels => "vessels",
             Self::Transfer => "transfer",
         }
     }
@@ -71,6 +74,8 @@ pub enum Value {
     Slab(Slab),
     /// Of [`Kind::Focus`].
     Focus(Focus),
+    /// Of [`Kind::Vessels`].
+    Vessels(Vec<usize>),
     /// Of [`Kind::Transfer`].
     Transfer(TransferFunction),
 }

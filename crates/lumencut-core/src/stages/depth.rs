@@ -130,8 +130,11 @@ impl Search for LowestKeySearch<'_> {
 
 /// What is known of the surface beside its depth in a pixel: how its depth changes to the right and upwards (mm per mm),
 /// the radius of its vessel (mm, negative beside the lumen), and the gap along the vessel between the two places that are blended there
-/// (mm; [`crate::math::lanes::FAR`] where they belong to different vessels).
+/// (mm; [`crate::math::lanes::FAR`] where they belong to different vessels, [`FIRST`] where a chosen vessel is shown before all others).
 pub type Sheet = [f32; 4];
+
+/// The gap in a sheet where a chosen vessel is shown before all others.
+pub const FIRST: f32 = -1.0;
 
 /// The images that the stage writes. `sheet` is empty where nothing reads it.
 #[derive(Debug)]

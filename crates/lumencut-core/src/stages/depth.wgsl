@@ -3,6 +3,9 @@
 // import math/walk
 // import math/own_pieces
 
+// The gap in a sheet where a chosen vessel is shown before all others.
+const FIRST: f32 = -1.0;
+
 // Whether the sheet is written.
 override HAS_SHEET: bool = false;
 
@@ -94,7 +97,9 @@ fn add_to_sheets(tile: Tile, level: u32) {
                     let slope = sheets[n][c].xy + weight[c] * found.slope;
                     sheets[n][c] = vec4f(slope, select(radius, -radius, is_beside), sheets[n][c].w);
                     let counted = u32(vessel) + 1u;
-                    if finer_vessel[n][c] != 0u {
+                    if found.is_first && (finer_vessel[n][c] == 0u || sheets[n][c].w == FIRST) {
+                        sheets[n][c].w = FIRST;
+                    } else if finer_vessel[n][c] != 0u {
                         let apart = abs(found.arc_length - finer_arc_length[n][c]);
                         sheets[n][c].w = select(FAR, apart, counted == finer_vessel[n][c]);
                     }
@@ -157,7 +162,8 @@ fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
     vessel_image[place] = decision.vessel;
     if HAS_SHEET {
         let slope = (1.0 - weight) * fine_piece.slope + weight * coarse_piece.slope;
-        sheet_image[place] = vec4f(slope, decision.sheet_radius, abs(coarse_piece.along - fine_piece.along));
+        let gap = select(abs(coarse_piece.along - fine_piece.along), FIRST, decision.is_first);
+        sheet_image[place] = vec4f(slope, decision.sheet_radius, gap);
     }
 }
 

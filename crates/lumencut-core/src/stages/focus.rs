@@ -5,10 +5,12 @@ use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
 use super::depth::CutSurface;
+use super::silhouette::FARTHEST_LEAP;
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::lanes::{COLUMNS, FAR, Kernel, PIXELS, ROWS, dispatch, larger, smaller};
+use crate::math::leaps::LEAPS;
 use crate::math::tile::{Tile, scatter};
 use crate::math::walls::{WallRange, nearest_walls};
 use crate::settings::{Focus, Settings};
@@ -30,6 +32,10 @@ pub struct FocusParameters {
     pub near: f32,
     /// What is farther than this (mm) counts as this far.
     pub far: f32,
+    /// How much of what is shown around the other vessels, where some are chosen, is left, 0 to 1.
+    pub others: f32,
+    /// Nothing; the structure ends at a multiple of 8 bytes.
+    pub padding: f32,
 }
 
 impl FocusParameters {
@@ -41,16 +47,29 @@ impl FocusParameters {
         if both == [None, None] {
             return None;
         }
-        let mut parameters = Self { margin: [0.0; 2], per_fade: [0.0; 2], near: FAR, far: 0.0 };
+        let has_others = settings.focus.is_some() && !settings.focus_vessels.is_empty();
+        let others = if has_others { settings.others_strength as f32 } else { 1.0 };
+        let mut parameters = Self { others, ..Self::zeroed() };
         for (n, Focus { margin, fade }) in both.into_iter().enumerate().filter_map(|(n, f)| Some((n, f?))) {
             let per_fade = if fade > 0.0 { 1.0 / fade.max(NARROWEST * camera.pixel_spacing()) } else { HARD };
-            let (margin, per_fade) = (margin as f32, per_fade as f32);
-            (parameters.margin[n], parameters.per_fade[n]) = (margin, per_fade);
-            parameters.near = smaller(parameters.near, larger(margin, 0.0));
-            // A little more than where the share becomes 0.
-            parameters.far = larger(parameters.far, margin + 1.000_01 / per_fade);
+            (parameters.margin[n], parameters.per_fade[n]) = (margin as f32, per_fade as f32);
         }
+        [parameters.near, parameters.far] = parameters.between(&[SURFACE, LINES])?;
         Some(parameters)
+    }
+
+    /// Between which distances from the wall (mm) some of the shares change; none where they are 1 everywhere.
+    fn between(&self, which: &[usize]) -> Option<[f32; 2]> {
+        let fading = which.iter().filter(|n| self.per_fade[**n] > 0.0);
+        // A little more than where the share becomes 0.
+        let ends = fading.map(|n| [self.margin[*n], self.margin[*n] + 1.000_01 / self.per_fade[*n]]);
+        let ends = ends.map(|[near, far]| [larger(near, 0.0), larger(far, 0.0)]);
+        ends.reduce(|[near, far], [nearer, farther]| [smaller(near, nearer), larger(far, farther)])
+    }
+
+    /// The same as what is asked of the distances, whose rounding error is less than `slack` (mm).
+    fn range(&self, which: &[usize], slack: f32) -> Option<WallRange> {
+        self.between(which).map(|[near, far]| WallRange { near, far: far + slack, slack })
     }
 
     /// How much of the cut surface and of its silhouettes is shown this far (mm) from the wall, 0 to 1.
@@ -69,7 +88,12 @@ impl FocusParameters {
 /// How much of the cut surface and how much of its silhouettes a pixel shows, 0 to 1.
 pub type Shares = [f32; 2];
 
-/// Writes how much of the cut surface and of its silhouettes each pixel shows.
+/// The share of the cut surface, and that of its silhouettes.
+const SURFACE: usize = 0;
+const LINES: usize = 1;
+
+/// Writes how much of the cut surface and of its silhouettes each pixel shows. Where `leap` tells that no line can lie in a tile of
+/// pixels, how much of it would be shown is any number from 0 to 1; it is told everywhere where `leap` is empty.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Interrupted`].
@@ -77,23 +101,41 @@ pub fn focus(
     work: &Work,
     surface: &CutSurface,
     parameters: &FocusParameters,
+    leap: &[u32],
     shares: &mut [Shares],
 ) -> Result<()> {
     work.expect_whole(Image::Focus, shares);
-    let slack = surface.distance_slack();
-    let range = WallRange { near: parameters.near, far: parameters.far + slack, slack };
+    if !leap.is_empty() {
+        work.expect_whole(Image::Leap, leap);
+    }
     shares.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, pixels)| {
         work.begin(pixels.len())?;
-        dispatch(work.isa, FocusRow { surface, parameters, range, row, pixels });
+        let has_lines = tiles_with_lines(leap, work.size[0], row);
+        dispatch(work.isa, FocusRow { surface, parameters, has_lines: &has_lines, row, pixels });
         Ok(())
     })
+}
+
+/// For each tile in a row of tiles whether the line of a leap can lie in it; none where that is not known.
+fn tiles_with_lines(leap: &[u32], width: usize, row: usize) -> Vec<bool> {
+    let first = (row * ROWS).saturating_sub(FARTHEST_LEAP) * width;
+    let end = ((row + 1) * ROWS + FARTHEST_LEAP) * width;
+    let mut columns = vec![0; if leap.is_empty() { 0 } else { width }];
+    for row in leap[first.min(leap.len())..end.min(leap.len())].chunks_exact(width) {
+        columns.iter_mut().zip(row).for_each(|(all, bits)| *all |= bits);
+    }
+    let tiles = (0..columns.len()).step_by(COLUMNS);
+    let around =
+        tiles.map(|c| c.saturating_sub(FARTHEST_LEAP)..(c + COLUMNS + FARTHEST_LEAP).min(columns.len()));
+    around.map(|around| columns[around].iter().any(|bits| bits & LEAPS != 0)).collect()
 }
 
 /// One row of tiles.
 struct FocusRow<'a> {
     surface: &'a CutSurface<'a>,
     parameters: &'a FocusParameters,
-    range: WallRange,
+    /// Whether a line can lie in each tile; empty where that is not known.
+    has_lines: &'a [bool],
     row: usize,
     pixels: &'a mut [Shares],
 }
@@ -105,16 +147,39 @@ impl Kernel for FocusRow<'_> {
     fn run(self) {
         let camera: &Camera = self.surface.camera();
         let width = camera.size()[0];
+        let slack = self.surface.distance_slack();
+        let [of_both, of_surface] =
+            [&[SURFACE, LINES][..], &[SURFACE]].map(|which| self.parameters.range(which, slack));
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
             // What is not found is farther than whatever matters, and its products are finite.
             let mut beyond = [FAR; PIXELS];
-            nearest_walls(self.surface.finest(), &tile, &self.range, &mut beyond);
+            let has_lines = self.has_lines.get(column / COLUMNS).is_none_or(|has_lines| *has_lines);
+            let range = if has_lines { of_both } else { of_surface };
+            if let Some(range) = range {
+                nearest_walls::<false>(self.surface.finest(), &tile, &range, &mut beyond);
+            }
             let mut shares = [[0.0; 2]; PIXELS];
             for l in 0..PIXELS {
                 shares[l] = self.parameters.shares(beyond[l]);
             }
+            if let Some(range) = range.filter(|_| self.parameters.others < 1.0) {
+                self.keep_first(&tile, &range, &mut shares);
+            }
             scatter(&shares, self.pixels, width, column);
+        }
+    }
+}
+
+impl FocusRow<'_> {
+    /// Takes away from the other vessels what is not left of them around a focus; chosen vessels keep all of theirs.
+    #[inline(always)]
+    fn keep_first(&self, tile: &Tile, range: &WallRange, shares: &mut [Shares; PIXELS]) {
+        let mut beyond = [FAR; PIXELS];
+        nearest_walls::<true>(self.surface.finest(), tile, range, &mut beyond);
+        for l in 0..PIXELS {
+            let [of_first, _] = self.parameters.shares(beyond[l]);
+            shares[l][SURFACE] = larger(of_first, shares[l][SURFACE] * self.parameters.others);
         }
     }
 }

@@ -9,10 +9,15 @@ struct FocusParameters {
     // Between which distances from the wall (mm) it matters how far a pixel is.
     near: f32,
     far: f32,
+    // How much of what is shown around the other vessels, where some are chosen, is left, 0 to 1.
+    others: f32,
+    padding: f32,
 }
 
 @group(0) @binding(4) var<storage, read_write> focus_image: array<vec2f>;
 @group(0) @binding(5) var<storage, read> focus_parameters: FocusParameters;
+
+var<private> shown: array<array<vec2f, QUAD>, MAX_QUADS>;
 
 // How much of the cut surface and of its silhouettes is shown this far (mm) from the wall, 0 to 1.
 fn shares(beyond_wall: f32) -> vec2f {
@@ -27,13 +32,28 @@ fn focus(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) t
     if !in_view(tile.pixel) {
         return;
     }
-    nearest_walls(tile, focus_parameters.near, focus_parameters.far + parameters.distance_slack);
+    let near = focus_parameters.near;
+    let far = focus_parameters.far + parameters.distance_slack;
+    nearest_walls(tile, near, far, false);
+    for (var q = 0u; q < ACROSS * ROWS; q++) {
+        for (var c = 0u; c < QUAD; c++) {
+            shown[q][c] = shares(beyond[q][c]);
+        }
+    }
+    if focus_parameters.others < 1.0 {
+        nearest_walls(tile, near, far, true);
+        for (var q = 0u; q < ACROSS * ROWS; q++) {
+            for (var c = 0u; c < QUAD; c++) {
+                shown[q][c].x = max(shares(beyond[q][c]).x, shown[q][c].x * focus_parameters.others);
+            }
+        }
+    }
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
             for (var c = 0u; c < QUAD; c++) {
                 let pixel = pixel_of(tile, a, r, c);
                 if in_view(pixel) {
-                    focus_image[place_of(pixel)] = shares(beyond[quad_of(a, r)][c]);
+                    focus_image[place_of(pixel)] = shown[quad_of(a, r)][c];
                 }
             }
         }

@@ -30,7 +30,8 @@ impl LeapParameters {
 }
 
 /// Writes between which neighbours the depth (mm, before its filter) leaps: where it differs by more than the diameter of
-/// the vessel, and by more than [`SMALLEST_LEAP`], from what the slope of either side alone would make it. Also which
+/// the vessel, and by more than [`SMALLEST_LEAP`], from what the slope of either side alone would make it; by more than
+/// [`SMALLEST_LEAP`] alone where a chosen vessel that is shown before all others ends. Also which
 /// pixels show lumen, and on which side the line of a leap lies: beside the lumen where one side alone is lumen, else on
 /// the farther side, which the nearer one hides in part.
 ///
@@ -105,7 +106,13 @@ impl Surface<'_> {
         let row = j * self.width..(j + 1) * self.width;
         let (depth, sheet) = (&self.depth[row.clone()], &self.sheet[row]);
         let zero = [0.0; FAN];
-        let mut strip = Strip { z: zero, slope: [zero; 2], threshold: zero, is_lumen: [false; FAN] };
+        let mut strip = Strip {
+            z: zero,
+            slope: [zero; 2],
+            threshold: zero,
+            is_lumen: [false; FAN],
+            is_first: [false; FAN],
+        };
         if let (Some(depth), Some(sheet)) = (whole(depth, i), whole(sheet, i)) {
             strip.put(depth, sheet);
         } else {
@@ -131,6 +138,8 @@ struct Strip {
     /// From how much on a change counts as a leap (mm).
     threshold: [f32; FAN],
     is_lumen: [bool; FAN],
+    /// Whether a chosen vessel is shown before all others.
+    is_first: [bool; FAN],
 }
 
 impl Strip {
@@ -138,10 +147,11 @@ impl Strip {
     fn put(&mut self, depth: &[f32; FAN], sheet: &[Sheet; FAN]) {
         self.z = *depth;
         for l in 0..FAN {
-            let [slope_x, slope_y, radius, _] = sheet[l];
+            let [slope_x, slope_y, radius, gap] = sheet[l];
             (self.slope[0][l], self.slope[1][l]) = (slope_x, slope_y);
             self.threshold[l] = larger(2.0 * radius.abs(), SMALLEST_LEAP);
             self.is_lumen[l] = radius > 0.0;
+            self.is_first[l] = gap < 0.0;
         }
     }
 
@@ -152,7 +162,9 @@ impl Strip {
         let mut leaps = [0; FAN];
         for l in 0..FAN {
             let change = others.z[l] - self.z[l];
-            let is_leap = self.is_off(l, change, step) & others.is_off(l, change, step);
+            let ends_first = self.is_first[l] != others.is_first[l];
+            let is_leap =
+                self.is_off(l, change, step, ends_first) & others.is_off(l, change, step, ends_first);
             let is_farther = (self.is_lumen[l] == others.is_lumen[l]) & (change > 0.0);
             let line_beyond = is_farther | (self.is_lumen[l] & !others.is_lumen[l]);
             let line = if line_beyond { LINE_TO_THE_RIGHT | LINE_DOWNWARDS } else { 0 };
@@ -161,10 +173,11 @@ impl Strip {
         leaps
     }
 
-    /// Whether a change of depth over a step is another than the slope of pixel `l` makes it.
+    /// Whether a change of depth over a step is another than the slope of pixel `l` makes it; `ends_first` tells whether a chosen
+    /// vessel ends there.
     #[inline(always)]
-    fn is_off(&self, l: usize, change: f32, step: [f32; 2]) -> bool {
+    fn is_off(&self, l: usize, change: f32, step: [f32; 2], ends_first: bool) -> bool {
         let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];
-        (change - expected).abs() > self.threshold[l]
+        (change - expected).abs() > if ends_first { SMALLEST_LEAP } else { self.threshold[l] }
     }
 }

@@ -15,17 +15,19 @@ struct LeapParameters {
 @group(0) @binding(3) var<storage, read> sheet: array<vec4f>;
 @group(0) @binding(4) var<storage, read_write> leap_image: array<u32>;
 
-// Whether a change of depth over a step (view x and y, mm) is another than the slope of a sheet makes it.
-fn is_off(change: f32, sheet: vec4f, step: vec2f) -> bool {
+// Whether a change of depth over a step (view x and y, mm) is another than the slope of a sheet makes it; `ends_first` tells
+// whether a chosen vessel, shown before all others, ends there.
+fn is_off(change: f32, sheet: vec4f, step: vec2f, ends_first: bool) -> bool {
     let expected = sheet.x * step.x + sheet.y * step.y;
-    return abs(change - expected) > max(2.0 * abs(sheet.z), SMALLEST_LEAP);
+    return abs(change - expected) > select(max(2.0 * abs(sheet.z), SMALLEST_LEAP), SMALLEST_LEAP, ends_first);
 }
 
 // The bits, of either way, of a leap from one pixel to another. The line lies beside the lumen where one side alone is lumen,
 // else on the farther side.
 fn leap_bits(here: u32, there: u32, step: vec2f) -> u32 {
     let change = depth[there] - depth[here];
-    if !(is_off(change, sheet[here], step) && is_off(change, sheet[there], step)) {
+    let ends_first = (sheet[here].w < 0.0) != (sheet[there].w < 0.0);
+    if !(is_off(change, sheet[here], step, ends_first) && is_off(change, sheet[there], step, ends_first)) {
         return 0u;
     }
     let from_lumen = sheet[here].z > 0.0;

@@ -24,6 +24,9 @@ pub const LINE_WIDTH: f64 = 1.0;
 pub const NARROWEST_LINE: f64 = 0.5;
 /// The widest line of a leap (pixels), however close the view.
 pub const WIDEST_LINE: f64 = 1.5;
+/// No line covers a pixel that is farther than this from its leap (pixels): [`WIDEST_LINE`] in whole pixels.
+pub const FARTHEST_LEAP: usize = 2;
+const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 
 /// The parameters of the stage.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

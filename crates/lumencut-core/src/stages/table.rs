@@ -205,7 +205,8 @@ impl Stage {
     /// The images that it reads, where they are there.
     pub const fn reads(self) -> &'static [Image] {
         match self {
-            Self::Levels | Self::Projection | Self::Distance | Self::Focus | Self::Blocks => &[],
+            Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
+            Self::Focus => &[Image::Leap],
             Self::Depth => &[Image::Distance],
             Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
@@ -239,15 +240,15 @@ impl Stage {
         let own = settings.level_choice == LevelChoice::Own;
         let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;
         let has_leaps = wanted.has(Image::Leap) || (draws_leaps && wanted.has(Image::Picture));
-        let has_focus =
-            settings.focus.is_some() || (settings.silhouettes && settings.silhouette_reach.is_some());
-        let shows = wanted.has(Image::Focus) || wanted.has(Image::Picture) || wanted.has(Image::Context);
+        let draws = wanted.has(Image::Focus) || wanted.has(Image::Picture);
+        let has_reach = settings.silhouettes && settings.silhouette_reach.is_some();
+        let has_focus = settings.focus.is_some() && (draws || wanted.has(Image::Context));
         let stages = [
             (Self::Distance, !own || wanted.has(Image::Distance)),
             (Self::Depth, true),
             (Self::Leap, has_leaps),
             (Self::DepthFilter, settings.depth_filter),
-            (Self::Focus, has_focus && shows),
+            (Self::Focus, has_focus || (has_reach && draws)),
         ];
         needed(&stages)
     }

@@ -13,7 +13,7 @@ use lumencut_core::math::{
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
-use lumencut_core::stages::{context, leap, silhouette};
+use lumencut_core::stages::{context, depth, leap, silhouette};
 use naga::{Expression, Handle, Literal, Module};
 
 use crate::cut_surface;
@@ -93,6 +93,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/transfer": transfer::INVISIBLE;
         "math/walls": walls::MOST_LEAN;
         "stages/context": context::IN_FRONT;
+        "stages/depth": depth::FIRST;
         "stages/leap": leap::SMALLEST_LEAP;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
         "math/cell_walk": cell_walk::NO_MEETING, cell_walk::ALONG_PLANE;

@@ -25,7 +25,8 @@ fn both(device: &Device, tree: &VesselTree, camera: &Camera, settings: &Settings
     let scene = Scene::default().with_tree(tree.clone());
     let expected = CpuRenderer::default().render(&scene, &request).unwrap().focus;
     let levels = LeveledTree::new(tree.clone()).levels(settings.levels, 0.0);
-    let on_device = DeviceLevels::new(device, &levels[..=settings.levels]).unwrap();
+    let mut on_device = DeviceLevels::new(device, &levels[..=settings.levels]).unwrap();
+    on_device.put_first(device, &levels[..=settings.levels], &settings.focus_vessels);
     let images = Images::new(device, camera.size()).unwrap();
     let mut stages = CutSurfaceStages::new(device);
     let (mut recording, view) = (Recording::new(device), on_gpu(device, camera));
@@ -56,6 +57,19 @@ fn shares_are_those_of_the_cpu() {
                 SHARE.assert_same(&found, &expected, &format!("{size:?}, {margin} mm + {fade} mm"));
             }
         }
+    }
+}
+
+#[test]
+fn shares_of_chosen_vessels_are_those_of_the_cpu() {
+    let Some(device) = device() else { return };
+    let tree = random_tree(5, 30, 40, 3.0, 40.0).unwrap();
+    for (margin, fade, others_strength) in [(2.0, 6.0, 0.5), (-1.5, 4.0, 0.0), (0.5, 40.0, 0.9)] {
+        let focus = Some(Focus { margin, fade });
+        let settings = Settings { focus, focus_vessels: vec![3, 17], others_strength, ..Settings::default() };
+        let camera = view([0.2, 1.0, -0.4], [96, 80], 0.6);
+        let [found, expected] = both(device, &tree, &camera, &settings);
+        SHARE.assert_same(&found, &expected, &format!("{margin} mm + {fade} mm, {others_strength}"));
     }
 }
 

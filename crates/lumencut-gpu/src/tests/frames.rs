@@ -11,7 +11,7 @@ use lumencut_core::settings::{
     Context, ContextFrom, Focus, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode,
 };
 use lumencut_core::stages::{Image, ImageSet, Stage};
-use lumencut_phantom::{Phantom, collinear_run, trefoil, y_junction};
+use lumencut_phantom::{Phantom, collinear_run, crossing, trefoil, y_junction};
 use lumencut_scenes::pictures::context_alone;
 use lumencut_scenes::views::{front, view};
 
@@ -53,6 +53,18 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("small leaps", with(|s| s.depth_leap = 0.2)),
         ("slab", with(|s| s.slab = Some(Slab { thickness: 4.0, mode: SlabMode::Max }))),
         ("focus", with(|s| s.focus = Some(Focus::default()))),
+        ("a chosen vessel", with(|s| s.focus_vessels = vec![0])),
+        (
+            "a chosen vessel on the paper's levels",
+            with(|s| (s.focus_vessels, s.level_choice) = (vec![0], LevelChoice::Nearest)),
+        ),
+        (
+            "a chosen vessel in a focus",
+            with(|s| {
+                (s.focus, s.focus_vessels, s.others_strength) = (Some(Focus::default()), vec![0], 0.3);
+            }),
+        ),
+        ("lines everywhere", with(|s| s.silhouette_reach = None)),
         ("quiet surroundings", with(|s| s.silhouette_reach = Some(3.0))),
         ("focus amid whole rays", with(|s| focus_amid(s, ContextFrom::Whole))),
         ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
@@ -90,6 +102,18 @@ fn runs_along_the_view_with_all_settings() {
 #[test]
 fn a_knot_with_all_settings() {
     with_all_settings(trefoil().unwrap(), &front(KNOT_SIZE, 0.52));
+}
+
+#[test]
+fn each_choice_of_vessels_holds_for_its_view_alone() {
+    let Some(device) = shared() else { return };
+    let mut scene = BothSides::new(device, crossing().unwrap());
+    let camera = view([0.2, 1.0, 0.3], SIZE, 0.8);
+    for chosen in [vec![1], Vec::new(), vec![0], vec![0, 1]] {
+        println!("{chosen:?}");
+        let focus = Some(Focus { margin: 1.0, fade: 9.0 });
+        scene.check(&camera, &Settings { focus, focus_vessels: chosen, ..Settings::default() });
+    }
 }
 
 #[test]
@@ -218,8 +242,8 @@ fn looking_where_the_cpu_found_the_cut_surface_shows_the_same() {
     for settings in [everything(), Settings::default()] {
         let request = Request::new(&camera, &settings);
         let cut = Scene { volume: None, ..scene.clone() };
-        // A cut surface alone has leaps only where they are asked for.
-        let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap]));
+        // A cut surface alone has leaps, and how far their lines reach, only where they are asked for.
+        let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
         let surface = CpuRenderer::default().render(&cut, &Request { images, ..request }).unwrap();
         assert!(surface.leap.iter().any(|leap| *leap & LEAPS != 0), "no silhouettes to show");
         let shared = scene.volume.as_ref().unwrap();

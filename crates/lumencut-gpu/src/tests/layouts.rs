@@ -47,7 +47,7 @@ macro_rules! host {
 /// Every structure that Rust writes for shaders.
 fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     vec![
-        host!("math/hierarchy", NodeBox { low, high, z, radius, padding }),
+        host!("math/hierarchy", NodeBox { low, high, z, radius, tiers, padding }),
         host!(
             "math/levels",
             CutSurfaceParameters {
@@ -82,7 +82,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
                 radius,
                 radius_change,
                 slot,
-                padding
+                tiers
             }
         ),
         host!("math/projection", Point { coarse, radius, fine, place }),
@@ -91,8 +91,8 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
             "math/levels",
             Projected { point, radius, edge, before, inverse_length, arc_length, stands, padding }
         ),
-        host!("math/levels", Span { first, end, level }),
-        host!("stages/focus", FocusParameters { margin, per_fade, near, far }),
+        host!("math/levels", Span { first, end, level, first_chosen, end_chosen }),
+        host!("stages/focus", FocusParameters { margin, per_fade, near, far, others, padding }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
         host!(
             "math/sampling",

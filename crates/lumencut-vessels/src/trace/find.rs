@@ -28,8 +28,8 @@ pub mod whole_vessels;
 
 use crate::trace::find::found::Trees;
 use crate::trace::find::scan::Scan;
-use crate::trace::find::scarce::doubted_where_scarce;
-use crate::trace::find::stages::{Stage, Stages};
+use crate::trace::find::scarce::{doubted_where_scarce, is_angiography};
+use crate::trace::find::stages::Stages;
 use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -57,7 +57,7 @@ pub struct FindRequest<'a> {
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
     let trees = trees(voxels, None, request)?;
-    Ok(Trees { vessels: doubted_where_scarce(voxels, trees.vessels), ..trees })
+    Ok(Trees { vessels: doubted_where_scarce(voxels, trees.vessels, trees.is_angiography), ..trees })
 }
 
 /// All vessels of a volume; around a seed (mm, LPS) that lies in none of them fainter ones are found too.
@@ -67,18 +67,25 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
 pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
     let Some((scan, tracks)) = tubes::tubes(voxels, seed, request, stages)? else {
-        return Ok(Trees { vessels: Vec::new(), level: 0.0, contrast: 0.0, noise: 0.0 });
+        return Ok(Trees {
+            vessels: Vec::new(),
+            level: 0.0,
+            contrast: 0.0,
+            noise: 0.0,
+            is_angiography: false,
+        });
     };
-    stages.stage(Stage::Judgement, 1);
-    let shapes = bone::shapes(&scan, &tracks, request.stop)?;
+    let shapes = bone::shapes(&scan, &tracks, request.stop, stages)?;
     let [level, contrast] = bone::lumen_level(&scan, &tracks, &shapes).unwrap_or([scan.level, scan.contrast]);
     let scan = Scan { level, contrast, ..scan };
-    let tracks = bone::judged(&scan, tracks, shapes, request.stop)?;
-    stages.stage(Stage::Vessels, 1);
-    let links = links::between(&scan, &tracks, request.stop)?;
-    let vessels = whole_vessels::of(&scan, &tracks, &links, request)?;
+    let tracks = bone::judged(&scan, tracks, &shapes, request.stop)?;
+    let is_angiography = is_angiography(&scan, &tracks, &shapes);
+    let tracks = bone::left(tracks);
+    let links = links::between(&scan, &tracks, request.stop, stages)?;
+    let vessels = whole_vessels::of(&scan, &tracks, &links, request, stages)?;
     stages.end();
-    Ok(Trees { vessels, level: scan.level, contrast: scan.contrast, noise: scan.noise })
+    let Scan { level, contrast, noise, .. } = scan;
+    Ok(Trees { vessels, level, contrast, noise, is_angiography })
 }
 
 #[cfg(test)]

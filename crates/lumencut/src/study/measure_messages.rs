@@ -1,4 +1,4 @@
-//! What was measured, as the page and its worker tell it each other: the types of `web/src/core/measuring.ts`.
+//! What was measured, as the page and its worker tell it each other: the page's types are made of these.
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};

@@ -18,6 +18,7 @@ use crate::study::measure_messages::{
 };
 use crate::study::open_study::{Picture, Study};
 use crate::study::picking::Pick;
+use crate::study::place_turn::PlaceTurn;
 use crate::study::planes::Plane;
 use crate::study::report_messages::ReportMessage;
 use crate::study::session_files::SessionContent;
@@ -25,7 +26,7 @@ use crate::study::settings::{SettingRow, rows};
 use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
 use crate::study::tracing::PathMessage;
-use crate::study::view::{CameraMessage, ViewMessage};
+use crate::study::view::{CameraMessage, ViewMessage, views_between};
 
 type Vector = [f64; 3];
 
@@ -49,6 +50,14 @@ of_the_study {
 
     /// The camera of a named view that shows all of the study.
     [Turn::First] fitted { view: String, size: [usize; 2] } -> CameraMessage = study.fitted(&view, size)?;
+
+    /// The view from which most of a vessel is seen, fitted to it; turned least from this camera, whose size it has.
+    [Turn::First] best_view { camera: CameraMessage, vessel: usize } -> CameraMessage =
+        study.best_view(&camera, vessel)?;
+
+    /// A turn about a place on a vessel (mm), with the diameters that its views cut.
+    [Turn::First] turn_about { vessel: usize, at: f64, size: [usize; 2] } -> PlaceTurn =
+        study.turn_about(vessel, at, size, asking.watch.stop)?;
 
     /// What a pixel of a view shows.
     [Turn::First] pick { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.pick(&view.view()?, pixel)?;
@@ -170,6 +179,10 @@ of_the_study {
 at_once {
     /// The letters at the edges of a picture, and its scale bar.
     labels(picture: LaidPicture) -> PictureLabels = picture.into();
+
+    /// As many views of a flight from one camera to another, equal times apart; the first and the last are these cameras.
+    flight { from: CameraMessage, to: CameraMessage, views: usize } -> Vec<CameraMessage> =
+        views_between(&from, &to, views)?;
 
     /// The table of settings.
     settings_table(_nothing: ()) -> Vec<SettingRow> = rows();

@@ -68,6 +68,7 @@ fn json_of(value: Value) -> Json {
         Value::Color(channels) => channels.into(),
         Value::Name(name) => name.into(),
         Value::Focus(Focus { margin, fade }) => vec![margin, fade].into(),
+        Value::Vessels(ids) => ids.into(),
         Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
             Json::Null
         }
@@ -104,6 +105,7 @@ fn value(name: &str, kind: Kind, json: &Json) -> Result<Value> {
         Kind::Window => pair(json).map(|[level, width]| Value::Window(Window { level, width })),
         Kind::Slab => slab(json)?.map(Value::Slab),
         Kind::Focus => pair(json).map(|[margin, fade]| Value::Focus(Focus { margin, fade })),
+        Kind::Vessels => serde_json::from_value(json.clone()).ok().map(Value::Vessels),
         Kind::Opacity => None,
     };
     read.ok_or_else(|| Failure::of_message(name, json, &format!("a value of the kind {}", kind.name())))

@@ -1,5 +1,6 @@
 //! What the page asks for in the turning view: a camera, a method and settings.
 
+use crate::flight::flight;
 use crate::method::Method;
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -12,7 +13,7 @@ use crate::study::failure::{Failure, Result};
 use crate::study::settings::settings;
 
 /// A camera: orthographic, its axes unit vectors.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Camera"))]
 pub struct CameraMessage {
     /// What is in the middle of the picture.
@@ -36,6 +37,14 @@ impl CameraMessage {
         let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
         Ok(Camera::new(center, direction, up, self.size, self.pixel_spacing)?)
     }
+}
+
+/// The views of a flight from one camera to another, equal times apart.
+///
+/// # Errors
+/// `camera` for one that defines no view, and for other flights than [`flight`] knows.
+pub fn views_between(from: &CameraMessage, to: &CameraMessage, views: usize) -> Result<Vec<CameraMessage>> {
+    Ok(flight(&from.camera()?, &to.camera()?, views)?.iter().map(CameraMessage::from).collect())
 }
 
 impl From<&Camera> for CameraMessage {
@@ -105,6 +114,12 @@ impl ViewMessage {
             other => return Err(Failure::of_message("method", &other, "csr, csr-paper, mpcpr or cr")),
         };
         let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
-        Ok(View { camera: self.camera.camera()?, method, settings: settings(first, &self.settings)? })
+        let mut settings = settings(first, &self.settings)?;
+        if method != Method::CutSurface {
+            // The viewer shows one picture by several methods, of which the cut surface alone has a focus.
+            settings.focus = None;
+            settings.focus_vessels.clear();
+        }
+        Ok(View { camera: self.camera.camera()?, method, settings })
     }
 }

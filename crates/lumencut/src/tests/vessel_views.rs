@@ -75,6 +75,19 @@ fn a_vessel_in_a_plane_is_seen_across_that_plane() {
 }
 
 #[test]
+fn a_view_of_a_vessel_shows_its_walls_and_what_lies_beside_them() {
+    // One that is shorter than wide, and one that is longer: in 80 pixels but for a margin of 6 % on each side.
+    for (length, seen) in [(10.0, 10.0 + 4.0 * 15.0), (400.0, 400.0 + 4.0 * 15.0)] {
+        let thick = vessel(&[[0.0, 0.0, 0.0], [0.0, 0.0, length]], 15.0);
+        let found = refocused(&front(), &thick).unwrap();
+        assert!(found.center().abs_diff_eq(DVec3::Z * length / 2.0, 1e-6));
+        // The places of its steps end half a step before its ends.
+        let height = 80.0 * 0.88 * found.pixel_spacing();
+        assert!((height - seen).abs() < 0.01 * length, "{height} mm of {seen}");
+    }
+}
+
+#[test]
 fn a_loop_is_not_seen_through_itself() {
     // Two legs one behind the other as seen from the front, which costs half of the vessel.
     let legs = vessel(&[[0.0, 0.0, -60.0], [0.0, 0.0, 60.0], [0.0, 30.0, 60.0], [0.0, 30.0, -60.0]], 5.0);

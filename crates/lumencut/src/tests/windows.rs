@@ -137,6 +137,22 @@ fn vessels_without_tissue_have_their_edges_for_it() {
 }
 
 #[test]
+fn tissue_among_padding_is_darker_than_edges_between_bright_structures() {
+    // All that is darker than 60 was cut off to 0, as most voxels are. What touches the vessel has values as bone has.
+    let voxels = grid([10, 40, 40], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
+        (0..2, 0..2) => 300.0,
+        (0..3, 0..3) => 200.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32,
+        _ if k < 10 => 60.0,
+        _ => 0.0,
+    });
+    let points = vec![DVec3::new(2.0, 20.0, 20.0), DVec3::new(7.0, 20.0, 20.0)];
+    let vessel = Vessel::new(points, Some(vec![2.0; 2])).unwrap();
+    let found = along(&volume(&voxels, [10, 40, 40]), &VesselTree::new(vec![vessel]).unwrap()).unwrap();
+    let black = found.level - found.width / 2.0;
+    assert!(black < 1e-9 && share(found, 300.0) >= LUMEN_AT[0], "{found:?}");
+}
+
+#[test]
 fn beside_a_point_are_six_places_beyond_its_wall() {
     let places = beside(&tree(Some(3.0)), BESIDE);
     assert_eq!(places.len(), 12);

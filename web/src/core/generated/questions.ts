@@ -372,6 +372,14 @@ export type PictureLabels = {
   readonly bar: ScaleBar | null;
 };
 
+/** A turn about a place on a vessel, which runs upwards through the middle of the picture. */
+export type PlaceTurn = {
+  /** The first view: of all views about the place the one that is nearest to that from the front. */
+  readonly camera: Camera;
+  /** The diameter (mm) that is cut after each whole degree of the turn, from 0 to 179; from there on they repeat. None where a view has no two walls. */
+  readonly diameters: ReadonlyArray<number | null>;
+};
+
 /** A flat picture as the page asks for it: the world point in its middle, unit vectors to the right and downwards (LPS), its size in pixels and their side (mm). */
 export type Plane = {
   /** The world point in the middle. */
@@ -714,6 +722,23 @@ export type Questions = {
     };
     readonly answer: Camera;
   };
+  /** The view from which most of a vessel is seen, fitted to it; turned least from this camera, whose size it has. */
+  readonly best_view: {
+    readonly message: {
+      readonly camera: Camera;
+      readonly vessel: number;
+    };
+    readonly answer: Camera;
+  };
+  /** A turn about a place on a vessel (mm), with the diameters that its views cut. */
+  readonly turn_about: {
+    readonly message: {
+      readonly vessel: number;
+      readonly at: number;
+      readonly size: Pair;
+    };
+    readonly answer: PlaceTurn;
+  };
   /** What a pixel of a view shows. */
   readonly pick: {
     readonly message: {
@@ -925,6 +950,15 @@ export type Questions = {
     readonly message: LaidPicture;
     readonly answer: PictureLabels;
   };
+  /** As many views of a flight from one camera to another, equal times apart; the first and the last are these cameras. */
+  readonly flight: {
+    readonly message: {
+      readonly from: Camera;
+      readonly to: Camera;
+      readonly views: number;
+    };
+    readonly answer: ReadonlyArray<Camera>;
+  };
   /** The table of settings. */
   readonly settings_table: {
     readonly message: null;
@@ -938,6 +972,8 @@ export const TURNS = {
   close: { when: 'first', words: null },
   open_centerlines: { when: 'first', words: null },
   fitted: { when: 'first', words: null },
+  best_view: { when: 'first', words: null },
+  turn_about: { when: 'first', words: null },
   pick: { when: 'first', words: null },
   brightest: { when: 'first', words: null },
   at: { when: 'first', words: null },
@@ -970,5 +1006,6 @@ export const TURNS = {
   write_session: { when: 'first', words: null },
   read_session: { when: 'first', words: null },
   labels: { when: 'at once', words: null },
+  flight: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
 } as const satisfies Record<keyof Questions, Turn>;

@@ -1,4 +1,6 @@
 /** DICOM: one series of grey images, of a folder, a zip archive or single files, becomes one volume. */
+
+import type { Judge } from '../../core/judge';
 import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';
 import type { Sink } from '../volume-file';
@@ -6,7 +8,7 @@ import { type LookedInto, lookInto } from './headers';
 import { asked, judged } from './judging';
 import { Recorder } from './records';
 import { loadStack } from './stack';
-import type { Judge, Wanted } from './wanted';
+import type { Wanted } from './wanted';
 
 /** What the files are: named together, and what of them is wanted. */
 export interface Series {

@@ -1,10 +1,11 @@
 /** What the judge makes of headers: a plan of the volume, or why there is none. */
 import { Failure, type SeriesChoice } from '../../core/failure';
+import type { Judge } from '../../core/judge';
 import type { Mend } from '../../core/mends';
 import type { LookedInto } from './headers';
 import { TRANSFER_SYNTAXES } from './pixels';
 import type { Asked } from './records';
-import type { Judge, Wanted } from './wanted';
+import type { Wanted } from './wanted';
 
 /** The volume that a series becomes. */
 export interface Plan {

@@ -1,10 +1,4 @@
-/** What of DICOM files is to be read, and who judges it. */
-
-/** The judgements of the crate `lumencut-dicom`, with JSON in and out. */
-export interface Judge {
-  dicom_attributes(): string;
-  judge_dicom(headers: string, wanted: string): string;
-}
+/** What of DICOM files is to be read. */
 
 /** What of the files is to be read. */
 export interface Wanted {

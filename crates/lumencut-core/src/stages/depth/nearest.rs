@@ -1,7 +1,7 @@
 //! The paper's way: at each level the piece with the smallest key, whichever vessel it belongs to.
 
 use super::blend::LevelBlend;
-use super::{CutSurface, Search, Sheet, TileSurface};
+use super::{CutSurface, FIRST, Search, Sheet, TileSurface};
 use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
 use crate::math::pieces::Envelope;
@@ -77,7 +77,10 @@ impl BlendedSheets {
                 let (is_beside, part) = ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
                 *radius = if is_beside { -(radius.abs() + part) } else { *radius + part };
                 let (vessel, s) = self.finer[l];
-                if vessel >= 0 {
+                let is_first = found.is_first[l] & ((vessel < 0) | (*gap < 0.0));
+                if is_first {
+                    *gap = FIRST;
+                } else if vessel >= 0 {
                     let same = vessel == found.vessel[l];
                     *gap = if same { (found.arc_length[l] - s).abs() } else { FAR };
                 }

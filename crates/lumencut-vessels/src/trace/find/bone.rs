@@ -13,6 +13,7 @@ use crate::trace::find::bone::raw_section::RawSection;
 use crate::trace::find::confidence::ramp;
 use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
+use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::{Track, TrackDoubt, TrackPoint};
 use crate::trace::find::vessel_level::vessel_level;
 use lumencut_core::error::Result;
@@ -46,6 +47,11 @@ const PALE: [f64; 2] = [0.45, 0.55];
 const WIDE: f64 = 5.0;
 const PALE_AND_VERY_WIDE: [f64; 2] = [0.2, 0.3];
 const VERY_WIDE: f64 = 14.0;
+
+/// A wide track has good sections nearly everywhere: at the first share of them it is broken wholly, from the second one on not at
+/// all. It is wide from the first radius on (voxels), and wholly from the second one.
+const UNBROKEN: [f64; 2] = [0.75, 0.95];
+const BROAD: [f64; 2] = [2.5, 5.5];
 
 /// How much confidence is left to an organ, and to marrow in a cortex.
 const LEFT: f64 = 0.15;
@@ -86,19 +92,33 @@ pub struct Shape {
     /// The level inside, in the unit of the volume.
     level: f64,
     /// The greatest diameter at half level as a multiple of the least one.
-    elongation: f64,
+    pub elongation: f64,
     /// The spread of the values inside, as a share of the usual contrast of vessels.
     spread: f64,
     /// Whether it is marrow in a cortex.
     is_marrow: bool,
 }
 
+#[cfg(test)]
+impl Shape {
+    /// That of an even tube.
+    pub fn even(elongation: f64) -> Self {
+        Self { level: 300.0, elongation, spread: 0.0, is_marrow: false }
+    }
+}
+
 /// What the raw voxels show of each track; none where no section of it can be seen.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn shapes(scan: &Scan, tracks: &[Track], stop: Stop) -> Result<Vec<Option<Shape>>> {
-    tracks.par_iter().map(|track| shape(scan, track, stop)).collect()
+pub fn shapes(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Option<Shape>>> {
+    let pieces = stages.stage(Stage::Judgement, tracks.len());
+    let of_track = |track| {
+        let shape = shape(scan, track, stop)?;
+        pieces.done(1);
+        Ok(shape)
+    };
+    tracks.par_iter().map(of_track).collect()
 }
 
 /// The usual level and contrast once more, from sure, round and even tracks alone: the first pass sees bone too. None without
@@ -121,25 +141,30 @@ pub fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> O
     vessel_level(&lumens.map(|(track, _)| points(track)).collect::<Vec<_>>(), scan.noise)
 }
 
-/// The tracks with the confidence that is left to each, without those to which none is.
+/// The tracks with the confidence that is left to each.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn judged(scan: &Scan, tracks: Vec<Track>, shapes: Vec<Option<Shape>>, stop: Stop) -> Result<Vec<Track>> {
+pub fn judged(scan: &Scan, tracks: Vec<Track>, shapes: &[Option<Shape>], stop: Stop) -> Result<Vec<Track>> {
     let counts: Vec<bool> =
-        tracks.iter().zip(&shapes).map(|(t, s)| s.is_some() && t.confidence >= LEAST_COUNTED).collect();
+        tracks.iter().zip(shapes).map(|(t, s)| s.is_some() && t.confidence >= LEAST_COUNTED).collect();
     let neighbours = beside(&tracks, &counts, stop)?;
     let elongations: Vec<f64> = (0..tracks.len())
-        .map(|number| elongation_around(&tracks, &shapes, number, &neighbours[number]))
+        .map(|number| elongation_around(&tracks, shapes, number, &neighbours[number]))
         .collect();
     let judged = tracks.into_iter().zip(shapes).zip(elongations).map(|((mut track, shape), elongation)| {
         if let Some(shape) = shape {
             let most = NEIGHBOURS[0] + NEIGHBOURS[1] * (shape.elongation - 1.0);
-            judge(scan, &mut track, Shape { elongation: elongation.min(most), ..shape });
+            judge(scan, &mut track, Shape { elongation: elongation.min(most), ..*shape });
         }
         track
     });
-    Ok(judged.filter(|track| track.confidence >= LEAST).collect())
+    Ok(judged.collect())
+}
+
+/// The tracks to which some confidence is left.
+pub fn left(tracks: Vec<Track>) -> Vec<Track> {
+    tracks.into_iter().filter(|track| track.confidence >= LEAST).collect()
 }
 
 /// What the raw voxels show of a track; none where no section of it can be seen.
@@ -190,12 +215,24 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
         track.doubt = Some(if pale > 0.0 { TrackDoubt::PaleAndWide } else { TrackDoubt::Uneven });
         track.confidence *= if shape.is_marrow { LEFT } else { 1.0 - pale * (1.0 - LEFT) };
     }
+    let whole = 1.0 - broken(scan, track) * (1.0 - LEFT);
+    if whole < track.confidence && lost == 0.0 {
+        track.doubt = Some(TrackDoubt::Open);
+    }
+    track.confidence *= whole;
     track.confidence = track.confidence.powf(1.0 - EXCUSED * inside);
     let is_lumen = track.confidence >= FLAT_LUMEN
         && uneven == 0.0
         && track.radius() >= FLAT_LUMEN_RADIUS
         && track.length() >= FLAT_LUMEN_LENGTH;
     track.confidence = (track.confidence * (1.0 - lost)).max(if is_lumen { FLAT_LUMEN_LEFT } else { 0.0 });
+}
+
+/// How much a wide track is broken by sections that are not those of a tube, 0 to 1: in a wide lumen noise leaves no wall unseen,
+/// and the bodies of the spine and of even tissue are no tubes where they meet.
+fn broken(scan: &Scan, track: &Track) -> f64 {
+    let good = track.points.iter().filter(|point| point.is_good).count() as f64 / track.points.len() as f64;
+    ramp(-good, -UNBROKEN[1], -UNBROKEN[0]) * ramp(track.radius() / scan.side, BROAD[0], BROAD[1])
 }
 
 /// How much the inside of a track is that of a vessel, 0 to 1: even, as bright as vessels are, and wide enough to be seen.

@@ -14,6 +14,8 @@ pub struct Trees {
     pub contrast: f64,
     /// See `level`.
     pub noise: f64,
+    /// Whether the scan shows vessels as an angiography does; else none of them is sure unless a seed says that there is one.
+    pub is_angiography: bool,
 }
 
 /// A vessel that was found.
@@ -36,7 +38,9 @@ impl TrackDoubt {
     /// The doubt in words.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Scarce => "no tree of the scan is long: it may have no contrast medium",
+            Self::Scarce => {
+                "hardly any vessel of the scan is long, round and bright: it may have no contrast medium"
+            }
             Self::BrightSides => "it is bright on most sides: bone?",
             Self::Flat => "it is flat, like a plate of bone",
             Self::Uneven => "it is uneven inside, like marrow",

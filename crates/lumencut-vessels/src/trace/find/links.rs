@@ -20,6 +20,7 @@ use crate::trace::find::links::landings::{BETWEEN_TREES, Landings, OPEN_ENDS};
 use crate::trace::find::links::link::Link;
 use crate::trace::find::links::sides::side_links;
 use crate::trace::find::scan::Scan;
+use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
@@ -31,9 +32,15 @@ const ROUNDS: usize = 2;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn between(scan: &Scan, tracks: &[Track], stop: Stop) -> Result<Vec<Link>> {
+pub fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Link>> {
     let landings = Landings::new(scan, tracks);
     let ends = ends(tracks);
+    // Ends are looked at three times, and the sides of tracks once.
+    let pieces = stages.stage(Stage::Links, 3 * ends.len() + tracks.len());
+    let stop = &|| {
+        pieces.done(1);
+        stop()
+    };
     let mut groups = Groups::new(tracks);
     let cheapest = |end: &End| {
         go_on(stop)?;

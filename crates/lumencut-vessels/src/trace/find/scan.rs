@@ -18,6 +18,8 @@ pub struct Scan<'v> {
     pub contrast: f64,
     /// The standard deviation of the noise.
     pub noise: f64,
+    /// Whether its values are Hounsfield units, as those of a CT with air around or in the patient are.
+    pub is_hounsfield: bool,
 }
 
 impl Scan<'_> {

@@ -1,7 +1,9 @@
 //! Parts that are short, and scans that show no vessels: what looks like some there is doubtful as a whole.
 
-use crate::trace::find::found::FoundVessel;
-use crate::trace::find::track::TrackDoubt;
+use crate::trace::find::bone::Shape;
+use crate::trace::find::found::{FoundVessel, SURE};
+use crate::trace::find::scan::Scan;
+use crate::trace::find::track::{Track, TrackDoubt};
 use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
@@ -14,8 +16,42 @@ const OF_DIAGONAL: f64 = 0.3;
 const LEAST_PART: f64 = 15.0;
 const PART_OF_DIAGONAL: f64 = 0.15;
 
-/// The same vessels: those of short parts doubtful, and all where no part of them has sure vessels as long as those of an angiography.
-pub fn doubted_where_scarce(voxels: &Voxels, mut vessels: Vec<FoundVessel>) -> Vec<FoundVessel> {
+/// Tubes of an angiography are long and round: so many radii with an elongation of no more than this; those that are rounder may be
+/// shorter. Bodies of tissue are one or the other.
+const LONG_AND_ROUND: [[f64; 2]; 2] = [[10.0, 1.5], [6.0, 1.25]];
+
+/// What is so long as a share of the diagonal of the volume is long however wide it is: a small volume has no more of it.
+const LONG_OF_DIAGONAL: f64 = 0.5;
+
+/// Blood without contrast medium is no brighter, and neither is muscle (HU).
+const BLOOD: f64 = 75.0;
+
+/// Whether a scan shows vessels as an angiography does: its sure tracks that are long and round have together the length of an
+/// angiography, and as a CT its vessels are brighter than blood without contrast medium.
+pub fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
+    let diagonal = diagonal(scan.voxels);
+    let length = |(track, shape): (&Track, &Option<Shape>)| {
+        let length = track.length();
+        let is_tube = |shape: &Shape| {
+            LONG_AND_ROUND.iter().any(|[radii, elongation]| {
+                let least = (radii * track.radius()).min(LONG_OF_DIAGONAL * diagonal);
+                length >= least && shape.elongation <= *elongation
+            })
+        };
+        if track.confidence >= SURE && shape.as_ref().is_some_and(is_tube) { length } else { 0.0 }
+    };
+    let all: f64 = tracks.iter().zip(shapes).map(length).sum();
+    let is_bright = !scan.is_hounsfield || scan.level > BLOOD;
+    is_bright && all >= LEAST_LENGTH.min(OF_DIAGONAL * diagonal)
+}
+
+/// The same vessels: those of short parts doubtful, and all where the scan is no angiography or no part of them has
+/// sure vessels as long as those of one.
+pub fn doubted_where_scarce(
+    voxels: &Voxels,
+    mut vessels: Vec<FoundVessel>,
+    is_angiography: bool,
+) -> Vec<FoundVessel> {
     let mut lengths = vec![0.0; vessels.len()];
     for vessel in vessels.iter().filter(|vessel| vessel.doubt.is_none()) {
         lengths[vessel.part] += arc_lengths(&vessel.line.points).last().copied().unwrap_or(0.0);
@@ -23,7 +59,7 @@ pub fn doubted_where_scarce(voxels: &Voxels, mut vessels: Vec<FoundVessel>) -> V
     let diagonal = diagonal(voxels);
     let [least, least_part] =
         [LEAST_LENGTH.min(OF_DIAGONAL * diagonal), LEAST_PART.min(PART_OF_DIAGONAL * diagonal)];
-    let is_scarce = lengths.iter().all(|length| *length < least);
+    let is_scarce = !is_angiography || lengths.iter().all(|length| *length < least);
     for vessel in vessels.iter_mut().filter(|vessel| is_scarce || lengths[vessel.part] < least_part) {
         let doubt = if is_scarce { TrackDoubt::Scarce } else { TrackDoubt::Short };
         vessel.doubt = vessel.doubt.or(Some(doubt));
@@ -41,7 +77,7 @@ fn diagonal(voxels: &Voxels) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::find::made::with_scan;
+    use crate::trace::find::made::{straight_track, with_scan};
     use crate::trace::lines::centerline::Centerline;
 
     /// The doubts of vessels of some lengths (mm) in one part each, in a cube of 40 mm, whose diagonal is 69.3 mm.
@@ -52,7 +88,7 @@ mod tests {
             FoundVessel { line, part, confidence: 0.9, doubt: None }
         };
         let vessels = lengths.iter().enumerate().map(vessel).collect();
-        let found = with_scan([20; 3], 2.0, |_| 0.0, |scan| doubted_where_scarce(scan.voxels, vessels));
+        let found = with_scan([20; 3], 2.0, |_| 0.0, |scan| doubted_where_scarce(scan.voxels, vessels, true));
         found.into_iter().map(|vessel| vessel.doubt).collect()
     }
 
@@ -63,5 +99,52 @@ mod tests {
         // 0.15 of the diagonal are 10.4 mm.
         assert_eq!(doubts(&[20.9, 10.3]), [None, Some(TrackDoubt::Short)]);
         assert!(doubts(&[]).is_empty());
+    }
+
+    /// Whether a scan with the value range of a CT or not is an angiography by a single track of a length and a radius (mm), with an
+    /// elongation, in a cube of 120 mm, whose diagonal is 207.8 mm.
+    fn shows(length: f64, radius: f64, elongation: f64, level_in_hounsfield: Option<f64>) -> bool {
+        let track = straight_track(DVec3::ZERO, DVec3::X * length, radius);
+        with_scan(
+            [20; 3],
+            6.0,
+            |_| 0.0,
+            |scan| {
+                let is_hounsfield = level_in_hounsfield.is_some();
+                let scan = Scan { is_hounsfield, level: level_in_hounsfield.unwrap_or(50.0), ..*scan };
+                is_angiography(&scan, &[track], &[Some(Shape::even(elongation))])
+            },
+        )
+    }
+
+    #[test]
+    fn an_angiography_has_tubes_that_are_long_and_round_and_in_a_ct_brighter_than_plain_blood() {
+        // 0.3 of the diagonal are 62.4 mm.
+        assert!(shows(65.0, 6.0, 1.4, None) && !shows(60.0, 6.0, 1.4, None));
+        assert!(!shows(65.0, 7.0, 1.4, None) && !shows(65.0, 6.0, 1.6, None));
+        // Rounder tubes may be shorter.
+        assert!(shows(65.0, 10.5, 1.2, None) && !shows(65.0, 11.5, 1.2, None));
+        // What passes through half of the diagonal is long, however wide it is.
+        assert!(shows(104.5, 12.0, 1.4, None) && !shows(103.0, 12.0, 1.4, None));
+        assert!(shows(65.0, 6.0, 1.4, Some(80.0)) && !shows(65.0, 6.0, 1.4, Some(70.0)));
+    }
+
+    #[test]
+    fn in_what_is_no_angiography_all_is_doubtful() {
+        let line = Centerline {
+            points: vec![DVec3::ZERO, DVec3::X],
+            radius: vec![1.0; 2],
+            confidence: vec![0.9; 2],
+        };
+        let vessel = FoundVessel { line, part: 0, confidence: 0.9, doubt: None };
+        let found = with_scan(
+            [20; 3],
+            0.05,
+            |_| 0.0,
+            |scan| {
+                [true, false].map(|is| doubted_where_scarce(scan.voxels, vec![vessel.clone()], is)[0].doubt)
+            },
+        );
+        assert_eq!(found, [None, Some(TrackDoubt::Scarce)]);
     }
 }

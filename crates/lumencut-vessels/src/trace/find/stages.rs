@@ -17,12 +17,14 @@ pub enum Stage {
     Tracks,
     /// Tracks are judged.
     Judgement,
+    /// They are linked.
+    Links,
     /// They become whole vessels.
     Vessels,
 }
 
 /// About how long each stage takes in comparison.
-const COSTS: [usize; 6] = [4, 18, 28, 38, 7, 5];
+const COSTS: [usize; 7] = [4, 18, 28, 38, 7, 2, 3];
 
 /// In how many parts a stage is told.
 const PARTS: usize = 1000;

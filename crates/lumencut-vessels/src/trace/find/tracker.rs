@@ -226,3 +226,7 @@ fn has_returned(way: &[DVec3], running: &Running, step: f64) -> bool {
     let far = way.len().saturating_sub(near);
     way[..far].iter().any(|point| point.distance(running.place) < RETURNED * running.radius)
 }
+
+#[cfg(test)]
+#[path = "tests/tracker.rs"]
+mod tests;

@@ -46,7 +46,7 @@ pub fn tubes<'v>(
     stages: Stages,
 ) -> Result<Option<(Scan<'v>, Vec<Track>)>> {
     let FindRequest { smallest_radius, stop, .. } = *request;
-    let range = range(voxels);
+    let Range { values: range, is_hounsfield } = range(voxels);
     if range[1] <= range[0] {
         return Ok(None);
     }
@@ -72,12 +72,21 @@ pub fn tubes<'v>(
         tracks.extend(from_seed(&pass, seed, &tracks)?);
     }
     let tracks = tracks.into_iter().map(|track| in_world(&pyramid.grid, track)).collect();
-    let scan = Scan { voxels, side: pyramid.grid.side, lowest: range[0], level, contrast, noise };
+    let side = pyramid.grid.side;
+    let scan = Scan { voxels, side, lowest: range[0], level, contrast, noise, is_hounsfield };
     Ok(Some((scan, tracks)))
 }
 
+/// The values that tell something of vessels.
+struct Range {
+    /// The least and the greatest one.
+    values: [f64; 2],
+    /// Whether they are Hounsfield units: there are values of air.
+    is_hounsfield: bool,
+}
+
 /// The range of values that tell something of vessels.
-fn range(voxels: &Voxels) -> [f64; 2] {
+fn range(voxels: &Voxels) -> Range {
     let count: usize = voxels.size.iter().product();
     let step = count.div_ceil(SAMPLES) | 1;
     let value = |n: usize| {
@@ -87,12 +96,13 @@ fn range(voxels: &Voxels) -> [f64; 2] {
     let mut values: Vec<f32> =
         (0..count).into_par_iter().step_by(step).map(value).filter(|value| value.is_finite()).collect();
     if values.is_empty() {
-        return [0.0; 2];
+        return Range { values: [0.0; 2], is_hounsfield: false };
     }
     values.sort_unstable_by(f32::total_cmp);
     let highest = f64::from(values[((values.len() - 1) as f64 * BRIGHTEST) as usize]);
     let lowest = f64::from(values[0]);
-    [if lowest < AIR { WATER } else { lowest }, highest]
+    let is_hounsfield = lowest < AIR;
+    Range { values: [if is_hounsfield { WATER } else { lowest }, highest], is_hounsfield }
 }
 
 /// The usual level and contrast of the vessels, from the tubes at half the resolution.

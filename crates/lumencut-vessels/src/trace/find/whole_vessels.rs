@@ -21,6 +21,7 @@ use crate::trace::find::FindRequest;
 use crate::trace::find::found::FoundVessel;
 use crate::trace::find::links::link::Link;
 use crate::trace::find::scan::Scan;
+use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::Track;
 use crate::trace::find::whole_vessels::attached::{Attached, attached};
 use crate::trace::find::whole_vessels::centered::{Centered, centered};
@@ -37,7 +38,13 @@ use lumencut_core::stop::go_on;
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn of(scan: &Scan, tracks: &[Track], links: &[Link], request: &FindRequest) -> Result<Vec<FoundVessel>> {
+pub fn of(
+    scan: &Scan,
+    tracks: &[Track],
+    links: &[Link],
+    request: &FindRequest,
+    stages: Stages,
+) -> Result<Vec<FoundVessel>> {
     let (tracks, links) = without_stubs(tracks, links);
     let tracks = &tracks;
     let graph = Graph::new(tracks, &links);
@@ -45,10 +52,13 @@ pub fn of(scan: &Scan, tracks: &[Track], links: &[Link], request: &FindRequest) 
     let roots = roots(scan, tracks, &graph);
     let runs = runs(&graph, &roots);
     go_on(request.stop)?;
-    let lines: Vec<Centered> = (0..runs.runs.len())
-        .into_par_iter()
-        .map(|number| centered(scan, &runs, number, request.stop))
-        .collect::<Result<_>>()?;
+    let pieces = stages.stage(Stage::Vessels, runs.runs.len());
+    let line = |number| {
+        let line = centered(scan, &runs, number, request.stop)?;
+        pieces.done(1);
+        Ok(line)
+    };
+    let lines: Vec<Centered> = (0..runs.runs.len()).into_par_iter().map(line).collect::<Result<_>>()?;
     let whole = trimmed(attached(&runs, &graph.places, &lines), request.smallest_radius);
     let whole: Vec<Option<Attached>> = whole.into_iter().map(|run| run.map(closed)).collect();
     go_on(request.stop)?;

@@ -10,11 +10,12 @@ pub(crate) mod typescript;
 
 use crate::backend::Backend;
 use crate::devices::Wanted;
+use crate::flight::flight;
 use glam::DVec3;
 use lumencut_core::pipeline::Request;
 use lumencut_io::Space;
 use lumencut_phantom::Phantom;
-use serde_json::json;
+use serde_json::{Value as Json, json};
 
 use crate::mends::{OfCenterlines, OfCore};
 use crate::places::Statement;
@@ -22,8 +23,9 @@ use crate::study::centerline_files::AskedMessage;
 use crate::study::held_volume::HeldVolume;
 use crate::study::open_study::Study;
 use crate::study::planes::Plane;
+use crate::study::questions::ask_at_once;
 use crate::study::straightened::{Aggregated, CprMessage};
-use crate::study::view::ViewMessage;
+use crate::study::view::{CameraMessage, ViewMessage};
 use crate::study::voxels::Stored;
 
 /// Centerlines are asked for in LPS.
@@ -211,6 +213,31 @@ fn messages_that_are_none_are_refused() {
     let study = opened("y_junction");
     let odd = ViewMessage { method: "xyz".into(), ..view(&study, [8, 8]) };
     assert_eq!(odd.view().expect_err("no method").subject, "method");
+}
+
+#[test]
+fn the_views_of_a_flight_are_told_without_a_study() {
+    let camera = |center: [f64; 3], spacing: f64| {
+        json!({"center": center, "direction": [0.0, 1.0, 0.0],
+        "up": [0.0, 0.0, 1.0], "size": [400, 300], "pixel_spacing": spacing})
+    };
+    let (from, to) = (camera([0.0; 3], 2.0), camera([8.0, 0.0, 4.0], 0.5));
+    let asked = |from: &Json, views: usize| {
+        let message = json!({"from": from, "to": to, "views": views}).to_string();
+        ask_at_once("flight", &message)
+            .map(|answer| serde_json::from_str::<Vec<CameraMessage>>(&answer.json).unwrap())
+    };
+    let views = asked(&from, 7).expect("views");
+    let told: Vec<_> = views.iter().map(|view| view.camera().expect("a camera")).collect();
+    let ends = [&from, &to]
+        .map(|end| serde_json::from_value::<CameraMessage>(end.clone()).unwrap().camera().unwrap());
+    assert_eq!(told, flight(&ends[0], &ends[1], 7).expect("a flight"));
+    assert_eq!([told[0], told[6]], ends);
+    let mut blind = from.clone();
+    blind["direction"] = json!([0.0, 0.0, 0.0]);
+    for (bad, views) in [(blind, 7), (from, 1)] {
+        assert_eq!(asked(&bad, views).map_err(|failure| failure.kind), Err("camera"));
+    }
 }
 
 #[test]

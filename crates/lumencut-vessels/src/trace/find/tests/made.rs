@@ -28,7 +28,15 @@ pub fn with_scan<T>(
     let volume = Volume::new(volume::Voxels::F32(&values), size, strides, world).expect("a volume");
     let voxels = Voxels::new(&volume);
     let contrast = LEVEL - TISSUE;
-    work(&Scan { voxels: &voxels, side, lowest: 0.0, level: LEVEL, contrast, noise: 5.0 })
+    work(&Scan {
+        voxels: &voxels,
+        side,
+        lowest: 0.0,
+        level: LEVEL,
+        contrast,
+        noise: 5.0,
+        is_hounsfield: false,
+    })
 }
 
 /// The value `depth` (mm) below the surface of what is brighter than tissue, blurred over a millimetre.

@@ -2,6 +2,7 @@ use super::*;
 use crate::trace::find::found::SURE;
 use crate::trace::find::made::{LEVEL, TISSUE, blurred, straight_track, with_scan, with_threads};
 use glam::DVec3;
+use lumencut_core::progress::Progress;
 
 const SIZE: [usize; 3] = [80, 60, 60];
 const SIDE: f64 = 0.5;
@@ -15,8 +16,8 @@ fn tube_and_plate(place: DVec3) -> f64 {
 
 /// The tracks as they are judged in a scan.
 fn judged_in(scan: &Scan, tracks: Vec<Track>) -> Vec<Track> {
-    let shapes = shapes(scan, &tracks, &|| false).expect("shapes");
-    judged(scan, tracks, shapes, &|| false).expect("tracks")
+    let shapes = shapes(scan, &tracks, &|| false, Stages::begin(None)).expect("shapes");
+    left(judged(scan, tracks, &shapes, &|| false).expect("tracks"))
 }
 
 fn along_y(x: f64, z: f64, radius: f64) -> Track {
@@ -121,7 +122,7 @@ fn the_usual_level_is_that_of_round_and_even_tracks() {
     };
     let tracks = [along_y(8.0, 15.0, 3.0), along_y(28.0, 15.0, 8.0)];
     let found = with_scan(SIZE, SIDE, scene, |scan| {
-        let shapes = shapes(scan, &tracks, &|| false).expect("shapes");
+        let shapes = shapes(scan, &tracks, &|| false, Stages::begin(None)).expect("shapes");
         let of = |n: usize| lumen_level(scan, &tracks[n..=n], &shapes[n..=n]);
         (lumen_level(scan, &tracks, &shapes), of(0), of(1))
     });
@@ -132,7 +133,36 @@ fn the_usual_level_is_that_of_round_and_even_tracks() {
 #[test]
 fn judging_stops_where_it_is_asked_to() {
     let stopped = with_scan(SIZE, SIDE, tube_and_plate, |scan| {
-        shapes(scan, &[along_y(8.0, 15.0, 3.0)], &|| true).map(|_| ())
+        shapes(scan, &[along_y(8.0, 15.0, 3.0)], &|| true, Stages::begin(None)).map(|_| ())
     });
     assert!(stopped.is_err());
+}
+
+#[test]
+fn a_wide_track_that_is_broken_by_other_sections_is_doubtful_and_a_narrow_one_is_not() {
+    // Every fifth section is not that of a tube: of the way from 0.95 to 0.75 about three quarters.
+    let broken = |radius: f64| {
+        let mut track = along_y(8.0, 15.0, radius);
+        track.points.iter_mut().step_by(5).for_each(|point| point.is_good = false);
+        with_scan([4, 4, 4], SIDE, |_| TISSUE, |scan| judge(scan, &mut track, EVEN_AND_PALE));
+        track
+    };
+    let wide = broken(5.5 * SIDE);
+    let share = wide.points.iter().filter(|point| point.is_good).count() as f64 / wide.points.len() as f64;
+    let left = 1.0 - (0.95 - share) / 0.2 * 0.85;
+    assert!((wide.confidence - 0.9 * left).abs() < 1e-9 && wide.confidence < SURE, "{}", wide.confidence);
+    assert_eq!(wide.doubt, Some(TrackDoubt::Open));
+    let narrow = broken(2.5 * SIDE);
+    assert_eq!((narrow.confidence, narrow.doubt), (0.9, None));
+}
+
+#[test]
+fn judging_tells_how_far_it_is() {
+    let progress = Progress::default();
+    let tracks = [along_y(8.0, 15.0, 3.0), along_y(33.0, 15.0, 1.2)];
+    with_scan(SIZE, SIDE, tube_and_plate, |scan| {
+        shapes(scan, &tracks, &|| false, Stages::begin(Some(&progress))).expect("shapes")
+    });
+    // The stage begins nothing before it, and is told whole: 7 of 100.
+    assert_eq!(progress.share(), 0.07);
 }

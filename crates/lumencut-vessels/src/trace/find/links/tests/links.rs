@@ -15,7 +15,7 @@ fn linked(tubes: &[(&[DVec3], f64)], tracks: &[Track]) -> Vec<Link> {
         let depths = tubes.iter().map(|(line, radius)| radius - away(place, line));
         blurred(depths.fold(f64::MIN, f64::max))
     };
-    with_scan(SIZE, SIDE, value, |scan| between(scan, tracks, &|| false).expect("links"))
+    with_scan(SIZE, SIDE, value, |scan| between(scan, tracks, &|| false, Stages::begin(None)).expect("links"))
 }
 
 /// What links join, the lower track first.

@@ -24,9 +24,9 @@ fn found(tubes: &[([DVec3; 2], Track)], tracks: &[Track], smallest_radius: f64) 
         blurred(depths.fold(f64::MIN, f64::max))
     };
     with_scan(SIZE, SIDE, value, |scan| {
-        let links = between(scan, tracks, &|| false).expect("links");
+        let links = between(scan, tracks, &|| false, Stages::begin(None)).expect("links");
         let request = FindRequest { smallest_radius, stop: &|| false, progress: None };
-        of(scan, tracks, &links, &request).expect("vessels")
+        of(scan, tracks, &links, &request, Stages::begin(None)).expect("vessels")
     })
 }
 
@@ -191,7 +191,7 @@ fn nothing_makes_no_vessels_and_work_stops_where_it_is_asked_to() {
         |_| 0.0,
         |scan| {
             let request = FindRequest { smallest_radius: 0.5, stop: &|| true, progress: None };
-            of(scan, std::slice::from_ref(&track), &[], &request).map(|_| ())
+            of(scan, std::slice::from_ref(&track), &[], &request, Stages::begin(None)).map(|_| ())
         },
     );
     assert!(stopped.is_err());

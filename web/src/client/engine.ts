@@ -1,11 +1,11 @@
 /** The worker as the page uses it: typed calls whose errors are failures. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
+import type { Answer, Asked, Beside, Message, Question, Told } from '../core/asked';
+import { Failure } from '../core/failure';
+import { TURNS } from '../core/generated/questions';
+import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from '../core/messages';
+import { Precedence } from '../core/precedence';
 import type { EngineHost } from '../worker/host';
-import type { Answer, Asked, Beside, Message, Question, Told } from './asked';
-import { Failure } from './failure';
-import { TURNS } from './generated/questions';
-import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from './messages';
-import { Precedence } from './precedence';
 
 /** Files of the same origin. */
 export interface Addresses {

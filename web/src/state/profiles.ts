@@ -3,7 +3,7 @@ import { batch, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { LineId, Profile } from '../core/messages';
-import * as store from '../state/store';
+import * as store from './store';
 
 /** A profile, or why there is none. */
 export type Measured = { readonly profile: Profile } | { readonly failure: Failure };

@@ -1,7 +1,7 @@
 /** What was made of a scan is not lost unasked: closing it, and opening another one in its place, wait for an answer. */
 import { signal } from '@preact/signals';
-import type { Document } from '../edit/document';
-import { document_, saved } from '../edit/history';
+import type { Document } from '../state/document';
+import { document_, saved } from '../state/history';
 
 /** What waits for an answer, and what would be lost by it; null where nothing waits. */
 export interface Leaving {

@@ -1,12 +1,12 @@
 /** Opening files that were dropped or chosen. */
 import { signal } from '@preact/signals';
-import type { EngineClient } from '../core/engine';
+import type { EngineClient } from '../client/engine';
 import { Failure } from '../core/failure';
 import type { GivenFile, SeriesWish } from '../core/messages';
 import { isSession, openSession } from '../session/saving';
-import { openWith } from './last-opened';
+import { openWith } from '../state/last-opened';
+import * as store from '../state/store';
 import { leave } from './leaving';
-import * as store from './store';
 import { open } from './study';
 
 /** Opens files: a volume in the place of all that is open, centerlines beside it. */

@@ -1,12 +1,12 @@
 /** A stenosis that the reader marked: never a percentage without its method, its references and mm. */
 import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
-import type { VesselMarks } from '../edit/document';
+import { answers, currentMarks, currentPlaces } from '../measure/current';
+import { changeMarks, confirmAll } from '../measure/editing';
+import { notGradedWords, stenosisWords, told } from '../measure/words';
 import { attempt } from '../output/attempt';
 import { saveReport } from '../output/report';
-import { answers, currentMarks, currentPlaces } from './current';
-import { changeMarks, confirmAll } from './editing';
-import { notGradedWords, stenosisWords, told } from './words';
+import type { VesselMarks } from '../state/document';
 
 export function StenosisPart() {
   const marks = currentMarks.value;

@@ -2,9 +2,9 @@
 import { signal } from '@preact/signals';
 import type { Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
-import type { Document, Ruler } from '../edit/document';
-import { change, document_, endPreview, preview } from '../edit/history';
-import { tool } from '../edit/tool';
+import type { Document, Ruler } from './document';
+import { change, document_, endPreview, preview } from './history';
+import { tool } from './tool';
 
 /** The first point of a ruler whose second one is still to be picked. */
 export const firstEnd = signal<Vector | null>(null);

@@ -1,6 +1,6 @@
 /** Slices of the patient: their axes, and the way between their pixels and the world. */
-import type { Pair, Plane, Vector, VolumeReport } from '../core/messages';
-import { add, cross, dot, middle, scale, subtract } from '../core/vectors';
+import type { Pair, Plane, Vector, VolumeReport } from './messages';
+import { add, cross, dot, middle, scale, subtract } from './vectors';
 
 export type SliceName = 'axial' | 'coronal' | 'sagittal';
 

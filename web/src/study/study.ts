@@ -1,19 +1,19 @@
 /** Opening and closing: what is loaded, its windows and its first view. */
 import { batch } from '@preact/signals';
-import type { EngineClient, Opened } from '../core/engine';
+import type { EngineClient, Opened } from '../client/engine';
 import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
 import { middle } from '../core/vectors';
 import { addLoaded } from '../edit/files';
-import { document_, redoWords, undoWords } from '../edit/history';
 import { forgetLines } from '../edit/lines';
 import { beginStudy, showAgain } from '../edit/shown';
-import { tool } from '../edit/tool';
 import { placeCrossHair } from '../link/cross-hair';
-import { beginMeasuring } from '../measure/profiles';
-import { putRulerAway } from '../measure/rulers';
-import { openWith } from './last-opened';
-import * as store from './store';
+import { document_, redoWords, undoWords } from '../state/history';
+import { openWith } from '../state/last-opened';
+import { beginMeasuring } from '../state/profiles';
+import { putRulerAway } from '../state/rulers';
+import * as store from '../state/store';
+import { tool } from '../state/tool';
 
 /** The size of a view before its pane is laid out. */
 const FIRST_SIZE = [512, 512] as const;

@@ -1,11 +1,11 @@
 /** A picture that the engine makes, on a canvas of its own: slices, the straightened vessel, the section. */
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
+import { Latest } from '../core/latest';
 import type { Pair, Picture } from '../core/messages';
 import { type Handlers, listen } from '../input/pointer';
 import { recover } from '../state/device';
 import { isInverted, type ViewName } from '../state/store';
-import { Latest } from './latest';
 import { usePaneSize } from './pane-size';
 
 interface FlatPictureProps {

@@ -1,11 +1,11 @@
 /** The keys of the page; those that are typed into a field belong to the field. */
-import { engine } from '../core/shared';
+import { engine } from '../client/shared';
 import { isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
+import { type Action, actionOfKey } from '../input/bindings';
+import { focusSoon } from '../input/focus';
 import { saveByKey } from '../output/by-key';
 import { layout } from '../state/store';
-import { type Action, actionOfKey } from './bindings';
-import { focusSoon } from './focus';
 
 export function listenToKeys(): void {
   window.addEventListener('keydown', (event) => {

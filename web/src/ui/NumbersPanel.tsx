@@ -1,13 +1,15 @@
 /** What was measured of the picked vessel, in numbers. */
+import { engine } from '../client/shared';
 import { moveTo } from '../link/along';
+import { currentProfile, currentVessel } from '../measure/current';
+import { PlacesTable } from '../measure/PlacesTable';
+import { RulersPart } from '../measure/RulersPart';
+import { StretchPart } from '../measure/StretchPart';
+import { mm, unitless } from '../measure/words';
+import { showBestView } from '../state/actions';
+import { giveFwhm } from '../state/profiles';
 import * as store from '../state/store';
-import { currentProfile, currentVessel } from './current';
-import { PlacesTable } from './PlacesTable';
-import { giveFwhm } from './profiles';
-import { RulersPart } from './RulersPart';
 import { StenosisPart } from './StenosisPart';
-import { StretchPart } from './StretchPart';
-import { mm, unitless } from './words';
 
 export function NumbersPanel() {
   const profile = currentProfile.value;
@@ -34,21 +36,32 @@ function VesselChoice() {
   const vessel = currentVessel.value;
   const vessels = store.report.value?.vessels ?? [];
   return (
-    <label class="vessel-choice">
-      Vessel
-      <select
-        value={String(store.pickedVessel.value ?? '')}
-        onChange={(event) => pick(Number(event.currentTarget.value))}
-      >
-        {store.pickedVessel.value === null && <option value="">none</option>}
-        {vessels.map(({ line, name }, n) => (
-          <option key={line} value={String(n)}>
-            {name || `vessel ${n + 1}`}
-          </option>
-        ))}
-      </select>
-      {vessel && <span>{mm(vessel.length, 1)}</span>}
-    </label>
+    <div class="vessel-choice">
+      <label>
+        Vessel
+        <select
+          value={String(store.pickedVessel.value ?? '')}
+          onChange={(event) => pick(Number(event.currentTarget.value))}
+        >
+          {store.pickedVessel.value === null && <option value="">none</option>}
+          {vessels.map(({ line, name }, n) => (
+            <option key={line} value={String(n)}>
+              {name || `vessel ${n + 1}`}
+            </option>
+          ))}
+        </select>
+        {vessel && <span>{mm(vessel.length, 1)}</span>}
+      </label>
+      {vessel && (
+        <button
+          type="button"
+          title="From where most of the vessel is seen (f)"
+          onClick={() => void showBestView(engine)}
+        >
+          Best view
+        </button>
+      )}
+    </div>
   );
 }
 

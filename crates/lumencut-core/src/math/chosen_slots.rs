@@ -1,0 +1,50 @@
+//! Which part of a chosen vessel comes before all others.
+//!
+//! The centerline of a branch begins in the middle of its parent, with the parent's radius. There its disc is no part of the branch:
+//! before all others it would lie across the parent as a round patch.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::projection::Level;
+
+/// The slots of each vessel that come before those of all others where some vessels are chosen: none of a vessel that is not
+/// chosen, and of one that is all from where its centerline first leaves the lumens of the others to where it last enters one.
+/// One that never leaves them keeps all of its slots.
+pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
+    let count = level.first_slot.len() - 1;
+    let mut is_chosen = vec![false; count];
+    vessels.iter().for_each(|vessel| is_chosen[*vessel] = true);
+    let slots = |vessel: usize| level.first_slot[vessel]..level.first_slot[vessel + 1];
+    let others: Vec<_> = (0..count).filter(|vessel| !is_chosen[*vessel]).map(slots).collect();
+    let is_outside = |slot: &u32| {
+        let point = level.points[*slot as usize];
+        !others.iter().any(|other| is_within(level, other.clone(), point))
+    };
+    let of_vessel = |vessel: usize| {
+        let all = slots(vessel);
+        if !is_chosen[vessel] {
+            return all.start..all.start;
+        }
+        let [first, last] = [all.clone().find(is_outside), all.clone().rev().find(is_outside)];
+        // What stands at the last slot reaches to the end of the vessel alone; before it, segments end at the last one outside.
+        let end = last.map_or(all.end, |last| if last + 1 == all.end { all.end } else { last });
+        let first = first.unwrap_or(all.start);
+        if first < end { first..end } else { all }
+    };
+    (0..count).map(of_vessel).collect()
+}
+
+/// Whether a point lies in the lumen of the vessel with these slots, whose radius is linear along each segment.
+fn is_within(level: &Level, slots: Range<u32>, point: DVec3) -> bool {
+    let last = slots.end.saturating_sub(1) as usize;
+    slots.map(|slot| slot as usize).any(|slot| {
+        let next = (slot + 1).min(last);
+        let [from, to] = [slot, next].map(|slot| level.points[slot]);
+        let [first, second] = [slot, next].map(|slot| f64::from(level.radii[slot]));
+        let along = to - from;
+        let t = ((point - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (point - from - along * t).length() < first + (second - first) * t
+    })
+}

@@ -1,0 +1,66 @@
+"""Flights: the view goes from one camera to another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lumencut import _lumencut
+from lumencut._checks import integers
+from lumencut.errors import CameraError
+from lumencut.turntables import MOST_FRAMES
+
+if TYPE_CHECKING:
+    from lumencut.camera import Camera
+    from lumencut.frame import Frame
+    from lumencut.renderer import Renderer
+    from lumencut.settings import Settings
+
+
+def flight(
+    renderer: Renderer,
+    start: Camera,
+    end: Camera,
+    settings: Settings | None = None,
+    frames: int = 36,
+) -> Iterator[Frame]:
+    """Render a flight from one view to another, one frame at a time.
+
+    It begins and ends at rest. The view turns by the shortest rotation, evenly with the way, and the pixel
+    spacing changes by equal factors on equal parts of it.
+
+    Parameters
+    ----------
+    renderer : Renderer
+        The scene.
+    start, end : Camera
+        The first and the last view, of one size; such as ``Camera.refocused(tree, "LAD", size,
+        start=start)`` as the end.
+    settings : Settings, optional
+        The knobs; their defaults where not given.
+    frames : int, default 36
+        How many frames, at least 2.
+
+    Yields
+    ------
+    Frame
+        The next view.
+
+    Raises
+    ------
+    CameraError
+        For what is no camera, cameras of different sizes, or fewer than two frames.
+    """
+    for view in flight_views(start, end, frames):
+        yield renderer.render(view, settings)
+
+
+def flight_views(start: Camera, end: Camera, frames: int) -> list[Camera]:
+    """Return the views of a flight; parameters and errors are those of :func:`flight`."""
+    from lumencut.camera import Camera
+
+    for view in (start, end):
+        if not isinstance(view, Camera):
+            raise CameraError("view of the flight", type(view).__name__, "a Camera")
+    (count,) = integers(CameraError, "frames of the flight", [frames], 2, MOST_FRAMES, 1)
+    return [start, *(start._moved(place) for place in _lumencut.flight(start, end, count)), end]

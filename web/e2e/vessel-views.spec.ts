@@ -1,0 +1,139 @@
+/** The best view of a vessel, and turning about a place on it, by mouse and by keys. */
+import { expect, type Locator, test } from '@playwright/test';
+import { dot } from '../src/core/vectors';
+import { button, fileOf, type MadeFile } from './controls';
+import { Viewer } from './page';
+
+const SIZE = { width: 1280, height: 800 };
+/** Voxels along each axis, and their side (mm). */
+const COUNTS = [60, 60, 90] as const;
+const SIDE = 0.6;
+const HALF = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
+/** Where the tube stands to the patient's left (mm): mirrored, its line would lie outside of the scan. */
+const LEFT = 100;
+/** Half the axes of the lumen (mm), from right to left and from front to back. */
+const AXES = [6, 3.5] as const;
+
+/** A tube along the patient whose lumen is an ellipse: its values pass half way where the wall is, on each line through its middle. */
+function tube(): MadeFile {
+  const [columns, rows, slices] = COUNTS;
+  const values = new Int16Array(columns * rows * slices);
+  for (let n = 0; n < values.length; n++) {
+    const x = (n % columns) * SIDE - HALF[0];
+    const y = (Math.floor(n / columns) % rows) * SIDE - HALF[1];
+    const away = Math.hypot(x, y);
+    const inside = away / Math.hypot(x / AXES[0], y / AXES[1]) - away;
+    values[n] = -50 + 400 * Math.min(Math.max(0.5 + inside / (2 * SIDE), 0), 1);
+  }
+  const axis = (n: number) => `(${[0, 1, 2].map((m) => (m === n ? SIDE : 0)).join()})`;
+  const header = [
+    'NRRD0004',
+    'type: int16',
+    'dimension: 3',
+    'space: left-posterior-superior',
+    `sizes: ${COUNTS.join(' ')}`,
+    `space directions: ${[0, 1, 2].map(axis).join(' ')}`,
+    `space origin: (${[LEFT - HALF[0], -HALF[1], -HALF[2]].join()})`,
+    'endian: little',
+    'encoding: raw',
+  ];
+  return fileOf(
+    'tube.nrrd',
+    Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]),
+  );
+}
+
+/** Its axis, with the radius of a circle of the same area. */
+function centerline(): MadeFile {
+  const radius = Math.sqrt(AXES[0] * AXES[1]);
+  const rows = Array.from({ length: 41 }, (_, n) => `${LEFT},0,${n - 20},${radius}`);
+  return fileOf('tube.csv', Buffer.from(`x,y,z,radius\n${rows.join('\n')}\n`));
+}
+
+let viewer: Viewer;
+test.beforeAll(async ({ browser }) => {
+  viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
+  await expect(button(viewer, 'Choose files')).toBeEnabled();
+  await viewer.page.locator('main input[type=file]').first().setInputFiles([tube(), centerline()]);
+  await viewer.rest();
+});
+test.afterEach(() => viewer.expectNoFault());
+test.afterAll(() => viewer.close());
+
+const bar = (): Locator => viewer.page.getByTestId('place-turn');
+const angle = (): Locator => bar().getByRole('slider');
+
+/** What the bar tells: this cut, the least and the largest so far (mm). */
+async function diameters(): Promise<number[]> {
+  const words = (await bar().getByRole('status').textContent()) ?? '';
+  return [...words.matchAll(/([\d.]+) mm/g)].map(([, number]) => Number(number));
+}
+
+/** What is told is that of the ellipse, but for the rounding of words and of voxels. */
+function expectDiameters(found: readonly number[], expected: readonly number[]): void {
+  expect(found).toHaveLength(expected.length);
+  found.forEach((diameter, n) => {
+    expect(Math.abs(diameter - (expected[n] ?? 0))).toBeLessThanOrEqual(0.15);
+  });
+}
+
+test('by keys: a turn about a place sweeps its diameters, and the place stays where it is', async () => {
+  await viewer.press('o');
+  await expect(angle()).toBeFocused();
+  const first = await viewer.camera();
+  const place = await viewer.hair('turning');
+  expectDiameters(await diameters(), [12, 12, 12]);
+  await viewer.press(...Array<string>(90).fill('ArrowRight'));
+  expectDiameters(await diameters(), [7, 7, 12]);
+  const side = await viewer.camera();
+  expect(dot(side.direction, first.direction)).toBeCloseTo(0, 9);
+  expect(await viewer.hair('turning')).toEqual(place);
+  await viewer.screenshot('turn-about-a-place');
+  await viewer.press('Escape');
+  await expect(bar()).toHaveCount(0);
+  await expect(viewer.pane()).toBeFocused();
+  expect(await viewer.camera()).toEqual(side);
+});
+
+test('by mouse: a drag turns about the place of the section, and Escape puts it back', async () => {
+  await viewer.press('m');
+  const begin = viewer.page.getByTestId('numbers').getByRole('button', { name: /^Turn about/ });
+  await begin.click();
+  await expect(bar()).toBeVisible();
+  const first = await viewer.camera();
+  const [, height] = await viewer.size();
+  await viewer.drag([0.3, 0.8], [-height / 4, 30], { isHeld: true });
+  await expect(bar().locator('.place-turn-degrees')).toHaveText('45°');
+  await viewer.press('Escape');
+  await viewer.page.mouse.up();
+  await expect(bar().locator('.place-turn-degrees')).toHaveText('0°');
+  expect(await viewer.camera()).toEqual(first);
+  await viewer.drag([0.3, 0.8], [height / 2, 0]);
+  await expect(bar().locator('.place-turn-degrees')).toHaveText('-90°');
+  expectDiameters(await diameters(), [7, 7, 12]);
+  // The wheel magnifies, and ends nothing; another view does.
+  await viewer.wheel([0.5, 0.6], -240);
+  expect((await viewer.camera()).pixel_spacing).toBeLessThan(0.9 * first.pixel_spacing);
+  await expect(begin).toHaveAttribute('aria-pressed', 'true');
+  await viewer.press('Shift+S');
+  await expect(bar()).toHaveCount(0);
+  await viewer.press('m');
+});
+
+test('the best view of a vessel shows it across, by its row and by a key', async () => {
+  for (const ask of [
+    async () => {
+      await viewer.press('v');
+      await button(viewer, 'Best view').click();
+    },
+    () => viewer.press('f'),
+  ]) {
+    await viewer.look('Shift+S', 'L', 'A');
+    await ask();
+    await expect(viewer.pane().locator('.edge.top')).toContainText('S');
+    const best = await viewer.camera();
+    expect(Math.abs(best.direction[2])).toBeLessThan(0.2);
+    expect(dot(best.up, [0, 0, 1])).toBeGreaterThan(0.95);
+  }
+  await viewer.press('v');
+});

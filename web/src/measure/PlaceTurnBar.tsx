@@ -1,0 +1,52 @@
+/** The bar over the vessels while the view is turned about a place: the angle, and the diameters that were cut. */
+import { useEffect, useRef } from 'preact/hooks';
+import { focusSoon } from '../input/focus';
+import { diameterAfter, endPlaceTurn, type PlaceTurn, placeTurn, turnTo } from '../state/place-turn';
+import { mm } from './words';
+
+export function PlaceTurnBar() {
+  const turn = placeTurn.value;
+  const isOn = turn !== null;
+  const wasOn = useRef(false);
+  useEffect(() => {
+    if (isOn) {
+      focusSoon('[data-testid="place-turn"] input');
+    } else if (wasOn.current && document.activeElement === document.body) {
+      // The bar had the focus and is gone: keys that follow are meant for the view.
+      focusSoon('[data-testid="turning"]');
+    }
+    wasOn.current = isOn;
+  }, [isOn]);
+  return turn && <Bar turn={turn} />;
+}
+
+function Bar({ turn }: { readonly turn: PlaceTurn }) {
+  const cut = diameterAfter(turn, turn.angle);
+  return (
+    <section class="place-turn" aria-label="Turn about a place" data-testid="place-turn">
+      <strong>{`Turn about ${mm(turn.at, 1)}`}</strong>
+      <input
+        type="range"
+        class="place-turn-angle"
+        min="-180"
+        max="179"
+        step="1"
+        value={String(turn.angle)}
+        aria-label="Angle of the turn (degrees)"
+        title="A drag in the view turns it too"
+        onInput={(event) => turnTo(Number(event.currentTarget.value))}
+      />
+      <span class="place-turn-degrees">{`${turn.angle}°`}</span>
+      <button type="button" onClick={endPlaceTurn} title="The view stays as it is (Escape)">
+        Done
+      </button>
+      <p role="status">
+        <b>{`this cut ${told(cut)}`}</b>
+        {turn.least !== null && ` · least so far ${told(turn.least)} · largest so far ${told(turn.largest)}`}
+      </p>
+    </section>
+  );
+}
+
+/** A diameter as the moving pictures of the command line tell it. */
+const told = (diameter: number | null): string => (diameter === null ? 'not seen' : mm(diameter, 1));

@@ -1,0 +1,67 @@
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import type { Asked } from '../src/core/asked';
+import type { Progress } from '../src/core/messages';
+import { commit, dropEdits } from '../src/edit/committing';
+import { EMPTY } from '../src/state/document';
+import { progress } from '../src/state/store';
+
+const FINDING: Progress = { words: 'Finding vessels', done: 0, total: null };
+
+/** An engine that tells how far it is and answers when the test says so. */
+class Slow {
+  told: (heard: Progress) => void = () => {};
+  end: () => void = () => {};
+  readonly asked = { ask: (_name, _message, { told } = {}) => this.answer(told) } as Asked;
+
+  private answer(told: ((heard: Progress) => void) | undefined): Promise<never> {
+    this.told = told ?? this.told;
+    const edited = { document: EMPTY, words: 'x', added: [], without_marks: [], notes: [] };
+    return new Promise((resolve) => {
+      this.end = () => resolve(edited as never);
+    });
+  }
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  dropEdits();
+});
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+async function begun(): Promise<{ slow: Slow; done: Promise<unknown> }> {
+  const slow = new Slow();
+  const done = commit(slow.asked, { kind: 'find_vessels' });
+  await vi.advanceTimersByTimeAsync(0);
+  return { slow, done };
+}
+
+test('an edit that tells only at its begin that it runs is shown as running all the same', async () => {
+  const { slow, done } = await begun();
+  slow.told(FINDING);
+  expect(progress.value).toBeNull();
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(progress.value).toEqual(FINDING);
+  slow.end();
+  await done;
+  expect(progress.value).toBeNull();
+});
+
+test('what is told after the end of an edit is no longer shown', async () => {
+  const { slow, done } = await begun();
+  await vi.advanceTimersByTimeAsync(1000);
+  slow.end();
+  await done;
+  slow.told({ ...FINDING, done: 90, total: 100 });
+  expect(progress.value).toBeNull();
+});
+
+test('an edit that is done at once shows no progress', async () => {
+  const { slow, done } = await begun();
+  slow.told(FINDING);
+  slow.end();
+  await done;
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(progress.value).toBeNull();
+});

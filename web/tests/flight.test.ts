@@ -1,0 +1,130 @@
+import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
+import type { Answer, Asked, Message, Question } from '../src/core/asked';
+import { turnedAbout } from '../src/core/camera';
+import { Failure } from '../src/core/failure';
+import type { Camera, Vector } from '../src/core/messages';
+import { destination, flyTo } from '../src/state/flight';
+import * as store from '../src/state/store';
+import { CAMERA } from './helpers';
+
+const AWAY = turnedAbout({ ...CAMERA, pixel_spacing: 0.25 }, [0, 0, 0], [0, 0, 1], 1);
+
+/** What the engine was asked for, and the views that it tells: they tell themselves apart by what is in their middle. */
+let asked: Message<'flight'>[] = [];
+const told = ({ from, to, views }: Message<'flight'>): Camera[] =>
+  Array.from({ length: views }, (_, n) => ({ ...(n < views - 1 ? from : to), center: [n, 0, 0] }));
+let answer: () => Promise<Camera[]>;
+const engine: Asked = {
+  ask: <N extends Question>(_: N, message: Message<N>) => {
+    asked.push(message as Message<'flight'>);
+    return answer() as Promise<Answer<N>>;
+  },
+};
+/** Lets the answer come. */
+const answered = () => new Promise<void>((done) => setTimeout(done, 0));
+
+describe('a flight', () => {
+  let now = 0;
+  let steps: FrameRequestCallback[] = [];
+  const pass = (milliseconds: number) => {
+    now += milliseconds;
+    for (const step of steps.splice(0)) {
+      step(now);
+    }
+  };
+
+  beforeEach(() => {
+    [now, steps, asked] = [0, [], []];
+    answer = () => Promise.resolve(asked.slice(-1).flatMap(told));
+    vi.spyOn(performance, 'now').mockImplementation(() => now);
+    vi.stubGlobal('requestAnimationFrame', (step: FrameRequestCallback) => steps.push(step));
+    vi.stubGlobal('window', { matchMedia: () => ({ matches: false }) });
+    store.camera.value = CAMERA;
+    store.isTurning.value = false;
+    store.problem.value = null;
+  });
+  afterEach(async () => {
+    await answered();
+    pass(1000);
+    vi.restoreAllMocks();
+    vi.unstubAllGlobals();
+  });
+
+  test('shows the views of the engine at their times, in less than half a second, and leads to nowhere else', async () => {
+    flyTo(engine, AWAY);
+    expect(destination.value).toBe(AWAY);
+    await answered();
+    expect(asked).toEqual([{ from: CAMERA, to: AWAY, views: 49 }]);
+    for (const [at, view] of [
+      [0, 0],
+      [100, 12],
+      [102, 12],
+      [200, 24],
+      [391, 47],
+    ] as const) {
+      pass(at - now);
+      expect(store.camera.value).toEqual({ ...CAMERA, center: [view, 0, 0] });
+    }
+    pass(300);
+    expect(store.camera.value).toEqual(AWAY);
+    expect([destination.value, steps.length]).toEqual([null, 0]);
+  });
+
+  test('goes on where its pane changes its size, also before the engine has answered', async () => {
+    flyTo(engine, AWAY);
+    store.camera.value = { ...CAMERA, size: [200, 150], pixel_spacing: 2 * CAMERA.pixel_spacing };
+    await answered();
+    pass(100);
+    expect(store.camera.value).toMatchObject({ center: [12, 0, 0], size: [200, 150] });
+    const camera = store.camera.value ?? CAMERA;
+    store.camera.value = { ...camera, size: [400, 300], pixel_spacing: 0.5 * camera.pixel_spacing };
+    pass(400);
+    expect(store.camera.value).toEqual(AWAY);
+  });
+
+  test.each([true, false])(
+    'ends where something else moves the camera; after the answer: %s',
+    async (isLate) => {
+      flyTo(engine, AWAY);
+      if (isLate) {
+        await answered();
+        pass(100);
+      }
+      const moved = { ...CAMERA, center: [1, 2, 3] as Vector };
+      store.camera.value = moved;
+      await answered();
+      pass(100);
+      pass(400);
+      expect(store.camera.value).toBe(moved);
+      expect(destination.value).toBeNull();
+    },
+  );
+
+  test('gives way to a later one', async () => {
+    flyTo(engine, AWAY);
+    const last = { ...CAMERA, pixel_spacing: 1 };
+    flyTo(engine, last);
+    await answered();
+    pass(100);
+    pass(400);
+    expect(store.camera.value).toEqual(last);
+  });
+
+  test('is none where the engine refuses it, and the page says why', async () => {
+    store.report.value = { volume: null, vessels: [], windows: null };
+    answer = () => Promise.reject(new Failure('camera', 'size of the flight', 'two', 'one'));
+    flyTo(engine, AWAY);
+    await answered();
+    expect([store.camera.value, destination.value, steps.length]).toEqual([CAMERA, null, 0]);
+    expect(store.problem.value?.subject).toBe('size of the flight');
+    store.report.value = null;
+  });
+
+  test.each([true, false])('is none where the view turns already, or no motion is wanted', (isTurning) => {
+    store.isTurning.value = isTurning;
+    vi.stubGlobal('window', { matchMedia: () => ({ matches: !isTurning }) });
+    flyTo(engine, { ...AWAY, size: [200, 150], pixel_spacing: 0.5 });
+    expect(store.camera.value).toEqual(AWAY);
+    expect([asked, steps]).toEqual([[], []]);
+  });
+});

@@ -1,0 +1,182 @@
+import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
+import type { Answer, Asked, Question } from '../src/core/asked';
+import { pixelOf } from '../src/core/camera';
+import { Failure } from '../src/core/failure';
+import type { Camera, Report, Vector } from '../src/core/messages';
+import { dragTurning, windowBack } from '../src/state/actions';
+import { destination } from '../src/state/flight';
+import {
+  diameterAfter,
+  dragPlaceTurn,
+  followPlaceTurn,
+  type PlaceTurn,
+  placeTurn,
+  sweptTo,
+  togglePlaceTurn,
+  turnTo,
+} from '../src/state/place-turn';
+import * as store from '../src/state/store';
+import { tool } from '../src/state/tool';
+import { CAMERA, expectNear } from './helpers';
+
+const FIRST: Camera = { ...CAMERA, center: [5, 6, 7], pixel_spacing: 0.1 };
+/** 10 mm at first, 1 mm less every ten degrees, to 2 mm at 80 and 90 degrees; none at 100. */
+const DIAMETERS = Array.from({ length: 180 }, (_, n) =>
+  n === 100 ? null : 10 - Math.floor(Math.min(n, 179 - n) / 10),
+);
+const TURN: PlaceTurn = {
+  line: 4,
+  at: 20,
+  first: FIRST,
+  diameters: DIAMETERS,
+  angle: 0,
+  least: 10,
+  largest: 10,
+};
+
+const shown = (line: number): Report => ({
+  volume: { size: [1, 1, 1], world_from_index: [], corners: [], smallest_side: 1, scan: '' },
+  vessels: [{ line, name: '', length: 50, has_radius: true }],
+  windows: null,
+});
+
+/** What the engine was asked, and how it answers. */
+let questions: unknown[] = [];
+let answer: () => Promise<unknown>;
+const engine: Asked = {
+  ask: <N extends Question>(name: N, message: unknown) => {
+    questions.push([name, message]);
+    return answer() as Promise<Answer<N>>;
+  },
+};
+
+let end: () => void;
+beforeEach(() => {
+  questions = [];
+  answer = () => Promise.resolve({ camera: FIRST, diameters: DIAMETERS });
+  // No motion is wanted, so that each view is there at once.
+  vi.stubGlobal('window', { matchMedia: () => ({ matches: true }) });
+  placeTurn.value = null;
+  tool.value = 'look';
+  store.problem.value = null;
+  store.camera.value = CAMERA;
+  store.report.value = shown(4);
+  store.pickedVessel.value = 0;
+  store.pickedPlace.value = 20;
+  end = followPlaceTurn();
+});
+afterEach(() => {
+  end();
+  vi.unstubAllGlobals();
+});
+
+describe('the diameters of a turn', () => {
+  test('repeat after half a circle', () => {
+    for (const degrees of [0, 37, 80, 179]) {
+      expect(diameterAfter(TURN, degrees)).toBe(DIAMETERS[degrees]);
+      expect(diameterAfter(TURN, degrees - 180)).toBe(DIAMETERS[degrees]);
+    }
+  });
+
+  test('so far are those of all cuts between, by the shorter way', () => {
+    const there = sweptTo(TURN, 45);
+    expect([there.angle, there.least, there.largest]).toEqual([45, 6, 10]);
+    const back = sweptTo(there, 10);
+    expect([back.least, back.largest]).toEqual([6, 10]);
+    const around = sweptTo({ ...TURN, angle: 170, least: 10, largest: 10 }, -170);
+    expect([around.angle, around.least]).toEqual([-170, 9]);
+    expect(sweptTo(TURN, 400).angle).toBe(40);
+  });
+
+  test('that are not seen count for nothing', () => {
+    const none = { ...TURN, diameters: [null, 3], least: null, largest: null };
+    expect(sweptTo(none, 0).least).toBeNull();
+    expect(sweptTo(none, 1)).toMatchObject({ angle: 1, least: 3, largest: 3 });
+  });
+});
+
+describe('a turn', () => {
+  test('is about the place of the section, and is asked for once', async () => {
+    await togglePlaceTurn(engine);
+    expect(questions).toEqual([['turn_about', { vessel: 0, at: 20, size: CAMERA.size }]]);
+    expect(placeTurn.value).toEqual({ ...TURN, least: 10, largest: 10 });
+    expect(store.camera.value).toEqual(FIRST);
+    await togglePlaceTurn(engine);
+    expect(placeTurn.value).toBeNull();
+    expect(store.camera.value).toEqual(FIRST);
+  });
+
+  test('leaves the place where it is seen, also after the view was moved', async () => {
+    await togglePlaceTurn(engine);
+    store.camera.value = { ...FIRST, center: [6, 6, 8], pixel_spacing: 0.2 };
+    const before = pixelOf(store.camera.value, FIRST.center);
+    turnTo(90);
+    const camera = store.camera.value;
+    expectNear(pixelOf(camera, FIRST.center), before, 9);
+    // From the front the viewer moves to the patient's left, and looks to the right: as the engine turns.
+    expectNear(camera.direction, [-1, 0, 0], 12);
+    expect(placeTurn.value).toMatchObject({ angle: 90, least: 2, largest: 10 });
+  });
+
+  test('follows a drag by whole degrees, and Escape puts the drag back', async () => {
+    await togglePlaceTurn(engine);
+    const drag = windowBack();
+    drag.begin();
+    dragPlaceTurn(1, 300);
+    expect(placeTurn.value?.angle).toBe(0);
+    dragPlaceTurn(1, 300);
+    expect(placeTurn.value?.angle).toBe(-1);
+    dragTurning('rotate', [-50, 30], null);
+    expect(placeTurn.value?.angle).toBe(28);
+    drag.putBack();
+    expect(placeTurn.value).toEqual(TURN);
+    expect(store.camera.value).toEqual(FIRST);
+  });
+
+  test('is put back to its first view by Escape where a drag began before that was reached', async () => {
+    vi.stubGlobal('window', { matchMedia: () => ({ matches: false }) });
+    const turn = { camera: FIRST, diameters: DIAMETERS };
+    // The views of the flight are not there yet.
+    answer = () => (questions.length > 1 ? new Promise(() => undefined) : Promise.resolve(turn));
+    await togglePlaceTurn(engine);
+    expect([store.camera.value, destination.value]).toEqual([CAMERA, FIRST]);
+    const drag = windowBack();
+    drag.begin();
+    dragPlaceTurn(50, 300);
+    expect(destination.value).toBeNull();
+    expect(placeTurn.value?.angle).toBeLessThan(-28);
+    drag.putBack();
+    expect([store.camera.value, placeTurn.value]).toEqual([FIRST, TURN]);
+  });
+
+  const turned = (axis: Vector) => ({ ...FIRST, direction: axis, up: [0, 0, 1] as Vector });
+  test.each([
+    ['another view', () => (store.camera.value = turned([1, 0, 0]))],
+    ['another vessel', () => (store.report.value = shown(5))],
+    ['no study', () => (store.report.value = null)],
+    ['a tool', () => (tool.value = 'trace')],
+  ])('ends with %s', async (_, change) => {
+    await togglePlaceTurn(engine);
+    expect(placeTurn.value).not.toBeNull();
+    change();
+    expect(placeTurn.value).toBeNull();
+  });
+
+  test('is none where the engine refuses it, and the page says why', async () => {
+    const failure = new Failure('measuring', 'radius', 'none', 'one');
+    answer = () => Promise.reject(failure);
+    await togglePlaceTurn(engine);
+    expect(placeTurn.value).toBeNull();
+    expect(store.problem.value?.subject).toBe('radius');
+  });
+
+  test('is not begun on a vessel that was left meanwhile, nor without one', async () => {
+    const asked = togglePlaceTurn(engine);
+    store.report.value = shown(5);
+    await asked;
+    expect(placeTurn.value).toBeNull();
+    store.pickedVessel.value = null;
+    await togglePlaceTurn(engine);
+    expect(questions).toHaveLength(1);
+  });
+});
