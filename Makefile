@@ -24,9 +24,9 @@ help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
 
 # The page and the package are compiled beside each other. By `--jobs` make would hand its slots down to both, and each would
-# compile as if the machine had two cores. The page gets what the package leaves of the processor, so that the pictures come first.
+# compile as if the machine had two cores. Neither waits for the other: the pictures are there as soon as the package is.
 demo: toolchain ## Build what is needed and render the demo into ./demo; DEVICE=gpu or cpu says what computes.
-	@nice -n 19 $(PYTHON) scripts/page.py --if-possible & page=$$!; \
+	@$(PYTHON) scripts/page.py --if-possible & page=$$!; \
 	$(MAKE_COMMAND) --no-print-directory develop PROFILE=$(DEMO_PROFILE) && \
 	$(BIN)/lumencut demo $(if $(DEVICE),--device $(DEVICE)) demo; pictures=$$?; \
 	if kill -0 $$page 2>/dev/null; then echo "The viewer's page is still being built; \`lumencut view\` needs it."; fi; \
