@@ -11,10 +11,12 @@ from lumencut import (
     Renderer,
     Settings,
     SettingsError,
+    Slab,
     Vessel,
     VesselTree,
     Volume,
     Window,
+    _lumencut,
     phantom,
     render,
 )
@@ -77,6 +79,37 @@ def test_the_look_is_a_focus_in_a_shaded_body() -> None:
     assert look == Settings(focus=Focus(2, 6), context="mida", context_shading=True, samples=2)
     assert Settings().focus is None
     assert Settings.focused(focus=Focus(0, 3)).focus == Focus(0, 3)
+
+
+NOTHING = Focus(-1e6, 0)
+LOOKS = {
+    "lumen": Settings(),
+    "focus": Settings.focused(),
+    "body": Settings(focus=NOTHING, context="mida", context_shading=True, context_from="whole"),
+    "mip": Settings(focus=NOTHING, context="mip"),
+    "slab": Settings(slab=Slab(10, "max")),
+}
+
+
+@pytest.mark.parametrize("name", LOOKS)
+def test_a_look_is_several_settings_under_one_name(name: str) -> None:
+    assert Settings.look(name) == LOOKS[name]
+    assert Settings.look(name, samples=2) == dataclasses.replace(LOOKS[name], samples=2)
+    assert set(LOOKS) == set(_lumencut.LOOKS) == set(_lumencut.LOOK_SENTENCES)
+
+
+def test_an_unknown_look_is_refused() -> None:
+    with pytest.raises(SettingsError, match=r"name of the look: found 'lumem'; expected one of 'lumen'"):
+        Settings.look("lumem")
+
+
+def test_nothing_is_cut_by_the_looks_of_the_body(scene: phantom.Phantom, camera: Camera) -> None:
+    for name, context in (("body", "mida"), ("mip", "mip")):
+        look = Settings.look(name, context_window=Window(300, 900))
+        alone = Settings(context=context, context_shading=look.context_shading, context_window=Window(300, 900))
+        with_tree = render(scene.volume, scene.tree, camera, settings=look)
+        without = render(scene.volume, None, camera, settings=alone)
+        np.testing.assert_array_equal(with_tree.image, without.image)
 
 
 @pytest.mark.parametrize(

@@ -50,6 +50,27 @@ class CheckedSettings:
         return cls(**{**_lumencut.PAPER, **changes})
 
     @classmethod
+    def look(cls, name: str, **changes: Any) -> Self:
+        """Return a look: several settings under one name, with all others at their defaults.
+
+        Parameters
+        ----------
+        name : {"lumen", "focus", "body", "mip", "slab"}
+            ``lumen``: the cut over all of the picture, as by default. ``focus``: the cut around the vessels
+            amid the shaded body. ``body``: the shaded body alone, nothing cut. ``mip``: the largest value
+            along each ray, nothing cut. ``slab``: the largest value of 10 mm around the cut.
+        **changes
+            Settings that shall have other values, by their names.
+
+        Raises
+        ------
+        SettingsError
+            For an unknown name, or a setting outside its range.
+        """
+        choice(SettingsError, "name of the look", name, tuple(_lumencut.LOOKS))
+        return cls(**{**look_values(name), **changes})
+
+    @classmethod
     def focused(cls, **changes: Any) -> Self:
         """Return the look *focus*: the exact cut around the vessels amid the shaded body around them.
 
@@ -66,7 +87,7 @@ class CheckedSettings:
         SettingsError
             For a setting outside its range.
         """
-        return cls(**{**look_values("focus"), **changes})
+        return cls.look("focus", **changes)
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Self:
@@ -135,7 +156,7 @@ def checked(settings: CheckedSettings) -> _lumencut.Settings:
 def look_values(look: str) -> dict[str, Any]:
     """Return what a look chooses, by the names of the settings."""
     values = _lumencut.LOOKS[look]
-    return {name: Focus(*value) if isinstance(value, tuple) else value for name, value in values.items()}
+    return {name: _CLASSES[name](*value) if name in _CLASSES else value for name, value in values.items()}
 
 
 def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:

@@ -39,6 +39,7 @@ __all__ = [
     "DICOM_ATTRIBUTES",
     "LARGEST_EXTENT",
     "LOOKS",
+    "LOOK_SENTENCES",
     "MEASURING_FLAGS",
     "MEASURING_NOTICE",
     "MENDS",
@@ -141,6 +142,7 @@ __version__: str
 # The table of settings by name, in the order to show them to users.
 SETTINGS: dict[str, Setting]
 LOOKS: dict[str, dict[str, Any]]
+LOOK_SENTENCES: dict[str, str]
 PAPER: dict[str, Any]
 WINDOW_PRESETS: list[tuple[str, str, tuple[float, float] | None]]
 

@@ -34,7 +34,10 @@ test('what was not saved is not closed unasked, and measuring does not go on in 
   await close.click();
   await page.getByRole('button', { name: 'A tube with a narrowing of 50 %' }).click();
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
-  await expect(page.getByRole('button', { name: 'Trace vessels' })).toHaveAttribute('aria-pressed', 'false');
+  await expect(page.getByRole('button', { name: 'Trace', exact: true })).toHaveAttribute(
+    'aria-pressed',
+    'false',
+  );
   await tube.rest();
   await expect(page.getByRole('alert')).toHaveCount(0);
   tube.expectNoFault();

@@ -24,7 +24,7 @@ export async function untraced(browser: Browser, phantom = 'y_junction'): Promis
 
 /** The tool of the toolbar: where there are no vessels a note offers it too. */
 const traceTool = (viewer: Viewer): Locator =>
-  viewer.page.locator('header').getByRole('button', { name: 'Trace vessels' });
+  viewer.page.locator('header').getByRole('button', { name: 'Trace', exact: true });
 /** Takes up the tool, and waits until its slices can be clicked. */
 export async function startTracing(viewer: Viewer): Promise<void> {
   await traceTool(viewer).click();

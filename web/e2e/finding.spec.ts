@@ -42,3 +42,54 @@ test('finding tells how far it is, and Escape stops it', async ({ browser }) => 
   viewer.expectNoFault();
   await viewer.close();
 });
+
+test('a tree is cleaned in a few actions: short vessels by a slider, doubtful branches by keys', async ({
+  browser,
+}) => {
+  test.setTimeout(150_000);
+  const viewer = await untraced(browser, 'aorta');
+  await button(viewer, 'Find all vessels').last().click();
+  const doubtful = viewer.page.locator('.doubtful-rows li');
+  await expect(doubtful.first()).toBeVisible({ timeout: 90_000 });
+  const [sure, unsure] = [await rows(viewer).count(), await doubtful.count()];
+  await viewer.page.getByText('Clean up', { exact: true }).click();
+  const marked = viewer.page.locator('.vessel-rows .marked');
+  await expect(marked).toHaveCount(0);
+  await expect(button(viewer, 'Remove 0 vessels')).toBeDisabled();
+  await viewer.page.getByLabel('Shorter than').fill('40');
+  const short = await marked.count();
+  expect(short).toBeGreaterThan(0);
+  expect(short).toBeLessThan(sure);
+  await expect(viewer.pane().locator('.curve.marked')).toHaveCount(short);
+  await viewer.screenshot('clean-marked');
+  await button(viewer, short === 1 ? 'Remove 1 vessel' : `Remove ${short} vessels`).click();
+  await expect(rows(viewer)).toHaveCount(sure - short);
+  await expect(marked).toHaveCount(0);
+
+  // The pointer over a row lights its vessel in the views.
+  await rows(viewer).first().hover();
+  await expect(viewer.pane().locator('.curve.lit')).toHaveCount(1);
+
+  await viewer.pane().focus();
+  const before = await viewer.camera();
+  await viewer.press('.');
+  const bar = viewer.page.locator('.trace-bar.over');
+  await expect(bar).toContainText(`1 of ${unsure}`);
+  await expect(bar).toContainText('is doubtful: ');
+  await expect.poll(async () => (await viewer.camera()).center).not.toEqual(before.center);
+  await viewer.screenshot('clean-doubt');
+  await viewer.press('y');
+  await expect(doubtful).toHaveCount(unsure - 1);
+  await expect(rows(viewer)).toHaveCount(sure - short + 1);
+  await expect(bar).toContainText(`1 of ${unsure - 1}`);
+  await viewer.press('n');
+  await expect(doubtful).toHaveCount(unsure - 2);
+  await expect(bar).toContainText(`1 of ${unsure - 2}`);
+  await viewer.press('Escape');
+  await expect(bar).toHaveCount(0);
+  await viewer.press('Control+z', 'Control+z', 'Control+z');
+  await expect(rows(viewer)).toHaveCount(sure);
+  await expect(doubtful).toHaveCount(unsure);
+  viewer.expectNoFault();
+  await viewer.close();
+});

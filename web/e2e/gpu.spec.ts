@@ -182,7 +182,7 @@ async function focusedOn(browser: Browser, device: 'any' | 'cpu'): Promise<Pixel
   const pictures = [await complete(viewer)];
   await viewer.screenshot(`focus-${device}`);
   if (device === 'cpu') {
-    await button(viewer, 'Focus').click();
+    await button(viewer, 'Lumen').click();
     pictures.push(await complete(viewer));
   }
   viewer.expectNoFault();

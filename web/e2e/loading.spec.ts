@@ -61,15 +61,17 @@ test.describe('streams', () => {
       }
       pictures.push(picture);
     };
-    for (const context of ['mida', 'dvr', 'mip', 'minip', 'average', '']) {
-      await viewer.field('Context').selectOption(context);
+    await viewer.research(async () => {
+      for (const context of ['mida', 'dvr', 'mip', 'minip', 'average', '']) {
+        await viewer.field('Context').selectOption(context);
+        await expectNew();
+      }
+      await viewer.field('Slab').fill('6');
+      await viewer.press('Enter');
       await expectNew();
-    }
-    await viewer.field('Slab').fill('6');
-    await viewer.press('Enter');
-    await expectNew();
-    await viewer.field('Slab').fill('0');
-    await viewer.press('Enter');
+      await viewer.field('Slab').fill('0');
+      await viewer.press('Enter');
+    });
     const without = await viewer.picture();
     await viewer.page.locator('body').click({ position: { x: 2, y: 2 } });
     await viewer.press('c');
@@ -80,20 +82,31 @@ test.describe('streams', () => {
     viewer.expectNoFault();
   });
 
-  test('the look focus is one button, whose margin a slider sets', async () => {
+  test('a look is one button; of the cut amid the body a slider sets the margin', async () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
     const everywhere = await viewer.picture();
-    const button = viewer.page.getByRole('button', { name: 'Focus', exact: true });
-    await button.click();
-    await expect(button).toHaveAttribute('aria-pressed', 'true');
-    const focused = await viewer.picture();
-    expect(difference(focused, everywhere, SAME_CODE)).not.toBeNull();
+    const button = (words: string) => viewer.page.getByRole('button', { name: words, exact: true });
+    await expect(button('Lumen')).toHaveAttribute('aria-pressed', 'true');
+    const pictures = [everywhere];
+    for (const look of ['Thick slab', 'MIP', 'Body in 3D', 'Lumen in 3D']) {
+      await button(look).click();
+      await expect(button(look)).toHaveAttribute('aria-pressed', 'true');
+      await expect(viewer.page.locator('.looks [aria-pressed=true]')).toHaveCount(1);
+      const picture = await viewer.picture();
+      for (const before of pictures) {
+        expect(difference(picture, before, SAME_CODE), look).not.toBeNull();
+      }
+      pictures.push(picture);
+    }
+    const [focused] = pictures.slice(-1);
     await viewer.field('Margin around the vessels').fill('12');
-    expect(difference(await viewer.picture(), focused, SAME_CODE)).not.toBeNull();
-    await button.click();
+    expect(difference(await viewer.picture(), focused ?? everywhere, SAME_CODE)).not.toBeNull();
+    await expect(button('Lumen in 3D')).toHaveAttribute('aria-pressed', 'true');
+    await button('Lumen').click();
     expect(difference(await viewer.picture(), everywhere, SAME_CODE)).toBeNull();
+    await expect(viewer.field('Margin around the vessels')).toHaveCount(0);
     viewer.expectNoFault();
   });
 

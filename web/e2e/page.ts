@@ -195,9 +195,17 @@ export class Viewer {
     );
   }
 
-  /** A field of the toolbar by its words. */
+  /** Does something in the menu of methods, contexts and all settings. */
+  async research(work: () => Promise<unknown>): Promise<void> {
+    const summary = this.page.getByText('Research', { exact: true });
+    await summary.click();
+    await work();
+    await summary.click();
+  }
+
+  /** A field of the toolbar, of its menu or above the turning view, by its words. */
   field(words: string): Locator {
-    const label = this.page.locator('header > label', { hasText: new RegExp(`^${words}`) });
+    const label = this.page.locator('.toolbar label, .looks label', { hasText: new RegExp(`^${words}`) });
     return label.locator('select, input');
   }
 

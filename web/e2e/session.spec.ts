@@ -82,7 +82,7 @@ async function work(): Promise<void> {
   await rows(viewer).nth(0).getByRole('radio').check();
   await button(viewer, 'Hide Vessel 2').click();
   await viewer.press('2');
-  await viewer.field('Context').selectOption('dvr');
+  await viewer.research(() => viewer.field('Context').selectOption('dvr'));
   await viewer.press('m');
   await blur().getByLabel('Give it').fill('0.8');
   await blur().getByLabel('Give it').press('Enter');

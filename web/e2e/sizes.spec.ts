@@ -29,8 +29,9 @@ for (const [name, viewport] of [
     // The main view is what the page is for.
     expect(width * height).toBeGreaterThan(0.25 * viewport.width * viewport.height);
     expect(isEmpty(await viewer.pixels())).toBe(false);
-    for (const words of ['Method', 'Context', 'Layout']) {
-      await expect(viewer.field(words)).toBeInViewport({ ratio: 1 });
+    await expect(viewer.field('Layout')).toBeInViewport({ ratio: 1 });
+    for (const words of ['Research', 'Save']) {
+      await expect(viewer.page.getByText(words, { exact: true })).toBeInViewport({ ratio: 1 });
     }
     await expect(viewer.page.getByLabel('Window preset')).toBeInViewport({ ratio: 1 });
     viewer.expectNoFault();
@@ -146,13 +147,13 @@ test('every control is reached by the keyboard', async ({ browser }) => {
     reached.add((name ?? '').slice(0, 9));
   }
   for (const name of [
-    'MethodCSR',
-    'ContextMI',
-    'Silhouett',
-    'Slabmm',
-    'Level of ',
+    '✎ Trace',
+    'Lumen',
+    'Lumen in ',
+    'LinesNo l',
+    'Window pr',
     'LayoutOne',
-    'Settings',
+    'Research',
     'Save',
   ]) {
     expect(reached).toContain(name);

@@ -25,7 +25,7 @@ async function click(viewer: Viewer, [across, down]: readonly [number, number]):
 
 async function startTool(viewer: Viewer): Promise<void> {
   await viewer.page.locator('main').click({ position: { x: 3, y: 3 }, trial: true });
-  await button(viewer, 'Trace vessels').first().click();
+  await viewer.page.locator('header').getByRole('button', { name: 'Trace', exact: true }).click();
   await expect(viewer.pane('coronal')).toBeVisible();
   await viewer.rest();
 }
@@ -40,7 +40,7 @@ async function traceTo(viewer: Viewer, end: readonly [number, number], count: nu
 
 test('a page without vessels offers to trace them', async ({ browser }) => {
   const viewer = await untraced(browser);
-  await button(viewer, 'Trace vessels').last().click();
+  await button(viewer, 'Trace one vessel').click();
   await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'four');
   await expect(viewer.field('Context')).toHaveValue('mip');
   await button(viewer, 'Done').click();

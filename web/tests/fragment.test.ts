@@ -9,7 +9,6 @@ const ROW: SettingRow = {
   kind: 'number',
   optional: false,
   default: 0.5,
-  focused: null,
   low: 0.1,
   high: 2,
   unit: 'mm',
@@ -31,6 +30,7 @@ const TABLE: readonly SettingRow[] = [
     high: null,
   },
   { ...ROW, name: 'slab', kind: 'slab', optional: true, low: null, high: null },
+  { ...ROW, name: 'silhouette_color', kind: 'color', low: null, high: null },
   { ...ROW, name: 'focus', kind: 'focus', optional: true, low: null, high: null },
 ];
 
@@ -68,7 +68,14 @@ test('a view goes into the address and back', () => {
   store.method.value = 'mpcpr';
   store.layout.value = 'four';
   store.isInverted.value = true;
-  store.settings.value = { step: 0.25, context: null, silhouettes: false, slab: [5, 'max'], focus: [2, 6] };
+  store.settings.value = {
+    step: 0.25,
+    context: null,
+    silhouettes: false,
+    slab: [5, 'max'],
+    focus: [2, 6],
+    silhouette_color: [255, 255, 255],
+  };
   store.pickedVessel.value = 1;
   store.pickedPlace.value = 12.3456;
   store.cprAngle.value = 0.7;
@@ -195,6 +202,10 @@ describe('what cannot be read is left out', () => {
     { focus: [2, -1] },
     { focus: [1e300, 6] },
     { focus: [2] },
+    { silhouette_color: [255, 255] },
+    { silhouette_color: [255, 0.5, 0] },
+    { silhouette_color: [256, 0, 0] },
+    { silhouette_color: 'white' },
     { unknown: 1 },
     { __proto__: { step: 1 } },
   ])('the setting %o', (settings) => {

@@ -45,6 +45,7 @@ const DOCUMENT: Document = {
   bridge: true,
   marks: { 1: { ...NO_MARKS, at: 12.5, references: [3, 40], method: 'area', stretch: [1, 9] } },
   rulers: [{ from: [0, 0, 0], to: [3, 4, 0] }],
+  isOneMillimetre: false,
 };
 const LOOKED: Looked = {
   camera: {

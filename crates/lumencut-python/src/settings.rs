@@ -1,7 +1,8 @@
 //! The table of settings for Python, and the settings read from the attributes of `lumencut.Settings`.
 
 use lumencut::method::refuse_focus;
-use lumencut::settings::{Choices, Setting, Settings, Value, table};
+use lumencut::named::Named;
+use lumencut::settings::{Choices, LOOKS, Setting, Settings, Value, table};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -39,7 +40,7 @@ impl Row {
     }
 }
 
-/// The value of a setting as Python has it: a focus as its two lengths; what is left open is None.
+/// The value of a setting as Python has it: a focus as its two lengths, a slab as its thickness and its mode; what is left open is None.
 fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     match default {
         Value::Flag(flag) => flag.into_py_any(py),
@@ -49,9 +50,8 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
         Value::Name(name) => name.into_py_any(py),
         Value::Focus(focus) => (focus.margin, focus.fade).into_py_any(py),
         Value::Vessels(ids) => PyTuple::new(py, ids)?.into_py_any(py),
-        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
-            Ok(py.None())
-        }
+        Value::Slab(slab) => (slab.thickness, slab.mode.name()).into_py_any(py),
+        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Transfer(_) => Ok(py.None()),
     }
 }
 
@@ -65,8 +65,13 @@ pub fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SETTINGS", rows)?;
     module.add("PAPER", values(module.py(), Settings::paper_values())?)?;
     let looks = PyDict::new(module.py());
-    looks.set_item("focus", values(module.py(), Settings::focus_values())?)?;
-    module.add("LOOKS", looks)
+    let sentences = PyDict::new(module.py());
+    for look in &LOOKS {
+        looks.set_item(look.name, values(module.py(), (look.values)())?)?;
+        sentences.set_item(look.name, look.sentence)?;
+    }
+    module.add("LOOKS", looks)?;
+    module.add("LOOK_SENTENCES", sentences)
 }
 
 /// The values of some settings by their names.

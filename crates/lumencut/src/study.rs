@@ -16,6 +16,7 @@ pub mod held_volume;
 pub mod histogram;
 pub mod labels;
 pub mod line_edits;
+pub mod line_facts;
 pub mod line_path;
 pub mod lines;
 pub mod masks;

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut._lumencut import LOOKS, PAPER, SETTINGS, Setting
+from lumencut._lumencut import LOOK_SENTENCES, LOOKS, PAPER, SETTINGS, Setting
 from lumencut.cli.options import FILE, Command, added
 from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, NumberOrNone, Parts, Thickness, Transfer
 from lumencut.errors import SettingsError
@@ -57,8 +57,9 @@ def _words(name: str, value: Any) -> str:
 look_option = click.option(
     "--look",
     type=click.Choice(tuple(LOOKS)),
-    help="Start from several settings at once. focus: the cut around the vessels amid the shaded body. "
-    "Options beside it change them further.",
+    help="Start from several settings at once. "
+    + "; ".join(f"{name}: {sentence}" for name, sentence in LOOK_SENTENCES.items())
+    + ". Options beside it change them further.",
 )
 
 #: A file of settings, which options change further.

@@ -1,5 +1,5 @@
 /** What the page and its worker tell each other. What the engine is asked and answers is written of its own table of questions. */
-import type { Picture, SettingRow } from './generated/questions';
+import type { LookRow, Picture, SettingRow } from './generated/questions';
 
 export type * from './generated/questions';
 export type * from './plain';
@@ -54,6 +54,7 @@ export interface Started {
   readonly threads: number;
   readonly isIsolated: boolean;
   readonly table: readonly SettingRow[];
+  readonly looks: readonly LookRow[];
   /** Where the page says stop to work under way, where it shares the worker's memory. */
   readonly stop: { readonly buffer: SharedArrayBuffer; readonly address: number } | null;
 }

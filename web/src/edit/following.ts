@@ -4,10 +4,12 @@ import { followPointer } from './drawing';
 import { followLines } from './lines';
 import { followTool } from './mode';
 import { followDocument } from './shown';
+import { followFacts } from './tidying';
 
 export function followEdits(engine: Asked): void {
   followDocument(engine);
   followLines(engine);
+  followFacts(engine);
   followPointer(engine);
   followTool();
 }

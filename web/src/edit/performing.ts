@@ -7,8 +7,9 @@ import { crossHair, hasVolume, isHelpOpen, layout, problem, progress } from '../
 import { tool } from '../state/tool';
 import { addBranches } from './branches';
 import { dropEdits, waiting } from './committing';
+import { answerDoubt, stepDoubt } from './doubts';
 import { candidate, first, target } from './drawing';
-import { isListOpen, isTracing, toggleTool } from './mode';
+import { chosenDoubt, isListOpen, isTracing, toggleTool } from './mode';
 import { enter, leave, removeLast } from './pointing';
 import { pickedId } from './shown';
 import { remove } from './vessels';
@@ -31,6 +32,18 @@ function edit(engine: EngineClient, action: Action): boolean {
       return true;
     case 'branches':
       branchesFromHere(engine);
+      return true;
+    case 'next doubt':
+      stepDoubt(engine, 1);
+      return true;
+    case 'previous doubt':
+      stepDoubt(engine, -1);
+      return true;
+    case 'accept doubt':
+      void answerDoubt(engine, 'accept');
+      return true;
+    case 'leave doubt out':
+      void answerDoubt(engine, 'leave out');
       return true;
     case 'undo':
       undoLast(engine);
@@ -94,7 +107,14 @@ function cancelEdit(engine: EngineClient): boolean {
     stopEdits(engine);
     return true;
   }
-  return !problem.value && !isHelpOpen.value && !progress.value && leave();
+  if (problem.value || isHelpOpen.value || progress.value) {
+    return false;
+  }
+  if (chosenDoubt.value !== null) {
+    chosenDoubt.value = null;
+    return true;
+  }
+  return leave();
 }
 
 function stopEdits(engine: EngineClient): void {

@@ -31,7 +31,7 @@ const isTraced = (): boolean => document_.value.vessels.some((vessel) => (vessel
 /** One thing after the other: the slices are shown only once the tool is in use. */
 function tracingWords(): readonly string[] {
   if (!isTracing()) {
-    return ['Press “Trace vessels” first, or the key t.', 'Slices in three directions are shown then.'];
+    return ['Press “Trace” first, or the key t.', 'Slices in three directions are shown then.'];
   }
   return isTraced()
     ? ['The centerline was found between your points.', 'Now press “Done”.']
@@ -75,7 +75,7 @@ export const STEPS: readonly GuideStep[] = [
     words: [
       'The narrowest place and places to compare it with are suggested. They are no findings: look at them.',
       'Drag them to where you want them, or press “Confirm the suggested places”.',
-      'This phantom was made with a narrowing of 50 %. About 54 % are measured: a thin wall of middle grey is taken in where the vessel is wide.',
+      'This phantom was made with a narrowing of 50 %: see how near the percentage and its ± come.',
     ],
     isDone: () => Object.values(document_.value.marks).some((marks) => marks.at !== null),
   },

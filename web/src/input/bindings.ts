@@ -21,6 +21,10 @@ export type EditAction =
   | 'enter'
   | 'remove point'
   | 'remove'
+  | 'accept doubt'
+  | 'leave doubt out'
+  | 'next doubt'
+  | 'previous doubt'
   | 'undo'
   | 'redo';
 
@@ -183,6 +187,10 @@ export const BINDINGS: readonly Binding[] = [
   key('t', 'trace', 'trace vessels by clicks, or stop'),
   key('b', 'branches', 'find all branches from the cross-hair'),
   key('v', 'vessels', 'list of the vessels'),
+  key('.', 'next doubt', 'show the next doubtful branch'),
+  key(',', 'previous doubt', 'show the doubtful branch before'),
+  key('y', 'accept doubt', 'accept the doubtful branch that is shown'),
+  key('n', 'leave doubt out', 'leave the doubtful branch that is shown out'),
   withCtrl('z', 'undo', 'undo'),
   withCtrl('Z', 'redo', 'redo'),
   withCtrl('y', 'redo', 'redo'),

@@ -1,16 +1,16 @@
 /** Measured numbers as words. Where the file does not state its spacing, no length has a unit. */
 import type { Stenosis } from '../core/messages';
-import { states } from '../state/store';
+import { hasMillimetres } from '../state/millimetres';
 import type { Place } from './marks';
 import type { SectionNumbers } from './sections';
 
 export const NOTHING = '–';
 
-const unit = (name: string): string => (states.value.spacing ? ` ${name}` : '');
+const unit = (name: string): string => (hasMillimetres.value ? ` ${name}` : '');
 
 /** Why lengths have no unit; nothing where they have one. */
 export const unitless = (): string =>
-  states.value.spacing
+  hasMillimetres.value
     ? ''
     : 'The scan does not say how far its voxels lie apart: 1 mm is assumed, and lengths have no unit.';
 
@@ -33,7 +33,7 @@ export function area(value: number | null): string {
 
 /** What the engine says, without units where lengths have none. */
 export function told(words: string): string {
-  return states.value.spacing ? words : words.replaceAll(' mm²', '').replaceAll(' mm', '');
+  return hasMillimetres.value ? words : words.replaceAll(' mm²', '').replaceAll(' mm', '');
 }
 
 /** A graded stenosis in one line. */

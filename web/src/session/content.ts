@@ -125,6 +125,7 @@ export function documentOf({ lines, doubtful_lines, session }: SessionContent): 
     bridge: session.bridge,
     marks: Object.fromEntries(marks) as Document['marks'],
     rulers: session.rulers,
+    isOneMillimetre: false,
   };
 }
 

@@ -120,14 +120,6 @@ export function setSetting(name: string, value: SettingValue): void {
   store.settings.value = { ...store.settings.value, [name]: value };
 }
 
-/** Chooses the look focus, as the table of settings says what that is, or the cut everywhere again. */
-export function toggleFocus(): void {
-  const rows = store.started.value?.table.filter((row) => row.focused !== null) ?? [];
-  const look = Object.fromEntries(rows.map((row) => [row.name, row.focused]));
-  const chosen = settingOf('focus') === null ? look : { focus: null, context_shading: false };
-  store.settings.value = { ...store.settings.value, ...chosen };
-}
-
 /** Shows a named view of all of the study. */
 export async function showNamedView(engine: EngineClient, name: string): Promise<void> {
   const camera = store.camera.value;
@@ -138,9 +130,9 @@ export async function showNamedView(engine: EngineClient, name: string): Promise
 
 /** Shows the view from which most of the picked vessel is seen. */
 export async function showBestView(engine: Asked): Promise<void> {
-  const [camera, vessel] = [store.camera.value, store.pickedVessel.value];
-  if (camera && vessel !== null) {
-    await flyToAnswer(engine, engine.ask('best_view', { camera, vessel }));
+  const [camera, line] = [store.camera.value, store.pickedLine()];
+  if (camera && line !== null) {
+    await flyToAnswer(engine, engine.ask('best_view', { camera, line }));
   }
 }
 

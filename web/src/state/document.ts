@@ -19,9 +19,18 @@ export interface Document extends VesselDocument {
   /** By the id of the vessel. */
   readonly marks: Readonly<Record<number, VesselMarks>>;
   readonly rulers: readonly Ruler[];
+  /** The reader takes the voxels of a scan that does not say how far they lie apart for 1 mm apart. */
+  readonly isOneMillimetre: boolean;
 }
 
-export const EMPTY: Document = { vessels: [], stoppers: [], bridge: false, marks: {}, rulers: [] };
+export const EMPTY: Document = {
+  vessels: [],
+  stoppers: [],
+  bridge: false,
+  marks: {},
+  rulers: [],
+  isOneMillimetre: false,
+};
 
 export const NO_MARKS: VesselMarks = {
   at: null,

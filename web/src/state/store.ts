@@ -54,8 +54,10 @@ export const problem = signal<Failure | null>(null);
 
 export const camera = signal<Camera | null>(null);
 export const method = signal<Method>('csr');
+/** The settings that the page begins with: its lines are white, as yellow warns in it. */
+export const AT_FIRST: Settings = { silhouette_color: [255, 255, 255] };
 /** The settings that differ from their defaults, but for windows. */
-export const settings = signal<Settings>({});
+export const settings = signal<Settings>(AT_FIRST);
 export const window_ = signal<Window>([300, 900]);
 /** Light where values are low. */
 export const isInverted = signal(false);

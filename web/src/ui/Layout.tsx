@@ -9,6 +9,7 @@ import { SectionView } from '../views/SectionView';
 import { SliceView } from '../views/SliceView';
 import { TurningView } from '../views/TurningView';
 import { Divider } from './Divider';
+import { LooksBar } from './LooksBar';
 import { NumbersPanel } from './NumbersPanel';
 
 const VIEWS: Readonly<Record<Name, readonly ViewName[]>> = {
@@ -96,6 +97,7 @@ function Pane({ name, isHidden, children }: PaneProps) {
   };
   return (
     <section class={`pane ${name}${isHidden ? ' hidden' : ''}`} aria-label={TITLES[name]}>
+      {name === 'turning' && <LooksBar />}
       {children}
       <h2 class="pane-title">{TITLES[name]}</h2>
       <button

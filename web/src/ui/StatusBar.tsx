@@ -2,6 +2,7 @@
 
 import { tree } from '../edit/shown';
 import { nameOf } from '../state/changes';
+import { hasMillimetres } from '../state/millimetres';
 import * as store from '../state/store';
 import { positionText } from '../views/position';
 import { useClosing } from './closing-menu';
@@ -51,7 +52,7 @@ function readOut(): string {
   if (hair.vessel !== null) {
     parts.push(vesselName(hair.vessel));
     if (hair.arcLength !== null) {
-      parts.push(`${hair.arcLength.toFixed(1)}${store.states.value.spacing ? ' mm' : ''}`);
+      parts.push(`${hair.arcLength.toFixed(1)}${hasMillimetres.value ? ' mm' : ''}`);
     }
   }
   return parts.join(' · ');

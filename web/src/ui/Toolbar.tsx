@@ -1,29 +1,17 @@
-/** The bar at the top: tracing, measuring and saving; method, context, silhouettes, slab, presets, layout. */
-
+/** The bar at the top: the modes, the list of vessels, saving, the window, the layout and what is for research. */
 import { engine } from '../client/shared';
-import type { Method } from '../core/messages';
-import { VIEW_METHODS } from '../core/method-names';
-import { isListOpen, isTracing } from '../edit/mode';
+import { isListOpen } from '../edit/mode';
 import { performAny } from '../edit/performing';
-import { perform, setSetting, settingOf, showLayout } from '../state/actions';
+import { perform, showLayout } from '../state/actions';
 import * as store from '../state/store';
 import { leave } from '../study/leaving';
 import { close } from '../study/study';
-import { FocusControl } from './FocusControl';
-import { MeasureButton } from './MeasureButton';
+import { ModeButtons } from './ModeButtons';
 import { OpenMore } from './OpenButtons';
+import { ResearchMenu } from './ResearchMenu';
 import { SaveMenu } from './SaveMenu';
-import { SettingsPanel } from './SettingsPanel';
 import { WindowStrip } from './WindowStrip';
 
-const CONTEXTS: readonly (readonly [string, string])[] = [
-  ['mida', 'MIDA'],
-  ['dvr', 'DVR'],
-  ['mip', 'MIP'],
-  ['minip', 'MinIP'],
-  ['average', 'Average'],
-  ['', 'None'],
-];
 const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
   one: 'One',
   two: 'Two',
@@ -33,81 +21,15 @@ const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
 };
 
 export function Toolbar() {
-  const slab = settingOf('slab');
   return (
     <header class="toolbar">
       <strong class="brand">Lumencut</strong>
-      <VesselButtons />
-      <MeasureButton />
+      <ModeButtons />
+      <ListButton />
       <SaveMenu />
-      <label>
-        Method
-        <select
-          value={store.method.value}
-          onChange={(event) => {
-            store.method.value = event.currentTarget.value as Method;
-          }}
-        >
-          {VIEW_METHODS.map(([name, words]) => (
-            <option key={name} value={name}>
-              {words}
-            </option>
-          ))}
-        </select>
-      </label>
-      <label>
-        Context
-        <select
-          value={String(settingOf('context') ?? '')}
-          onChange={(event) => setSetting('context', event.currentTarget.value || null)}
-        >
-          {CONTEXTS.map(([name, words]) => (
-            <option key={name} value={name}>
-              {words}
-            </option>
-          ))}
-        </select>
-      </label>
-      <FocusControl />
-      <label>
-        <input
-          type="checkbox"
-          checked={Boolean(settingOf('silhouettes'))}
-          onChange={(event) => setSetting('silhouettes', event.currentTarget.checked)}
-        />
-        Silhouettes
-      </label>
-      <label>
-        Slab
-        <input
-          class="number"
-          type="number"
-          min="0"
-          max="100"
-          step="1"
-          value={Array.isArray(slab) ? String(slab[0]) : '0'}
-          onChange={(event) => {
-            const thickness = Number(event.currentTarget.value);
-            setSetting('slab', thickness > 0 ? [thickness, 'max'] : null);
-          }}
-        />
-        mm
-      </label>
       <WindowStrip />
-      <label>
-        Layout
-        <select
-          value={store.layout.value}
-          onChange={(event) => showLayout(event.currentTarget.value as store.Layout)}
-        >
-          {store.LAYOUTS.map((name) => (
-            <option key={name} value={name}>
-              {LAYOUT_NAMES[name]}
-            </option>
-          ))}
-        </select>
-      </label>
-      <SettingsPanel />
+      <LayoutChoice />
+      <ResearchMenu />
       <span class="spring" />
       <OpenMore />
       <button type="button" onClick={() => perform(engine, 'help')} aria-label="Keys and mouse">
@@ -120,31 +42,35 @@ export function Toolbar() {
   );
 }
 
-/** Tracing vessels, and the list of them. */
-function VesselButtons() {
-  if (!store.hasVolume.value) {
-    return null;
-  }
+function LayoutChoice() {
   return (
-    <>
-      <button
-        type="button"
-        class="tool"
-        aria-pressed={isTracing()}
-        onClick={() => performAny(engine, 'trace')}
-        title="Trace vessels by clicks (t)"
+    <label>
+      Layout
+      <select
+        value={store.layout.value}
+        onChange={(event) => showLayout(event.currentTarget.value as store.Layout)}
       >
-        Trace vessels
-      </button>
-      <button
-        type="button"
-        class="tool"
-        aria-pressed={isListOpen.value}
-        onClick={() => performAny(engine, 'vessels')}
-        title="List of the vessels (v)"
-      >
-        Vessels
-      </button>
-    </>
+        {store.LAYOUTS.map((name) => (
+          <option key={name} value={name}>
+            {LAYOUT_NAMES[name]}
+          </option>
+        ))}
+      </select>
+    </label>
   );
+}
+
+/** Opens and closes the list of vessels. */
+function ListButton() {
+  return store.hasVolume.value ? (
+    <button
+      type="button"
+      class="tool"
+      aria-pressed={isListOpen.value}
+      onClick={() => performAny(engine, 'vessels')}
+      title="List of the vessels (v)"
+    >
+      Vessels
+    </button>
+  ) : null;
 }

@@ -1,8 +1,9 @@
 /** What can be done next about vessels, over the views: the offer to trace, what a click does now, and a doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
-import { accept, findVessels, leaveOut } from '../edit/branches';
+import { findVessels } from '../edit/branches';
 import { waiting } from '../edit/committing';
+import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
 import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
 import { chosenDoubt } from '../edit/mode';
 import { performAny } from '../edit/performing';
@@ -27,7 +28,7 @@ export function TraceBar() {
     );
   }
   if (doubt?.doubt) {
-    return <Doubt id={doubt.id} words={`${nameOf(doubt)} is doubtful: ${doubt.doubt}`} />;
+    return <Doubt words={`${nameOf(doubt)} is doubtful: ${doubt.doubt}`} />;
   }
   return hasVolume.value && document_.value.vessels.length === 0 ? (
     <Offer key={report.value?.volume} />
@@ -52,7 +53,7 @@ function Offer() {
         Find all vessels
       </button>
       <button type="button" onClick={() => performAny(engine, 'trace')}>
-        Trace vessels
+        Trace one vessel
       </button>
       <button
         type="button"
@@ -117,20 +118,29 @@ function hintWords(): string {
     : 'Click, or press Enter at the cross-hair, where a vessel begins.';
 }
 
-function Doubt({ id, words }: { readonly id: number; readonly words: string }) {
-  const answer = (work: typeof accept) => () => {
-    chosenDoubt.value = null;
-    void work(engine, [id]);
-  };
+/** The doubtful branch that is chosen: what speaks against it, and the answer, after which the next one is shown. */
+function Doubt({ words }: { readonly words: string }) {
+  const [place, count] = placeOfDoubt();
   return (
     <div class="trace-bar over" role="status">
       <span>{words}</span>
-      <button type="button" onClick={answer(accept)}>
+      <button type="button" title="Accept (y)" onClick={() => void answerDoubt(engine, 'accept')}>
         Accept
       </button>
-      <button type="button" onClick={answer(leaveOut)}>
+      <button type="button" title="Leave out (n)" onClick={() => void answerDoubt(engine, 'leave out')}>
         Leave out
       </button>
+      {count > 1 && (
+        <>
+          <button type="button" aria-label="The one before (,)" onClick={() => stepDoubt(engine, -1)}>
+            ‹
+          </button>
+          <span>{`${place + 1} of ${count}`}</span>
+          <button type="button" aria-label="The next one (.)" onClick={() => stepDoubt(engine, 1)}>
+            ›
+          </button>
+        </>
+      )}
     </div>
   );
 }

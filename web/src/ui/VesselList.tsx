@@ -4,16 +4,18 @@ import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { accept, findVessels, leaveOut } from '../edit/branches';
 import { setBridge } from '../edit/clicks';
+import { showDoubt, stepDoubt } from '../edit/doubts';
 import { lengthOf } from '../edit/lines';
-import { isListOpen, isTracing, toggleTool } from '../edit/mode';
+import { chosenDoubt, isListOpen, isTracing, toggleTool } from '../edit/mode';
 import { performAny, undoLast } from '../edit/performing';
 import { STOPPER } from '../edit/stoppers';
 import { remove } from '../edit/vessels';
 import { doubtful, nameOf } from '../state/changes';
 import { document_, redo, redoWords, undoWords } from '../state/history';
-import { states } from '../state/store';
+import { hasMillimetres } from '../state/millimetres';
 import { CenterlineFiles } from './CenterlineFiles';
-import { VesselRow } from './VesselRow';
+import { TidyPart } from './TidyPart';
+import { lighting, VesselRow } from './VesselRow';
 
 export function VesselList() {
   if (!isListOpen.value) {
@@ -25,6 +27,7 @@ export function VesselList() {
       <Steps />
       <Means />
       <Doubtful vessels={doubtful(document_.value)} />
+      <TidyPart />
       {vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
       <ul class="vessel-rows">
         {vessels.map((vessel) => (
@@ -131,6 +134,9 @@ function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) 
         </p>
       ))}
       <div class="buttons">
+        <button type="button" title="Each in turn (.), with its reason" onClick={() => stepDoubt(engine, 1)}>
+          Look at each
+        </button>
         <button type="button" onClick={() => void accept(engine, ids)}>
           Accept all
         </button>
@@ -140,8 +146,16 @@ function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) 
       </div>
       <ul class="vessel-rows">
         {vessels.map((vessel) => (
-          <li key={vessel.id} title={vessel.doubt ?? ''}>
-            <span class="name">{nameOf(vessel)}</span>
+          <li key={vessel.id} class={vessel.id === chosenDoubt.value ? 'picked' : ''} {...lighting(vessel)}>
+            <button
+              type="button"
+              class="name"
+              title={vessel.doubt ?? ''}
+              aria-label={`Show ${nameOf(vessel)}`}
+              onClick={() => void showDoubt(engine, vessel)}
+            >
+              {nameOf(vessel)}
+            </button>
             <span class="length">{lengthText(vessel)}</span>
             <button
               type="button"
@@ -165,4 +179,4 @@ function Doubtful({ vessels }: { readonly vessels: readonly DocumentVessel[] }) 
 }
 
 const lengthText = (vessel: DocumentVessel): string =>
-  `${lengthOf(vessel.line).toFixed(1)}${states.value.spacing ? ' mm' : ''}`;
+  `${lengthOf(vessel.line).toFixed(1)}${hasMillimetres.value ? ' mm' : ''}`;

@@ -5,14 +5,17 @@ import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { lengthOf } from '../edit/lines';
 import { pickedId, tree } from '../edit/shown';
+import { marked } from '../edit/tidying';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { placeCrossHair } from '../link/cross-hair';
 import { showBestView } from '../state/actions';
 import { nameOf } from '../state/changes';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
+import { hasMillimetres } from '../state/millimetres';
 import { PALETTE } from '../state/palette';
-import { pickedPlace, pickedVessel, report, states } from '../state/store';
+import { pickedPlace, pickedVessel, report } from '../state/store';
+import { lit } from '../state/tidy';
 import { active, tool } from '../state/tool';
 
 interface RowProps {
@@ -23,7 +26,7 @@ export function VesselRow({ vessel }: RowProps) {
   const isPicked = vessel.id === pickedId();
   const name = nameOf(vessel);
   return (
-    <li class={isPicked ? 'picked' : ''} data-vessel={vessel.id}>
+    <li class={rowClass(isPicked, marked.value.has(vessel.id))} data-vessel={vessel.id} {...lighting(vessel)}>
       <input
         type="radio"
         name="picked-vessel"
@@ -34,7 +37,7 @@ export function VesselRow({ vessel }: RowProps) {
       />
       <ColorChoice vessel={vessel} />
       <NameField vessel={vessel} />
-      <span class="length">{`${lengthText(vessel)}${states.value.spacing ? ' mm' : ''}`}</span>
+      <span class="length">{`${lengthText(vessel)}${hasMillimetres.value ? ' mm' : ''}`}</span>
       <button
         type="button"
         class="eye"
@@ -49,6 +52,19 @@ export function VesselRow({ vessel }: RowProps) {
     </li>
   );
 }
+
+const rowClass = (isPicked: boolean, isMarked: boolean): string =>
+  `${isPicked ? 'picked' : ''}${isMarked ? ' marked' : ''}`;
+
+/** What a row does while the pointer is over it: its vessel is lit in all views. */
+export const lighting = ({ id }: DocumentVessel) => ({
+  onPointerEnter: () => {
+    lit.value = id;
+  },
+  onPointerLeave: () => {
+    lit.value = lit.value === id ? null : lit.value;
+  },
+});
 
 /** The name of a vessel, as it is typed until that is done. */
 function NameField({ vessel }: RowProps) {

@@ -174,6 +174,11 @@ function isLength(value: unknown): boolean {
   return isNumber(value) && Math.abs(value) <= 1e6;
 }
 
+/** Red, green or blue of a colour. */
+function isChannel(value: unknown): boolean {
+  return Number.isInteger(value) && Number(value) >= 0 && Number(value) <= 255;
+}
+
 function isValueOf(row: SettingRow, value: unknown): boolean {
   if (value === null) {
     return row.optional;
@@ -186,6 +191,8 @@ function isValueOf(row: SettingRow, value: unknown): boolean {
       return isWithin;
     case 'count':
       return isWithin && Number.isInteger(value);
+    case 'color':
+      return Array.isArray(value) && value.length === 3 && value.every(isChannel);
     case 'focus':
       return Array.isArray(value) && value.length === 2 && value.every(isLength) && Number(value[1]) >= 0;
     case 'slab':

@@ -1,5 +1,6 @@
 /** Letters at the edges of a view, and its scale bar. */
 import type { Pair, PictureLabels, Vector } from '../core/messages';
+import { hasMillimetres } from '../state/millimetres';
 import { states } from '../state/store';
 import { useLabels } from './labels';
 
@@ -14,11 +15,11 @@ interface EdgeLabelsProps {
 
 export function EdgeLabels({ right, down, size, spacing }: EdgeLabelsProps) {
   const labels = useLabels({ right, down, width: size[0], pixel_spacing: spacing });
-  const { spacing: hasLengths, orientation: hasSides } = states.value;
+  const hasSides = states.value.orientation;
   return (
     <>
       {labels && hasSides && <Sides letters={labels.letters} />}
-      {labels?.bar && hasLengths && <Bar bar={labels.bar} />}
+      {labels?.bar && hasMillimetres.value && <Bar bar={labels.bar} />}
     </>
   );
 }

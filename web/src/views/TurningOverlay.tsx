@@ -3,6 +3,7 @@ import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
 import { TurningMeasures } from '../measure/MeasureOverlay';
 import { PlaceTurnBar } from '../measure/PlaceTurnBar';
+import { assumeOneMillimetre, hasMillimetres } from '../state/millimetres';
 import { camera, crossHair, report, states } from '../state/store';
 import { Cube } from './Cube';
 import { EdgeLabels } from './EdgeLabels';
@@ -29,8 +30,23 @@ export function TurningOverlay() {
       <TracedOverlay projection={ofCamera(seen, volume)} />
       {place && <HairLines at={place} />}
       {states.value.orientation && <Cube camera={seen} />}
+      {!hasMillimetres.value && <NoMillimetres />}
       <PlaceTurnBar />
     </div>
+  );
+}
+
+/** In the place of the scale bar where the scan does not say how far its voxels lie apart. */
+function NoMillimetres() {
+  return (
+    <button
+      type="button"
+      class="no-millimetres"
+      title="The scan does not say how far its voxels lie apart. Lengths are then told as if that were 1 mm; what is saved has no mm. Undo takes it back."
+      onClick={assumeOneMillimetre}
+    >
+      Assume 1 mm
+    </button>
   );
 }
 

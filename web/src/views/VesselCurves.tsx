@@ -3,11 +3,13 @@
 import type { DocumentVessel, Vector } from '../core/messages';
 import { drawnColor, livePaths } from '../edit/drawing';
 import { contents } from '../edit/lines';
-import { isTracing } from '../edit/mode';
+import { chosenDoubt, isTracing } from '../edit/mode';
 import { tree } from '../edit/shown';
+import { marked } from '../edit/tidying';
 import { document_ } from '../state/history';
 import { DOUBTFUL } from '../state/palette';
 import { pickedVessel } from '../state/store';
+import { lit } from '../state/tidy';
 import { tool } from '../state/tool';
 import { pathData } from './curves';
 import type { Projection } from './projection';
@@ -21,7 +23,9 @@ export function VesselCurves({ projection }: OverProps) {
   const picked = tree.value[pickedVessel.value ?? -1]?.id;
   // Over vessels that are cut open curves would hide what is looked at.
   const isSeen = (vessel: DocumentVessel) =>
-    !vessel.isHidden && (isOn || !projection.isThrough || vessel.doubt !== null);
+    vessel.id === lit.value ||
+    (!vessel.isHidden &&
+      (isOn || !projection.isThrough || vessel.doubt !== null || marked.value.has(vessel.id)));
   return (
     <svg class="curves" aria-hidden="true">
       {document_.value.vessels.filter(isSeen).map((vessel) => (
@@ -45,11 +49,15 @@ interface CurveProps extends OverProps {
 }
 
 function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
+  const [isLit, isMarked] = [
+    vessel.id === lit.value || vessel.id === chosenDoubt.value,
+    marked.value.has(vessel.id),
+  ];
   const points = contents.value.get(vessel.line)?.points;
   if (!points) {
     return null;
   }
-  const kind = vessel.doubt === null ? (isPicked ? 'curve picked' : 'curve') : 'curve doubtful';
+  const kind = `curve${vessel.doubt !== null ? ' doubtful' : isPicked ? ' picked' : ''}${isLit ? ' lit' : ''}${isMarked ? ' marked' : ''}`;
   const color = vessel.doubt === null ? vessel.color : DOUBTFUL;
   return (
     <g class={kind} stroke={color} data-vessel={vessel.id}>

@@ -51,6 +51,7 @@ export class EngineHost {
         threads,
         isIsolated: self.crossOriginIsolated,
         table: askAtOnce('settings_table', null),
+        looks: askAtOnce('looks', null),
         stop: isShared ? { buffer, address: Engine.stop_address() } : null,
       };
     });

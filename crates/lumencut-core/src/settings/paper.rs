@@ -1,11 +1,8 @@
-//! The settings that the paper's rules and the looks stand for.
+//! The settings that the paper's rules stand for.
 
-use super::context::ContextName;
-use super::focus::Focus;
 use super::rules::{LevelChoice, SilhouetteRule};
 use super::table::Settings;
 use super::value::Value;
-use crate::named::Named;
 
 impl Settings {
     /// The paper's rules, with the defaults of all other settings.
@@ -31,15 +28,5 @@ impl Settings {
             .filter(|(paper, own)| paper != own)
             .map(|(paper, _)| paper)
             .collect()
-    }
-
-    /// The settings of the look `focus`: the cut surface around the vessels amid a shaded body.
-    pub fn focus_values() -> Vec<(&'static str, Value)> {
-        let mida = Value::Name(ContextName::Mida.name().to_owned());
-        vec![
-            ("focus", Value::Focus(Focus::default())),
-            ("context", mida),
-            ("context_shading", Value::Flag(true)),
-        ]
     }
 }

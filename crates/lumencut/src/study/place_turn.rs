@@ -27,12 +27,12 @@ pub struct PlaceTurn {
 }
 
 impl Study {
-    /// The view from which most of a vessel is seen, turned least from a camera.
+    /// The view from which most of a line is seen, whether it is shown or doubtful, turned least from a camera.
     ///
     /// # Errors
-    /// `camera` for one that defines no view, `vessel tree` for a vessel that there is not or that has no length.
-    pub fn best_view(&self, camera: &CameraMessage, vessel: usize) -> Result<CameraMessage> {
-        Ok((&refocused(&camera.camera()?, self.vessel(vessel)?)?).into())
+    /// `camera` for one that defines no view, `vessel tree` for a line that there is not or that has no length.
+    pub fn best_view(&self, camera: &CameraMessage, line: usize) -> Result<CameraMessage> {
+        Ok((&refocused(&camera.camera()?, &self.lines.get(line)?.vessel()?)?).into())
     }
 
     /// A turn about a place `at` mm along a vessel, in pictures of a size.

@@ -11,6 +11,7 @@ use crate::study::edits::{EditMessage, Edited};
 use crate::study::failure::{Failure, Result};
 use crate::study::histogram::Histogram;
 use crate::study::labels::{LaidPicture, PictureLabels};
+use crate::study::line_facts::LineFacts;
 use crate::study::lines::{LineContent, ListedLine, NamedLine};
 use crate::study::measure_messages::{
     ComparedMessage, DiameterMessage, GradeMessage, MarksMessage, ProfileMessage, SectionMessage,
@@ -22,7 +23,7 @@ use crate::study::place_turn::PlaceTurn;
 use crate::study::planes::Plane;
 use crate::study::report_messages::ReportMessage;
 use crate::study::session_files::SessionContent;
-use crate::study::settings::{SettingRow, rows};
+use crate::study::settings::{LookRow, SettingRow, looks, rows};
 use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
 use crate::study::tracing::PathMessage;
@@ -51,9 +52,12 @@ of_the_study {
     /// The camera of a named view that shows all of the study.
     [Turn::First] fitted { view: String, size: [usize; 2] } -> CameraMessage = study.fitted(&view, size)?;
 
-    /// The view from which most of a vessel is seen, fitted to it; turned least from this camera, whose size it has.
-    [Turn::First] best_view { camera: CameraMessage, vessel: usize } -> CameraMessage =
-        study.best_view(&camera, vessel)?;
+    /// The view from which most of a line is seen, fitted to it; turned least from this camera, whose size it has.
+    [Turn::First] best_view { camera: CameraMessage, line: usize } -> CameraMessage =
+        study.best_view(&camera, line)?;
+
+    /// How long and how wide lines are, and which of them hang together.
+    [Turn::First] line_facts { lines: Vec<usize> } -> Vec<LineFacts> = study.line_facts(&lines)?;
 
     /// A turn about a place on a vessel (mm), with the diameters that its views cut.
     [Turn::First] turn_about { vessel: usize, at: f64, size: [usize; 2] } -> PlaceTurn =
@@ -186,6 +190,9 @@ at_once {
 
     /// The table of settings.
     settings_table(_nothing: ()) -> Vec<SettingRow> = rows();
+
+    /// The looks: several settings under one name each.
+    looks(_nothing: ()) -> Vec<LookRow> = looks();
 }
 }
 

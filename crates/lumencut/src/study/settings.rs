@@ -2,7 +2,7 @@
 
 use lumencut_core::named::Named;
 use lumencut_core::settings::{
-    Choices, Focus, Kind, Setting, Settings, Slab, SlabMode, Value, Window, table,
+    Choices, Focus, Kind, LOOKS, Look, Setting, Settings, Slab, SlabMode, Value, Window, table,
 };
 use serde::Serialize;
 use serde_json::{Map, Value as Json};
@@ -22,9 +22,6 @@ pub struct SettingRow {
     /// The value where nothing is chosen.
     #[cfg_attr(test, ts(type = "SettingValue"))]
     default: Json,
-    /// The value that the look *focus* chooses; none where it leaves the setting alone.
-    #[cfg_attr(test, ts(type = "SettingValue"))]
-    focused: Json,
     /// The smallest number.
     low: Option<f64>,
     /// The largest number.
@@ -41,15 +38,11 @@ pub struct SettingRow {
 
 /// The table of settings for viewers.
 pub fn rows() -> Vec<SettingRow> {
-    let look = Settings::focus_values();
-    let focused =
-        |name: &str| look.iter().find(|(chosen, _)| *chosen == name).map(|(_, value)| value.clone());
     let row = |setting: &Setting| SettingRow {
         name: setting.name,
         kind: setting.kind.name(),
         optional: setting.optional,
         default: json_of(setting.default()),
-        focused: focused(setting.name).map_or(Json::Null, json_of),
         low: setting.limits.map(|limits| limits.low),
         high: setting.limits.map(|limits| limits.high),
         unit: setting.limits.map(|limits| limits.unit),
@@ -58,6 +51,40 @@ pub fn rows() -> Vec<SettingRow> {
         sentence: setting.sentence(),
     };
     table().map(row).collect()
+}
+
+/// A look for viewers: several settings under one name.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct LookRow {
+    /// Its name on the command line and in Python.
+    name: &'static str,
+    /// What its button is called.
+    words: &'static str,
+    /// What it shows.
+    sentence: &'static str,
+    /// The values of all settings that some look chooses: of those that this one leaves alone, the defaults.
+    #[cfg_attr(test, ts(type = "Settings"))]
+    settings: Map<String, Json>,
+}
+
+/// All looks, in the order to show them.
+pub fn looks() -> Vec<LookRow> {
+    let chosen_by_some: Vec<&Setting> = table().filter(|setting| is_chosen_by_a_look(setting.name)).collect();
+    let row = |look: &Look| {
+        let chosen = (look.values)();
+        let value = |setting: &Setting| {
+            let own = chosen.iter().find(|(name, _)| *name == setting.name);
+            json_of(own.map_or_else(|| setting.default(), |(_, value)| value.clone()))
+        };
+        let settings = chosen_by_some.iter().map(|setting| (setting.name.to_owned(), value(setting)));
+        LookRow { name: look.name, words: look.words, sentence: look.sentence, settings: settings.collect() }
+    };
+    LOOKS.iter().map(row).collect()
+}
+
+fn is_chosen_by_a_look(name: &str) -> bool {
+    LOOKS.iter().any(|look| (look.values)().iter().any(|(chosen, _)| *chosen == name))
 }
 
 fn json_of(value: Value) -> Json {
@@ -69,9 +96,8 @@ fn json_of(value: Value) -> Json {
         Value::Name(name) => name.into(),
         Value::Focus(Focus { margin, fade }) => vec![margin, fade].into(),
         Value::Vessels(ids) => ids.into(),
-        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Slab(_) | Value::Transfer(_) => {
-            Json::Null
-        }
+        Value::Slab(Slab { thickness, mode }) => Json::Array(vec![thickness.into(), mode.name().into()]),
+        Value::None | Value::Window(_) | Value::Opacity(_) | Value::Transfer(_) => Json::Null,
     }
 }
 
@@ -154,10 +180,26 @@ mod tests {
     #[test]
     fn the_table_has_a_row_for_every_setting() {
         assert_eq!(rows().len(), table().count());
-        let chosen: Vec<&str> =
-            rows().iter().filter(|row| !row.focused.is_null()).map(|row| row.name).collect();
-        let mut expected: Vec<&str> = Settings::focus_values().into_iter().map(|(name, _)| name).collect();
-        expected.sort_by_key(|name| table().position(|setting| setting.name == *name));
-        assert_eq!(chosen, expected);
+    }
+    #[test]
+    fn a_look_read_back_is_what_it_chooses_with_the_defaults_of_all_else() {
+        for (row, look) in looks().iter().zip(&LOOKS) {
+            let mut expected = Choices::default();
+            for (name, value) in (look.values)() {
+                expected.set(name, value).expect("a setting");
+            }
+            let chosen = of(&Json::Object(row.settings.clone())).expect("settings");
+            assert_eq!(chosen, expected.settings().expect("settings"), "{}", row.name);
+        }
+    }
+
+    #[test]
+    fn looks_differ_and_name_the_same_settings() {
+        let looks = looks();
+        for (n, look) in looks.iter().enumerate() {
+            assert!(look.settings.keys().eq(looks[0].settings.keys()));
+            assert!(looks[..n].iter().all(|other| other.settings != look.settings && other.name != look.name));
+        }
+        assert_eq!(of(&Json::Object(looks[0].settings.clone())).expect("settings"), Settings::default());
     }
 }

@@ -256,6 +256,18 @@ export type LineContent = {
   readonly bridged: ReadonlyArray<boolean> | null;
 };
 
+/** What is known of a line among others. */
+export type LineFacts = {
+  /** The number of the line. */
+  readonly line: number;
+  /** mm */
+  readonly length: number;
+  /** The median diameter of its points (mm); null where no radius is known. */
+  readonly calibre: number | null;
+  /** Which of the parts that hang together it belongs to; 0 is the longest. */
+  readonly part: number;
+};
+
 /** A line as a viewer lists it. One that is hidden is not drawn; it is measured among all the same, so that hiding a vessel changes no number. */
 export type ListedLine = {
   /** Its number. */
@@ -272,6 +284,18 @@ export type Look = {
   readonly direction: Vector;
   /** Upwards. */
   readonly up: Vector;
+};
+
+/** A look for viewers: several settings under one name. */
+export type LookRow = {
+  /** Its name on the command line and in Python. */
+  readonly name: string;
+  /** What its button is called. */
+  readonly words: string;
+  /** What it shows. */
+  readonly sentence: string;
+  /** The values of all settings that some look chooses: of those that this one leaves alone, the defaults. */
+  readonly settings: Settings;
 };
 
 /** What a reader marked on one vessel (arc lengths, mm). */
@@ -542,8 +566,6 @@ export type SettingRow = {
   readonly optional: boolean;
   /** The value where nothing is chosen. */
   readonly default: SettingValue;
-  /** The value that the look *focus* chooses; none where it leaves the setting alone. */
-  readonly focused: SettingValue;
   /** The smallest number. */
   readonly low: number | null;
   /** The largest number. */
@@ -722,13 +744,20 @@ export type Questions = {
     };
     readonly answer: Camera;
   };
-  /** The view from which most of a vessel is seen, fitted to it; turned least from this camera, whose size it has. */
+  /** The view from which most of a line is seen, fitted to it; turned least from this camera, whose size it has. */
   readonly best_view: {
     readonly message: {
       readonly camera: Camera;
-      readonly vessel: number;
+      readonly line: number;
     };
     readonly answer: Camera;
+  };
+  /** How long and how wide lines are, and which of them hang together. */
+  readonly line_facts: {
+    readonly message: {
+      readonly lines: ReadonlyArray<number>;
+    };
+    readonly answer: ReadonlyArray<LineFacts>;
   };
   /** A turn about a place on a vessel (mm), with the diameters that its views cut. */
   readonly turn_about: {
@@ -964,6 +993,11 @@ export type Questions = {
     readonly message: null;
     readonly answer: ReadonlyArray<SettingRow>;
   };
+  /** The looks: several settings under one name each. */
+  readonly looks: {
+    readonly message: null;
+    readonly answer: ReadonlyArray<LookRow>;
+  };
 };
 
 /** When each question is answered, and what its progress is called. */
@@ -973,6 +1007,7 @@ export const TURNS = {
   open_centerlines: { when: 'first', words: null },
   fitted: { when: 'first', words: null },
   best_view: { when: 'first', words: null },
+  line_facts: { when: 'first', words: null },
   turn_about: { when: 'first', words: null },
   pick: { when: 'first', words: null },
   brightest: { when: 'first', words: null },
@@ -1008,4 +1043,5 @@ export const TURNS = {
   labels: { when: 'at once', words: null },
   flight: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
+  looks: { when: 'at once', words: null },
 } as const satisfies Record<keyof Questions, Turn>;

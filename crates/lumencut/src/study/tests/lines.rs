@@ -220,3 +220,20 @@ fn files_hold_names_radii_and_confidence() {
     assert_eq!(study.write(&lines, "stl").expect_err("no such format").subject, "format");
     assert_eq!(study.write(&[], "vtp").expect_err("no lines").kind, "format");
 }
+
+#[test]
+fn lines_are_told_by_length_calibre_and_what_they_hang_together_with() {
+    let mut study = Study::default();
+    let mut add = |line| study.lines.add(line).expect("a line");
+    // A piece by itself, a trunk of 10 mm, and a branch from a point within it, whose radius is not known.
+    let piece = add(Line { points: vec![DVec3::new(0.0, 50.0, 0.0), DVec3::new(0.0, 50.0, 3.0)], ..Line::default() });
+    let trunk = add(straight(0.0, 11));
+    let branch = add(Line { points: vec![DVec3::new(4.0, 0.0, 0.0), DVec3::new(4.0, 7.0, 0.0)], ..Line::default() });
+    let facts = study.line_facts(&[piece, trunk, branch]).expect("lines");
+    let told = facts.iter().map(|facts| (facts.line, facts.length, facts.calibre, facts.part));
+    // The radius of the trunk grows from 1 to 2 mm.
+    assert!(told.eq([(piece, 3.0, None, 1), (trunk, 10.0, Some(3.0), 0), (branch, 7.0, None, 0)]));
+    let alone = study.line_facts(&[branch, piece]).expect("lines");
+    assert_eq!([alone[0].part, alone[1].part], [0, 1], "without the trunk they are two parts");
+    assert_eq!(study.line_facts(&[branch + 1]).expect_err("no line").kind, "vessel tree");
+}

@@ -92,5 +92,5 @@ fn the_best_view_of_a_vessel_looks_across_it_and_keeps_the_size() {
     assert!(best.direction().z.abs() < 0.2, "{}", best.direction());
     assert_eq!(best.size(), [200, 100]);
     assert!(best.center().abs_diff_eq([MIDDLE, MIDDLE, 9.5].into(), 0.5), "{}", best.center());
-    assert_eq!(study.best_view(&from_above, 1).map_err(|failure| failure.kind), Err("settings"));
+    assert_eq!(study.best_view(&from_above, 1).map_err(|failure| failure.kind), Err("vessel tree"));
 }

@@ -1,32 +1,107 @@
-/** All settings of the turning view, made from the table that the whole of Lumencut shares. */
-import type { SettingRow } from '../core/messages';
+/** What is for research: the methods, the context, and all settings, made from the table that the whole of Lumencut shares. */
+import type { Method, SettingRow } from '../core/messages';
+import { VIEW_METHODS } from '../core/method-names';
 import { setSetting, settingOf } from '../state/actions';
-import { settings, started } from '../state/store';
+import { AT_FIRST, method, settings, started } from '../state/store';
+import { useClosing } from './closing-menu';
+import { keepWithin } from './within-window';
+
+const CONTEXTS: readonly (readonly [string, string])[] = [
+  ['mida', 'MIDA'],
+  ['dvr', 'DVR'],
+  ['mip', 'MIP'],
+  ['minip', 'MinIP'],
+  ['average', 'Average'],
+  ['', 'None'],
+];
 
 /** The kinds that have a control here; windows have the strip. */
 const KINDS: readonly string[] = ['flag', 'number', 'count', 'choice', 'transfer'];
-/** What the toolbar or the view decides. */
-const ELSEWHERE: readonly string[] = ['context', 'silhouettes', 'samples', 'context_preview'];
+/** What has a control of its own above the others, and what the view decides. */
+const ELSEWHERE: readonly string[] = ['context', 'samples', 'context_preview'];
 
-export function SettingsPanel() {
+export function ResearchMenu() {
   const rows = (started.value?.table ?? []).filter(
     (row) => KINDS.includes(row.kind) && !ELSEWHERE.includes(row.name),
   );
   const reset = () => {
-    settings.value = {};
+    settings.value = AT_FIRST;
   };
   return (
-    <details class="menu">
-      <summary>Settings</summary>
+    <details class="menu" onToggle={keepWithin} ref={useClosing()}>
+      <summary>Research</summary>
       <div class="menu-body settings">
+        <MethodChoice />
+        <ContextChoice />
+        <SlabThickness />
         {rows.map((row) => (
           <Row key={row.name} row={row} />
         ))}
         <button type="button" onClick={reset}>
-          All as at first
+          Reset
         </button>
       </div>
     </details>
+  );
+}
+
+function MethodChoice() {
+  return (
+    <label>
+      <span>Method</span>
+      <select
+        value={method.value}
+        onChange={(event) => {
+          method.value = event.currentTarget.value as Method;
+        }}
+      >
+        {VIEW_METHODS.map(([name, words]) => (
+          <option key={name} value={name}>
+            {words}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function ContextChoice() {
+  return (
+    <label>
+      <span>Context</span>
+      <select
+        value={String(settingOf('context') ?? '')}
+        onChange={(event) => setSetting('context', event.currentTarget.value || null)}
+      >
+        {CONTEXTS.map(([name, words]) => (
+          <option key={name} value={name}>
+            {words}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function SlabThickness() {
+  const slab = settingOf('slab');
+  return (
+    <label>
+      <span>Slab</span>
+      <input
+        class="number"
+        type="number"
+        min="0"
+        max="100"
+        step="1"
+        value={Array.isArray(slab) ? String(slab[0]) : '0'}
+        onChange={(event) => {
+          const thickness = Number(event.currentTarget.value);
+          setSetting('slab', thickness > 0 ? [thickness, 'max'] : null);
+        }}
+      />
+      <small>mm</small>
+    </label>
   );
 }
 

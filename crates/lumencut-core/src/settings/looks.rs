@@ -1,0 +1,78 @@
+//! The looks: several settings under one name, as a reader chooses them.
+
+use super::context::{ContextFrom, ContextName};
+use super::focus::Focus;
+use super::slab::{Slab, SlabMode};
+use super::value::Value;
+use crate::named::Named;
+
+/// A focus that leaves nothing of the cut surface: what is shown is the context alone.
+const NOTHING_OF_THE_CUT: Focus = Focus { margin: -1e6, fade: 0.0 };
+/// How thick the slab of a thick slab is (mm).
+const THICK: f64 = 10.0;
+
+/// Several settings under one name; all others have their defaults.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// Its name on the command line and in Python.
+    pub name: &'static str,
+    /// What a page calls it.
+    pub words: &'static str,
+    /// What it shows.
+    pub sentence: &'static str,
+    /// The settings that it chooses, with their values.
+    pub values: fn() -> Vec<(&'static str, Value)>,
+}
+
+/// All looks, in the order to show them to users.
+pub const LOOKS: [Look; 5] = [
+    Look {
+        name: "lumen",
+        words: "Lumen",
+        sentence: "the cut through the middle of every vessel, over all of the picture",
+        values: Vec::new,
+    },
+    Look {
+        name: "focus",
+        words: "Lumen in 3D",
+        sentence: "the cut around the vessels amid the shaded body",
+        values: focus,
+    },
+    Look { name: "body", words: "Body in 3D", sentence: "the shaded body alone, nothing cut", values: body },
+    Look { name: "mip", words: "MIP", sentence: "the largest value along each ray, nothing cut", values: mip },
+    Look {
+        name: "slab",
+        words: "Thick slab",
+        sentence: "the largest value of 10 mm around the cut",
+        values: slab,
+    },
+];
+
+fn focus() -> Vec<(&'static str, Value)> {
+    shaded(Focus::default())
+}
+
+fn body() -> Vec<(&'static str, Value)> {
+    let mut chosen = shaded(NOTHING_OF_THE_CUT);
+    chosen.push(("context_from", Value::Name(ContextFrom::Whole.name().to_owned())));
+    chosen
+}
+
+fn shaded(focus: Focus) -> Vec<(&'static str, Value)> {
+    vec![
+        ("focus", Value::Focus(focus)),
+        ("context", Value::Name(ContextName::Mida.name().to_owned())),
+        ("context_shading", Value::Flag(true)),
+    ]
+}
+
+fn mip() -> Vec<(&'static str, Value)> {
+    vec![
+        ("focus", Value::Focus(NOTHING_OF_THE_CUT)),
+        ("context", Value::Name(ContextName::Mip.name().to_owned())),
+    ]
+}
+
+fn slab() -> Vec<(&'static str, Value)> {
+    vec![("slab", Value::Slab(Slab { thickness: THICK, mode: SlabMode::Max }))]
+}

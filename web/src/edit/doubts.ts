@@ -1,0 +1,60 @@
+/** A walk through the doubtful branches: the view turns to each, and it is accepted or left out. */
+import type { Asked } from '../core/asked';
+import type { DocumentVessel } from '../core/messages';
+import { placeCrossHair } from '../link/cross-hair';
+import { doubtful, vesselOf } from '../state/changes';
+import { flyToAnswer } from '../state/flight';
+import { document_ } from '../state/history';
+import { camera } from '../state/store';
+import { tellFailure } from '../state/telling';
+import { accept, leaveOut } from './branches';
+import { contents } from './lines';
+import { chosenDoubt } from './mode';
+
+/** The place of the doubtful branch that is chosen among them, from 0, and how many there are. */
+export function placeOfDoubt(): readonly [number, number] {
+  const all = doubtful(document_.value);
+  return [all.findIndex((vessel) => vessel.id === chosenDoubt.value), all.length];
+}
+
+/** Chooses a doubtful branch, and turns the view to it. */
+export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<void> {
+  chosenDoubt.value = vessel.id;
+  const points = contents.value.get(vessel.line)?.points ?? [];
+  const middle = points[Math.floor(points.length / 2)];
+  try {
+    if (middle) {
+      placeCrossHair({ ...(await engine.ask('at', middle)), vessel: null, arc_length: null }, 'turning');
+    }
+    if (camera.value) {
+      await flyToAnswer(engine, engine.ask('best_view', { camera: camera.value, line: vessel.line }));
+    }
+  } catch (error) {
+    tellFailure(error);
+  }
+}
+
+/** Chooses the next doubtful branch, or the one before; the first one where none is chosen, and after the last. */
+export function stepDoubt(engine: Asked, by: 1 | -1): void {
+  const all = doubtful(document_.value);
+  const [now] = placeOfDoubt();
+  const next = all[now < 0 ? 0 : (now + by + all.length) % all.length];
+  if (next) {
+    void showDoubt(engine, next);
+  }
+}
+
+/** Accepts the branch that is chosen, or leaves it out, and goes on with the one that follows. */
+export async function answerDoubt(engine: Asked, answer: 'accept' | 'leave out'): Promise<void> {
+  const chosen = vesselOf(document_.value, chosenDoubt.value);
+  if (!chosen?.doubt) {
+    return;
+  }
+  const all = doubtful(document_.value);
+  const at = all.indexOf(chosen);
+  const following = [...all.slice(at + 1), ...all.slice(0, at)][0];
+  chosenDoubt.value = null;
+  if ((await (answer === 'accept' ? accept : leaveOut)(engine, [chosen.id])) && following) {
+    await showDoubt(engine, following);
+  }
+}

@@ -1,0 +1,12 @@
+/** Whether lengths are told in mm: where the scan says how far its voxels lie apart, or the reader takes them for 1 mm apart. */
+import { computed } from '@preact/signals';
+import { change, document_ } from './history';
+import { states } from './store';
+
+/** Whether the page tells lengths in mm. */
+export const hasMillimetres = computed(() => states.value.spacing || document_.value.isOneMillimetre);
+
+/** Takes voxels for 1 mm apart, as a step that can be undone. What is saved still says that the scan does not tell. */
+export function assumeOneMillimetre(): void {
+  change('assume 1 mm', { ...document_.value, isOneMillimetre: true });
+}

@@ -1,0 +1,56 @@
+/** What the page is used for now: looking, tracing or measuring. */
+import { isTracing } from '../edit/mode';
+import { toggleMeasuring } from '../state/actions';
+import { hasVolume, layout } from '../state/store';
+import { tool } from '../state/tool';
+
+type Mode = 'look' | 'trace' | 'measure';
+
+/** The mode that the page is in. */
+function mode(): Mode {
+  if (isTracing()) {
+    return 'trace';
+  }
+  return layout.value === 'measure' ? 'measure' : 'look';
+}
+
+/** Goes to a mode, and from it back to looking where it is on already; each mode lays down what it took up. */
+function change(wanted: Mode): void {
+  const from = mode();
+  const to = from === wanted ? 'look' : wanted;
+  if (to === 'trace') {
+    tool.value = 'trace';
+  } else if (to === 'measure' || from === 'measure') {
+    toggleMeasuring();
+  } else {
+    tool.value = 'look';
+  }
+}
+
+const MODES: readonly (readonly [Mode, string, string, string])[] = [
+  ['look', '◉', 'Look', 'Look at the vessels from all sides'],
+  ['trace', '✎', 'Trace', 'Trace vessels by clicks (t)'],
+  ['measure', '⟷', 'Measure', 'Measure the picked vessel (m)'],
+];
+
+export function ModeButtons() {
+  if (!hasVolume.value) {
+    return null;
+  }
+  return (
+    <fieldset class="segments modes">
+      <legend class="hidden-words">Mode</legend>
+      {MODES.map(([name, icon, words, title]) => (
+        <button
+          key={name}
+          type="button"
+          aria-pressed={mode() === name}
+          title={title}
+          onClick={() => change(name)}
+        >
+          <span aria-hidden="true">{icon}</span> <span class="words">{words}</span>
+        </button>
+      ))}
+    </fieldset>
+  );
+}

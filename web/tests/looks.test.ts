@@ -1,0 +1,92 @@
+import { afterEach, beforeEach, expect, test } from 'vitest';
+import type { LookRow, SettingRow, Settings, Started } from '../src/core/messages';
+import { setSetting } from '../src/state/actions';
+import { chooseLines, chooseLook, chosenLook, isOffered, lines } from '../src/state/looks';
+import * as store from '../src/state/store';
+
+const NONE: Settings = { focus: null, context: 'mida', slab: null };
+const look = (name: string, settings: Settings): LookRow => ({
+  name,
+  words: name,
+  sentence: name,
+  settings: { ...NONE, ...settings },
+});
+const [LUMEN, FOCUS, BODY, MIP, SLAB] = [
+  look('lumen', {}),
+  look('focus', { focus: [2, 6] }),
+  look('body', { focus: [-1e6, 0] }),
+  look('mip', { focus: [-1e6, 0], context: 'mip' }),
+  look('slab', { slab: [10, 'max'] }),
+] as const;
+const LOOKS = [LUMEN, FOCUS, BODY, MIP, SLAB];
+const row = (name: string, value: SettingRow['default']) => ({ name, default: value }) as SettingRow;
+
+function open(vessels: number): void {
+  store.report.value = {
+    volume: null,
+    vessels: Array.from({ length: vessels }, (_, line) => ({ line, name: '', length: 1, has_radius: true })),
+    windows: null,
+  };
+}
+
+beforeEach(() => {
+  const table = [
+    ...Object.entries(NONE).map(([name, value]) => row(name, value)),
+    row('silhouettes', true),
+    row('silhouette_reach', 10),
+  ];
+  store.started.value = { table, looks: LOOKS } as unknown as Started;
+  open(1);
+});
+
+afterEach(() => {
+  store.started.value = null;
+  store.report.value = null;
+  store.settings.value = {};
+  store.method.value = 'csr';
+});
+
+test('the settings tell which look was chosen', () => {
+  expect(chosenLook.value).toBe('lumen');
+  for (const chosen of [...LOOKS, ...LOOKS.toReversed()]) {
+    chooseLook(chosen);
+    expect(chosenLook.value).toBe(chosen.name);
+  }
+});
+
+test('how far a focus reaches is no other look; a slab of another thickness is none', () => {
+  chooseLook(FOCUS);
+  setSetting('focus', [12, 6]);
+  expect(chosenLook.value).toBe('focus');
+  setSetting('slab', [4, 'max']);
+  expect(chosenLook.value).toBeNull();
+});
+
+test('a look shows the cut surface, and keeps what no look chooses', () => {
+  store.method.value = 'cr';
+  setSetting('levels', 3);
+  chooseLook(MIP);
+  expect(store.method.value).toBe('csr');
+  expect(store.settings.value).toEqual({ ...NONE, levels: 3, focus: [-1e6, 0], context: 'mip' });
+});
+
+test('without vessels only what cuts nothing is offered, and the context says which it is', () => {
+  open(0);
+  expect(LOOKS.filter(isOffered)).toEqual([BODY, MIP]);
+  expect(chosenLook.value).toBe('body');
+  setSetting('context', 'mip');
+  expect(chosenLook.value).toBe('mip');
+});
+
+test('lines are none, near vessels or all, and come back as they were', () => {
+  expect(lines.value).toBe('near');
+  for (const [wanted, silhouettes, reach] of [
+    ['all', true, null],
+    ['none', false, 10],
+    ['near', true, 10],
+  ] as const) {
+    chooseLines(wanted);
+    expect(lines.value).toBe(wanted);
+    expect(store.settings.value).toMatchObject({ silhouettes, silhouette_reach: reach });
+  }
+});

@@ -1,0 +1,137 @@
+/** Cleaning a tree and walking through doubtful branches, with an engine that answers at once. */
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import type { Asked } from '../src/core/asked';
+import type { DocumentVessel, EditRequest, LineFacts } from '../src/core/messages';
+import { dropEdits } from '../src/edit/committing';
+import { answerDoubt, placeOfDoubt, showDoubt, stepDoubt } from '../src/edit/doubts';
+import { chosenDoubt, isListOpen } from '../src/edit/mode';
+import { tree } from '../src/edit/shown';
+import { apart, followFacts, keepPart, marked, removeMarked } from '../src/edit/tidying';
+import { EMPTY } from '../src/state/document';
+import { begin, document_, undo } from '../src/state/history';
+import { pickedVessel } from '../src/state/store';
+import { markNone, shorterThan, thinnerThan } from '../src/state/tidy';
+
+// The page's own engine runs in a worker, which there is none of here.
+vi.mock('../src/client/shared', () => ({ engine: {} }));
+
+const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
+  id,
+  line: id + 10,
+  name: '',
+  color: '#fff',
+  isHidden: false,
+  clicks: null,
+  doubt,
+});
+/** A trunk with two branches, and two pieces by themselves, one of them of unknown radius. */
+const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));
+const DOUBTFUL = [6, 7, 8].map((id) => vessel(id, `reason ${id}`));
+const FACTS: readonly LineFacts[] = [
+  { line: 11, length: 100, calibre: 20, part: 0 },
+  { line: 12, length: 30, calibre: 6, part: 0 },
+  { line: 13, length: 9, calibre: 1.5, part: 0 },
+  { line: 14, length: 40, calibre: 1.9, part: 1 },
+  { line: 15, length: 5, calibre: null, part: 2 },
+];
+
+const asked: string[] = [];
+
+/** Removes, accepts and leaves out as the engine does. */
+function edited({ document, edit }: EditRequest): object {
+  const { kind, ids = [] } = edit as { kind: string; ids?: readonly number[] };
+  const vessels =
+    kind === 'accept'
+      ? document.vessels.map((one) => (ids.includes(one.id) ? { ...one, doubt: null } : one))
+      : document.vessels.filter((one) => !ids.includes(one.id));
+  return { document: { ...document, vessels }, words: kind, added: [], without_marks: [], notes: [] };
+}
+
+const engine = {
+  ask: async (name: string, message: unknown) => {
+    asked.push(name);
+    const told = new Map(FACTS.map((one) => [one.line, one]));
+    return name === 'edit'
+      ? edited(message as EditRequest)
+      : (message as { lines: readonly number[] }).lines.map(
+          (line) => told.get(line) ?? { line, length: 1, part: 9 },
+        );
+  },
+} as unknown as Asked;
+
+const ids = () => document_.value.vessels.map((one) => one.id);
+let end = () => {};
+
+beforeEach(async () => {
+  dropEdits();
+  begin({ ...EMPTY, vessels: [...SURE, ...DOUBTFUL] });
+  tree.value = SURE;
+  isListOpen.value = true;
+  end = followFacts(engine);
+  await vi.waitFor(() => expect(apart.value.length).toBe(0));
+  await Promise.resolve();
+});
+
+afterEach(() => {
+  end();
+  markNone();
+  chosenDoubt.value = null;
+  pickedVessel.value = null;
+  isListOpen.value = false;
+  begin(EMPTY);
+});
+
+test('short and thin vessels are marked while the limits move, and one step removes them', async () => {
+  expect(marked.value.size).toBe(0);
+  shorterThan.value = 10;
+  expect([...marked.value]).toEqual([3, 5]);
+  thinnerThan.value = 2;
+  expect([...marked.value]).toEqual([3, 4, 5]);
+  shorterThan.value = 9;
+  expect([...marked.value], 'a limit itself is long enough; a radius that is not known is not thin').toEqual([
+    3, 4, 5,
+  ]);
+  thinnerThan.value = 0;
+  expect([...marked.value]).toEqual([5]);
+  thinnerThan.value = 2;
+  expect(await removeMarked(engine)).toBe(true);
+  expect(ids()).toEqual([1, 2, 6, 7, 8]);
+  expect([shorterThan.value, thinnerThan.value]).toEqual([0, 0]);
+  undo();
+  expect(ids()).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
+});
+
+test('only what hangs together with the picked vessel is kept; doubtful branches stay to be judged', async () => {
+  expect(apart.value, 'none is picked').toEqual([]);
+  pickedVessel.value = 3;
+  expect(apart.value).toEqual([1, 2, 3, 5]);
+  pickedVessel.value = 1;
+  expect(apart.value).toEqual([4, 5]);
+  await keepPart(engine);
+  expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
+});
+
+test('one walks through doubtful branches in a circle', async () => {
+  expect(placeOfDoubt()).toEqual([-1, 3]);
+  const seen = [1, 1, 1, 1, -1, -1].map((by) => {
+    stepDoubt(engine, by as 1 | -1);
+    return chosenDoubt.value;
+  });
+  expect(seen).toEqual([6, 7, 8, 6, 8, 7]);
+  expect(placeOfDoubt()).toEqual([1, 3]);
+});
+
+test('each answer leads to the next doubtful branch, the last one to none', async () => {
+  await showDoubt(engine, DOUBTFUL[1] as DocumentVessel);
+  await answerDoubt(engine, 'accept');
+  expect(chosenDoubt.value).toBe(8);
+  await answerDoubt(engine, 'leave out');
+  expect(chosenDoubt.value, 'after the last comes the first').toBe(6);
+  await answerDoubt(engine, 'leave out');
+  expect(chosenDoubt.value).toBeNull();
+  expect(document_.value.vessels.map(({ id, doubt }) => [id, doubt])).toEqual(
+    [1, 2, 3, 4, 5, 7].map((id) => [id, null]),
+  );
+  await answerDoubt(engine, 'accept');
+  expect(ids()).toEqual([1, 2, 3, 4, 5, 7]);
+});
