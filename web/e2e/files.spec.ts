@@ -19,3 +19,54 @@ test('centerlines whose space nothing tells are read as the user says', async ({
   viewer.expectNoFault();
   await viewer.close();
 });
+
+/** A bright bar of a scan that does not say how far its voxels lie apart. */
+function bar(): { name: string; mimeType: string; buffer: Buffer } {
+  const sizes = [12, 10, 30] as const;
+  const values = new Int16Array(sizes[0] * sizes[1] * sizes[2]);
+  values.forEach((_, n) => {
+    values[n] = Math.hypot((n % sizes[0]) - 5, (Math.floor(n / sizes[0]) % sizes[1]) - 5) < 3 ? 300 : -50;
+  });
+  const header = [
+    'NRRD0004',
+    'type: int16',
+    'dimension: 3',
+    `sizes: ${sizes.join(' ')}`,
+    'endian: little',
+    'encoding: raw',
+  ];
+  const buffer = Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]);
+  return { name: 'bar.nrrd', mimeType: 'application/octet-stream', buffer };
+}
+
+test('a scan that states no distances gets mm by consent alone, and undo takes them back', async ({
+  browser,
+}) => {
+  const viewer = await Viewer.open(browser, '?device=cpu');
+  await expect(viewer.page.getByRole('button', { name: 'Choose files' })).toBeEnabled();
+  const line = Buffer.from('x,y,z,radius\n5,5,4,3\n5,5,14,3\n5,5,24,3\n');
+  await viewer.page
+    .locator('main input[type=file]')
+    .first()
+    .setInputFiles([bar(), { name: 'line.csv', mimeType: 'text/csv', buffer: line }]);
+  await viewer.rest();
+  const scale = viewer.pane().getByRole('img', { name: /scale bar of/ });
+  const assume = viewer.page.getByRole('button', { name: 'Assume 1 mm' });
+  const hair = await viewer.hair('turning');
+  await expect(scale).toHaveCount(0);
+  await expect(viewer.readOut).not.toContainText('mm');
+  await assume.click();
+  await expect(scale).toBeVisible();
+  await expect(assume).toHaveCount(0);
+  await expect(viewer.readOut).toContainText('10.0 mm');
+  // The press is that of the button, and puts no cross-hair behind it.
+  expect(await viewer.hair('turning')).toEqual(hair);
+  await viewer.screenshot('one-millimetre');
+  await viewer.press('Control+z');
+  await expect(scale).toHaveCount(0);
+  await expect(assume).toBeVisible();
+  await viewer.press('Control+y');
+  await expect(scale).toBeVisible();
+  viewer.expectNoFault();
+  await viewer.close();
+});

@@ -117,6 +117,13 @@ test('by mouse: a drag turns about the place of the section, and Escape puts it 
   await expect(begin).toHaveAttribute('aria-pressed', 'true');
   await viewer.press('Shift+S');
   await expect(bar()).toHaveCount(0);
+  // A press of the button over the view ends it too, and puts no cross-hair behind the button.
+  await begin.click();
+  await expect(bar()).toBeVisible();
+  const place = await viewer.readOut.textContent();
+  await bar().getByRole('button', { name: 'Done' }).click();
+  await expect(bar()).toHaveCount(0);
+  await expect(viewer.readOut).toHaveText(place ?? '');
   await viewer.press('m');
 });
 

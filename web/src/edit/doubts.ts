@@ -1,6 +1,6 @@
 /** A walk through the doubtful branches: the view turns to each, and it is accepted or left out. */
 import type { Asked } from '../core/asked';
-import type { DocumentVessel } from '../core/messages';
+import type { Camera, DocumentVessel, LineId } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
 import { doubtful, vesselOf } from '../state/changes';
 import { flyToAnswer } from '../state/flight';
@@ -27,11 +27,20 @@ export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<
       placeCrossHair({ ...(await engine.ask('at', middle)), vessel: null, arc_length: null }, 'turning');
     }
     if (camera.value) {
-      await flyToAnswer(engine, engine.ask('best_view', { camera: camera.value, line: vessel.line }));
+      await flyToAnswer(engine, viewOf(engine, camera.value, vessel.line));
     }
   } catch (error) {
     tellFailure(error);
   }
+}
+
+/** Seen nearer, a short branch would stand alone: what lies around it tells what it is (mm along the shorter side). */
+const LEAST_SEEN = 80;
+
+/** The best view of a line, amid what lies around it. */
+async function viewOf(engine: Asked, from: Camera, line: LineId): Promise<Camera> {
+  const best = await engine.ask('best_view', { camera: from, line });
+  return { ...best, pixel_spacing: Math.max(best.pixel_spacing, LEAST_SEEN / Math.min(...best.size)) };
 }
 
 /** Chooses the next doubtful branch, or the one before; the first one where none is chosen, and after the last. */

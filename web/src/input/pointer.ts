@@ -79,6 +79,10 @@ class Pointers {
   }
 
   down(event: PointerEvent): void {
+    // What lies over the view and can be pressed hears it itself.
+    if (event.target instanceof Element && event.target.closest('button, input, select')) {
+      return;
+    }
     const at = this.placeOf(event);
     this.held.set(event.pointerId, at);
     this.element.setPointerCapture(event.pointerId);
