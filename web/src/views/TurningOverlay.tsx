@@ -7,6 +7,7 @@ import { assumeOneMillimetre, hasMillimetres } from '../state/millimetres';
 import { camera, crossHair, report, states } from '../state/store';
 import { Cube } from './Cube';
 import { EdgeLabels } from './EdgeLabels';
+import { PickedOutline } from './PickedOutline';
 import { ofCamera } from './projection';
 import { TracedOverlay } from './TracedOverlay';
 
@@ -27,6 +28,7 @@ export function TurningOverlay() {
         spacing={seen.pixel_spacing}
       />
       <TurningMeasures camera={seen} />
+      <PickedOutline projection={ofCamera(seen, volume)} />
       <TracedOverlay projection={ofCamera(seen, volume)} />
       {place && <HairLines at={place} />}
       {states.value.orientation && <Cube camera={seen} />}

@@ -1,9 +1,11 @@
 //! What a pixel of a view shows, and what lies at a world point.
 
 use crate::positions::world_from_pixel;
+use crate::vessel_views::radius_at;
 use crate::windows;
 use glam::{DVec2, DVec3};
 use lumencut_core::camera::Camera;
+use lumencut_core::math::arc_length::point_at;
 use lumencut_core::pipeline::Request;
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::{Image, ImageSet};
@@ -16,6 +18,11 @@ use crate::study::view::View;
 
 /// How many pixels around one decide what it shows: as far as the depth filter and the leaps look.
 const AROUND: usize = 8;
+/// The share of the cut surface from which a pixel shows it rather than what lies around it.
+const SHOWN: f32 = 0.5;
+/// How far beside its wall a vessel is still meant by a click (mm), and how many pixels in a view from far away.
+const BESIDE: f64 = 2.0;
+const PIXELS_BESIDE: f64 = 4.0;
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -25,14 +32,15 @@ pub struct Pick {
     pub point: [f64; 3],
     /// The volume there; none outside.
     pub value: Option<f32>,
-    /// The vessel whose zone it is in.
+    /// The vessel in or beside whose lumen it is; none in the tissue between vessels.
     pub vessel: Option<usize>,
     /// The place on the vessel that is nearest (mm).
     pub arc_length: Option<f64>,
 }
 
 impl Study {
-    /// What the pixel (column, row) of a view shows.
+    /// What the pixel (column, row) of a view shows: the cut surface, or the brightest place on its ray where a focus shows what lies
+    /// around the vessels instead.
     ///
     /// # Errors
     /// Those of the view, and `volume` where nothing is open.
@@ -44,14 +52,20 @@ impl Study {
         let spacing = camera.pixel_spacing();
         let near = Camera::new(point, camera.direction(), camera.up(), [side, side], spacing)?;
         let settings = Settings { samples: 1, ..view.settings.clone() };
-        let images = ImageSet::of(&[Image::Depth, Image::Vessel, Image::Value]);
-        let request = Request { images, ..Request::new(&near, &settings) };
+        let mut images = vec![Image::Depth, Image::Vessel, Image::Value];
+        images.extend(settings.focus.map(|_| Image::Focus));
+        let request = Request { images: ImageSet::of(&images), ..Request::new(&near, &settings) };
         let scene = self.content.scene()?;
         let frame = view.method.on_cpu(&mut self.cpu, &scene, &request)?;
         let middle = side * AROUND + AROUND;
+        if frame.focus.get(middle).is_some_and(|[surface, _]| *surface < SHOWN) {
+            return self.brightest(view, pixel);
+        }
         let depth = frame.depth().get(middle).copied().unwrap_or_default();
         let point = point + camera.direction() * f64::from(depth);
         let vessel = frame.vessel.get(middle).and_then(|vessel| usize::try_from(*vessel).ok());
+        let reach = BESIDE.max(PIXELS_BESIDE * spacing);
+        let vessel = vessel.filter(|vessel| self.vessel(*vessel).is_ok_and(|vessel| is_near(vessel, point, reach)));
         Ok(self.told(point, vessel))
     }
 
@@ -78,6 +92,12 @@ impl Study {
         let volume = self.content.held.as_ref().and_then(|held| held.volume().ok())?;
         windows::sample(&volume, &[point]).first().copied().filter(|value| value.is_finite())
     }
+}
+
+/// Whether a point lies in the lumen of a vessel, or at most `reach` mm beside it.
+fn is_near(vessel: &Vessel, point: DVec3, reach: f64) -> bool {
+    let at = nearest_arc_length(vessel, point);
+    point.distance(point_at(vessel.points(), vessel.arc_length(), at)) <= radius_at(vessel, at) + reach
 }
 
 /// The arc length (mm) on a vessel that is nearest to a point.

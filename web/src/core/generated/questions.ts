@@ -374,7 +374,7 @@ export type Pick = {
   readonly point: Vector;
   /** The volume there; none outside. */
   readonly value: number | null;
-  /** The vessel whose zone it is in. */
+  /** The vessel in or beside whose lumen it is; none in the tissue between vessels. */
   readonly vessel: number | null;
   /** The place on the vessel that is nearest (mm). */
   readonly arc_length: number | null;

@@ -90,8 +90,39 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
         );
         // The sub-view has other sums of floats, nothing else.
         assert!(point.distance(DVec3::from_array(pick.point)) < 1e-3, "pixel {x}, {y}");
-        assert_eq!(pick.vessel, usize::try_from(vessel[y * 96 + x]).ok());
+        // The tube stands in the middle; of the pixels beside it none means it, though all lie in its zone.
+        assert_eq!(vessel[y * 96 + x], 0);
+        assert_eq!(pick.vessel, (x == 48 || x == 50).then_some(0), "pixel {x}, {y}");
     }
+}
+
+#[test]
+fn a_click_beside_a_vessel_means_it_as_far_as_it_is_seen_to_be_beside_it() {
+    let mut study = opened("stenosis");
+    let view = view(&study, [96, 80]).view().expect("a view");
+    let spacing = view.camera.pixel_spacing();
+    // The tube is straight, upright and 8 mm wide at its lower end; four pixels beside it still mean it.
+    let wall = 47.5 + 4.0 / spacing;
+    let mut vessel = |x: f64| study.pick(&view, [x, 70.0]).expect("a pick").vessel;
+    assert_eq!(vessel((wall + 3.0).floor()), Some(0));
+    assert_eq!(vessel((wall + 6.0).ceil()), None);
+}
+
+#[test]
+fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
+    let mut study = opened("stenosis");
+    let mut view = view(&study, [96, 80]).view().expect("a view");
+    let cut = study.pick(&view, [48.0, 40.0]).expect("a pick");
+    view.settings.focus = Some(lumencut_core::settings::Focus { margin: -1e6, fade: 0.0 });
+    let brightest = study.brightest(&view, [48.0, 40.0]).expect("a place");
+    assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), brightest);
+    assert!(brightest.value >= cut.value);
+    // A focus of 1 mm shows the cut in the lumen, and what lies around it 10 mm beside the wall.
+    view.settings.focus = Some(lumencut_core::settings::Focus { margin: 1.0, fade: 0.0 });
+    assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), cut);
+    let beside = [(47.5 + 14.0 / view.camera.pixel_spacing()).round(), 40.0];
+    let around = study.brightest(&view, beside).expect("a place");
+    assert_eq!(study.pick(&view, beside).expect("a pick"), around);
 }
 
 #[test]

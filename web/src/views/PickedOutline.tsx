@@ -1,0 +1,53 @@
+/** The picked vessel among others in the turning view: outlined in its colour outside of its wall, with its name. */
+import type { LineContent } from '../core/messages';
+import { contents } from '../edit/lines';
+import { isTracing } from '../edit/mode';
+import { tree } from '../edit/shown';
+import { nameOf } from '../state/changes';
+import { placeTurn } from '../state/place-turn';
+import { pickedVessel } from '../state/store';
+import { type Disc, hullPath, thinned } from './hull';
+import type { Projection } from './projection';
+
+/** The outline lies outside of the wall, which stays free (CSS pixels). */
+const GAP = 2;
+const WIDTH = 2;
+/** The width of a vessel whose radius is not known (mm). */
+const UNKNOWN = 1;
+
+export function PickedOutline({ projection }: { readonly projection: Projection }) {
+  const vessel = tree.value[pickedVessel.value ?? -1];
+  const line = vessel && contents.value.get(vessel.line);
+  if (!line || tree.value.length < 2 || isTracing() || placeTurn.value) {
+    return null;
+  }
+  const discs = thinned(discsOf(line, projection));
+  const name = nameAt(discs, projection);
+  return (
+    <svg class="picked-outline" aria-hidden="true">
+      <mask id="outside-the-wall">
+        <path d={hullPath(discs, GAP + WIDTH)} fill="#fff" />
+        <path d={hullPath(discs, GAP)} fill="#000" />
+      </mask>
+      <rect width="100%" height="100%" fill={vessel.color} mask="url(#outside-the-wall)" />
+      {name && (
+        <text x={name.at[0] + name.radius + 8} y={name.at[1]}>
+          {nameOf(vessel)}
+        </text>
+      )}
+    </svg>
+  );
+}
+
+function discsOf({ points, radius }: LineContent, projection: Projection): readonly Disc[] {
+  return points.map((point, n) => ({
+    at: projection.pixel(point),
+    radius: (radius?.[n] ?? UNKNOWN) / projection.spacing,
+  }));
+}
+
+/** The middle one of the discs that are seen. */
+function nameAt(discs: readonly Disc[], { size }: Projection): Disc | undefined {
+  const seen = discs.filter(({ at: [x, y] }) => x > 0 && y > 0 && x < size[0] && y < size[1]);
+  return seen[Math.floor(seen.length / 2)];
+}

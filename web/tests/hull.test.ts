@@ -1,0 +1,56 @@
+import { expect, test } from 'vitest';
+import { type Disc, hullPath, thinned } from '../src/views/hull';
+
+const disc = (x: number, y: number, radius: number): Disc => ({ at: [x, y], radius });
+
+/** Corners of the closed parts of a path; of an arc its ends alone. */
+function corners(part: string): readonly (readonly [number, number])[] {
+  const ends = part.replaceAll(/A[\d.]+ [\d.]+ 0 1 1 /g, 'L');
+  return [...ends.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)] as const);
+}
+
+/** Twice the area within corners, with the sign of the way round. */
+function turned(points: readonly (readonly [number, number])[]): number {
+  const sum = (n: number) => {
+    const [a, b] = [points[n] ?? [0, 0], points[(n + 1) % points.length] ?? [0, 0]];
+    return a[0] * b[1] - b[0] * a[1];
+  };
+  return points.reduce((all, _, n) => all + sum(n), 0);
+}
+
+test('points that lie on each other in the picture are one, and the last one stays', () => {
+  const discs = [disc(0, 0, 3), disc(0.5, 0, 3), disc(2.5, 0, 4), disc(3, 0, 5)];
+  expect(thinned(discs)).toEqual([discs[0], discs[2], discs[3]]);
+  expect(thinned([])).toEqual([]);
+});
+
+test('a hull is a circle around each point and a strip between two, each as wide as asked for', () => {
+  const parts = hullPath([disc(10, 20, 3), disc(10, 50, 5)], 2)
+    .split('Z')
+    .filter(Boolean);
+  expect(parts).toHaveLength(3);
+  expect(parts[0]).toBe('M5.0 20.0A5.0 5.0 0 1 1 15.0 20.0A5.0 5.0 0 1 1 5.0 20.0');
+  expect(corners(parts[2] ?? '').toSorted(([a, b], [c, d]) => b - d || a - c)).toEqual([
+    [5, 20],
+    [15, 20],
+    [3, 50],
+    [17, 50],
+  ]);
+});
+
+test('strips turn the same way whichever way the vessel runs, and as circles do', () => {
+  for (let n = 0; n < 12; n++) {
+    const angle = (2 * Math.PI * n) / 12;
+    const path = hullPath([disc(0, 0, 4), disc(30 * Math.cos(angle), 30 * Math.sin(angle), 4)], 0);
+    // In pixels, whose second axis runs downwards, an arc with the flag 1 has a positive area.
+    expect(turned(corners(path.split('Z')[2] ?? ''))).toBeGreaterThan(0);
+  }
+});
+
+test('two points at one place have no strip between them', () => {
+  expect(
+    hullPath([disc(1, 1, 2), disc(1, 1, 2)], 0)
+      .split('Z')
+      .filter(Boolean),
+  ).toHaveLength(2);
+});
