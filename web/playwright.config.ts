@@ -22,11 +22,12 @@ const launch = (args: string[]) => ({
   args,
 });
 
-/** The page in a browser, without WebGPU and with one in software; one test after the other, none tried twice. */
+/** The page in a browser, without WebGPU and with one in software; the tests of a file one after the other, none tried twice. */
 export default defineConfig({
   testDir: 'e2e',
   outputDir: 'test-results/files',
-  workers: 1,
+  // Pages mostly wait for what moves: two of them keep two cores busy.
+  workers: 2,
   retries: 0,
   fullyParallel: false,
   forbidOnly: true,

@@ -162,3 +162,15 @@ test('every control is reached by the keyboard', async ({ browser }) => {
   viewer.expectNoFault();
   await viewer.close();
 });
+
+test('the bar is one row in windows of the usual sizes', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
+  await viewer.rest();
+  for (const width of [1024, 1280, 1440, 1920]) {
+    await viewer.page.setViewportSize({ width, height: 768 });
+    const bar = await viewer.page.locator('.toolbar').boundingBox();
+    expect(bar?.height, `at ${width}`).toBeLessThan(60);
+  }
+  viewer.expectNoFault();
+  await viewer.close();
+});
