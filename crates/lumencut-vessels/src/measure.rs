@@ -1,6 +1,7 @@
 //! The lumen of a vessel measured: cross-sections, diameters with the blur of the scanner taken into account, stenoses,
 //! lengths and angles.
 
+pub mod all_sections;
 pub mod along;
 pub mod believed;
 pub mod blooming;
@@ -34,6 +35,7 @@ pub mod restless;
 pub mod rough;
 pub mod scale;
 pub mod sections;
+pub mod settled;
 pub mod slab;
 pub mod stenosis;
 pub mod stretch;

@@ -86,6 +86,22 @@ impl Ellipse {
         Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
     }
 
+    /// An ellipse between this one and another one, by the share of the way to that.
+    #[must_use]
+    pub fn towards(&self, other: &Self, share: f64) -> Self {
+        Self {
+            center: self.center.lerp(other.center, share),
+            mean: self.mean + share * (other.mean - self.mean),
+            stretch: self.stretch.lerp(other.stretch, share),
+        }
+    }
+
+    /// The most by which a parameter is another one (mm).
+    pub fn differs(&self, other: &Self) -> f64 {
+        let [own, others] = [self, other].map(Self::parameters);
+        own.iter().zip(&others).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
     fn matrix(&self) -> DMat2 {
         let DVec2 { x, y } = self.stretch;
         DMat2::from_cols(DVec2::new(self.mean + x, y), DVec2::new(y, self.mean - x))

@@ -79,6 +79,8 @@ pub struct Fit {
     pub parts: Parts,
     /// The share of all directions in which nothing was in the way of the wall.
     pub free: f64,
+    /// What it was last begun from, where begun from what it ended at it would not stay there: the lumen may be the one or the other.
+    pub other: Option<Ellipse>,
 }
 
 impl Fit {
@@ -112,6 +114,7 @@ impl Fit {
             uncertainty: parts.total(),
             parts,
             free: 1.0,
+            other: None,
         })
     }
 
@@ -142,6 +145,15 @@ impl Fit {
             Some(wall) => missing(samples, &ThreeLevels::of(&self.ellipse, wall, levels, whitening)),
             None => missing(samples, &TwoLevels::of(&self.ellipse, levels, whitening)),
         }
+    }
+
+    /// The same fit where another one may be right as well: the diameter is then as unsure as both differ.
+    #[must_use]
+    pub fn or(mut self, other: &Self) -> Self {
+        let apart = self.ellipse.equivalent_diameter() - other.ellipse.equivalent_diameter();
+        self.parts.surroundings = self.parts.surroundings.hypot(apart);
+        self.uncertainty = self.parts.total();
+        self
     }
 
     /// The blurred ellipse of a fit.

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::all_sections::AllSections;
 use super::along::sharpen;
 use super::blur::Blur;
 use super::branches::{Lumen, meets};
@@ -14,7 +15,6 @@ use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
 use super::place::{Place, Track, known_radius};
 use super::point_spread::{Told, estimated};
-use super::pooled::Level;
 use super::profile::{PointSpread, Profile};
 use super::rays::Rays;
 use super::request::MeasureRequest;
@@ -42,6 +42,9 @@ const WALL_SECTIONS: usize = 48;
 /// The texture of the noise is told by this number of sections.
 const TEXTURE: usize = 32;
 
+/// The sections that are fitted by themselves lie at least this share of the blur's width apart: those between see the same.
+const FITTED: f64 = 0.7;
+
 /// How far from its vessel a lumen is looked for (mm), at least.
 const SEARCH: f64 = 3.0;
 
@@ -54,15 +57,6 @@ struct FirstFits {
     fwhm: f64,
     hidden: Option<KnownWall>,
     fits: Vec<Option<Fit>>,
-}
-
-/// What the sections of a vessel tell by themselves and together.
-struct AllSections {
-    fits: Vec<Option<Fit>>,
-    noise: f64,
-    lumen: Vec<Level>,
-    walls: Option<Vec<KnownWall>>,
-    texture: Texture,
 }
 
 /// A vessel before it is fitted.
@@ -125,6 +119,15 @@ impl Looked {
         bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
     }
 
+    /// The sections that are fitted by themselves under a point spread (FWHM, mm): every so many of all.
+    fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
+        let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
+        let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);
+        let step = self.places.last().map_or(0.0, |last| last.at) / (self.places.len().max(2) - 1) as f64;
+        let every = ((FITTED * width / step) as usize).max(1);
+        (every, self.part(|n| n % every == 0))
+    }
+
     /// The same vessel with some of its sections, by their numbers.
     fn part(&self, is_one: impl Fn(usize) -> bool) -> Self {
         let kept = || (0..self.places.len()).filter(|n| is_one(*n));
@@ -160,10 +163,11 @@ impl Looked {
     /// # Errors
     /// [`ErrorKind::Interrupted`].
     pub fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
-        let first = self.first_fits(voxels, assumed(voxels), stop)?;
+        let (_, fitted) = self.fitted(voxels, assumed(voxels));
+        let first = fitted.first_fits(voxels, assumed(voxels), stop)?;
         let FirstFits { hidden, fits, .. } = self.first.get_or_init(|| first);
         let bench = self.bench(voxels, assumed(voxels), *hidden);
-        estimated(&bench, voxels.world_from_index.matrix3, &self.places, fits, stop)
+        estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, fits, stop)
     }
 
     /// The profile of the vessel that was looked at, under a point spread.
@@ -178,27 +182,24 @@ impl Looked {
         spread: PointSpread,
     ) -> Result<Profile> {
         let stop = request.stop;
+        let (every, fitted) = self.fitted(voxels, spread.fwhm);
         let kept = self.first.get().filter(|first| first.fwhm == spread.fwhm);
         let found =
-            kept.map_or_else(|| self.first_fits(voxels, spread.fwhm, stop), |first| Ok(first.clone()));
+            kept.map_or_else(|| fitted.first_fits(voxels, spread.fwhm, stop), |first| Ok(first.clone()));
         let FirstFits { hidden, fits, .. } = found?;
         let mut bench = self.bench(voxels, spread.fwhm, hidden);
         let wall_source = if hidden.is_some() { WallSource::AsBright } else { self.wall_source };
-        let all = self.all_sections(&bench, fits, stop)?;
+        let all = fitted.all_sections(&bench, fits, stop)?;
         let wider = (spread.deviation > 0.0)
             .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
-        let AllSections { fits, noise, lumen, walls, texture } = all;
-        bench.doubt = Some(Doubt { texture, wider, wall: hidden });
+        bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
         let others = Lumen::of_others(request.tree, vessel);
         let section = |n: usize| {
             go_on(stop)?;
             let place = &self.places[n];
             let rough = self.rough[n].map(|rough| Ellipse::circle(rough.center, rough.radius));
-            let mut section = match fits[n].map(|fit| fit.ellipse).or(rough) {
-                Some(ellipse) => {
-                    let wall = walls.as_ref().map(|walls| walls[n]);
-                    bench.section(place, &Known { ellipse, lumen: lumen[n], noise: Some(noise), wall })
-                }
+            let mut section = match all.known(n, every, rough) {
+                Some((known, other)) => bench.section(place, &known, other),
                 None => Section::none(),
             };
             section.flags |= self.branch(n, section.fit.as_ref(), &others);
@@ -216,7 +217,7 @@ impl Looked {
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_restless(&self.places, &mut sections);
-        let noise = noise * self.scale.contrast.abs();
+        let noise = all.noise * self.scale.contrast.abs();
         Ok(Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source))
     }
 

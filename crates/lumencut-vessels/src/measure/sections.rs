@@ -160,7 +160,7 @@ impl Bench<'_, '_> {
                 noise: None,
                 wall: None,
             };
-            Ok(self.fit(place, &known))
+            Ok(self.settled(place, &known))
         };
         places.par_iter().zip(rough).map(fit).collect()
     }
@@ -180,9 +180,9 @@ impl Bench<'_, '_> {
         }
     }
 
-    /// A section measured with what is known of it from all sections.
-    pub fn section(&self, place: &Place, known: &Known) -> Section {
-        let fitted = self.fit(place, known).map(|fit| self.fitted(place, known, fit));
+    /// A section measured with what is known of it from all sections; `other` is where else its lumen may be, see [`Fit::other`].
+    pub fn section(&self, place: &Place, known: &Known, other: Option<Ellipse>) -> Section {
+        let fitted = self.fit_of_either(place, known, other).map(|fit| self.fitted(place, known, fit));
         match fitted {
             Some(section) if section.flags & METAL == 0 => section,
             _ => self.by_rays(place, known).unwrap_or_else(Section::none),
@@ -250,6 +250,7 @@ impl Bench<'_, '_> {
             uncertainty: UNSURE * width,
             parts: Parts { point_spread: UNSURE * width, ..Parts::default() },
             free: 0.0,
+            other: None,
         };
         let contour = points(place, known.ellipse.center, &walls);
         Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds })

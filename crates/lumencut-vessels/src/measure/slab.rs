@@ -46,6 +46,8 @@ pub struct Samples {
 struct Sample {
     numbers: [f32; 4],
     voxel: [i16; 3],
+    /// A number without any pattern that the voxel has in each window.
+    key: u32,
 }
 
 impl Samples {
@@ -82,6 +84,7 @@ impl Samples {
                     let sample = Sample {
                         numbers: [point.x as f32, point.y as f32, share as f32, weight as f32],
                         voxel: [i, j, k].map(|n| n as i16),
+                        key: key([first[0] + i, first[1] + j, first[2] + k]),
                     };
                     if weight > 0.0 && share.is_finite() {
                         found[usize::from(!is_near)].push(sample);
@@ -123,12 +126,23 @@ fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     (low <= high).then_some((low as i32, high as i32))
 }
 
-/// About this number of samples, picked without any pattern, the same ones each time.
+/// About this number of samples, picked without any pattern: by their voxels alone, so that hardly others are picked where a
+/// window is a little another one.
 fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     if samples.len() <= most {
         return samples;
     }
     let limit = (u64::from(u32::MAX) * most as u64 / samples.len() as u64) as u32;
-    let picked = |n: u32| n.wrapping_mul(2_654_435_761).rotate_left(13).wrapping_mul(2_246_822_519) <= limit;
-    samples.into_iter().zip(0u32..).filter(|(_, n)| picked(*n)).map(|(sample, _)| sample).collect()
+    samples.into_iter().filter(|sample| sample.key <= limit).collect()
+}
+
+/// A number without any pattern for a voxel: its indices times large primes (Teschner et al. 2003), mixed by the last steps of
+/// MurmurHash3.
+fn key([i, j, k]: [i32; 3]) -> u32 {
+    let [i, j, k] =
+        [(i, 73_856_093), (j, 19_349_663), (k, 83_492_791)].map(|(n, by)| (n as u32).wrapping_mul(by));
+    let mut mixed = i ^ j ^ k;
+    mixed = (mixed ^ (mixed >> 16)).wrapping_mul(0x85eb_ca6b);
+    mixed = (mixed ^ (mixed >> 13)).wrapping_mul(0xc2b2_ae35);
+    mixed ^ (mixed >> 16)
 }

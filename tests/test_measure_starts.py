@@ -1,0 +1,32 @@
+"""What is measured does not depend on where the centerline lies within its lumen."""
+
+import numpy as np
+import pytest
+
+from calibration_scenes import FAT, MUSCLE, Scene
+from lumencut import Vessel, measure
+
+#: Lumens that no model fits wholly, as their surroundings are patchy, and one that is narrow.
+SCENES = {
+    "round": Scene(5.0, around=(FAT, MUSCLE), patches=40, seed=4),
+    "flat": Scene(6.0, around=(FAT, MUSCLE), patches=40, stretch=1.7, seed=5),
+    "narrow": Scene(2.0, seed=7),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_line_beside_the_middle_measures_the_same_lumen(name):
+    scene = SCENES[name]
+    volume, line = scene.volume(), scene.vessel()
+    middle = measure(volume, line, fwhm=scene.fwhm)
+    away = []
+    for angle in (0.0, 2.1, 4.2):
+        # Straight lines that are moved sideways are cut by the same planes.
+        sideways = 0.35 * scene.diameter / 2 * np.array([np.cos(angle), np.sin(angle), 0.0])
+        moved = measure(volume, Vessel(line.points + sideways), fwhm=scene.fwhm)
+        judged = (middle.flags == 0) & (moved.flags == 0)
+        assert judged.mean() > 0.9
+        apart = np.abs(moved.diameter_equivalent - middle.diameter_equivalent)
+        away.append((apart / middle.uncertainty)[judged])
+    # In told standard deviations.
+    assert np.quantile(np.concatenate(away), 0.99) < 0.25
