@@ -8,6 +8,7 @@ use crate::trace::find::stages::Stages;
 use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
+use lumencut_core::stop::go_on;
 
 /// A tube is wide from this radius on (voxels of the finest level).
 const WIDE: f64 = 4.0;
@@ -45,18 +46,24 @@ pub fn side_by_side(tracking: &Tracking, candidates: &[Candidate], tracks: &[Tra
         .flat_map(|track| track.points.iter().filter(|point| point.is_good && point.radius > WIDE))
         .copied()
         .collect();
-    let inner: Vec<Candidate> = candidates
-        .par_iter()
-        .filter(|candidate| {
-            candidate.closure > LEAST_CLOSURE
-                && candidate.contrast_share > LEAST_CLOSURE
-                && wide.iter().any(|point| is_beside(candidate, point))
-        })
-        .copied()
-        .collect();
-    let found = fine.tracks(&inner)?;
-    let sure = found.into_iter().filter(|track| track.confidence >= LEAST_CONFIDENCE);
-    Ok(sure.flat_map(|track| new_runs(&track, &wide)).collect())
+    let is_inner = |candidate: &Candidate| {
+        candidate.closure > LEAST_CLOSURE
+            && candidate.contrast_share > LEAST_CLOSURE
+            && wide.iter().any(|point| is_beside(candidate, point))
+    };
+    let inner = |candidate: &Candidate| {
+        go_on(tracking.stop)?;
+        Ok(is_inner(candidate).then_some(*candidate))
+    };
+    let inner: Vec<Option<Candidate>> = candidates.par_iter().map(inner).collect::<Result<_>>()?;
+    let found = fine.tracks(&inner.into_iter().flatten().collect::<Vec<_>>())?;
+    let sure: Vec<Track> = found.into_iter().filter(|track| track.confidence >= LEAST_CONFIDENCE).collect();
+    let runs = |track| {
+        go_on(tracking.stop)?;
+        Ok(new_runs(track, &wide))
+    };
+    let runs: Vec<Vec<Track>> = sure.par_iter().map(runs).collect::<Result<_>>()?;
+    Ok(runs.into_iter().flatten().collect())
 }
 
 /// Whether a candidate lies beside the middle of a wide tube, and is narrower.

@@ -45,23 +45,22 @@ pub fn of(
     request: &FindRequest,
     stages: Stages,
 ) -> Result<Vec<FoundVessel>> {
-    let (tracks, links) = without_stubs(tracks, links);
+    let stop = request.stop;
+    let (tracks, links) = without_stubs(tracks, links, stop)?;
     let tracks = &tracks;
     let graph = Graph::new(tracks, &links);
-    go_on(request.stop)?;
-    let roots = roots(scan, tracks, &graph);
-    let runs = runs(&graph, &roots);
-    go_on(request.stop)?;
+    let roots = roots(scan, tracks, &graph, stop)?;
+    let runs = runs(&graph, &roots, stop)?;
     let pieces = stages.stage(Stage::Vessels, runs.runs.len());
     let line = |number| {
-        let line = centered(scan, &runs, number, request.stop)?;
+        go_on(stop)?;
+        let line = centered(scan, &runs, number, stop)?;
         pieces.done(1);
         Ok(line)
     };
     let lines: Vec<Centered> = (0..runs.runs.len()).into_par_iter().map(line).collect::<Result<_>>()?;
-    let whole = trimmed(attached(&runs, &graph.places, &lines), request.smallest_radius);
+    let whole = trimmed(attached(&runs, &graph.places, &lines, stop)?, request.smallest_radius, stop)?;
     let whole: Vec<Option<Attached>> = whole.into_iter().map(|run| run.map(closed)).collect();
-    go_on(request.stop)?;
     let mut part_of_root = vec![0; graph.places.len()];
     let (of_node, count) = graph.parts();
     for (rank, [_, node]) in roots.iter().enumerate() {

@@ -7,6 +7,7 @@ use crate::trace::find::links::ends::End;
 use crate::trace::find::links::groups::Groups;
 use crate::trace::find::links::link::Link;
 use crate::trace::find::links::way_level::{WayEnd, lowest_level};
+use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
@@ -40,10 +41,16 @@ pub fn bridges(
 ) -> Result<Vec<Link>> {
     let sure: Vec<&End> = ends.iter().filter(|end| tracks[end.of[0]].confidence >= CONFIDENCE).collect();
     let group: Vec<usize> = sure.iter().map(|end| groups.group(end.of[0])).collect();
+    let grid = PointGrid::new(sure.iter().map(|end| end.place).collect(), LONGEST);
     let of_end = |a: usize| {
         go_on(stop)?;
-        let others = (a + 1..sure.len()).filter(|b| group[a] != group[*b]);
-        Ok(others.filter_map(|b| bridge(scan, sure[a], sure[b])).collect())
+        let mut found = Vec::new();
+        grid.near(sure[a].place, LONGEST, |b| {
+            if b > a && group[a] != group[b] {
+                found.extend(bridge(scan, sure[a], sure[b]));
+            }
+        });
+        Ok(found)
     };
     let found: Vec<Vec<Link>> = (0..sure.len()).into_par_iter().map(of_end).collect::<Result<_>>()?;
     Ok(found.into_iter().flatten().collect())

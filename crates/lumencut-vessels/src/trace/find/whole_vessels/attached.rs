@@ -6,6 +6,8 @@ use crate::trace::find::whole_vessels::centered::{Centered, LinePoint, met};
 use crate::trace::find::whole_vessels::runs::Runs;
 use crate::trace::lines::even_steps::in_even_steps;
 use crate::trace::lumen::refine::STEP;
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
 
 /// Of how many straight pieces the bend is made that leads out of a lumen.
 const BEND: usize = 16;
@@ -22,12 +24,16 @@ pub struct Attached {
 }
 
 /// Brings the ends of the runs to the runs that they meet.
-pub fn attached(runs: &Runs, places: &[DVec3], lines: &[Centered]) -> Vec<Attached> {
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn attached(runs: &Runs, places: &[DVec3], lines: &[Centered], stop: Stop) -> Result<Vec<Attached>> {
     let mut made: Vec<Attached> = lines
         .iter()
         .map(|line| Attached { points: line.points.clone(), met: [None; 2], leads: [0; 2] })
         .collect();
     for number in 0..made.len() {
+        go_on(stop)?;
         let joint = |end: usize| {
             let (owner, knot) = met(runs, number, end)?;
             let knots = &runs.runs[number].knots;
@@ -49,9 +55,10 @@ pub fn attached(runs: &Runs, places: &[DVec3], lines: &[Centered]) -> Vec<Attach
         }
     }
     for number in 0..made.len() {
+        go_on(stop)?;
         share_ends(&mut made, number);
     }
-    made
+    Ok(made)
 }
 
 /// The point of a line where another one meets it at one of its knots, of which the last one is `last`: at an end the end, else the

@@ -5,6 +5,8 @@ use crate::trace::find::track::{Track, usual};
 use crate::trace::find::whole_vessels::graph::Graph;
 use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use crate::trace::find::whole_vessels::runs::straightest;
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
 
 /// Beyond so many voxels the width of a vessel makes it no more important.
 const WIDEST: f64 = 10.0;
@@ -23,11 +25,15 @@ struct Part {
 }
 
 /// The edge and the node that each part begins with, the most important part first: at the free end of its widest run.
-pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph) -> Vec<[usize; 2]> {
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result<Vec<[usize; 2]>> {
     let (of_node, count) = graph.parts();
     let mut parts: Vec<Part> =
         (0..count).map(|_| Part { rank: 0.0, largest: (0, -1.0), free: None }).collect();
     for (number, track) in tracks.iter().enumerate() {
+        go_on(stop)?;
         let [first, _] = graph.of_track[number];
         let part = &mut parts[of_node[graph.edges[first].nodes[0]]];
         part.rank += importance(scan, track);
@@ -46,7 +52,11 @@ pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph) -> Vec<[usize; 2]> {
     }
     // The sort is stable: of equal parts the one with the first track comes first.
     parts.sort_by(|a, b| b.rank.total_cmp(&a.rank));
-    parts.iter().map(|part| root(graph, part)).collect()
+    let root = |part| {
+        go_on(stop)?;
+        Ok(root(graph, part))
+    };
+    parts.iter().map(root).collect()
 }
 
 /// How important a track is: long, sure and wide, with the contrast and the level of vessels.

@@ -9,6 +9,8 @@ use glam::DVec3;
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::graph::{Graph, WayPoint};
 use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
 
 /// A run that is met from the side goes on to both sides: where its two edges are this straight (cosine) and both are so many
 /// times as wide as what meets it.
@@ -44,7 +46,10 @@ const NONE: usize = usize::MAX;
 type Start = (u64, Reverse<usize>, usize);
 
 /// All edges of a graph as runs; `roots` are the edge and the node that each part begins with.
-pub fn runs(graph: &Graph, roots: &[[usize; 2]]) -> Runs {
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn runs(graph: &Graph, roots: &[[usize; 2]], stop: Stop) -> Result<Runs> {
     let owners = vec![NONE; graph.places.len()];
     let made = Runs { runs: Vec::new(), owners };
     let mut search = Search { graph, made, used: vec![false; graph.edges.len()], open: BinaryHeap::new() };
@@ -52,12 +57,13 @@ pub fn runs(graph: &Graph, roots: &[[usize; 2]]) -> Runs {
         search.made.owners[node] = search.made.runs.len();
         search.run(edge, node);
         while let Some((_, Reverse(edge), node)) = search.open.pop() {
+            go_on(stop)?;
             if !search.used[edge] {
                 search.run(edge, node);
             }
         }
     }
-    search.made
+    Ok(search.made)
 }
 
 struct Search<'a> {

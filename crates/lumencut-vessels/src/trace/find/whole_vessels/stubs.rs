@@ -2,6 +2,8 @@
 
 use crate::trace::find::links::link::Link;
 use crate::trace::find::track::{Track, length};
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
 
 /// A stub is shorter than so many radii of its track where the branch is linked with it.
 const LONGEST: f64 = 1.5;
@@ -10,16 +12,20 @@ const LONGEST: f64 = 1.5;
 const AS_WIDE: f64 = 0.6;
 
 /// The tracks without their stubs, and the links with the numbers of the points that are left.
-pub fn without_stubs(tracks: &[Track], links: &[Link]) -> (Vec<Track>, Vec<Link>) {
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Result<(Vec<Track>, Vec<Link>)> {
     let (mut tracks, mut links) = (tracks.to_vec(), links.to_vec());
     for number in 0..tracks.len() {
+        go_on(stop)?;
         for at_last in [true, false] {
             if let Some(kept) = kept(&tracks, &links, number, at_last) {
                 shorten(&mut tracks[number], &mut links, number, kept, at_last);
             }
         }
     }
-    (tracks, links)
+    Ok((tracks, links))
 }
 
 /// The number of the point at which a track ends in a fork, where what is beyond is a stub.

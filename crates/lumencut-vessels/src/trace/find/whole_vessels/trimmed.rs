@@ -3,6 +3,8 @@
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::attached::Attached;
 use crate::trace::find::whole_vessels::centered::LinePoint;
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
 
 /// What is shorter outside the lumen that it leaves is a bump of its wall: so many of its own radii, and this length (mm).
 const SHORTEST_RADII: f64 = 2.0;
@@ -12,14 +14,18 @@ const SHORTEST: f64 = 2.0;
 const BESIDE: usize = 4;
 
 /// The runs that stay, as far as they are at least so wide (mm); those that others need stay whatever they are like.
-pub fn trimmed(mut runs: Vec<Attached>, smallest_radius: f64) -> Vec<Option<Attached>> {
+///
+/// # Errors
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
+pub fn trimmed(mut runs: Vec<Attached>, smallest_radius: f64, stop: Stop) -> Result<Vec<Option<Attached>>> {
     let mut stays = vec![true; runs.len()];
     // Branches come after what they leave, but for runs that were met from the side.
     for number in (0..runs.len()).rev() {
+        go_on(stop)?;
         let needed = needed(&runs, &stays, number);
         stays[number] = trim(&mut runs[number], needed, smallest_radius);
     }
-    runs.into_iter().zip(stays).map(|(run, stays)| stays.then_some(run)).collect()
+    Ok(runs.into_iter().zip(stays).map(|(run, stays)| stays.then_some(run)).collect())
 }
 
 /// The first and the last point of a run that others begin or end on; none where none does.

@@ -17,7 +17,7 @@ fn last(track: &Track) -> f64 {
 #[test]
 fn what_runs_on_beyond_a_fork_for_less_than_so_many_radii_is_cut_off() {
     let (tracks, links) = fork(35.5, 3.0);
-    let (cut, kept) = without_stubs(&tracks, &links);
+    let (cut, kept) = without_stubs(&tracks, &links, &|| false).expect("tracks");
     assert_eq!((last(&cut[0]), last(&cut[1])), (30.0, 50.0));
     assert_eq!(kept, links);
 }
@@ -26,7 +26,7 @@ fn what_runs_on_beyond_a_fork_for_less_than_so_many_radii_is_cut_off() {
 fn longer_ends_and_those_beside_narrow_branches_stay() {
     for (end, branch) in [(36.5, 3.0), (35.5, 2.0)] {
         let (tracks, links) = fork(end, branch);
-        assert_eq!(last(&without_stubs(&tracks, &links).0[0]), end);
+        assert_eq!(last(&without_stubs(&tracks, &links, &|| false).expect("tracks").0[0]), end);
     }
 }
 
@@ -36,7 +36,7 @@ fn a_stub_at_the_start_moves_the_numbers_of_the_points() {
     tracks[0] = turned(tracks[0].clone());
     let count = tracks[0].points.len();
     links[0].to[1] = count - 1 - 60;
-    let (cut, links) = without_stubs(&tracks, &links);
+    let (cut, links) = without_stubs(&tracks, &links, &|| false).expect("tracks");
     assert_eq!((links[0].to, cut[0].points[0].place.x), ([0, 0], 30.0));
     assert_eq!(cut[0].points.len(), 61);
 }

@@ -4,6 +4,7 @@ use crate::trace::find::made::{away, blurred, straight_track, turned, with_scan,
 use crate::trace::find::track::TrackDoubt;
 use crate::trace::lumen::refine::STEP;
 use glam::DVec3;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const SIZE: [usize; 3] = [140, 100, 40];
 const SIDE: f64 = 0.5;
@@ -195,4 +196,30 @@ fn nothing_makes_no_vessels_and_work_stops_where_it_is_asked_to() {
         },
     );
     assert!(stopped.is_err());
+}
+
+#[test]
+fn making_vessels_whole_asks_whether_to_stop_for_every_track_in_each_step() {
+    // Tubes side by side, that nothing joins.
+    let line = |n: usize| [5.0, 65.0].map(|x| at(x, 3.0 + 6.0 * n as f64));
+    let tracks: Vec<Track> = (0..8).map(line).map(|[from, to]| straight_track(from, to, 1.5)).collect();
+    let lines: Vec<[DVec3; 2]> = (0..8).map(line).collect();
+    let value =
+        |place: DVec3| blurred(lines.iter().map(|line| 1.5 - away(place, line)).fold(f64::MIN, f64::max));
+    with_scan(SIZE, SIDE, value, |scan| {
+        // How often it is asked where it answers yes from a question on, and whether vessels are told.
+        let work = |first: usize| {
+            let asked = AtomicUsize::new(0);
+            let stop = || asked.fetch_add(1, Ordering::Relaxed) >= first;
+            let request = FindRequest { smallest_radius: 0.5, stop: &stop, progress: None };
+            let is_whole = of(scan, &tracks, &[], &request, Stages::begin(None)).is_ok();
+            (asked.load(Ordering::Relaxed), is_whole)
+        };
+        let (whole, is_whole) = work(usize::MAX);
+        // Stubs, what is important, roots, lines, what they meet, their ends, and what is too narrow.
+        assert!(is_whole && whole >= 7 * tracks.len(), "{whole}");
+        for first in 0..whole {
+            assert!(!work(first).1, "{first} of {whole}");
+        }
+    });
 }
