@@ -8,6 +8,7 @@ pub mod flux;
 pub mod found;
 pub mod from_seed;
 pub mod grid;
+pub mod hidden;
 pub mod links;
 pub mod paint;
 pub mod point_grid;
@@ -30,6 +31,7 @@ use crate::trace::find::found::Trees;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::scarce::{doubted_where_scarce, is_angiography};
 use crate::trace::find::stages::Stages;
+use crate::trace::find::tubes::Tubes;
 use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -66,7 +68,7 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
-    let Some((scan, tracks)) = tubes::tubes(voxels, seed, request, stages)? else {
+    let Some(Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, seed, request, stages)? else {
         return Ok(Trees {
             vessels: Vec::new(),
             level: 0.0,
@@ -75,9 +77,6 @@ pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Res
             is_angiography: false,
         });
     };
-    let shapes = bone::shapes(&scan, &tracks, request.stop, stages)?;
-    let [level, contrast] = bone::lumen_level(&scan, &tracks, &shapes).unwrap_or([scan.level, scan.contrast]);
-    let scan = Scan { level, contrast, ..scan };
     let tracks = bone::judged(&scan, tracks, &shapes, request.stop)?;
     let is_angiography = is_angiography(&scan, &tracks, &shapes);
     let tracks = bone::left(tracks);

@@ -80,7 +80,7 @@ const LUMEN_CONFIDENCE: f64 = 0.85;
 const LUMEN_ELONGATION: f64 = 1.25;
 const LUMEN_SPREAD: f64 = 0.1;
 
-/// How much of what else speaks against a track that is such a lumen does not count.
+/// How much of what else speaks against a track that is such a lumen does not count, but that it is short.
 const EXCUSED: f64 = 0.5;
 
 /// A track with less confidence is left out.
@@ -220,7 +220,8 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
         track.doubt = Some(TrackDoubt::Open);
     }
     track.confidence *= whole;
-    track.confidence = track.confidence.powf(1.0 - EXCUSED * inside);
+    let excused = if track.doubt == Some(TrackDoubt::Short) { 0.0 } else { EXCUSED * inside };
+    track.confidence = track.confidence.powf(1.0 - excused);
     let is_lumen = track.confidence >= FLAT_LUMEN
         && uneven == 0.0
         && track.radius() >= FLAT_LUMEN_RADIUS

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::quantiles::lower_median;
-use crate::trace::find::section::across;
+use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::{TrackDoubt, TrackPoint, length, usual};
 use crate::voxels::Voxels;
 
@@ -27,6 +27,8 @@ const LEAST: f64 = 0.02;
 const RING_FROM: [f64; 2] = [1.25, 0.7];
 const RING_TO: [f64; 2] = [2.05, 2.0];
 const RAYS: usize = 16;
+/// Around a tube that bone may touch rays that meet bone tell nothing of the tissue around, if so many others are left.
+const LEAST_LEFT: usize = 6;
 const SAMPLES: usize = 4;
 
 /// The most sections of a track that are looked at.
@@ -137,8 +139,9 @@ fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &Us
     let raw = |place: DVec3| f64::from(voxels.at(pyramid.grid.world(place)));
     let bone = usual.level + BONE * usual.contrast;
     let reach = BONE_REACH[0] * point.radius + BONE_REACH[1];
-    let (mut means, mut meeting) = ([0.0; RAYS], 0);
-    for (n, mean) in means.iter_mut().enumerate() {
+    let mut means = Vec::with_capacity(RAYS);
+    let mut in_bone = Vec::new();
+    for n in 0..RAYS {
         let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
         let ray = plane[0] * cos + plane[1] * sin;
         let value = |m: usize| {
@@ -146,15 +149,20 @@ fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &Us
             f64::from(level.at(point.place + ray * length))
         };
         let values: [f64; SAMPLES] = std::array::from_fn(value);
-        *mean = values.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).fold(f64::MAX, f64::min);
+        let mean = values.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).fold(f64::MAX, f64::min);
         let samples = (reach / 0.5).ceil().max(1.0) as usize;
-        meeting += usize::from(
-            (1..=samples).any(|m| raw(point.place + ray * (reach * m as f64 / samples as f64)) > bone),
-        );
+        let meets =
+            (1..=samples).any(|m| raw(point.place + ray * (reach * m as f64 / samples as f64)) > bone);
+        if meets { &mut in_bone } else { &mut means }.push(mean);
     }
+    let meeting = in_bone.len() as f64 / RAYS as f64;
+    if means.len() < LEAST_LEFT || point.radius > TOUCHED {
+        means.append(&mut in_bone);
+    }
+    let count = means.len();
     let dark = means.iter().filter(|mean| **mean < point.level - 0.5 * point.contrast).count();
     means.sort_unstable_by(f64::total_cmp);
-    let even = (means[9 * RAYS / 16] - means[RAYS / 16]) / point.contrast;
+    let even = (means[9 * count / 16] - means[count / 16]) / point.contrast;
     let mut inside: Vec<f64> = (0..6)
         .map(|n| {
             let (sin, cos) = (TAU * f64::from(n) / 6.0).sin_cos();
@@ -164,8 +172,8 @@ fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &Us
         .filter(|value| value.is_finite())
         .collect();
     let inside = lower_median(&mut inside).unwrap_or(point.level);
-    let contrast = (point.level - means[RAYS / 2]) / usual.contrast;
-    [dark as f64 / RAYS as f64, even, contrast, meeting as f64 / RAYS as f64, inside]
+    let contrast = (point.level - means[count / 2]) / usual.contrast;
+    [dark as f64 / count as f64, even, contrast, meeting, inside]
 }
 
 #[cfg(test)]

@@ -28,6 +28,14 @@ const FAR_WALL: f64 = 1.6;
 /// A wall that is farther than so many radii is taken to be there: a branch or a missing wall moves the middle no farther.
 const FARTHEST: f64 = 1.5;
 
+/// Bone may touch a tube that is no wider (voxels of the finest level).
+pub const TOUCHED: f64 = 3.0;
+
+/// Beside bone a ray ends where it is darkest before it is brighter than the lumen by this part of the contrast: a wall between lumen
+/// and bone is too thin to be seen whole. Up to so many rays of that kind are not asked for contrast.
+const ABOVE: f64 = 0.15;
+const MOST_BONE: usize = 4;
+
 /// What a cross-section shows. Lengths are in voxels of the finest level, values in the unit of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
@@ -54,30 +62,81 @@ pub fn across(direction: DVec3) -> [DVec3; 2] {
 impl Section {
     /// Looks at a tube of about a radius across its direction.
     pub fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
+        Walls::seen(level, place, direction, radius).section()
+    }
+
+    /// The same of a tube that bone may touch: what is brighter than the lumen ends it as well.
+    pub fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
+        Walls::seen(level, place, direction, radius).ending_at_bone().section()
+    }
+}
+
+/// The walls around a place.
+struct Walls {
+    rays: Rays,
+    plane: [DVec3; 2],
+    /// About how wide the tube is, and the side of a voxel of the level (voxels of the finest level).
+    radius: f64,
+    side: f64,
+    /// The level of the lumen, and how far it lies above the tissue around.
+    lumen: f64,
+    contrast: f64,
+    /// How far each ray runs to its wall, and whether that is bone.
+    walls: [f64; RAYS],
+    is_bone: [bool; RAYS],
+}
+
+impl Walls {
+    fn seen(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         let plane = across(direction);
         let lumen = lumen(level, place, plane, radius);
         let count = ((REACH_RADII * radius / level.side + REACH_VOXELS) / STEP).ceil() as usize;
         let rays = Rays::cast(level, place, plane, count);
         let mut darkest = rays.darkest;
         let contrast = lumen - lower_median(&mut darkest).unwrap_or(lumen);
-        let walls: [f64; RAYS] = std::array::from_fn(|n| {
+        let walls = std::array::from_fn(|n| {
             let own = (lumen - rays.darkest[n]).min(contrast).max(LEAST_OF_CONTRAST * contrast);
             rays.wall(n, lumen, lumen - 0.5 * own)
         });
-        let mut sorted = walls;
-        let found = lower_median(&mut sorted).unwrap_or(0.0);
-        let shift = shift(&walls.map(|wall| wall.min(FARTHEST * found)), plane, radius);
-        let near = NEAR_WALL * found - 0.25 * level.side;
-        let far = FAR_WALL * found + 0.5 * level.side;
-        let share =
-            |holds: &dyn Fn(usize) -> bool| (0..RAYS).filter(|n| holds(*n)).count() as f64 / RAYS as f64;
-        Self {
-            level: lumen,
-            contrast,
+        Self { rays, plane, radius, side: level.side, lumen, contrast, walls, is_bone: [false; RAYS] }
+    }
+
+    /// The usual distance of a wall.
+    fn usual(&self) -> f64 {
+        lower_median(&mut self.walls.clone()).unwrap_or(0.0)
+    }
+
+    /// How near and how far a wall lies that counts.
+    fn counted(&self) -> [f64; 2] {
+        let usual = self.usual();
+        [NEAR_WALL * usual - 0.25 * self.side, FAR_WALL * usual + 0.5 * self.side]
+    }
+
+    /// Lets rays that meet no wall that counts, but bone, end there.
+    fn ending_at_bone(mut self) -> Self {
+        let [_, far] = self.counted();
+        let above = self.lumen + ABOVE * self.contrast;
+        for n in (0..RAYS).filter(|n| self.walls[*n] > far).collect::<Vec<_>>() {
+            if let Some(wall) = self.rays.wall_at_bone(n, above).filter(|wall| *wall < self.walls[n]) {
+                (self.walls[n], self.is_bone[n]) = (wall, true);
+            }
+        }
+        self
+    }
+
+    fn section(&self) -> Section {
+        let (found, [near, far]) = (self.usual(), self.counted());
+        let count = |holds: &dyn Fn(usize) -> bool| (0..RAYS).filter(|n| holds(*n)).count() as f64;
+        let wall = |n: usize| self.walls[n];
+        let loses = |n: usize| !self.is_bone[n] && self.lumen - self.rays.darkest[n] >= 0.5 * self.contrast;
+        let told = RAYS - self.is_bone.iter().filter(|is| **is).count().min(MOST_BONE);
+        Section {
+            level: self.lumen,
+            contrast: self.contrast,
             radius: found,
-            shift,
-            closure: share(&|n| walls[n] >= near && walls[n] <= far && walls[n] < rays.reach),
-            contrast_share: share(&|n| lumen - rays.darkest[n] >= 0.5 * contrast),
+            shift: shift(&self.walls.map(|wall| wall.min(FARTHEST * found)), self.plane, self.radius),
+            closure: count(&|n| wall(n) >= near && wall(n) <= far && wall(n) < self.rays.reach) / RAYS as f64,
+            contrast_share: count(&loses) / told as f64,
         }
     }
 }
@@ -134,6 +193,15 @@ impl Rays {
         let drop = before - f64::from(self.values[n][ray]);
         let share = if drop > 0.0 { ((before - below) / drop).clamp(0.0, 1.0) } else { 0.0 };
         (n as f64 + share) * self.step
+    }
+
+    /// Where a ray is darkest before it first rises above a value; none where it does not.
+    fn wall_at_bone(&self, ray: usize, above: f64) -> Option<f64> {
+        let value = |n: &usize| self.values[*n][ray];
+        let bone = (0..self.values.len()).find(|n| f64::from(value(n)) > above)?;
+        // Of the outer half of the way, and of places that are alike the last one: where there is no wall at all bone is the end.
+        let darkest = (bone / 2..bone).rev().min_by(|a, b| value(a).total_cmp(&value(b))).unwrap_or(bone);
+        Some((darkest + 1) as f64 * self.step)
     }
 }
 

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use crate::trace::find::candidates::{Candidate, Floors};
 use crate::trace::find::paint::{Paint, Painted};
-use crate::trace::find::pyramid::Pyramid;
-use crate::trace::find::section::Section;
+use crate::trace::find::pyramid::{Level, Pyramid};
+use crate::trace::find::section::{Section, TOUCHED};
 use crate::trace::find::track::TrackPoint;
 
 /// A step is this part of the radius, at most so many voxels of the level and at least half a voxel of the finest one.
@@ -82,11 +82,26 @@ struct Running {
     contrast: f64,
 }
 
+/// What a section shows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Seen {
+    /// A tube that goes on.
+    Tube,
+    /// A tube that bone touches.
+    BesideBone,
+    /// None.
+    Nothing,
+}
+
+/// How a section is looked at: in a level, at a place, across a direction, as one of about a radius.
+type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
+
 impl Tracker<'_> {
     /// The points of the track through a candidate, in voxels of the finest level; none where its section is not good.
     /// It has at most `most_steps` steps each way.
     pub fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
-        let section = self.look(from.place, from.direction, from.radius);
+        let level = self.pyramid.level_for(from.radius, &self.looked_at);
+        let section = Section::look(level, from.place, from.direction, from.radius);
         let contrast = section.contrast;
         if contrast <= self.floors.of_section() || section.closure < LEAST_CLOSURE {
             return None;
@@ -111,13 +126,15 @@ impl Tracker<'_> {
         Some(points)
     }
 
-    fn look(&self, place: DVec3, direction: DVec3, radius: f64) -> Section {
-        Section::look(self.pyramid.level_for(radius, &self.looked_at), place, direction, radius)
-    }
-
     /// The side of the finest voxels that are looked at.
     fn side(&self) -> f64 {
         self.pyramid.levels[self.looked_at.start].side
+    }
+
+    /// How far a step leads in a tube of a radius.
+    fn step(&self, radius: f64) -> f64 {
+        let level = self.pyramid.level_for(radius, &self.looked_at);
+        (STEP * radius).min(LONGEST_STEP * level.side).max(SHORTEST_STEP * self.side())
     }
 
     /// The points of a track one way, the first one being a step from where it begins.
@@ -125,20 +142,26 @@ impl Tracker<'_> {
         let mut points: Vec<TrackPoint> = Vec::new();
         let mut way: Vec<DVec3> = before.to_vec();
         way.push(running.place);
-        let (mut gap, mut sure) = (0.0, 0);
+        // What bone touches counts where the tube leads on from there, or to another track.
+        let (mut gap, mut sure, mut last) = (0.0, 0, 0);
         for _ in 0..most_steps {
-            let level = self.pyramid.level_for(running.radius, &self.looked_at);
-            let step =
-                (STEP * running.radius).min(LONGEST_STEP * level.side).max(SHORTEST_STEP * self.side());
+            let step = self.step(running.radius);
             let ahead = running.place + running.direction * step;
-            if !self.pyramid.grid.holds(ahead) || self.ends_in(ahead, &running) {
+            if !self.pyramid.grid.holds(ahead) {
                 break;
             }
-            let (place, section) = self.centered(ahead, &running);
-            if self.is_good(&section, place, ahead, &running) {
+            if self.ends_in(ahead, &running) {
+                sure = last;
+                break;
+            }
+            let (place, section, seen) = self.best(ahead, &running);
+            if seen != Seen::Nothing {
                 running = self.moved(running, place, &section, &way);
                 points.push(point(&running, &section, true));
-                (gap, sure) = (0.0, points.len());
+                (gap, last) = (0.0, points.len());
+                if seen == Seen::Tube {
+                    sure = last;
+                }
                 if has_returned(&way, &running, step) {
                     break;
                 }
@@ -165,13 +188,31 @@ impl Tracker<'_> {
         }
     }
 
+    /// The section at a place, moved to its middle, and what is seen there. Where that is no tube it is looked at as a small artery that
+    /// bone touches.
+    fn best(&self, ahead: DVec3, running: &Running) -> (DVec3, Section, Seen) {
+        let good = |look: Look, seen: Seen| {
+            let (place, section) = self.centered(ahead, running, look);
+            let is_good = self.is_good(&section, place, ahead, running);
+            (place, section, if is_good { seen } else { Seen::Nothing })
+        };
+        let plain = good(Section::look, Seen::Tube);
+        if plain.2 == Seen::Tube || running.radius > TOUCHED * self.side() {
+            return plain;
+        }
+        good(Section::beside_bone, Seen::BesideBone)
+    }
+
     /// The section at a place, moved to its middle.
-    fn centered(&self, ahead: DVec3, running: &Running) -> (DVec3, Section) {
+    fn centered(&self, ahead: DVec3, running: &Running, look: Look) -> (DVec3, Section) {
+        let at = |place: DVec3, radius: f64| {
+            look(self.pyramid.level_for(radius, &self.looked_at), place, running.direction, radius)
+        };
         let mut place = ahead;
-        let mut section = self.look(place, running.direction, running.radius);
+        let mut section = at(place, running.radius);
         for _ in 1..ROUNDS {
             place += section.shift;
-            section = self.look(place, running.direction, section.radius.max(SHORTEST_STEP));
+            section = at(place, section.radius.max(SHORTEST_STEP));
         }
         (place + section.shift, section)
     }

@@ -74,6 +74,13 @@ struct Batch {
     looked_at: usize,
 }
 
+/// The tracks that are known, their levels, and their lumens.
+struct Known {
+    paint: Paint,
+    found: Vec<Track>,
+    levels: Vec<f64>,
+}
+
 /// What became of a candidate.
 enum Tried {
     /// No track begins there.
@@ -112,11 +119,7 @@ impl Tracking<'_> {
     /// # Errors
     /// [`lumencut_core::error::ErrorKind::Interrupted`].
     pub fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
-        let (mut found, mut levels) = (Vec::new(), Vec::new());
-        let mut paint = Paint::default();
-        for track in known {
-            self.commit(Tried::Kept(track.clone()), &mut paint, &mut found, &mut levels);
-        }
+        let Known { mut paint, mut found, mut levels } = self.known(known);
         let (mut next, mut waiting) = (0, VecDeque::new());
         let pieces = self.stages.stage(Stage::Tracks, candidates.len());
         while next < candidates.len() || !waiting.is_empty() {
@@ -142,6 +145,20 @@ impl Tracking<'_> {
         }
         found.drain(..known.len());
         Ok(found)
+    }
+
+    /// The lumens of some tracks.
+    pub fn painted(&self, tracks: &[Track]) -> Paint {
+        self.known(tracks).paint
+    }
+
+    /// What is known where some tracks are.
+    fn known(&self, tracks: &[Track]) -> Known {
+        let mut known = Known { paint: Paint::default(), found: Vec::new(), levels: Vec::new() };
+        for track in tracks {
+            self.commit(Tried::Kept(track.clone()), &mut known.paint, &mut known.found, &mut known.levels);
+        }
+        known
     }
 
     /// The next candidates that are tried beside each other: those that wait, then others. Who lies near one of them waits, as it

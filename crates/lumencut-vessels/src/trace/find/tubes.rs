@@ -4,10 +4,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::FindRequest;
+use crate::trace::find::bone::{self, Shape};
 use crate::trace::find::candidates::{Floors, noise};
 use crate::trace::find::confidence::{UsualVessels, confidence};
 use crate::trace::find::from_seed::from_seed;
 use crate::trace::find::grid::Grid;
+use crate::trace::find::hidden::hidden;
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::side_by_side::side_by_side;
@@ -34,8 +36,17 @@ const ABOVE: f64 = 0.25;
 /// In the first pass the usual contrast is taken to be this part of the range of values.
 const FIRST_CONTRAST: f64 = 0.3;
 
-/// The tubes of a scan and what is known of its vessels; none where nothing is a tube. Around a seed (mm, LPS) that lies in none of
-/// them fainter ones are looked for.
+/// The tubes of a scan, and what is known of its vessels.
+pub struct Tubes<'v> {
+    /// What is known of the scan.
+    pub scan: Scan<'v>,
+    /// Its tubes as tracks.
+    pub tracks: Vec<Track>,
+    /// What the raw voxels show of each.
+    pub shapes: Vec<Option<Shape>>,
+}
+
+/// The tubes of a scan; none where nothing is a tube. Around a seed (mm, LPS) that lies in none of them fainter ones are looked for.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
@@ -44,7 +55,7 @@ pub fn tubes<'v>(
     seed: Option<DVec3>,
     request: &FindRequest,
     stages: Stages,
-) -> Result<Option<(Scan<'v>, Vec<Track>)>> {
+) -> Result<Option<Tubes<'v>>> {
     let FindRequest { smallest_radius, stop, .. } = *request;
     let Range { values: range, is_hounsfield } = range(voxels);
     if range[1] <= range[0] {
@@ -56,6 +67,8 @@ pub fn tubes<'v>(
     let Some([level, contrast]) = usual(&pyramid, range[1] - range[0], stop)? else { return Ok(None) };
     pyramid.clamp((level + ABOVE * contrast).min(range[1]), stop)?;
     let noise = noise(&pyramid.levels[0]);
+    let side = pyramid.grid.side;
+    let scan = Scan { voxels, side, lowest: range[0], level, contrast, noise, is_hounsfield };
     let floors = Floors { noise, contrast };
     let vessels = UsualVessels { level, contrast };
     let judge = |points: Vec<TrackPoint>| {
@@ -63,18 +76,38 @@ pub fn tubes<'v>(
         Track { points, confidence, doubt }
     };
     let pass = Tracking { pyramid: &pyramid, looked_at: pyramid.all(), floors, stop, judge: &judge, stages };
+    of_pass(&pass, scan, seed.map(|seed| pyramid.grid.grid_from_world.transform_point3(seed))).map(Some)
+}
+
+/// The tubes that a pass finds, around a seed (voxels of the finest level) fainter ones too.
+fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<Tubes<'v>> {
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
-    let beside = side_by_side(&pass, &candidates, &tracks)?;
-    tracks.extend(beside);
+    tracks.extend(side_by_side(pass, &candidates, &tracks)?);
+    let mut found = Tubes { scan, tracks: Vec::new(), shapes: Vec::new() };
+    found.add(pass, &tracks, pass.stages)?;
+    let Scan { level, contrast, .. } = found.scan;
+    [found.scan.level, found.scan.contrast] =
+        bone::lumen_level(&found.scan, &found.tracks, &found.shapes).unwrap_or([level, contrast]);
+    let judged = bone::judged(&found.scan, found.tracks.clone(), &found.shapes, pass.stop)?;
+    let hidden = hidden(pass, &candidates, &tracks, &judged)?;
+    found.add(pass, &hidden, Stages::default())?;
+    tracks.extend(hidden);
     if let Some(seed) = seed {
-        let seed = pyramid.grid.grid_from_world.transform_point3(seed);
-        tracks.extend(from_seed(&pass, seed, &tracks)?);
+        found.add(pass, &from_seed(pass, seed, &tracks)?, Stages::default())?;
     }
-    let tracks = tracks.into_iter().map(|track| in_world(&pyramid.grid, track)).collect();
-    let side = pyramid.grid.side;
-    let scan = Scan { voxels, side, lowest: range[0], level, contrast, noise, is_hounsfield };
-    Ok(Some((scan, tracks)))
+    Ok(found)
+}
+
+impl Tubes<'_> {
+    /// Adds tracks of a pass.
+    fn add(&mut self, pass: &Tracking, tracks: &[Track], stages: Stages) -> Result<()> {
+        let tracks: Vec<Track> =
+            tracks.iter().map(|track| in_world(&pass.pyramid.grid, track.clone())).collect();
+        self.shapes.extend(bone::shapes(&self.scan, &tracks, pass.stop, stages)?);
+        self.tracks.extend(tracks);
+        Ok(())
+    }
 }
 
 /// The values that tell something of vessels.

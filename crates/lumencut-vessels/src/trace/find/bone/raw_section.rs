@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
-use crate::trace::find::section::across;
+use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::TrackPoint;
 use crate::trace::lumen::ray::Ray;
 
@@ -27,6 +27,11 @@ const TISSUE_SHARE: f64 = 0.3;
 
 /// How far a ray goes at most: the smaller one of two lengths, each in radii and further millimetres.
 const REACH: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
+
+/// A lumen that bone may touch, whose level is no farther from the usual one than this part of the contrast, ends at the darkest place
+/// before bone, which is brighter than the usual level by the second part.
+const ALIKE: f64 = 0.15;
+const BONE: f64 = 0.4;
 
 /// Diameters below this are not told apart (voxels).
 const LEAST_DIAMETER: f64 = 0.8;
@@ -77,7 +82,7 @@ impl RawSection {
         let is_bright = level > tissue;
         is_bright.then(|| Self {
             level,
-            elongation: rays.elongation(scan, f64::midpoint(level, tissue)),
+            elongation: rays.elongation(scan, level, f64::midpoint(level, tissue)),
             spread: between_quartiles(values.clone()) / QUARTILES / scan.contrast,
             is_marrow: is_marrow(scan, level, &values, &mut rays),
         })
@@ -148,11 +153,16 @@ impl<'a, 'v> Rays<'a, 'v> {
     }
 
     /// The greatest diameter at a level as a multiple of the least one.
-    fn elongation(&mut self, scan: &Scan, half: f64) -> f64 {
+    fn elongation(&mut self, scan: &Scan, level: f64, half: f64) -> f64 {
         let most = REACH.map(|[radii, beyond]| radii * self.radius + beyond);
         let last = (most[0].min(most[1]) / self.step).ceil() as usize;
         let step = self.step;
-        let lengths: Vec<f64> = self.rays.iter_mut().map(|ray| length(ray, half, last) * step).collect();
+        let is_alike = (level - scan.level).abs() < ALIKE * scan.contrast;
+        let may_touch = is_alike && self.radius <= TOUCHED * scan.side;
+        let bone = if may_touch { scan.level + BONE * scan.contrast } else { f64::MAX };
+        let within =
+            |ray: &mut Ray| to_bone(ray, half, bone, last).unwrap_or_else(|| length(ray, half, last)) * step;
+        let lengths: Vec<f64> = self.rays.iter_mut().map(within).collect();
         let diameters = (0..RAYS / 2).map(|n| lengths[n] + lengths[n + RAYS / 2]);
         let [least, greatest] =
             diameters.fold([f64::MAX, 0.0_f64], |[least, greatest], d| [least.min(d), greatest.max(d)]);
@@ -168,6 +178,16 @@ fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
     let share = (inside - level) / (inside - outside);
     // The middle itself may lie below, and what lies outside is no number.
     out.saturating_sub(1) as f64 + if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// The length of a ray to the darkest place of the outer half of its way to bone, the last of several, in steps; none where it meets
+/// no bone, or falls below a level before.
+fn to_bone(ray: &mut Ray, level: f64, bone: f64, last: usize) -> Option<f64> {
+    let first = (0..=last).find(|n| !(level..=bone).contains(&ray.value(*n)))?;
+    let values: Vec<f64> = (0..=first).map(|n| ray.value(n)).collect();
+    let outer = (first / 2..first).rev();
+    let darkest = outer.min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
+    (values[first] > bone).then_some(darkest as f64)
 }
 
 /// How far the quartiles of some values are apart.

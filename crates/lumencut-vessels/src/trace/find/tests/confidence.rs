@@ -61,3 +61,17 @@ fn a_radius_that_jumps_is_doubtful_as_rough() {
     let jumping: Vec<&TrackPoint> = points.iter().collect();
     assert!((rough(&jumping, 2.0) - 0.5).abs() < 1e-3);
 }
+
+#[test]
+fn bone_that_touches_a_narrow_tube_on_some_sides_does_not_count() {
+    let touched = |radius: f64| {
+        move |place: DVec3| {
+            let depth = radius - away(place, &LINE);
+            let is_aside = place.y - LINE[0].y > 0.45 * away(place, &LINE);
+            if depth < -1.0 && is_aside { 900.0 } else { blurred(depth) }
+        }
+    };
+    assert_eq!(judged(touched(2.0), 2.0, 50.0), (1.0, None));
+    let (sure, doubt) = judged(touched(5.0), 5.0, 50.0);
+    assert!(sure < 0.9 && doubt == Some(TrackDoubt::BrightSides), "{sure} {doubt:?}");
+}

@@ -18,7 +18,7 @@ fn value(place: DVec3) -> f64 {
 fn found(seed: Option<DVec3>) -> Vec<Track> {
     with_scan(SIZE, 1.0, value, |scan| {
         let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
-        tubes(scan.voxels, seed, &request, Stages::begin(None)).expect("tubes").expect("tracks").1
+        tubes(scan.voxels, seed, &request, Stages::begin(None)).expect("tubes").expect("tracks").tracks
     })
 }
 

@@ -7,10 +7,20 @@ const MIDDLE: DVec3 = DVec3::new(20.2, 19.7, 15.0);
 
 /// The section across z at a place, in a scan of voxels of 1 mm with the values of places (mm).
 fn look(value: impl Fn(DVec3) -> f64, place: DVec3, radius: f64) -> Section {
+    looked(Section::look, value, place, radius)
+}
+
+/// The same, looked at in one way or another.
+fn looked(
+    look: fn(&Level, DVec3, DVec3, f64) -> Section,
+    value: impl Fn(DVec3) -> f64,
+    place: DVec3,
+    radius: f64,
+) -> Section {
     with_scan([40, 40, 30], 1.0, value, |scan| {
         let grid = Grid::over(scan.voxels, 0.5);
         let pyramid = Pyramid::new(scan.voxels, grid, [0.0, 1000.0], &|| false).expect("levels");
-        Section::look(&pyramid.levels[0], place, DVec3::Z, radius)
+        look(&pyramid.levels[0], place, DVec3::Z, radius)
     })
 }
 
@@ -54,4 +64,21 @@ fn struts_on_some_sides_move_no_wall_and_a_plate_is_open() {
     assert!((seen.radius - 3.0).abs() < 0.2 && (seen.level - LEVEL).abs() < 1.0, "{seen:?}");
     let plate = look(|place| blurred(2.0 - (place.x - MIDDLE.x).abs()), MIDDLE, 2.0);
     assert!(plate.closure <= 0.75 && plate.contrast_share <= 0.75, "{plate:?}");
+}
+
+#[test]
+fn where_bone_touches_a_tube_its_walls_are_seen_once_bone_ends_rays() {
+    // Bone on one side, and between both a wall that is too thin to lose half of the contrast.
+    let beside = |place: DVec3| {
+        let beyond = (place - MIDDLE).x - 3.0;
+        if beyond > -0.8 { LEVEL - 40.0 + 140.0 * beyond.clamp(0.0, 1.0) } else { blurred(depth(place, 3.0)) }
+    };
+    let plain = look(beside, MIDDLE, 3.0);
+    let seen = looked(Section::beside_bone, beside, MIDDLE, 3.0);
+    assert!(plain.shift.x > 0.4 && plain.closure < 0.9, "{plain:?}");
+    assert!(seen.shift.length() < 0.3 && (seen.radius - 3.0).abs() < 0.15, "{seen:?}");
+    assert!(seen.closure > 0.95 && seen.contrast_share > plain.contrast_share, "{seen:?} {plain:?}");
+    // Where there is none nothing changes.
+    let tube = |place: DVec3| blurred(depth(place, 3.0));
+    assert_eq!(looked(Section::beside_bone, tube, MIDDLE, 3.0), look(tube, MIDDLE, 3.0));
 }

@@ -10,7 +10,7 @@ fn found(value: impl Fn(DVec3) -> f64) -> Option<([f64; 2], Vec<Track>)> {
     with_scan(SIZE, 1.0, value, |scan| {
         let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
         let found = tubes(scan.voxels, None, &request, Stages::begin(None)).expect("tubes");
-        found.map(|(scan, tracks)| ([scan.level, scan.contrast], tracks))
+        found.map(|found| ([found.scan.level, found.scan.contrast], found.tracks))
     })
 }
 

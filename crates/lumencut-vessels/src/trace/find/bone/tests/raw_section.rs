@@ -69,3 +69,22 @@ fn what_is_no_brighter_than_its_surroundings_has_no_section() {
     let nowhere = straight_track(DVec3::splat(1e6), DVec3::splat(1e6 + 2.0), 1.0);
     assert_eq!(with_scan(SIZE, SIDE, |_| LEVEL, |scan| RawSection::at(scan, &nowhere.points[0])), None);
 }
+
+#[test]
+fn a_lumen_as_bright_as_vessels_ends_where_bone_touches_it() {
+    // Bone beyond a wall of 0.5 mm on one side.
+    let beside = |lumen: f64| {
+        move |place: DVec3| {
+            let tube =
+                TISSUE + (blurred(1.5 - from_axis(place)) - TISSUE) * (lumen - TISSUE) / (LEVEL - TISSUE);
+            if place.x > 2.0 { 900.0 } else { tube }
+        }
+    };
+    let found = section(1.5, beside(LEVEL)).expect("a tube");
+    assert!(found.elongation < 1.15, "{found:?}");
+    // What is much paler may be marrow.
+    let touching = |lumen: f64| move |place: DVec3| if place.x > 1.0 { 900.0 } else { beside(lumen)(place) };
+    let found = section(1.5, touching(LEVEL)).expect("a tube");
+    let pale = section(1.5, touching(LEVEL - 60.0)).expect("a tube");
+    assert!(found.elongation < 1.3 && pale.elongation > 2.0, "{found:?} {pale:?}");
+}
