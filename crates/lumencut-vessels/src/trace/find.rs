@@ -31,7 +31,6 @@ use crate::trace::find::found::Trees;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::scarce::{doubted_where_scarce, is_angiography};
 use crate::trace::find::stages::Stages;
-use crate::trace::find::tubes::Tubes;
 use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -68,7 +67,7 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
 /// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
-    let Some(Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, seed, request, stages)? else {
+    let Some(tubes::Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, seed, request, stages)? else {
         return Ok(Trees {
             vessels: Vec::new(),
             level: 0.0,
