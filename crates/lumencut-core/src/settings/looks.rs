@@ -39,7 +39,12 @@ pub const LOOKS: [Look; 5] = [
         values: focus,
     },
     Look { name: "body", words: "Body in 3D", sentence: "the shaded body alone, nothing cut", values: body },
-    Look { name: "mip", words: "MIP", sentence: "the largest value along each ray, nothing cut", values: mip },
+    Look {
+        name: "mip",
+        words: "MIP",
+        sentence: "the largest value along each ray, nothing cut",
+        values: mip,
+    },
     Look {
         name: "slab",
         words: "Thick slab",

@@ -65,7 +65,8 @@ impl Study {
         let point = point + camera.direction() * f64::from(depth);
         let vessel = frame.vessel.get(middle).and_then(|vessel| usize::try_from(*vessel).ok());
         let reach = BESIDE.max(PIXELS_BESIDE * spacing);
-        let vessel = vessel.filter(|vessel| self.vessel(*vessel).is_ok_and(|vessel| is_near(vessel, point, reach)));
+        let vessel =
+            vessel.filter(|vessel| self.vessel(*vessel).is_ok_and(|vessel| is_near(vessel, point, reach)));
         Ok(self.told(point, vessel))
     }
 

@@ -198,7 +198,9 @@ mod tests {
         let looks = looks();
         for (n, look) in looks.iter().enumerate() {
             assert!(look.settings.keys().eq(looks[0].settings.keys()));
-            assert!(looks[..n].iter().all(|other| other.settings != look.settings && other.name != look.name));
+            assert!(
+                looks[..n].iter().all(|other| other.settings != look.settings && other.name != look.name)
+            );
         }
         assert_eq!(of(&Json::Object(looks[0].settings.clone())).expect("settings"), Settings::default());
     }

@@ -226,9 +226,11 @@ fn lines_are_told_by_length_calibre_and_what_they_hang_together_with() {
     let mut study = Study::default();
     let mut add = |line| study.lines.add(line).expect("a line");
     // A piece by itself, a trunk of 10 mm, and a branch from a point within it, whose radius is not known.
-    let piece = add(Line { points: vec![DVec3::new(0.0, 50.0, 0.0), DVec3::new(0.0, 50.0, 3.0)], ..Line::default() });
+    let piece =
+        add(Line { points: vec![DVec3::new(0.0, 50.0, 0.0), DVec3::new(0.0, 50.0, 3.0)], ..Line::default() });
     let trunk = add(straight(0.0, 11));
-    let branch = add(Line { points: vec![DVec3::new(4.0, 0.0, 0.0), DVec3::new(4.0, 7.0, 0.0)], ..Line::default() });
+    let branch =
+        add(Line { points: vec![DVec3::new(4.0, 0.0, 0.0), DVec3::new(4.0, 7.0, 0.0)], ..Line::default() });
     let facts = study.line_facts(&[piece, trunk, branch]).expect("lines");
     let told = facts.iter().map(|facts| (facts.line, facts.length, facts.calibre, facts.part));
     // The radius of the trunk grows from 1 to 2 mm.
