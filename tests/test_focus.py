@@ -106,7 +106,9 @@ def test_an_unknown_look_is_refused() -> None:
 def test_nothing_is_cut_by_the_looks_of_the_body(scene: phantom.Phantom, camera: Camera) -> None:
     for name, context in (("body", "mida"), ("mip", "mip")):
         look = Settings.look(name, context_window=Window(300, 900))
-        alone = Settings(context=context, context_shading=look.context_shading, context_window=Window(300, 900))
+        alone = Settings(
+            context=context, context_shading=look.context_shading, context_window=Window(300, 900)
+        )
         with_tree = render(scene.volume, scene.tree, camera, settings=look)
         without = render(scene.volume, None, camera, settings=alone)
         np.testing.assert_array_equal(with_tree.image, without.image)
