@@ -13,6 +13,7 @@ from functools import partial
 
 import pytest
 
+from lumencut._files import write_text
 from scene_files import write_lines, write_volume
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="these signals are those of POSIX")
@@ -79,6 +80,20 @@ def test_a_turntable_leaves_nothing_and_keeps_the_file_before(files, folder, nam
         end(process, number)
     assert list(folder.iterdir()) == [old]
     assert old.read_bytes() == b"old"
+
+
+def test_a_signal_right_after_the_hidden_folder_is_made_leaves_none(folder, monkeypatch):
+    made = os.mkdir
+
+    def interrupted(*place, **words):
+        made(*place, **words)
+        assert [one.name.startswith(".lumencut.") for one in folder.iterdir()] == [True]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "mkdir", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_text(folder / "out.csv", "text")
+    assert list(folder.iterdir()) == []
 
 
 @pytest.mark.parametrize("number", ENDING, ids=lambda number: number.name)

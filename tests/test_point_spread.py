@@ -96,6 +96,14 @@ def test_a_tree_that_tells_nothing_tells_nothing_of_a_path_either():
     assert profile.fwhm == pytest.approx(1.2 * 0.4)
 
 
+def test_a_stretch_shorter_than_three_widths_tells_nothing_and_says_so():
+    volume = round_tube(5.0).volume(Grid.even((0.4, 0.4, 0.4), (14, 14, 30)))
+    short, long = (Vessel(np.linspace([0, 0, -z], [0, 0, z], 9)) for z in (1.0, 4.0))
+    why = "wide vessels are free and round along too short a stretch to tell it"
+    assert measure(volume, short).fwhm_source == f"assumed: 1.2 sides of a voxel, as {why}"
+    assert measure(volume, long).fwhm == pytest.approx(0.8, rel=0.1)
+
+
 def test_a_tree_is_asked_once(branches, monkeypatch):
     scene, _ = branches
     asked, find = [], _lumencut.point_spread

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
 import stat
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -76,17 +76,17 @@ def private_folder(subject: Path, home: Path) -> Iterator[Path]:
 
     Errors of the system name ``subject``.
     """
-    folder = None
+    # Its name is known before it is made: a signal that comes right after leaves none behind either.
+    folder = home / f".lumencut.{secrets.token_hex(8)}.part"
     try:
-        folder = Path(tempfile.mkdtemp(prefix=".lumencut.", suffix=".part", dir=home))
+        folder.mkdir(mode=0o700)
         yield folder
     except OSError as error:
         if isinstance(error, FileError):
             raise
         raise FileError(_short(str(subject)), error.strerror or str(error), WRITABLE) from error
     finally:
-        if folder is not None:
-            shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def move(whole: Path, path: Path) -> None:

@@ -50,6 +50,20 @@ test('a page without vessels offers to trace them', async ({ browser }) => {
   await viewer.close();
 });
 
+test('the vessel that was traced is shown cut open, though it was traced in a slice that was shown alone', async ({
+  browser,
+}) => {
+  const viewer = await untraced(browser);
+  await startTool(viewer);
+  await viewer.page.getByRole('button', { name: 'Show Coronal alone' }).click();
+  await expect(viewer.pane()).toBeHidden();
+  await button(viewer, 'Done').click();
+  await expect(viewer.pane()).toBeVisible();
+  await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'strip');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
 test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and points are edited', async ({
   browser,
 }) => {

@@ -46,6 +46,8 @@ export function followTool(): () => void {
         if (isOurs) {
           show(before);
         }
+        // A slice that was shown alone would hide the vessel that was traced.
+        store.maximised.value = null;
         before = null;
         // The cross-hair was where the last click was.
         untracked(() => moveTo(store.pickedPlace.value));

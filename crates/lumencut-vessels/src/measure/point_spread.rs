@@ -75,6 +75,9 @@ pub enum Told {
 /// The reason why a vessel tells nothing that is too narrow.
 pub const NARROW: &str = "no vessel is wide enough to tell it";
 
+/// The reason why a vessel tells nothing that is wide along a short stretch alone.
+const SHORT: &str = "wide vessels are free and round along too short a stretch to tell it";
+
 /// The point spread with which the widest of the sections fit best while the level of the lumen stays as it is seen, and what
 /// it was estimated on.
 ///
@@ -118,7 +121,7 @@ pub fn estimated(
     };
     let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));
     if last - first < STRETCH * fwhm {
-        return Ok(Told::Nothing(NARROW));
+        return Ok(Told::Nothing(SHORT));
     }
     Ok(Told::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
