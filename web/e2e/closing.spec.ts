@@ -12,7 +12,7 @@ test('what was not saved is not closed unasked, and measuring does not go on in 
   const close = page.getByRole('button', { name: 'Close the scan' });
   const question = page.getByRole('alertdialog');
   await tube.press('m');
-  await page.getByRole('button', { name: 'Confirm the suggested places' }).click();
+  await page.getByRole('button', { name: 'Confirm the suggested places' }).click({ timeout: 30_000 });
   await expect(page.getByTestId('stenosis')).toContainText('% of the diameter');
   await close.click();
   await expect(question).toContainText('Discard changes that were not saved?');

@@ -15,7 +15,7 @@ from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessel
 from lumencut.profile_sections import counts, flag_words, nearest
 
 #: Where the first vessel is asked, in parts of its length.
-PLACE, BEFORE, AFTER = 0.5, 0.03, 0.995
+PLACE, BEFORE, AFTER = 0.4, 0.03, 0.995
 
 
 def bounds(profile: Profile) -> list[str | None]:

@@ -80,7 +80,7 @@ class Pointers {
 
   down(event: PointerEvent): void {
     // What lies over the view and can be pressed hears it itself.
-    if (event.target instanceof Element && event.target.closest('button, input, select')) {
+    if ((event.target as Partial<Element> | null)?.closest?.('button, input, select')) {
       return;
     }
     const at = this.placeOf(event);
