@@ -49,7 +49,6 @@ impl Study {
 
 /// The median diameter of a line (mm), where it has one.
 fn calibre(line: &Line) -> Option<f64> {
-    let mut known: Vec<f64> =
-        line.radius.iter().flatten().copied().filter(|radius| !radius.is_nan()).collect();
+    let mut known: Vec<f64> = line.radius.iter().flatten().copied().filter(|radius| *radius > 0.0).collect();
     median(&mut known).map(|radius| 2.0 * radius)
 }

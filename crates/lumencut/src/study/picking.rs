@@ -58,11 +58,13 @@ impl Study {
         let scene = self.content.scene()?;
         let frame = view.method.on_cpu(&mut self.cpu, &scene, &request)?;
         let middle = side * AROUND + AROUND;
-        if frame.focus.get(middle).is_some_and(|[surface, _]| *surface < SHOWN) {
-            return self.brightest(view, pixel);
-        }
+        let shows_cut = frame.focus.get(middle).is_none_or(|[surface, _]| *surface >= SHOWN);
         let depth = frame.depth().get(middle).copied().unwrap_or_default();
         let point = point + camera.direction() * f64::from(depth);
+        if !shows_cut {
+            // Beside the scan there is no brightest place, and no vessel.
+            return Ok(self.brightest(view, pixel).unwrap_or_else(|_| self.told(point, None)));
+        }
         let vessel = frame.vessel.get(middle).and_then(|vessel| usize::try_from(*vessel).ok());
         let reach = BESIDE.max(PIXELS_BESIDE * spacing);
         let vessel =

@@ -238,4 +238,13 @@ fn lines_are_told_by_length_calibre_and_what_they_hang_together_with() {
     let alone = study.line_facts(&[branch, piece]).expect("lines");
     assert_eq!([alone[0].part, alone[1].part], [0, 1], "without the trunk they are two parts");
     assert_eq!(study.line_facts(&[branch + 1]).expect_err("no line").kind, "vessel tree");
+    // A radius of 0 is one that is not known.
+    let odd = Line {
+        radius: Some(vec![0.0, 2.0, 0.0, f64::NAN, 0.0]),
+        confidence: None,
+        bridged: None,
+        ..straight(0.0, 5)
+    };
+    let odd = study.lines.add(odd).expect("a line");
+    assert_eq!(study.line_facts(&[odd]).expect("a line")[0].calibre, Some(4.0));
 }

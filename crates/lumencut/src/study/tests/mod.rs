@@ -117,6 +117,18 @@ fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
     let brightest = study.brightest(&view, [48.0, 40.0]).expect("a place");
     assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), brightest);
     assert!(brightest.value >= cut.value);
+    // Beside the scan there is none, which is no error: nothing lies there.
+    let mut wide = view.clone();
+    wide.camera = lumencut_core::camera::Camera::new(
+        wide.camera.center(),
+        wide.camera.direction(),
+        wide.camera.up(),
+        [96, 80],
+        10.0 * wide.camera.pixel_spacing(),
+    )
+    .expect("a camera");
+    let nothing = study.pick(&wide, [2.0, 2.0]).expect("a pick");
+    assert_eq!((nothing.value, nothing.vessel), (None, None));
     // A focus of 1 mm shows the cut in the lumen, and what lies around it 10 mm beside the wall.
     view.settings.focus = Some(lumencut_core::settings::Focus { margin: 1.0, fade: 0.0 });
     assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), cut);
