@@ -99,6 +99,16 @@ def count_page(text: str) -> Count:
     return Count(*map(int, found[-1])) if found else Count(failed=1)
 
 
+RED_TEST = re.compile(r"^(?:FAILED .*|test \S.* \.\.\. FAILED|---- .* stdout ----)$", re.MULTILINE)
+"""How pytest, the page's script and cargo name a test that failed."""
+MOST_NAMED = 20
+
+
+def red_tests(text: str) -> str:
+    """The tests that failed, as a check printed them: the first of many, and the beginning of long lines."""
+    return "".join(f"\n   {one[:300]}" for one in RED_TEST.findall(text)[:MOST_NAMED])
+
+
 def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     return [
@@ -234,7 +244,7 @@ def judge(check: Check) -> tuple[Count, str]:
         except (OSError, ET.ParseError):
             return Count(failed=1), f"exit status {status}, and no report"
     if count.failed:
-        return count, f"{count.failed} failed"
+        return count, f"{count.failed} failed{red_tests(text)}"
     if status:
         return count + Count(failed=1), f"exit status {status}"
     if check.count and not count.passed:
@@ -295,11 +305,12 @@ def perform(checks: list[Check]) -> Count:
     """Run the checks up to the first red one, and tell how long each took."""
     start, run = time.monotonic(), Run(checks)
     run.perform()
-    if run.red:
-        print(f"\n== RED: {run.red}; nothing after it was run")
     print("\n== seconds")
     for name, taken in [*run.seconds, ("all", time.monotonic() - start)]:
         print(f"{taken:8.1f}  {name}")
+    # Last, as logs are often kept from their end.
+    if run.red:
+        print(f"\n== RED: {run.red}; nothing after it was run")
     return run.total
 
 

@@ -77,6 +77,18 @@ def test_tests_are_judged(check, text, status, expected):
     assert perform(check, (says(text, status), check.count_rust)) == expected
 
 
+def test_red_tests_are_named_at_the_end(check, capfd):
+    named = [
+        "FAILED tests/test_some.py::test_c - assert False",
+        "FAILED web/e2e/x.spec.ts > a view - Error: too late",
+        "test one::two ... FAILED",
+        "---- one::three stdout ----",
+    ]
+    assert perform(check, (says("\n".join(["noise", *named, RUST_RED])), check.count_rust)) == (7, 1)
+    end = capfd.readouterr().out.partition("== seconds")[2]
+    assert end.partition("== RED: check 0: 1 failed\n   ")[2].partition(";")[0].split("\n   ") == named
+
+
 def test_a_red_check_stops_the_run(check, tmp_path, capfd):
     made = tmp_path / "made"
     later = (sys.executable, "-c", f"open({str(made)!r}, 'w')")
