@@ -31,16 +31,17 @@ export default defineConfig({
   retries: 0,
   fullyParallel: false,
   forbidOnly: true,
-  timeout: 60_000,
-  globalTimeout: 1_500_000,
-  expect: { timeout: 10_000 },
+  // Patience for machines that are busy otherwise: a wait ends as soon as what it waits for is there.
+  timeout: 120_000,
+  globalTimeout: 1_800_000,
+  expect: { timeout: 30_000 },
   reporter: 'list',
   use: {
     baseURL: `http://127.0.0.1:${port}/`,
     viewport: { width: 800, height: 560 },
     colorScheme: 'dark',
-    actionTimeout: 10_000,
-    navigationTimeout: 20_000,
+    actionTimeout: 30_000,
+    navigationTimeout: 60_000,
   },
   webServer: {
     command: `npx vite preview --config e2e/served.config.ts --host 127.0.0.1 --port ${port} --strictPort`,

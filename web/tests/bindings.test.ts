@@ -27,11 +27,11 @@ describe('the habits of the field', () => {
     ['turning', 'left', 'Ctrl', 'window'],
     ['turning', 'left', 'Shift', 'pan'],
     ['turning', 'middle', '', 'pan'],
-    ['turning', 'right', '', 'zoom'],
-    ['flat', 'left', '', 'window'],
+    ['turning', 'right', '', 'window'],
+    ['flat', 'left', '', 'pan'],
     ['flat', 'left', 'Shift', 'pan'],
     ['flat', 'middle', '', 'pan'],
-    ['flat', 'right', '', 'zoom'],
+    ['flat', 'right', '', 'window'],
   ] as const)('in %s views a drag with %s %s does: %s', (where, button, modifier, action) => {
     expect(actionOf(where, 'drag', button, modifier)).toBe(action);
   });

@@ -1,6 +1,7 @@
 import { afterEach, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
-import { choosePreset } from '../src/state/actions';
+import { choosePreset, dragWindow, windowBack } from '../src/state/actions';
+import { begin, change, document_, hasEdits, redo, undo, undoWords } from '../src/state/history';
 import * as store from '../src/state/store';
 import { expectNear } from './helpers';
 
@@ -52,4 +53,53 @@ test('a window that has a name is the one of its number; without a volume there 
   expect(store.window_.value).toEqual([40, 400]);
   choosePreset(7);
   expect(store.window_.value).toEqual([40, 400]);
+});
+
+test('a drag of the window is a step of its own, between those of the document', () => {
+  const [empty, changed] = [document_.value, { ...document_.value, bridge: true }];
+  begin(empty);
+  store.window_.value = [300, 900];
+  change('name a vessel', changed);
+  const drag = windowBack();
+  drag.begin();
+  dragWindow([10, 0]);
+  dragWindow([10, 5]);
+  drag.end();
+  const after = store.window_.value;
+  expect(after).not.toEqual([300, 900]);
+  expect(undoWords.value).toBe('change the window');
+  undo();
+  expect(store.window_.value).toEqual([300, 900]);
+  expect(document_.value).toBe(changed);
+  expect(undoWords.value).toBe('name a vessel');
+  redo();
+  expect(store.window_.value).toEqual(after);
+  undo();
+  undo();
+  expect(document_.value).toBe(empty);
+  begin(empty);
+});
+
+test('a drag that changes no window is no step, nor is one that Escape takes back', () => {
+  begin(document_.value);
+  const drag = windowBack();
+  drag.begin();
+  drag.end();
+  expect(undoWords.value).toBeNull();
+  drag.begin();
+  dragWindow([10, 0]);
+  drag.putBack();
+  expect(store.window_.value).toEqual([300, 900]);
+  expect(undoWords.value).toBeNull();
+});
+
+test('a window alone is no edit of the vessels', () => {
+  begin(document_.value);
+  store.report.value = { volume: null, vessels: null, windows: WINDOWS } as unknown as Report;
+  choosePreset(1);
+  expect(undoWords.value).toBe('change the window');
+  expect(hasEdits.value).toBe(false);
+  change('name a vessel', { ...document_.value, bridge: true });
+  expect(hasEdits.value).toBe(true);
+  begin({ ...document_.value });
 });

@@ -4,8 +4,7 @@ import { alongWheel, Steps } from './wheel';
 
 /** How far a pointer moves before a press is a drag (CSS pixels). */
 const DRAG_FROM = 4;
-/** Zoom per pixel of a drag, and per pixel of the wheel: a trackpad sends many small steps. */
-const ZOOM_PER_PIXEL = 0.006;
+/** Zoom per pixel of the wheel: a trackpad sends many small steps. */
 const ZOOM_PER_WHEEL = 0.0016;
 const MOST_WHEEL = 120;
 /** The pixels that a line of the wheel stands for, in browsers that count lines. */
@@ -164,9 +163,7 @@ class Pointers {
   }
 
   private dragged(by: Place, at: Place): void {
-    if (this.action === 'zoom') {
-      this.handlers.zoom(Math.exp(-by[1] * ZOOM_PER_PIXEL), this.start);
-    } else if (this.action === 'scroll') {
+    if (this.action === 'scroll') {
       this.scrollBy(this.steps.ofPixels(by[1] * 4));
     } else if (this.action) {
       this.handlers.drag(this.action, by, at);

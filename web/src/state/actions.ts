@@ -7,6 +7,7 @@ import type { Camera, Pair, SettingValue, Vector, Window } from '../core/message
 import type { Action } from '../input/bindings';
 import { isArriving } from './arriving';
 import { destination, flyToAnswer } from './flight';
+import { windowChanged } from './history';
 import { dragPlaceTurn, endPlaceTurn, placeTurn, togglePlaceTurn } from './place-turn';
 import { stopMeasuring } from './profiles';
 import { putRulerAway } from './rulers';
@@ -80,7 +81,7 @@ export function windowBack(): { begin(): void; end(): void; putBack(): void } {
     begin: () => {
       before = kept();
     },
-    end: () => undefined,
+    end: () => windowChanged(before.window),
     putBack: () =>
       batch(() => {
         store.camera.value = before.camera;
@@ -97,6 +98,7 @@ export function dragWindow([x, y]: Pair): void {
   store.window_.value = [level + y * WINDOW_PER_PIXEL * width, wider];
 }
 
+/** Sets the window while it is dragged: `windowChanged` makes a step of the whole drag. */
 export function setWindow(window: Window): void {
   store.window_.value = [window[0], Math.max(window[1], NARROWEST)];
 }
@@ -105,7 +107,9 @@ export function setWindow(window: Window): void {
 export function choosePreset(number: number): void {
   const preset = store.report.value?.windows?.presets[number];
   if (preset) {
+    const before = store.window_.value;
     setWindow(preset.window);
+    windowChanged(before);
   }
 }
 
@@ -229,6 +233,7 @@ function cancel(engine: EngineClient): void {
 
 function reset(engine: EngineClient): void {
   const windows = store.report.value?.windows;
+  const window = store.window_.value;
   batch(() => {
     store.isInverted.value = false;
     store.isTurning.value = false;
@@ -236,6 +241,7 @@ function reset(engine: EngineClient): void {
     store.resets.value += 1;
     if (windows) {
       store.window_.value = windows.main;
+      windowChanged(window);
     }
   });
   void showNamedView(engine, 'anterior');

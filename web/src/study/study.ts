@@ -8,7 +8,7 @@ import { addLoaded } from '../edit/files';
 import { forgetLines } from '../edit/lines';
 import { beginStudy, showAgain } from '../edit/shown';
 import { placeCrossHair } from '../link/cross-hair';
-import { document_, redoWords, undoWords } from '../state/history';
+import { document_, hasEdits } from '../state/history';
 import { openWith } from '../state/last-opened';
 import { beginMeasuring } from '../state/profiles';
 import { putRulerAway } from '../state/rulers';
@@ -31,7 +31,8 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
   });
   try {
     const opened = await load();
-    const comesToEdits = opened.isBeside && store.hasVolume.value && hasEdits();
+    const isEdited = document_.value.vessels.length > 0 || hasEdits.value;
+    const comesToEdits = opened.isBeside && store.hasVolume.value && isEdited;
     await (comesToEdits ? showBeside(engine, opened) : showStudy(engine, opened, opened.name ?? name));
   } catch (error) {
     const failure = Failure.of(error);
@@ -117,10 +118,6 @@ async function showStudy(
     beginStudy(vessels);
   });
 }
-
-/** Whether there is anything that centerlines can come to. */
-const hasEdits = (): boolean =>
-  document_.value.vessels.length > 0 || undoWords.value !== null || redoWords.value !== null;
 
 /** Centerlines come to the vessels that there are, as a step that can be undone; the views show the longest of them. */
 async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {

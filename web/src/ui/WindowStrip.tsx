@@ -2,6 +2,7 @@
 import { useRef } from 'preact/hooks';
 import type { Histogram, Window } from '../core/messages';
 import { choosePreset, setWindow } from '../state/actions';
+import { windowChanged } from '../state/history';
 import * as store from '../state/store';
 
 const WIDTH = 220;
@@ -98,6 +99,11 @@ interface HandleProps {
 
 function Handle({ scale, value, words, change }: HandleProps) {
   const start = useRef<{ x: number; value: number } | null>(null);
+  const before = useRef<Window>(store.window_.value);
+  const begin = () => {
+    before.current = store.window_.value;
+  };
+  const end = () => windowChanged(before.current);
   const move = (event: PointerEvent) => {
     if (start.current) {
       change(start.current.value + (event.clientX - start.current.x) * scale.perPixel);
@@ -107,6 +113,9 @@ function Handle({ scale, value, words, change }: HandleProps) {
     const direction = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
     if (direction) {
       event.preventDefault();
+      if (!event.repeat) {
+        begin();
+      }
       change(value + direction * scale.perPixel * (event.shiftKey ? 10 : 1));
     }
   };
@@ -121,14 +130,17 @@ function Handle({ scale, value, words, change }: HandleProps) {
       aria-valuemin={Math.round(scale.low)}
       aria-valuemax={Math.round(scale.high)}
       onPointerDown={(event) => {
+        begin();
         start.current = { x: event.clientX, value };
         event.currentTarget.setPointerCapture(event.pointerId);
       }}
       onPointerMove={move}
       onPointerUp={() => {
         start.current = null;
+        end();
       }}
       onKeyDown={key}
+      onKeyUp={(event) => (event.key.startsWith('Arrow') ? end() : undefined)}
     />
   );
 }
