@@ -86,9 +86,10 @@ test.describe('streams', () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
-    const everywhere = await viewer.picture();
     const button = (words: string) => viewer.page.getByRole('button', { name: words, exact: true });
-    await expect(button('Lumen')).toHaveAttribute('aria-pressed', 'true');
+    await expect(button('Lumen in 3D')).toHaveAttribute('aria-pressed', 'true');
+    await button('Lumen').click();
+    const everywhere = await viewer.picture();
     const pictures = [everywhere];
     for (const look of ['Thick slab', 'MIP', 'Body in 3D', 'Lumen in 3D']) {
       await button(look).click();

@@ -197,7 +197,7 @@ impl Engine {
     /// # Errors
     /// Those of view and scene, `interrupted` once the page says stop.
     pub async fn render(&mut self, view: &str) -> Thrown<Option<Uint8ClampedArray>> {
-        let view = answer(ViewMessage::read(view).and_then(|message| message.view()))?;
+        let view = answer(ViewMessage::read(view).and_then(|message| self.study.view_of(&message)))?;
         answer(self.rendered(&view).await)
     }
 

@@ -18,6 +18,7 @@ export async function start(device: string): Promise<void> {
     const started = await engine.start(device);
     batch(() => {
       store.started.value = started;
+      store.settings.value = store.firstSettings.value;
       store.epoch.value += 1;
     });
   } catch (error) {

@@ -54,10 +54,15 @@ export const problem = signal<Failure | null>(null);
 
 export const camera = signal<Camera | null>(null);
 export const method = signal<Method>('csr');
+/** The look that the page begins with: the cut around the vessels amid the body. */
+const FIRST_LOOK = 'focus';
 /** The settings that the page begins with: its lines are white, as yellow warns in it. */
-export const AT_FIRST: Settings = { silhouette_color: [255, 255, 255] };
+export const firstSettings = computed<Settings>(() => ({
+  ...started.value?.looks.find(({ name }) => name === FIRST_LOOK)?.settings,
+  silhouette_color: [255, 255, 255],
+}));
 /** The settings that differ from their defaults, but for windows. */
-export const settings = signal<Settings>(AT_FIRST);
+export const settings = signal<Settings>(firstSettings.value);
 export const window_ = signal<Window>([300, 900]);
 /** Light where values are low. */
 export const isInverted = signal(false);
@@ -94,10 +99,6 @@ export const viewSettings = computed<Settings>(() => {
   const windows = report.value?.windows;
   const context = 'context' in chosen ? chosen.context : 'mida';
   chosen.window = window_.value;
-  // Without vessels there is nothing that a focus could lie around.
-  if (!hasTree.value && 'focus' in chosen) {
-    chosen.focus = null;
-  }
   const own = windows?.contexts[String(context)];
   if (windows && own) {
     chosen.context_window = moved(own, windows.main, window_.value);

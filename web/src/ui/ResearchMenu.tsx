@@ -2,7 +2,7 @@
 import type { Method, SettingRow } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
 import { setSetting, settingOf } from '../state/actions';
-import { AT_FIRST, method, settings, started } from '../state/store';
+import { firstSettings, method, settings, started } from '../state/store';
 import { useClosing } from './closing-menu';
 import { keepWithin } from './within-window';
 
@@ -25,7 +25,7 @@ export function ResearchMenu() {
     (row) => KINDS.includes(row.kind) && !ELSEWHERE.includes(row.name),
   );
   const reset = () => {
-    settings.value = AT_FIRST;
+    settings.value = firstSettings.value;
   };
   return (
     <details class="menu" onToggle={keepWithin} ref={useClosing()}>

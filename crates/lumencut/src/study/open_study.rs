@@ -22,7 +22,7 @@ use crate::study::lines::Lines;
 use crate::study::planes::Plane;
 use crate::study::profiles::Profiles;
 use crate::study::straightened::Laid;
-use crate::study::view::CameraMessage;
+use crate::study::view::{CameraMessage, View, ViewMessage};
 
 /// A picture: RGBA in rows from the top, and its size.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +62,19 @@ impl Study {
     /// `volume` for an invalid grid.
     pub fn scene(&self) -> Result<Scene<'_>> {
         self.content.scene()
+    }
+
+    /// A view of what is open. Where no vessels are shown a focus counts for nothing: a page that asks for one may not know yet that
+    /// the last vessel is gone.
+    ///
+    /// # Errors
+    /// Those of [`ViewMessage::view`].
+    pub fn view_of(&self, message: &ViewMessage) -> Result<View> {
+        let mut view = message.view()?;
+        if self.content.tree().is_none() {
+            view.settings.focus = None;
+        }
+        Ok(view)
     }
 
     /// What a viewer must know of what is open: the volume's size, grid and windows, and the vessels with names and lengths.

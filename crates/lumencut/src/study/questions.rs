@@ -64,10 +64,10 @@ of_the_study {
         study.turn_about(vessel, at, size, asking.watch.stop)?;
 
     /// What a pixel of a view shows.
-    [Turn::First] pick { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.pick(&view.view()?, pixel)?;
+    [Turn::First] pick { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.pick(&study.view_of(&view)?, pixel)?;
 
     /// The brightest voxel on the ray of a pixel.
-    [Turn::First] brightest { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.brightest(&view.view()?, pixel)?;
+    [Turn::First] brightest { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.brightest(&study.view_of(&view)?, pixel)?;
 
     /// What lies at a point, and the vessel in whose lumen it is.
     [Turn::First] at(point: Vector) -> Pick = study.at(point);

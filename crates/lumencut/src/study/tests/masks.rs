@@ -115,7 +115,8 @@ fn column(bright: &[(usize, i16)]) -> Study {
 fn brightest(study: &mut Study, pixel: [f64; 2], settings: &serde_json::Value) -> Result<Pick, Failure> {
     let camera = json!({"center": [2, 2, 0], "direction": [0, 0, 1], "up": [0, 1, 0], "size": [5, 5], "pixel_spacing": 1});
     let text = json!({"camera": camera, "method": "csr", "settings": settings}).to_string();
-    study.brightest(&ViewMessage::read(&text)?.view()?, pixel)
+    let view = study.view_of(&ViewMessage::read(&text)?)?;
+    study.brightest(&view, pixel)
 }
 
 #[test]

@@ -75,7 +75,7 @@ fn on_first_vessel(study: &Study) -> (DVec3, f64) {
 #[test]
 fn a_pick_is_the_pixel_of_the_whole_picture() {
     let mut study = opened("stenosis");
-    let view = view(&study, [96, 80]).view().expect("a view");
+    let view = study.view_of(&view(&study, [96, 80])).expect("a view");
     let scene = study.scene().expect("a scene");
     let request = Request::new(&view.camera, &view.settings);
     let (mut backend, _) = pollster::block_on(Backend::new(Wanted::Cpu)).expect("a CPU");
@@ -97,9 +97,19 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
 }
 
 #[test]
+fn a_focus_counts_for_nothing_once_no_vessels_are_shown() {
+    let mut study = opened("stenosis");
+    let mut message = view(&study, [96, 80]);
+    message.settings.insert("focus".to_owned(), vec![2.0, 6.0].into());
+    assert!(study.view_of(&message).expect("a view").settings.focus.is_some());
+    study.show(&[]).expect("no vessels");
+    assert!(study.view_of(&message).expect("a view").settings.focus.is_none());
+}
+
+#[test]
 fn a_click_beside_a_vessel_means_it_as_far_as_it_is_seen_to_be_beside_it() {
     let mut study = opened("stenosis");
-    let view = view(&study, [96, 80]).view().expect("a view");
+    let view = study.view_of(&view(&study, [96, 80])).expect("a view");
     let spacing = view.camera.pixel_spacing();
     // The tube is straight, upright and 8 mm wide at its lower end; four pixels beside it still mean it.
     let wall = 47.5 + 4.0 / spacing;
@@ -111,7 +121,7 @@ fn a_click_beside_a_vessel_means_it_as_far_as_it_is_seen_to_be_beside_it() {
 #[test]
 fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
     let mut study = opened("stenosis");
-    let mut view = view(&study, [96, 80]).view().expect("a view");
+    let mut view = study.view_of(&view(&study, [96, 80])).expect("a view");
     let cut = study.pick(&view, [48.0, 40.0]).expect("a pick");
     view.settings.focus = Some(lumencut_core::settings::Focus { margin: -1e6, fade: 0.0 });
     let brightest = study.brightest(&view, [48.0, 40.0]).expect("a place");
