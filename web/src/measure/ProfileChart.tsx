@@ -15,6 +15,9 @@ const COLORS = {
   grid: '#ffffff1c',
 } as const;
 
+/** Rows of flags that are lower have no word beside them (CSS pixels): words would lie over each other. */
+const LEAST_WORDS = 9;
+
 /** A place as it is drawn in the chart. */
 export interface ChartMark {
   readonly kind: Kind;
@@ -160,15 +163,12 @@ function Flags({ profile, layout }: ProfileChartProps) {
                 />
               );
             })}
-            <text
-              x={x.end + 6}
-              y={top + 0.5 * row + 4}
-              fill={color}
-              font-size={Math.min(11, Math.max(row, 7))}
-            >
-              <title>{flag.meaning}</title>
-              {flag.word}
-            </text>
+            <title>{`${flag.word}: ${flag.meaning}`}</title>
+            {row >= LEAST_WORDS && (
+              <text x={x.end + 6} y={top + 0.5 * row + 4} fill={color} font-size={Math.min(11, row)}>
+                {flag.word}
+              </text>
+            )}
           </g>
         );
       })}
