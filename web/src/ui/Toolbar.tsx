@@ -10,6 +10,7 @@ import { ModeButtons } from './ModeButtons';
 import { OpenMore } from './OpenButtons';
 import { ResearchMenu } from './ResearchMenu';
 import { SaveMenu } from './SaveMenu';
+import { UndoButtons } from './UndoButtons';
 import { WindowStrip } from './WindowStrip';
 
 const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
@@ -28,6 +29,7 @@ export function Toolbar() {
       <ListButton />
       <SaveMenu />
       <WindowStrip />
+      <UndoButtons />
       <LayoutChoice />
       <ResearchMenu />
       <span class="spring" />
@@ -44,8 +46,8 @@ export function Toolbar() {
 
 function LayoutChoice() {
   return (
-    <label>
-      Layout
+    <label title="Which views are shown">
+      <span class="hidden-words">Layout</span>
       <select
         value={store.layout.value}
         onChange={(event) => showLayout(event.currentTarget.value as store.Layout)}

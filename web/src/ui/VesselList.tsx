@@ -7,11 +7,11 @@ import { setBridge } from '../edit/clicks';
 import { showDoubt, stepDoubt } from '../edit/doubts';
 import { lengthOf } from '../edit/lines';
 import { chosenDoubt, isListOpen, isTracing, toggleTool } from '../edit/mode';
-import { performAny, undoLast } from '../edit/performing';
+import { performAny } from '../edit/performing';
 import { STOPPER } from '../edit/stoppers';
 import { remove } from '../edit/vessels';
 import { doubtful, nameOf } from '../state/changes';
-import { document_, redo, redoWords, undoWords } from '../state/history';
+import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { CenterlineFiles } from './CenterlineFiles';
 import { TidyPart } from './TidyPart';
@@ -24,7 +24,7 @@ export function VesselList() {
   const vessels = document_.value.vessels.filter((vessel) => vessel.doubt === null);
   return (
     <aside class="vessels" aria-label="List of vessels">
-      <Steps />
+      <Closing />
       <Means />
       <Doubtful vessels={doubtful(document_.value)} />
       <TidyPart />
@@ -54,26 +54,10 @@ export function VesselList() {
   );
 }
 
-function Steps() {
-  const [back, forth] = [undoWords.value, redoWords.value];
+/** The way out of the list. */
+function Closing() {
   return (
     <div class="buttons">
-      <button
-        type="button"
-        disabled={back === null}
-        title={back ? `Undo: ${back} (Ctrl+z)` : 'Nothing to undo'}
-        onClick={() => undoLast(engine)}
-      >
-        Undo
-      </button>
-      <button
-        type="button"
-        disabled={forth === null}
-        title={forth ? `Redo: ${forth} (Ctrl+Shift+z)` : 'Nothing to redo'}
-        onClick={redo}
-      >
-        Redo
-      </button>
       <span class="spring" />
       <button
         type="button"

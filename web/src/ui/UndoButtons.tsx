@@ -1,0 +1,34 @@
+/** Undo and redo of everything: edits of vessels, marks, and the window. */
+import { engine } from '../client/shared';
+import { performAny } from '../edit/performing';
+import { redoWords, undoWords } from '../state/history';
+import { hasVolume } from '../state/store';
+
+export function UndoButtons() {
+  if (!hasVolume.value) {
+    return null;
+  }
+  const [back, forth] = [undoWords.value, redoWords.value];
+  return (
+    <span class="undo">
+      <button
+        type="button"
+        aria-label="Undo"
+        disabled={back === null}
+        title={back ? `Undo: ${back} (Ctrl+z)` : 'Nothing to undo'}
+        onClick={() => performAny(engine, 'undo')}
+      >
+        ↶
+      </button>
+      <button
+        type="button"
+        aria-label="Redo"
+        disabled={forth === null}
+        title={forth ? `Redo: ${forth} (Ctrl+Shift+z)` : 'Nothing to redo'}
+        onClick={() => performAny(engine, 'redo')}
+      >
+        ↷
+      </button>
+    </span>
+  );
+}
