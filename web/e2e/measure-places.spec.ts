@@ -109,12 +109,52 @@ test('a place and a reference are marked at the section that is shown', async ()
   await tube.nothingMarked();
   await tube.row('reference-1').getByRole('button', { name: 'reference after' }).click();
   const at = await tube.arcLength('reference-1');
-  await tube.button(`Mark a reference at ${at.toFixed(1)} mm`).click();
+  await tube.button('Reference here').click();
   await expect(tube.row('reference-1')).not.toContainText('(suggestion)');
   await expect(tube.row('reference-1')).toContainText(`at ${at.toFixed(1)} mm`);
   await tube.row('place-0').getByRole('button', { name: 'narrowest place' }).click();
-  await tube.button(`Mark the place at ${PYTHON.narrowest[0].toFixed(1)} mm`).click();
+  await tube.button('Narrowest here').click();
   await expect(tube.stenosis()).toContainText('% of the diameter');
+});
+
+test('a third reference takes the place of the one on its side', async () => {
+  await tube.nothingMarked();
+  await tube.button(/^Confirm the suggested places/).click();
+  const before = await tube.arcLength('reference-0');
+  const chart = tube.viewer.page.getByTestId('chart');
+  await chart.focus();
+  await tube.row('reference-1').getByRole('button', { name: 'reference after', exact: true }).click();
+  await chart.focus();
+  await tube.viewer.press('Shift+ArrowLeft');
+  const at = (await tube.arcLength('reference-1')) - 5;
+  await tube.button('Reference here').click();
+  await expect.poll(() => tube.arcLength('reference-1')).toBeCloseTo(at, 0);
+  expect(await tube.arcLength('reference-0')).toBe(before);
+});
+
+test('a length begins at one section and ends at another, by the mouse or by keys', async () => {
+  await tube.nothingMarked();
+  const { page } = tube.viewer;
+  const begin = tube.button('Length from here');
+  await tube.row('reference-0').getByRole('button', { name: 'reference before' }).click();
+  const from = await tube.arcLength('reference-0');
+  await begin.click();
+  const end = tube.button(/^Length to here: 0\.0 mm$/);
+  await expect(end).toBeVisible();
+  await page.getByTestId('chart').focus();
+  await tube.viewer.press('Escape');
+  await expect(begin).toBeVisible();
+  await begin.focus();
+  await tube.viewer.press('Enter');
+  await page.getByTestId('chart').focus();
+  await tube.viewer.press('Shift+ArrowRight', 'Shift+ArrowRight');
+  await tube.button(/^Length to here: 10\.0 mm$/).click();
+  await expect(page.getByTestId('stretch')).toContainText(
+    `${from.toFixed(1)} to ${(from + 10).toFixed(1)} mm`,
+  );
+  await expect(begin).toBeVisible();
+  await tube.viewer.press('Control+z');
+  await expect(page.getByTestId('stretch')).toHaveCount(0);
 });
 
 test('by keys a reference passes the stenosis too, and stays the one that has the focus', async () => {

@@ -13,6 +13,8 @@ import {
   removed,
   type Suggested,
   stretchAround,
+  withReference,
+  withStretch,
 } from '../src/measure/marks';
 import { centerAt, seenNearest, snapped } from '../src/measure/sections';
 import { marksOf, withMarks } from '../src/measure/vessels';
@@ -236,5 +238,29 @@ describe('the document', () => {
 
   test('stays as it is where no vessel has the line', () => {
     expect(withMarks(before, 12345, marks({ at: 5 }))).toBe(before);
+  });
+});
+
+describe('what is marked at the section', () => {
+  test('a reference comes to one on the other side, and takes the place of one on its own', () => {
+    const both = marks({ at: 30, references: [15, 45] });
+    expect(withReference(profile, marks({ at: 30, references: [15] }), 45).references).toEqual([15, 45]);
+    expect(withReference(profile, both, 50).references).toEqual([15, 50]);
+    expect(withReference(profile, both, 10).references).toEqual([10, 45]);
+  });
+
+  test('a stretch lies between two places in either order, is no shorter than 1 mm, and ends within the vessel', () => {
+    expect(withStretch(profile, marks({}), 40, 12).stretch).toEqual([12, 40]);
+    expect(withStretch(profile, marks({}), 20, 20).stretch).toEqual([20, 21]);
+    const length = profile.arc_length.at(-1) ?? 0;
+    expect(withStretch(profile, marks({}), length, length).stretch).toEqual([length - 1, length]);
+  });
+
+  test('a second stretch leaves the first one as it is', () => {
+    const after = withStretch(profile, marks({ stretch: [5, 9] }), 12, 40);
+    expect([after.stretch, after.secondStretch]).toEqual([
+      [5, 9],
+      [12, 40],
+    ]);
   });
 });

@@ -2,11 +2,10 @@
 import { engine } from '../client/shared';
 import type { Profile } from '../core/messages';
 import { moveTo } from '../link/along';
-import type { VesselMarks } from '../state/document';
 import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
 import { currentMarks, currentPlaces } from './current';
-import { confirm, markHere, remove } from './editing';
+import { confirm, remove } from './editing';
 import { meanings } from './flags';
 import type { Place } from './marks';
 import { COLORS } from './PlaceHandles';
@@ -36,7 +35,6 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
       {marks && marks.at === null && marks.references.length === 0 && (
         <NotSuggested reasons={profile.not_suggested} />
       )}
-      {marks && <MarkButtons marks={marks} />}
       <TurnButton />
     </section>
   );
@@ -49,25 +47,6 @@ function NotSuggested({ reasons }: { readonly reasons: readonly string[] }) {
       {reasons.map(told).join(' ')}
     </p>
   ) : null;
-}
-
-/** Marks where the section is that is shown: what is not suggested is not out of reach. */
-function MarkButtons({ marks }: { readonly marks: VesselMarks }) {
-  const here = `at ${mm(store.pickedPlace.value, 1)}`;
-  return (
-    <div class="mark-here">
-      {marks.at === null && (
-        <button type="button" class="small" onClick={() => markHere('place')}>
-          {`Mark the place ${here}`}
-        </button>
-      )}
-      {marks.references.length < 2 && (
-        <button type="button" class="small" onClick={() => markHere('reference')}>
-          {`Mark a reference ${here}`}
-        </button>
-      )}
-    </div>
-  );
 }
 
 /** Turns the view about the place of the section. */

@@ -11,6 +11,7 @@ import { NoProfile } from './NoProfile';
 import { COLORS, PlaceHandles } from './PlaceHandles';
 import { ProfileChart } from './ProfileChart';
 import { ProfileReading } from './ProfileReading';
+import { SectionTools, TOOLS } from './SectionTools';
 import { type Axis, pixelAt, valueAt } from './scale';
 import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
 
@@ -44,10 +45,11 @@ function ProfileContent({ size }: { readonly size: Pair }) {
     density: Math.min(window.devicePixelRatio || 1, 2),
     fitting: profile ? fittingSide(profile) : UNKNOWN_SIDE,
   });
-  const below: Pair = [size[0], size[1] - Math.round(lying.height)];
+  const vesselHeight = Math.round(lying.height);
+  const below: Pair = [size[0], size[1] - vesselHeight - TOOLS];
   return (
     <>
-      <LyingCpr x={x} lying={lying} height={size[1] - below[1]} />
+      <LyingCpr x={x} lying={lying} height={vesselHeight} />
       {profile ? <Chart profile={profile} size={below} x={x} lying={lying} /> : <NoProfile size={below} />}
     </>
   );
@@ -68,7 +70,7 @@ function Chart({ profile, size, x, lying }: ChartProps) {
     () => <ProfileChart profile={profile} layout={layout} hasUnits={hasUnits} />,
     [profile, layout, hasUnits],
   );
-  const top = Math.round(lying.height);
+  const top = Math.round(lying.height) + TOOLS;
   const heightAt = (at: number): number => {
     const { diameter } = sectionNumbers(profile, at);
     return top + pixelAt(layout.y, Math.min(diameter ?? 0, layout.y.high));
@@ -79,6 +81,7 @@ function Chart({ profile, size, x, lying }: ChartProps) {
       <ProfileReading profile={profile} x={x} top={top} hovered={hovered} onHover={setHovered}>
         {drawn}
       </ProfileReading>
+      <SectionTools column={pixelAt(x, store.pickedPlace.value)} width={size[0]} top={top - TOOLS} />
       <div class="overlay places">
         <PlaceLines x={x} top={top} bottom={top + layout.bottom} />
         <PlaceHandles

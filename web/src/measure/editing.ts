@@ -1,11 +1,21 @@
 /** Changes marks in the document: a drag is previewed and becomes one step that can be undone. */
-import { batch, signal } from '@preact/signals';
+import { batch, computed, signal } from '@preact/signals';
 import { moveTo } from '../link/along';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
 import { change, document_, endPreview, preview } from '../state/history';
+import { begunLength, dropLength } from '../state/length';
 import { pickedPlace } from '../state/store';
 import { answers, comparedPlaces, currentMarks, currentProfile, currentVessel } from './current';
-import { allConfirmed, moved, type Place, placeAfter, removed, taken } from './marks';
+import {
+  allConfirmed,
+  moved,
+  type Place,
+  placeAfter,
+  removed,
+  taken,
+  withReference,
+  withStretch,
+} from './marks';
 import { snapped } from './sections';
 import { withMarks } from './vessels';
 import { placeName } from './words';
@@ -79,7 +89,32 @@ export function markHere(kind: 'place' | 'reference'): void {
   const profile = currentProfile.value;
   if (profile) {
     const at = snapped(profile, pickedPlace.value);
-    changeMarks(`mark the ${kind}`, (marks) => taken(marks, { kind, slot: 0, at, isSuggestion: true }));
+    changeMarks(`mark the ${kind}`, (marks) =>
+      kind === 'place' ? { ...marks, at } : withReference(profile, marks, at),
+    );
+  }
+}
+
+/** Where the length begins on the picked vessel that has no end yet (mm). */
+export const lengthFrom = computed<number | null>(() =>
+  begunLength.value && begunLength.value.line === currentVessel.value?.line ? begunLength.value.at : null,
+);
+
+/** Begins a length at the section that is shown. */
+export function beginLength(): void {
+  const [vessel, profile] = [currentVessel.value, currentProfile.value];
+  if (vessel && profile) {
+    begunLength.value = { line: vessel.line, at: snapped(profile, pickedPlace.value) };
+  }
+}
+
+/** Ends it at the section that is shown: a stretch is marked. */
+export function endLength(): void {
+  const [from, profile] = [lengthFrom.value, currentProfile.value];
+  if (from !== null && profile) {
+    const to = snapped(profile, pickedPlace.value);
+    changeMarks('mark a stretch', (marks) => withStretch(profile, marks, from, to));
+    dropLength();
   }
 }
 

@@ -87,9 +87,10 @@ export function moved(profile: Profile, marks: VesselMarks, place: Place, to: nu
   const ends = marks[place.kind] ?? [at, at];
   const other = ends[1 - place.slot] ?? at;
   // The ends keep their order, and some length between them.
-  const least = 1;
   const kept: Pair =
-    place.slot === 0 ? [Math.min(at, other - least), other] : [other, Math.max(at, other + least)];
+    place.slot === 0
+      ? [Math.min(at, other - LEAST_STRETCH), other]
+      : [other, Math.max(at, other + LEAST_STRETCH)];
   return { ...marks, [place.kind]: kept };
 }
 
@@ -135,6 +136,27 @@ export function removed(marks: VesselMarks, place: Place): VesselMarks {
   return place.kind === 'stretch'
     ? { ...marks, stretch: marks.secondStretch, secondStretch: null }
     : { ...marks, secondStretch: null };
+}
+
+/** The marks with a reference at a place: where there are two, it takes the place of the one on its side of the stenosis. */
+export function withReference(profile: Profile, marks: VesselMarks, at: number): VesselMarks {
+  const main = mainPlace(profile, marks)?.at ?? 0;
+  const other = referenceSlots(marks, main)[at < main ? 1 : 0];
+  const kept = marks.references.length < 2 ? marks.references : other === null ? [] : [other];
+  return { ...marks, references: [...kept, at].sort((a, b) => a - b) };
+}
+
+/** Whether no further stretch can be marked. */
+export const isFull = ({ stretch, secondStretch }: VesselMarks): boolean => Boolean(stretch && secondStretch);
+
+/** The shortest stretch (mm). */
+const LEAST_STRETCH = 1;
+
+/** The marks with a stretch between two places, in either order: the first one that is free. */
+export function withStretch(profile: Profile, marks: VesselMarks, one: number, other: number): VesselMarks {
+  const from = within(Math.min(one, other), [0, lengthOf(profile) - LEAST_STRETCH]);
+  const ends: Pair = [from, Math.max(one, other, from + LEAST_STRETCH)];
+  return marks.stretch ? { ...marks, secondStretch: ends } : { ...marks, stretch: ends };
 }
 
 /** The marks with a suggestion taken as a mark, exactly where it is shown. */

@@ -8,6 +8,7 @@ import type { Action } from '../input/bindings';
 import { isArriving } from './arriving';
 import { destination, flyToAnswer } from './flight';
 import { windowChanged } from './history';
+import { dropLength } from './length';
 import { dragPlaceTurn, endPlaceTurn, placeTurn, togglePlaceTurn } from './place-turn';
 import { stopMeasuring } from './profiles';
 import { putRulerAway } from './rulers';
@@ -217,6 +218,7 @@ function performSimple(engine: EngineClient, action: Action): void {
 
 function cancel(engine: EngineClient): void {
   putRulerAway();
+  dropLength();
   if (store.progress.value) {
     void engine.cancel();
     store.progress.value = null;

@@ -10,6 +10,7 @@ import { beginStudy, showAgain } from '../edit/shown';
 import { placeCrossHair } from '../link/cross-hair';
 import { document_, hasEdits } from '../state/history';
 import { openWith } from '../state/last-opened';
+import { dropLength } from '../state/length';
 import { beginMeasuring } from '../state/profiles';
 import { putRulerAway } from '../state/rulers';
 import * as store from '../state/store';
@@ -161,6 +162,7 @@ function longest(report: Report): number {
 function forget(): void {
   beginMeasuring();
   putRulerAway();
+  dropLength();
   store.report.value = null;
   store.notes.value = [];
   store.histogram.value = null;

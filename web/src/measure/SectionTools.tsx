@@ -1,0 +1,74 @@
+/** What can be marked at the section that is shown: a small bar at its line, always within reach. */
+import { pickedPlace } from '../state/store';
+import { currentMarks } from './current';
+import { beginLength, endLength, lengthFrom, markHere } from './editing';
+import { isFull } from './marks';
+import { mm } from './words';
+
+/** The height of the bar (CSS pixels). */
+export const TOOLS = 28;
+/** Half of the width that it takes at most: so far it stays away from both edges. */
+const HALF = 190;
+
+interface SectionToolsProps {
+  /** Where the line of the section is, and how wide the pane is (CSS pixels). */
+  readonly column: number;
+  readonly width: number;
+  readonly top: number;
+}
+
+export function SectionTools({ column, width, top }: SectionToolsProps) {
+  const marks = currentMarks.value;
+  if (!marks) {
+    return null;
+  }
+  const middle = Math.max(Math.min(column, width - HALF), Math.min(HALF, width / 2));
+  const at = mm(pickedPlace.value, 1);
+  return (
+    <div
+      class="section-tools"
+      role="toolbar"
+      aria-label={`At the section, ${at}`}
+      style={{ top: `${top}px`, left: `${middle}px` }}
+    >
+      <button
+        type="button"
+        class="small"
+        title={`The stenosis is at ${at}`}
+        onClick={() => markHere('place')}
+      >
+        Narrowest here
+      </button>
+      <button
+        type="button"
+        class="small"
+        title={`The vessel is normal at ${at}: a reference of the stenosis`}
+        onClick={() => markHere('reference')}
+      >
+        Reference here
+      </button>
+      <LengthButton isFull={isFull(marks)} />
+    </div>
+  );
+}
+
+/** The first press begins a length at the section, the second one ends it where the section is by then. */
+function LengthButton({ isFull: hasNoRoom }: { readonly isFull: boolean }) {
+  const from = lengthFrom.value;
+  if (from === null) {
+    const title = hasNoRoom
+      ? 'Two stretches are marked: remove one of them first'
+      : 'Then move the section to the other end';
+    return (
+      <button type="button" class="small" disabled={hasNoRoom} title={title} onClick={beginLength}>
+        Length from here
+      </button>
+    );
+  }
+  const length = Math.abs(pickedPlace.value - from);
+  return (
+    <button type="button" class="small" aria-pressed="true" title={`From ${mm(from, 1)}`} onClick={endLength}>
+      {`Length to here: ${mm(length, 1)}`}
+    </button>
+  );
+}
