@@ -13,6 +13,7 @@ import { nameOf, vesselOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { type Tool, tool } from '../state/tool';
+import { OpenMore } from './OpenButtons';
 
 export function TraceBar() {
   const doubt = vesselOf(document_.value, chosenDoubt.value);
@@ -42,8 +43,8 @@ function Offer() {
     return null;
   }
   return (
-    <div class="trace-bar" role="note">
-      <span>No vessels yet: find them, click along one, or drop its centerlines or a mask.</span>
+    <div class="trace-bar offer" role="note">
+      <span>No vessels yet. Centerlines or a mask can be dropped here, too.</span>
       <button
         type="button"
         disabled={waiting.value > 0}
@@ -55,6 +56,7 @@ function Offer() {
       <button type="button" onClick={() => performAny(engine, 'trace')}>
         Trace one vessel
       </button>
+      <OpenMore words="I have centerlines" />
       <button
         type="button"
         aria-label="Close the offer"
