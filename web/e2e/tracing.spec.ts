@@ -38,8 +38,19 @@ async function traceTo(viewer: Viewer, end: readonly [number, number], count: nu
   await button(viewer, 'End this vessel').click();
 }
 
-test('a page without vessels offers to trace them', async ({ browser }) => {
+test('a page without vessels offers the three ways to them', async ({ browser }) => {
   const viewer = await untraced(browser);
+  // Each is large enough for a finger.
+  const offer = viewer.page.locator('.trace-bar.offer');
+  for (const words of ['Find all vessels', 'Trace one vessel', 'I have centerlines']) {
+    const box = await offer.getByRole('button', { name: words }).boundingBox();
+    expect(box?.height).toBeGreaterThanOrEqual(44);
+  }
+  const [chooser] = await Promise.all([
+    viewer.page.waitForEvent('filechooser'),
+    offer.getByRole('button', { name: 'I have centerlines' }).click(),
+  ]);
+  expect(chooser.isMultiple()).toBe(true);
   await button(viewer, 'Trace one vessel').click();
   await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'four');
   await expect(viewer.field('Context')).toHaveValue('mip');
@@ -198,6 +209,8 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
   await traceTo(viewer, LEFT, 2);
   await button(viewer, 'Done').click();
   await rows(viewer).nth(0).getByRole('radio').check();
+  await expect(nameOf(viewer, 0)).toHaveAttribute('list', 'names-to-offer');
+  await expect(page.locator('#names-to-offer option[value="Left renal artery"]')).toHaveCount(1);
   await nameOf(viewer, 0).fill('to the right');
   await nameOf(viewer, 0).press('Tab');
   const lengths = [await lengthOf(viewer, 0), await lengthOf(viewer, 1)];

@@ -44,7 +44,7 @@ function Offer() {
   }
   return (
     <div class="trace-bar offer" role="note">
-      <span>No vessels yet. Centerlines or a mask can be dropped here, too.</span>
+      <span>No vessels yet: find them, click along one, or open or drop centerlines or a mask.</span>
       <button
         type="button"
         disabled={waiting.value > 0}

@@ -2,6 +2,7 @@
 
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
+import { namesToOffer } from '../edit/anatomy';
 import { accept, findVessels, leaveOut } from '../edit/branches';
 import { setBridge } from '../edit/clicks';
 import { showDoubt, stepDoubt } from '../edit/doubts';
@@ -15,7 +16,7 @@ import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { CenterlineFiles } from './CenterlineFiles';
 import { TidyPart } from './TidyPart';
-import { lighting, VesselRow } from './VesselRow';
+import { lighting, NAMES_TO_OFFER, VesselRow } from './VesselRow';
 
 export function VesselList() {
   if (!isListOpen.value) {
@@ -34,6 +35,11 @@ export function VesselList() {
           <VesselRow key={vessel.id} vessel={vessel} />
         ))}
       </ul>
+      <datalist id={NAMES_TO_OFFER}>
+        {namesToOffer(vessels.map((vessel) => vessel.name)).map((name) => (
+          <option key={name} value={name} />
+        ))}
+      </datalist>
       {vessels.length > 1 && (
         <div class="buttons">
           <button

@@ -18,6 +18,9 @@ import { pickedPlace, pickedVessel, report } from '../state/store';
 import { lit } from '../state/tidy';
 import { active, tool } from '../state/tool';
 
+/** The id of the names that the fields of the rows offer. */
+export const NAMES_TO_OFFER = 'names-to-offer';
+
 interface RowProps {
   readonly vessel: DocumentVessel;
 }
@@ -48,7 +51,7 @@ export function VesselRow({ vessel }: RowProps) {
       >
         {vessel.isHidden ? '◌' : '◉'}
       </button>
-      {isPicked || vessel.isHidden ? <Means vessel={vessel} /> : null}
+      {isPicked && !vessel.isHidden ? <Means vessel={vessel} /> : null}
     </li>
   );
 }
@@ -76,6 +79,7 @@ function NameField({ vessel }: RowProps) {
   return (
     <input
       class="name"
+      list={NAMES_TO_OFFER}
       value={typed ?? vessel.name}
       placeholder={nameOf(vessel)}
       aria-label={`Name of ${nameOf(vessel)}`}
@@ -122,29 +126,25 @@ function Means({ vessel }: RowProps) {
   };
   return (
     <div class="buttons">
-      {!vessel.isHidden && (
-        <button
-          type="button"
-          title="From where most of it is seen (f)"
-          onClick={() => void showBestView(engine)}
-        >
-          Best view
-        </button>
-      )}
-      {vessel.clicks && !vessel.isHidden && (
+      <button
+        type="button"
+        title="From where most of it is seen (f)"
+        onClick={() => void showBestView(engine)}
+      >
+        Best view
+      </button>
+      {vessel.clicks && (
         <button type="button" title="Add points at its end" onClick={goOn}>
           Go on
         </button>
       )}
-      {!vessel.isHidden && (
-        <button
-          type="button"
-          title="Cut it where the section stands"
-          onClick={() => void cut(engine, id, pickedPlace.value)}
-        >
-          Cut here
-        </button>
-      )}
+      <button
+        type="button"
+        title="Cut it where the section stands"
+        onClick={() => void cut(engine, id, pickedPlace.value)}
+      >
+        Cut here
+      </button>
       {others.length > 0 && (
         <select
           value=""

@@ -1,0 +1,20 @@
+/** Which names of anatomy are offered where a vessel is named. */
+import { expect, test } from 'vitest';
+import { namesToOffer } from '../src/edit/anatomy';
+
+test('paired arteries are offered once for each side, and no name twice', () => {
+  const names = namesToOffer([]);
+  expect(names).toContain('Left renal artery');
+  expect(names).toContain('Right renal artery');
+  expect(names).not.toContain('renal artery');
+  expect(new Set(names).size).toBe(names.length);
+  expect(names).toEqual([...names].sort((a, b) => a.localeCompare(b, 'en')));
+});
+
+test('a name that a vessel has is not offered again, however it is written', () => {
+  const names = namesToOffer(['aorta ', 'RIGHT RENAL ARTERY', '']);
+  expect(names).not.toContain('Aorta');
+  expect(names).not.toContain('Right renal artery');
+  expect(names).toContain('Left renal artery');
+  expect(names).toContain('Abdominal aorta');
+});
