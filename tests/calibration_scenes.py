@@ -6,12 +6,13 @@ and noise that is correlated as a kernel makes it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from lumencut import Vessel, Volume
+from lumencut import Vessel, VesselTree, Volume
 
 Floats = npt.NDArray[np.float64]
 
@@ -151,3 +152,19 @@ def correlated(draw: np.random.Generator, shape: tuple[int, ...], kernel: float)
         gain = gain * np.sqrt(np.sqrt(in_plane) + 0.02)
     noise = np.fft.ifftn(np.fft.fftn(white) * gain).real
     return noise / noise.std()
+
+
+def tree_of(scenes: Sequence[Scene]) -> tuple[Volume, VesselTree]:
+    """Straight vessels beside each other in one scan, on the voxels of the first, and the tree of them."""
+    spacing = np.array(scenes[0].spacing)
+    scans = [scene.volume() for scene in scenes]
+    deep, high = (max(scan.shape[axis] for scan in scans) for axis in (0, 1))
+    values = np.full((deep, high, sum(scan.shape[2] for scan in scans)), FAT, np.int16)
+    vessels, first = [], 0
+    for scene, scan in zip(scenes, scans, strict=True):
+        k, j, i = scan.shape
+        values[:k, :j, first : first + i] = scan.array
+        index = (scene.vessel().points - scan.world_from_index[:3, 3]) / spacing
+        vessels.append(Vessel((index + [first, 0, 0]) * spacing))
+        first += i
+    return Volume(values, world_from_index=np.diag([*spacing, 1.0])), VesselTree(vessels)

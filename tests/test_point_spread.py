@@ -106,15 +106,16 @@ def test_a_stretch_shorter_than_three_widths_tells_nothing_and_says_so():
 
 def test_a_tree_is_asked_once(branches, monkeypatch):
     scene, _ = branches
-    asked, find = [], _lumencut.point_spread
-    monkeypatch.setattr(_lumencut, "point_spread", lambda *of: asked.append(of) or find(*of))
+    asked, find = [], _lumencut.told_by_tree
+    monkeypatch.setattr(_lumencut, "told_by_tree", lambda *of: asked.append(of) or find(*of))
     volume = Volume(scene.volume.array, world_from_index=scene.volume.world_from_index)
     vessels = [*scene.tree, scene.tree.path([0, 1])]
     first = [measure(volume, vessel, tree=scene.tree) for vessel in vessels]
     assert len(asked) == 1
     assert len({(one.fwhm, one.fwhm_source) for one in first}) == 1
-    # Another step is another question, and a width that is given none.
+    # Another step is another question, and so is a width that is given, as walls are told under it.
     measure(volume, vessels[0], 1.0, tree=scene.tree)
     assert len(asked) == 2
-    measure(volume, vessels[0], fwhm=0.9, tree=scene.tree)
-    assert len(asked) == 2
+    for vessel in vessels:
+        measure(volume, vessel, fwhm=0.9, tree=scene.tree)
+    assert len(asked) == 3

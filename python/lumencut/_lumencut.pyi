@@ -57,12 +57,12 @@ __all__ = [
     "Cpr",
     "Grade",
     "KeptProfiles",
-    "PointSpread",
     "Profile",
     "Renderer",
     "Setting",
     "Settings",
     "Stenosis",
+    "ToldByTree",
     "Tracer",
     "__version__",
     "about",
@@ -110,7 +110,6 @@ __all__ = [
     "path",
     "picture",
     "placement",
-    "point_spread",
     "positions",
     "profile_csv",
     "profile_json",
@@ -129,6 +128,7 @@ __all__ = [
     "sides",
     "smoothed",
     "threads",
+    "told_by_tree",
     "trace_from",
     "trace_mask",
     "vessels_csv",
@@ -307,7 +307,7 @@ class Profile:
     def c_arm(self, ends: tuple[float, float], lao: float | None = None) -> tuple[float, float]: ...
 
 @final
-class PointSpread: ...
+class ToldByTree: ...
 
 @final
 class Stenosis:
@@ -421,10 +421,11 @@ def measure(
     volume: Any,
     measured: _Arrays,
     step: float,
-    spread: float | PointSpread | None = None,
+    fwhm: float | None = None,
     tree: list[_Arrays] | None = None,
     wall: tuple[float, float] | None = None,
-    told: Callable[[int, int], object] | None = None,
+    told: ToldByTree | None = None,
+    progress: Callable[[int, int], object] | None = None,
 ) -> Profile: ...
 def measured_radii(
     volume: Any,
@@ -444,9 +445,6 @@ def placement(
     known: Mapping[str, str | None],
     volume: Any,
 ) -> dict[str, Any]: ...
-def point_spread(
-    volume: Any, tree: list[_Arrays], step: float, wall: tuple[float, float] | None = None
-) -> PointSpread: ...
 def positions(camera: Any, depth: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]: ...
 def profile_csv(profile: Profile) -> str: ...
 def profile_json(profile: Profile) -> str: ...
@@ -474,6 +472,13 @@ def set_threads(count: int) -> None: ...
 def sides(direction: Sequence[float] | npt.NDArray[np.float64]) -> str: ...
 def smoothed(vessels: list[_Arrays], radii: float) -> list[npt.NDArray[np.float64]]: ...
 def threads() -> int: ...
+def told_by_tree(
+    volume: Any,
+    tree: list[_Arrays],
+    step: float,
+    fwhm: float | None = None,
+    wall: tuple[float, float] | None = None,
+) -> ToldByTree: ...
 def trace_from(
     volume: Any,
     seed: tuple[float, float, float],

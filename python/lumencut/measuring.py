@@ -59,7 +59,8 @@ def measure(
         it, also for a path through several vessels.
     tree : VesselTree, optional
         The tree that the vessel is of: sections within the lumen of its other vessels get
-        :attr:`Flag.BRANCH`.
+        :attr:`Flag.BRANCH`, and what its eight widest vessels tell of the level of their walls helps those
+        whose own sections tell little.
     wall : pair of float or "off", optional
         The level of the vessel's wall and the standard deviation of that, in the unit of the volume. Without
         it, it is 45 ± 25 HU where the values of the volume are HU (some are below -20) and the lumen is
@@ -94,24 +95,24 @@ def measure(
     given = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
     others = None if tree is None else [(one.points, one.radius) for one in tree]
     level = wall_level(wall)
-    if others is None or given is not None:
-        spread: float | _lumencut.PointSpread | None = given
-    else:
-        spread = _point_spread(grid, tree, others, along, level)
+    told = None if others is None else _told_by_tree(grid, tree, others, along, given, level)
     measured = (vessel.points, vessel.radius)
-    return Profile(_lumencut.measure(grid, measured, along, spread, others, level, progress))
+    return Profile(_lumencut.measure(grid, measured, along, given, others, level, told, progress))
 
 
-def _point_spread(
+def _told_by_tree(
     volume: Volume,
     tree: VesselTree | None,
     arrays: list[Any],
     step: float,
+    fwhm: float | None,
     wall: tuple[float, float] | None,
-) -> _lumencut.PointSpread:
-    """The point spread that a tree tells in a volume, found once for all that is measured along it."""
-    found, name = volume._point_spreads, f"step {step}, wall {wall}"
-    return found.once(volume._voxels, name, tree, lambda: _lumencut.point_spread(volume, arrays, step, wall))
+) -> _lumencut.ToldByTree:
+    """What a tree tells in a volume, found once for all that is measured along it."""
+    name = f"step {step}, fwhm {fwhm}, wall {wall}"
+    return volume._told_by_trees.once(
+        volume._voxels, name, tree, lambda: _lumencut.told_by_tree(volume, arrays, step, fwhm, wall)
+    )
 
 
 @dataclass(frozen=True)

@@ -173,8 +173,8 @@ class Volume(KeepsReadOnly):
         return FoundOnce()
 
     @functools.cached_property
-    def _point_spreads(self) -> FoundOnce[_lumencut.PointSpread]:
-        """The point spreads that trees told."""
+    def _told_by_trees(self) -> FoundOnce[_lumencut.ToldByTree]:
+        """What trees told of the point spread and of walls."""
         return FoundOnce()
 
     @property

@@ -27,8 +27,8 @@ use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 
 use crate::errors::to_python;
-use crate::point_spread::KnownSpread;
 use crate::pool;
+use crate::told_by_tree::ToldByTree;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
@@ -60,21 +60,22 @@ fn defaults() -> [(&'static str, f64); 4] {
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Profile(pub Arc<profile::Profile>, pub ScanDetails);
 
-/// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree: under a point spread that is known,
-/// as its width (mm) or as the tree told it, or under the one that the vessel itself tells. While it runs, `told` is called now and
+/// The profile of a vessel, its points (n, 3) and radii (n,), among the vessels of its tree: with what the tree `told` before,
+/// or what it tells now, or without one under a point spread of a width (mm) or the one that the vessel itself tells. While it runs, `progress` is called now and
 /// then with how much is done, in parts of the whole.
 #[pyfunction]
-#[pyo3(signature = (volume, measured, step, spread=None, tree=None, wall=None, told=None))]
+#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, wall=None, told=None, progress=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub fn measure<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     measured: VesselArrays<'py>,
     step: f64,
-    spread: Option<KnownSpread>,
+    fwhm: Option<f64>,
     tree: Option<Vec<VesselArrays<'py>>>,
     wall: Option<[f64; 2]>,
-    told: Option<Py<PyAny>>,
+    told: Option<Py<ToldByTree>>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Profile> {
     let borrowed = volume.borrow()?;
     let scan = volume.scan();
@@ -82,18 +83,12 @@ pub fn measure<'py>(
     let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let vessel = vessel_of(&measured)?;
     let wall = wall_request(wall);
-    let fwhm = match spread {
-        Some(KnownSpread::Width(fwhm)) => Some(fwhm),
-        _ => None,
-    };
-    let profile = told_while(py, told.as_ref(), |stop, progress| {
+    let profile = told_while(py, progress.as_ref(), |stop, progress| {
         let measured = |stop: Stop<'_>| {
             let request = MeasureRequest { step, fwhm, wall, tree: &others, stop };
-            match &spread {
-                Some(KnownSpread::OfTree(spread)) => {
-                    measuring::measure_under(spread.get().0.clone(), &volume, &vessel, &request)
-                }
-                _ => measuring::measure(&volume, &vessel, &request),
+            match &told {
+                Some(told) => measuring::measure_under(told.get().0.clone(), &volume, &vessel, &request),
+                None => measuring::measure(&volume, &vessel, &request),
             }
         };
         if let Some(progress) = progress {

@@ -43,6 +43,7 @@ pub mod suggestions;
 pub mod sums;
 pub mod terms;
 pub mod texture;
+pub mod tree_walls;
 pub mod wall;
 pub mod wall_level;
 pub mod wall_pool;

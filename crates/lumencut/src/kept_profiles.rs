@@ -1,4 +1,4 @@
-//! Profiles of vessels of one scan: each is measured when it is first asked for and kept, all under one point spread.
+//! Profiles of vessels of one scan: each is measured when it is first asked for and kept, all with what their tree tells.
 
 use std::sync::Arc;
 
@@ -6,9 +6,10 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
-use lumencut_vessels::measure::measuring::{measure_under, point_spread_of};
-use lumencut_vessels::measure::profile::{PointSpread, Profile};
+use lumencut_vessels::measure::measuring::{measure_under, told_by_tree};
+use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::request::MeasureRequest;
+use lumencut_vessels::measure::tree_walls::ToldByTree;
 use lumencut_vessels::measure::wall_level::WallRequest;
 
 /// A volume and the tree in it. Both decide what is measured: profiles that were kept are those of other ones no longer.
@@ -16,7 +17,7 @@ use lumencut_vessels::measure::wall_level::WallRequest;
 pub struct Scan<'a> {
     /// The angiography.
     pub volume: &'a Volume<'a>,
-    /// The vessels that tell the point spread and where branches are.
+    /// The vessels that tell the point spread, the level of walls and where branches are.
     pub tree: &'a [Vessel],
 }
 
@@ -35,8 +36,8 @@ pub struct Asking<'a> {
 
 /// The profiles that are kept, by what their host calls a vessel.
 pub struct KeptProfiles<K> {
-    /// The point spread that the tree tells, for all of its vessels, by the level of walls that was asked for.
-    told: Vec<(WallRequest, PointSpread)>,
+    /// What the tree tells for all of its vessels, by the level of walls and the point spread that were asked for.
+    told: Vec<((WallRequest, Option<f64>), ToldByTree)>,
     kept: Vec<Kept<K>>,
 }
 
@@ -68,8 +69,8 @@ impl<K: PartialEq> KeptProfiles<K> {
             return Ok(found);
         }
         let request = MeasureRequest { step, fwhm, wall, tree: scan.tree, stop };
-        let spread = self.spread(scan.volume, &request)?;
-        let profile = Arc::new(measure_under(spread, scan.volume, vessel, &request)?);
+        let told = self.told(scan.volume, &request)?;
+        let profile = Arc::new(measure_under(told, scan.volume, vessel, &request)?);
         self.kept.push(Kept { of: key, step, fwhm, wall, profile });
         Ok(self.kept.len() - 1)
     }
@@ -84,16 +85,14 @@ impl<K: PartialEq> KeptProfiles<K> {
         self.kept.iter().find(|kept| kept.of == *key).map(|kept| &*kept.profile)
     }
 
-    /// The point spread as it is given, or as the tree tells it, which is found once.
-    fn spread(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<PointSpread> {
-        if request.fwhm.is_some() {
-            return point_spread_of(volume, request);
-        }
-        if let Some((_, told)) = self.told.iter().find(|(wall, _)| *wall == request.wall) {
+    /// What the tree tells, which is found once.
+    fn told(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
+        let asked = (request.wall, request.fwhm);
+        if let Some((_, told)) = self.told.iter().find(|(other, _)| *other == asked) {
             return Ok(told.clone());
         }
-        let told = point_spread_of(volume, request)?;
-        self.told.push((request.wall, told.clone()));
+        let told = told_by_tree(volume, request)?;
+        self.told.push((asked, told.clone()));
         Ok(told)
     }
 }

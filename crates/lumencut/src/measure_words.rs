@@ -85,9 +85,17 @@ pub fn of_source(source: &Source) -> String {
 /// Whether walls were told apart from what surrounds the vessel, and by which level.
 pub fn of_wall(source: &WallSource) -> String {
     let level = |[level, deviation]: [f64; 2]| format!("{} ± {}", fixed(level, 0), fixed(deviation, 0));
+    let in_ct = || format!("{} HU, as walls in CT", level(CT_WALL));
+    let given = |as_given: &[f64; 2]| format!("{}, given", level(*as_given));
     match source {
-        WallSource::Hounsfield => format!("{} HU, as walls in CT", level(CT_WALL)),
-        WallSource::Given(given) => format!("{}, given", level(*given)),
+        WallSource::Hounsfield => in_ct(),
+        WallSource::Given(as_given) => given(as_given),
+        WallSource::Pooled { given: before, by_others } => {
+            let before = before.as_ref().map_or_else(in_ct, given);
+            let (pooled, count) = (level(by_others.level), by_others.vessels);
+            let others = if count == 1 { "vessel" } else { "vessels" };
+            format!("{before}; {pooled} pooled with {count} other {others} of the tree")
+        }
         WallSource::NotAsked => "not told apart, as asked".to_owned(),
         WallSource::DarkLumen => "not told apart: the lumen is dark".to_owned(),
         WallSource::AsBright => "not told apart: the surroundings are as bright".to_owned(),

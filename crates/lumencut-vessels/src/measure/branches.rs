@@ -59,6 +59,12 @@ impl Lumen {
     }
 }
 
+/// Whether two vessels have a part of their lines in common: more than the one point in which vessels meet.
+pub fn shares_line(one: &Vessel, other: &Vessel) -> bool {
+    let is_there = |point: &&DVec3| other.points().iter().any(|there| there.distance(**point) < SAME_PLACE);
+    one.points().iter().filter(is_there).nth(1).is_some()
+}
+
 /// Whether a vessel is a part of another one: each of its points is a point of that.
 fn is_part(vessel: &Vessel, whole: &Vessel) -> bool {
     let is_there = |point: &DVec3| whole.points().iter().any(|other| other.distance(*point) < SAME_PLACE);

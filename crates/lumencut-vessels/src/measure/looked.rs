@@ -15,7 +15,8 @@ use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
 use super::place::{Place, Track, known_radius};
 use super::point_spread::{Told, estimated};
-use super::profile::{PointSpread, Profile};
+use super::pooled::Level;
+use super::profile::Profile;
 use super::rays::Rays;
 use super::request::MeasureRequest;
 use super::restless::flag_restless;
@@ -24,9 +25,10 @@ use super::scale::Scale;
 use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
 use super::slab::thickness;
 use super::texture::{Pairs, Texture};
+use super::tree_walls::{PooledWall, ToldByTree};
 use super::wall::KnownWall;
-use super::wall_level::{WallSource, expected};
-use super::wall_pool::{is_apart, pooled};
+use super::wall_level::{WallSource, expected, is_below_lumen};
+use super::wall_pool::{is_apart, pooled, told_level};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
@@ -57,6 +59,8 @@ struct FirstFits {
     fwhm: f64,
     hidden: Option<KnownWall>,
     fits: Vec<Option<Fit>>,
+    /// The texture of the noise, from what they miss.
+    texture: Texture,
 }
 
 /// A vessel before it is fitted.
@@ -66,8 +70,8 @@ pub struct Looked {
     wall_source: WallSource,
     places: Vec<Place>,
     rough: Vec<Option<Rough>>,
-    /// The fits under the point spread that is assumed before it is known; it often stays so.
-    first: OnceLock<FirstFits>,
+    /// The fits under the point spread that is assumed before it is known, and under the one that is told or given.
+    first: [OnceLock<FirstFits>; 2],
 }
 
 impl Looked {
@@ -88,7 +92,21 @@ impl Looked {
         let mut radii: Vec<f64> = rough.iter().flatten().map(|rough| rough.radius).collect();
         let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
         let places = Track::new(vessel, Some(radius))?.places(request.step)?;
-        Ok(Self { scale, wall, wall_source, places, rough: tamed(&rough), first: OnceLock::new() })
+        Ok(Self { scale, wall, wall_source, places, rough: tamed(&rough), first: Default::default() })
+    }
+
+    /// The fits under a point spread (FWHM, mm) of the sections that are fitted by themselves, which are kept.
+    fn kept_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
+        let kept = self.first.iter().filter_map(OnceLock::get).find(|first| first.fwhm == fwhm);
+        if let Some(kept) = kept {
+            return Ok(kept.clone());
+        }
+        let found = self.fitted(voxels, fwhm).1.first_fits(voxels, fwhm, stop)?;
+        let free = self.first.iter().find(|first| first.get().is_none());
+        if let Some(free) = free {
+            free.get_or_init(|| found.clone());
+        }
+        Ok(found)
     }
 
     /// The fits of all sections by themselves under a point spread (FWHM, mm). Some of them say first whether walls are told
@@ -97,7 +115,7 @@ impl Looked {
         let mut bench = bench(voxels, self.scale, self.wall, fwhm);
         let Some(known) = self.wall else {
             let fits = bench.first_fits(&self.places, &self.rough, stop)?;
-            return Ok(FirstFits { fwhm, hidden: None, fits });
+            return self.textured(&bench, None, fits, stop);
         };
         let every = self.places.len().div_ceil(WALL_SECTIONS).max(1);
         let some = self.part(|n| n % every == 0);
@@ -105,13 +123,25 @@ impl Looked {
         if let Some(hidden) = some.hidden_wall(&bench, &known, &fits, stop)? {
             bench.wall = None;
             let fits = bench.first_fits(&self.places, &self.rough, stop)?;
-            return Ok(FirstFits { fwhm, hidden: Some(hidden), fits });
+            return self.textured(&bench, Some(hidden), fits, stop);
         }
         let others = self.part(|n| n % every != 0);
         let (mut these, mut those) =
             (fits.into_iter(), bench.first_fits(&others.places, &others.rough, stop)?.into_iter());
         let merged = (0..self.places.len()).map(|n| if n % every == 0 { these.next() } else { those.next() });
-        Ok(FirstFits { fwhm, hidden: None, fits: merged.map(Option::flatten).collect() })
+        self.textured(&bench, None, merged.map(Option::flatten).collect(), stop)
+    }
+
+    /// Fits with the texture of what they miss.
+    fn textured(
+        &self,
+        bench: &Bench,
+        hidden: Option<KnownWall>,
+        fits: Vec<Option<Fit>>,
+        stop: Stop,
+    ) -> Result<FirstFits> {
+        let texture = self.texture(bench, &fits, noise(&fits), stop)?;
+        Ok(FirstFits { fwhm: bench.fwhm, hidden, fits, texture })
     }
 
     /// What sections are looked at with under a point spread (FWHM, mm): without walls where they are hidden.
@@ -134,7 +164,7 @@ impl Looked {
         Self {
             places: kept().map(|n| self.places[n]).collect(),
             rough: kept().map(|n| self.rough[n]).collect(),
-            first: OnceLock::new(),
+            first: Default::default(),
             ..*self
         }
     }
@@ -148,7 +178,7 @@ impl Looked {
         stop: Stop,
     ) -> Result<Option<KnownWall>> {
         let inflation = self.inflation(bench, &self.texture(bench, fits, noise(fits), stop)?);
-        let told = pooled(&self.arc_lengths(), fits, known, inflation);
+        let told = pooled(&self.arc_lengths(), fits, known, known.level, inflation);
         let hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
         Ok(hidden.filter(|_| !is_apart(known, &told, fits)))
     }
@@ -164,13 +194,29 @@ impl Looked {
     /// [`ErrorKind::Interrupted`].
     pub fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
         let (_, fitted) = self.fitted(voxels, assumed(voxels));
-        let first = fitted.first_fits(voxels, assumed(voxels), stop)?;
-        let FirstFits { hidden, fits, .. } = self.first.get_or_init(|| first);
-        let bench = self.bench(voxels, assumed(voxels), *hidden);
-        estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, fits, stop)
+        let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
+        let bench = self.bench(voxels, assumed(voxels), hidden);
+        estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
     }
 
-    /// The profile of the vessel that was looked at, under a point spread.
+    /// What the vessel tells of the level of its wall under a point spread (FWHM, mm), in the volume's unit, without what is expected
+    /// beforehand. None where walls are not told apart.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Interrupted`].
+    pub fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
+        let Some(known) = self.wall else { return Ok(None) };
+        let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
+        if hidden.is_some() {
+            return Ok(None);
+        }
+        let (_, fitted) = self.fitted(voxels, fwhm);
+        let inflation = fitted.inflation(&self.bench(voxels, fwhm, None), &texture);
+        let told = told_level(&fitted.arc_lengths(), &fits, &known, inflation);
+        Ok(told.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
+    }
+
+    /// The profile of the vessel that was looked at, with what its tree told.
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`] for a vessel without a lumen, [`ErrorKind::Interrupted`].
@@ -179,17 +225,21 @@ impl Looked {
         voxels: &Voxels,
         vessel: &Vessel,
         request: &MeasureRequest,
-        spread: PointSpread,
+        told: ToldByTree,
     ) -> Result<Profile> {
         let stop = request.stop;
+        let by_others = self.wall_by_others(&told, request.tree, vessel);
+        let spread = told.spread;
         let (every, fitted) = self.fitted(voxels, spread.fwhm);
-        let kept = self.first.get().filter(|first| first.fwhm == spread.fwhm);
-        let found =
-            kept.map_or_else(|| fitted.first_fits(voxels, spread.fwhm, stop), |first| Ok(first.clone()));
-        let FirstFits { hidden, fits, .. } = found?;
+        let first = self.kept_fits(voxels, spread.fwhm, stop)?;
+        let hidden = first.hidden;
         let mut bench = self.bench(voxels, spread.fwhm, hidden);
-        let wall_source = if hidden.is_some() { WallSource::AsBright } else { self.wall_source };
-        let all = fitted.all_sections(&bench, fits, stop)?;
+        let wall_source = match by_others {
+            _ if hidden.is_some() => WallSource::AsBright,
+            Some(by_others) => self.wall_source.pooled(by_others),
+            None => self.wall_source,
+        };
+        let all = fitted.all_sections(&bench, first, by_others, stop)?;
         let wider = (spread.deviation > 0.0)
             .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
         bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
@@ -221,16 +271,31 @@ impl Looked {
         Ok(Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source))
     }
 
-    /// What the sections tell together, from their fits by themselves.
-    fn all_sections(&self, bench: &Bench, fits: Vec<Option<Fit>>, stop: Stop) -> Result<AllSections> {
+    /// The wall that other vessels let expect, where they told anything of it.
+    fn wall_by_others(&self, told: &ToldByTree, tree: &[Vessel], vessel: &Vessel) -> Option<PooledWall> {
+        let by_others = told.wall_beside(tree, vessel, self.wall_source.expected()?)?;
+        is_below_lumen(&by_others, &self.scale).then_some(by_others)
+    }
+
+    /// What the sections tell together, from their fits by themselves, and what other vessels told of their wall.
+    fn all_sections(
+        &self,
+        bench: &Bench,
+        first: FirstFits,
+        by_others: Option<PooledWall>,
+        stop: Stop,
+    ) -> Result<AllSections> {
+        let FirstFits { fits, texture, .. } = first;
         let noise = noise(&fits);
         if LEAST_CONTRAST * noise > 1.0 {
             return Err(no_lumen(&self.scale));
         }
         let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
-        let texture = self.texture(bench, &fits, noise, stop)?;
         let inflation = self.inflation(bench, &texture);
-        let walls = bench.wall.map(|known| pooled(&self.arc_lengths(), &fits, &known, inflation));
+        let walls = bench.wall.map(|known| {
+            let expected = by_others.map_or(known.level, |wall| KnownWall::of(wall.level, &self.scale).level);
+            pooled(&self.arc_lengths(), &fits, &known, expected, inflation)
+        });
         Ok(AllSections { fits, noise, lumen, walls, texture })
     }
 

@@ -1,12 +1,18 @@
-//! How a vessel is measured: under the point spread that its tree or the vessel itself tells.
+//! How a vessel is measured: with what its tree tells of the point spread and of walls, or the vessel itself.
 
+use std::cmp::Ordering;
 use std::sync::OnceLock;
+
+use glam::DVec3;
+use rayon::prelude::*;
 
 use super::looked::{DEFAULT_FWHM, Looked, assumed};
 use super::place::known_radius;
 use super::point_spread::{NARROW, SharpEdges, Told};
 use super::profile::{PointSpread, Profile, Source};
 use super::request::MeasureRequest;
+use super::tree_walls::{ToldByTree, ToldWall};
+use super::wall_level::WallRequest;
 use crate::voxels::Voxels;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::stop::{Stop, go_on};
@@ -19,7 +25,7 @@ pub const STEP: f64 = 0.5;
 /// The standard deviation of a point spread that is assumed, as a share of it.
 const ASSUMED: f64 = 0.2;
 
-/// The point spread is estimated from at most this number of vessels of a tree, the widest ones.
+/// The point spread and the level of walls are told by at most this number of vessels of a tree, the widest ones.
 const MOST_ASKED: usize = 8;
 
 /// The profile of a vessel.
@@ -31,42 +37,44 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     request.check()?;
     let voxels = Voxels::new(volume);
     let looked = Looked::new(&voxels, vessel, request)?;
-    let spread = match request.fwhm {
-        None if request.tree.is_empty() => match looked.point_spread(&voxels, request.stop)? {
-            Told::Width(found) => told(&found, found.on()),
-            Told::Nothing(reason) => default(&voxels, reason),
-        },
+    let found = match request.fwhm {
+        None if request.tree.is_empty() => {
+            let spread = match looked.point_spread(&voxels, request.stop)? {
+                Told::Width(found) => told(&found, found.on()),
+                Told::Nothing(reason) => default(&voxels, reason),
+            };
+            ToldByTree { spread, walls: Vec::new() }
+        }
         // As it is given, or as the tree tells it for all that is measured in its scan.
-        _ => point_spread_of(volume, request)?,
+        _ => told_by_tree(volume, request)?,
     };
-    looked.profile(&voxels, vessel, request, spread)
+    looked.profile(&voxels, vessel, request, found)
 }
 
-/// The profile of a vessel under the point spread that [`point_spread_of`] found for its tree: the same as that of [`measure`],
-/// which finds it anew.
+/// The profile of a vessel with what [`told_by_tree`] found for its tree: the same as that of [`measure`], which finds it anew.
 ///
 /// # Errors
 /// As [`measure`].
 pub fn measure_under(
-    spread: PointSpread,
+    told: ToldByTree,
     volume: &Volume,
     vessel: &Vessel,
     request: &MeasureRequest,
 ) -> Result<Profile> {
     let voxels = Voxels::new(volume);
-    Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, spread)
+    Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, told)
 }
 
-/// The point spread of a scan (FWHM, mm), as it is given or as the widest vessels of the tree tell it, and where it is from: the
-/// same for all that is measured along the tree, its vessels and paths through several of them.
+/// What a tree tells of all that is measured along it, its vessels and paths through several of them: the point spread of the scan,
+/// as it is given or as the widest vessels tell it, and what these tell of the level of walls.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
-pub fn point_spread_of(volume: &Volume, request: &MeasureRequest) -> Result<PointSpread> {
-    TreeMeasuring::new(volume, request)?.point_spread()
+pub fn told_by_tree(volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
+    TreeMeasuring::new(volume, request)?.told(request.stop)
 }
 
-/// The vessels of a tree in a volume. Those that told the point spread are not looked at again where they are measured.
+/// The vessels of a tree in a volume. Those that told something are not looked at again where they are measured.
 pub struct TreeMeasuring<'a, 'v> {
     voxels: Voxels<'v>,
     request: MeasureRequest<'a>,
@@ -84,41 +92,59 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(Self { voxels: Voxels::new(volume), request: *request, looked })
     }
 
-    /// The point spread, as [`point_spread_of`].
+    /// What the tree tells, as [`told_by_tree`]; `stop` is asked whether to stop.
     ///
     /// # Errors
     /// [`ErrorKind::Interrupted`].
-    pub fn point_spread(&self) -> Result<PointSpread> {
-        match self.request.fwhm {
-            Some(fwhm) => Ok(given(fwhm)),
-            None => self.told_spread(),
-        }
+    pub fn told(&self, stop: Stop) -> Result<ToldByTree> {
+        let request = MeasureRequest { stop, ..self.request };
+        let spread = match request.fwhm {
+            Some(fwhm) => given(fwhm),
+            None => self.told_spread(&request)?,
+        };
+        let walls = self.told_walls(spread.fwhm, &request)?;
+        Ok(ToldByTree { spread, walls })
     }
 
-    /// The profile of a vessel of the tree, by its number, under a point spread; `stop` is asked whether to stop.
+    /// The profile of a vessel of the tree, by its number, with what the tree told; `stop` is asked whether to stop.
     ///
     /// # Errors
     /// As [`measure`].
-    pub fn profile(&self, n: usize, spread: PointSpread, stop: Stop) -> Result<Profile> {
+    pub fn profile(&self, n: usize, told: ToldByTree, stop: Stop) -> Result<Profile> {
         let request = MeasureRequest { stop, ..self.request };
-        self.looked(n, &request)?.profile(&self.voxels, &request.tree[n], &request, spread)
+        self.looked(n, &request)?.profile(&self.voxels, &request.tree[n], &request, told)
+    }
+
+    /// The numbers of the vessels that are asked, from the widest on, whatever their order in the tree.
+    fn asked(&self) -> Vec<usize> {
+        let tree = self.request.tree;
+        let mut order: Vec<usize> = (0..tree.len()).collect();
+        order.sort_by(|a, b| wider(&tree[*a], &tree[*b]).then(a.cmp(b)));
+        order.truncate(MOST_ASKED);
+        order
+    }
+
+    /// What the widest vessels tell of the level of their walls under a point spread (FWHM, mm). One vessel alone tells nobody.
+    fn told_walls(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<ToldWall>> {
+        if request.tree.len() < 2 || request.wall == WallRequest::Off {
+            return Ok(Vec::new());
+        }
+        let wall = |n: usize| -> Result<Option<ToldWall>> {
+            let Some(looked) = self.looked_or_none(n, request)? else { return Ok(None) };
+            let level = looked.wall_level(&self.voxels, fwhm, request.stop)?;
+            Ok(level.map(|level| ToldWall { vessel: n, level }))
+        };
+        let found: Vec<Option<ToldWall>> = self.asked().into_par_iter().map(wall).collect::<Result<_>>()?;
+        Ok(found.into_iter().flatten().collect())
     }
 
     /// The point spread that the widest vessels tell.
-    fn told_spread(&self) -> Result<PointSpread> {
-        let radius = |n: &usize| known_radius(&self.request.tree[*n]).unwrap_or(0.0);
-        let mut order: Vec<usize> = (0..self.request.tree.len()).collect();
-        order.sort_by(|a, b| radius(b).total_cmp(&radius(a)).then(a.cmp(b)));
+    fn told_spread(&self, request: &MeasureRequest) -> Result<PointSpread> {
         let mut why = NARROW;
-        for n in order.into_iter().take(MOST_ASKED) {
-            go_on(self.request.stop)?;
-            // A vessel that cannot be measured tells nothing.
-            let wide = match self.looked(n, &self.request) {
-                Ok(wide) => wide,
-                Err(error) if error.kind == ErrorKind::Interrupted => return Err(error),
-                Err(_) => continue,
-            };
-            match wide.point_spread(&self.voxels, self.request.stop)? {
+        for n in self.asked() {
+            go_on(request.stop)?;
+            let Some(wide) = self.looked_or_none(n, request)? else { continue };
+            match wide.point_spread(&self.voxels, request.stop)? {
                 Told::Width(found) => {
                     let on = format!("{} of vessel {n} of the tree", found.on());
                     return Ok(told(&found, on));
@@ -130,6 +156,15 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(default(&self.voxels, why))
     }
 
+    /// A vessel that was looked at, or none where it cannot be measured: it tells nothing.
+    fn looked_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&Looked>> {
+        match self.looked(n, request) {
+            Ok(looked) => Ok(Some(looked)),
+            Err(error) if error.kind == ErrorKind::Interrupted => Err(error),
+            Err(_) => Ok(None),
+        }
+    }
+
     fn looked(&self, n: usize, request: &MeasureRequest) -> Result<&Looked> {
         if let Some(looked) = self.looked[n].get() {
             return Ok(looked);
@@ -137,6 +172,18 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         let looked = Looked::new(&self.voxels, &request.tree[n], request)?;
         Ok(self.looked[n].get_or_init(|| looked))
     }
+}
+
+/// Which of two vessels comes first: the wider one, else the longer one, else the one whose points are first.
+fn wider(one: &Vessel, other: &Vessel) -> Ordering {
+    let radius = |vessel: &Vessel| known_radius(vessel).unwrap_or(0.0);
+    let length = |vessel: &Vessel| vessel.arc_length().last().copied().unwrap_or(0.0);
+    let points = |vessel: &Vessel| vessel.points().iter().map(DVec3::to_array).collect::<Vec<_>>();
+    let by_width = radius(other).total_cmp(&radius(one));
+    let by_length = || length(other).total_cmp(&length(one));
+    by_width
+        .then_with(by_length)
+        .then_with(|| points(one).partial_cmp(&points(other)).unwrap_or(Ordering::Equal))
 }
 
 fn given(fwhm: f64) -> PointSpread {

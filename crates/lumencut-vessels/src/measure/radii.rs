@@ -12,7 +12,6 @@ use super::watched::watched;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;
 use lumencut_core::progress::Progress;
-use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
@@ -33,8 +32,8 @@ pub struct Radii {
     pub kept: usize,
 }
 
-/// The measured radii of all vessels of a tree, and how far that is. Where the point spread is not given, the widest vessels tell it
-/// for all.
+/// The measured radii of all vessels of a tree, and how far that is. The widest vessels tell the level of
+/// walls for all, and the point spread where it is not given.
 ///
 /// # Errors
 /// [`ErrorKind::Settings`] for an invalid step, wall or point spread, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
@@ -49,17 +48,17 @@ pub fn measured_radii(
     }
     let MeasureRequest { step, tree, stop, .. } = *request;
     let measuring = TreeMeasuring::new(volume, request)?;
-    let spread = measuring.point_spread()?;
-    let radii = |(n, vessel): (usize, &Vessel), stop: Stop| match measuring.profile(n, spread.clone(), stop) {
-        Ok(profile) => Ok(of_profile(vessel, &profile)),
-        Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
-            let kept = vessel.points().len();
-            Ok(Radii { radius: vessel.radius().map(<[f64]>::to_vec), measured: 0, kept })
-        }
-        Err(error) => Err(error),
-    };
     watched(progress, (tree, step), stop, |stop| {
-        tree.par_iter().enumerate().map(|vessel| radii(vessel, stop)).collect()
+        let told = measuring.told(stop)?;
+        let radii = |(n, vessel): (usize, &Vessel)| match measuring.profile(n, told.clone(), stop) {
+            Ok(profile) => Ok(of_profile(vessel, &profile)),
+            Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
+                let kept = vessel.points().len();
+                Ok(Radii { radius: vessel.radius().map(<[f64]>::to_vec), measured: 0, kept })
+            }
+            Err(error) => Err(error),
+        };
+        tree.par_iter().enumerate().map(radii).collect()
     })
 }
 

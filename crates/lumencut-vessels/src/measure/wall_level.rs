@@ -2,6 +2,7 @@
 
 use super::pooled::Level;
 use super::scale::Scale;
+use super::tree_walls::PooledWall;
 use super::wall::KnownWall;
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -52,6 +53,13 @@ pub enum WallSource {
     Hounsfield,
     /// The caller gave it.
     Given(Level),
+    /// Other vessels of the tree told more of what is expected in HU, or of what the caller gave.
+    Pooled {
+        /// What the caller gave, if anything.
+        given: Option<Level>,
+        /// What the others let expect instead.
+        by_others: PooledWall,
+    },
     /// The caller asked for none.
     NotAsked,
     /// The lumen is darker than what is around it.
@@ -60,6 +68,29 @@ pub enum WallSource {
     OtherUnit,
     /// What surrounds the vessel is as bright as walls are.
     AsBright,
+}
+
+impl WallSource {
+    /// The level that is expected beforehand, in the volume's unit, where walls are told apart.
+    pub fn expected(&self) -> Option<Level> {
+        match self {
+            Self::Hounsfield => Some(CT_WALL),
+            Self::Given(level) => Some(*level),
+            _ => None,
+        }
+    }
+
+    /// The same where other vessels of the tree told more.
+    #[must_use]
+    pub fn pooled(self, by_others: PooledWall) -> Self {
+        let given = if let Self::Given(level) = self { Some(level) } else { None };
+        Self::Pooled { given, by_others }
+    }
+}
+
+/// Whether a level that others told can be that of a wall in a lumen of this scale.
+pub fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
+    scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
 }
 
 /// The wall of a vessel that is expected, and where that is from.

@@ -19,19 +19,22 @@ const SHARED: [f64; 2] = [5.0, 2.0];
 const APART: f64 = 1.0 / 3.0;
 
 /// What all sections tell of the wall at each of them, by their arc lengths (mm). What they tell has a variance that is larger
-/// by `inflation` than that of independent noise.
-pub fn pooled(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, inflation: f64) -> Vec<KnownWall> {
-    let [level_apart, apart] = SHARED.map(|length| independent(at, length) / inflation);
+/// by `inflation` than that of independent noise. They were fitted with what was `known`; what is `expected` of the level is that,
+/// or sharper where other vessels told it.
+pub fn pooled(
+    at: &[f64],
+    fits: &[Option<Fit>],
+    known: &KnownWall,
+    expected: Level,
+    inflation: f64,
+) -> Vec<KnownWall> {
+    let apart = independent(at, SHARED[1]) / inflation;
     let walls: Vec<(f64, Ellipse, Wall)> = at
         .iter()
         .zip(fits)
         .filter_map(|(at, fit)| fit.and_then(|fit| Some((*at, fit.ellipse, fit.wall?))))
         .collect();
-    let mut level = Told::new(known.level);
-    for (_, _, wall) in &walls {
-        level.add(wall.level, known.level, level_apart);
-    }
-    let [mean, deviation] = level.level();
+    let [mean, deviation] = level_by(at, fits, known, Told::new(expected), inflation).level();
     let level = [mean, deviation.max(LEAST_LEVEL)];
     let thickness = |here: f64, lumen: &Ellipse| {
         let first = beforehand(lumen);
@@ -56,6 +59,23 @@ pub fn pooled(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, inflation: f6
             KnownWall { level, log_thickness: told.map(|(thickness, _)| thickness), slope }
         })
         .collect()
+}
+
+/// What the sections of a vessel tell of the level of its wall, as a share, without what was `known` before they were fitted. None
+/// where that is nothing.
+pub fn told_level(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, inflation: f64) -> Option<Level> {
+    let told = level_by(at, fits, known, Told { precision: 0.0, weighted: 0.0 }, inflation);
+    let [mean, deviation] = told.level();
+    (told.precision > 0.0).then_some([mean, deviation.max(LEAST_LEVEL)])
+}
+
+/// What is told of the level at first, and by the sections of a vessel.
+fn level_by(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, mut first: Told, inflation: f64) -> Told {
+    let apart = independent(at, SHARED[0]) / inflation;
+    for wall in fits.iter().flatten().filter_map(|fit| fit.wall) {
+        first.add(wall.level, known.level, apart);
+    }
+    first
 }
 
 /// Whether a wall is told apart from what surrounds the vessel: where it is as bright, nothing shows where it ends.

@@ -1,0 +1,39 @@
+//! What a tree tells of all that is measured along it, found once.
+
+use lumencut::measure::measuring;
+use lumencut::measure::request::MeasureRequest;
+use lumencut::measure::tree_walls;
+use pyo3::prelude::*;
+
+use crate::errors::to_python;
+use crate::pool;
+use crate::renderer::interruptible;
+use crate::tree::{VesselArrays, vessel as vessel_of};
+use crate::volume::VolumeArgument;
+use crate::wall_request::wall_request;
+
+/// The point spread of a scan, and the level of the walls in it.
+#[pyclass(frozen, module = "lumencut._lumencut")]
+pub struct ToldByTree(pub tree_walls::ToldByTree);
+
+/// What the vessels of a tree tell for all that is measured along them.
+#[pyfunction]
+#[pyo3(signature = (volume, tree, step, fwhm=None, wall=None))]
+#[allow(clippy::needless_pass_by_value)]
+pub fn told_by_tree<'py>(
+    py: Python<'py>,
+    volume: VolumeArgument<'py>,
+    tree: Vec<VesselArrays<'py>>,
+    step: f64,
+    fwhm: Option<f64>,
+    wall: Option<[f64; 2]>,
+) -> PyResult<ToldByTree> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    let tree = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
+    interruptible(py, None, |stop| {
+        let request = MeasureRequest { step, fwhm, wall: wall_request(wall), tree: &tree, stop };
+        pool::install(|| measuring::told_by_tree(&volume, &request))?.map_err(to_python)
+    })
+    .map(ToldByTree)
+}
