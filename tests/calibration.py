@@ -184,9 +184,9 @@ def calibrated(kind: Kind, count: int) -> Told:
 
 
 def calibrated_trees(apart: float, count: int) -> tuple[Told, Told]:
-    """What is told of the three arteries in fat of each of this number of trees: of each alone, and together.
+    """What is told of the three arteries in fat of each of this number of trees: alone, and together.
 
-    The walls of a tree differ by a standard deviation ``apart`` (HU), so that those of all trees are as before.
+    The walls of a tree differ by a standard deviation ``apart`` (HU); those of all trees are as before.
     """
     draw = np.random.default_rng(1)
     name = f"trees, walls {apart:g} HU apart"

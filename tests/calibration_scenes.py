@@ -165,6 +165,6 @@ def tree_of(scenes: Sequence[Scene]) -> tuple[Volume, VesselTree]:
         k, j, i = scan.shape
         values[:k, :j, first : first + i] = scan.array
         index = (scene.vessel().points - scan.world_from_index[:3, 3]) / spacing
-        vessels.append(Vessel((index + [first, 0, 0]) * spacing))
+        vessels.append(Vessel((index + np.array([first, 0, 0])) * spacing))
         first += i
     return Volume(values, world_from_index=np.diag([*spacing, 1.0])), VesselTree(vessels)
