@@ -67,6 +67,14 @@ describe('the content of a session', () => {
     expect(documentOf(contentOf(DOCUMENT, REPORT, LOOKED))).toEqual(DOCUMENT);
   });
 
+  test('keeps the millimetre that is assumed; a file that says nothing of it assumes none', () => {
+    const assumed = { ...DOCUMENT, isOneMillimetre: true };
+    const content = contentOf(assumed, REPORT, LOOKED);
+    expect(documentOf(content)).toEqual(assumed);
+    const { one_millimetre_assumed: _, ...silent } = content.session;
+    expect(documentOf({ ...content, session: silent }).isOneMillimetre).toBe(false);
+  });
+
   test('is made of numbers from 0, whatever the ids were', () => {
     const [first, second, third] = DOCUMENT.vessels;
     if (!first || !second || !third) {
@@ -99,7 +107,17 @@ describe('the content of a session', () => {
 
   test('says nothing of files or the patient', () => {
     const keys = Object.keys(contentOf(DOCUMENT, REPORT, LOOKED).session);
-    expect(keys).toEqual(['scan', 'vessels', 'doubtful', 'stoppers', 'bridge', 'rulers', 'fwhm_mm', 'view']);
+    expect(keys).toEqual([
+      'scan',
+      'vessels',
+      'doubtful',
+      'stoppers',
+      'bridge',
+      'rulers',
+      'fwhm_mm',
+      'view',
+      'one_millimetre_assumed',
+    ]);
   });
 });
 

@@ -19,8 +19,9 @@ use crate::write::mrk_json::markups;
 /// The field of the file that holds what markups have no place for.
 pub const FIELD: &str = "LumencutSession";
 
-/// The version of that field.
-const FORMAT: u32 = 1;
+/// The versions of that field: the first one, and the one that can say that 1 mm is assumed between voxels. A file has the
+/// first one that says all of it, so that older readers refuse what they cannot tell, and nothing else.
+const FORMATS: [u32; 2] = [1, 2];
 
 /// What every session file says of the software.
 const NOTICE: &str = "Lumencut is not a medical device.";
@@ -62,9 +63,17 @@ pub struct Session {
     pub fwhm_mm: Option<f64>,
     /// How the scan is looked at.
     pub view: Option<View>,
+    /// Whether the reader took the voxels of a scan that does not say how far they lie apart for 1 mm apart; from format 2 on.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub one_millimetre_assumed: bool,
 }
 
 impl Session {
+    /// The first version of the structure that says all of it.
+    fn least_format(&self) -> u32 {
+        FORMATS[usize::from(self.one_millimetre_assumed)]
+    }
+
     /// The whole of it as JSON.
     ///
     /// # Errors
@@ -231,12 +240,7 @@ fn read_unnamed(content: &[u8], name: &str) -> Result<SessionFile> {
         .map_err(|error| Error::truncated("", format!("damaged JSON ({error})"), expected))?;
     let [field, curves] = root.fields([FIELD, "markups"]);
     let field = field.ok_or_else(|| Error::new("", format!("no field {FIELD}"), expected))?;
-    let version = field.fields(["format"])[0].and_then(Json::number);
-    if version != Some(f64::from(FORMAT)) {
-        let found = version.map_or_else(|| "no version".to_owned(), |version| format!("version {version}"));
-        let error = Error::new(FIELD, found, format!("version {FORMAT}"));
-        return Err(error.mend("the curves in it can still be read as centerlines"));
-    }
+    check_format(field.fields(["format"])[0].and_then(Json::number))?;
     let session: Session = serde_json::from_str(field.raw())
         .map_err(|error| Error::new(FIELD, excerpt(&error.to_string()), expected))?;
     let is_empty = curves.is_some_and(|curves| matches!(curves.each(|_, _| Ok(())), Some(Ok(0))));
@@ -251,7 +255,7 @@ fn read_unnamed(content: &[u8], name: &str) -> Result<SessionFile> {
 /// For parts that do not go together, and lines that are none.
 pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
     let session = Session {
-        format: FORMAT,
+        format: file.session.least_format(),
         software: software.to_owned(),
         notice: NOTICE.to_owned(),
         ..file.session.clone()
@@ -263,8 +267,25 @@ pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
     Ok(markups(&file.lines, &format!("\"{FIELD}\": {},\n", session.json()?)).into_bytes())
 }
 
+/// Checks that this version of the software reads a version of the structure.
+fn check_format(version: Option<f64>) -> Result<()> {
+    if FORMATS.iter().any(|format| version == Some(f64::from(*format))) {
+        return Ok(());
+    }
+    let found = version.map_or_else(|| "no version".to_owned(), |version| format!("version {version}"));
+    let is_newer = version.is_some_and(|version| version > f64::from(FORMATS[1]));
+    let mend = if is_newer { "open it with a newer version of Lumencut; " } else { "" };
+    let [first, second] = FORMATS;
+    let error = Error::new(FIELD, found, format!("version {first} or {second}"));
+    Err(error.mend(format!("{mend}the curves in it can still be read as centerlines")))
+}
+
 /// Checks that all parts go together.
 fn check(lines: &[Line], session: &Session) -> Result<()> {
+    if session.format < session.least_format() {
+        let found = format!("an assumed millimetre in version {}", session.format);
+        return Err(Error::new(FIELD, found, format!("version {}", session.least_format())));
+    }
     if lines.len() != session.vessels.len() {
         let found = format!("{} for {} curve(s)", session.vessels.len(), lines.len());
         return Err(Error::new("vessels of the session", found, "one for each curve"));

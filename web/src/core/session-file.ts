@@ -58,4 +58,6 @@ export interface SavedSession {
   /** The width of the point spread that the reader gave; null where it is estimated. */
   readonly fwhm_mm: number | null;
   readonly view: SavedView | null;
+  /** Whether voxels were taken for 1 mm apart where the scan does not say; a file that leaves it out says no. */
+  readonly one_millimetre_assumed?: boolean;
 }

@@ -52,6 +52,7 @@ export function contentOf(
       rulers: document.rulers,
       fwhm_mm: fwhm,
       view: looked && viewOf(looked, sure),
+      one_millimetre_assumed: document.isOneMillimetre,
     },
   };
 }
@@ -125,7 +126,7 @@ export function documentOf({ lines, doubtful_lines, session }: SessionContent): 
     bridge: session.bridge,
     marks: Object.fromEntries(marks) as Document['marks'],
     rulers: session.rulers,
-    isOneMillimetre: false,
+    isOneMillimetre: session.one_millimetre_assumed ?? false,
   };
 }
 

@@ -44,7 +44,7 @@ function NoMillimetres() {
     <button
       type="button"
       class="no-millimetres"
-      title="The scan does not say how far its voxels lie apart. Lengths are then told as if that were 1 mm; what is saved has no mm. Undo takes it back."
+      title="The scan does not say how far its voxels lie apart. Lengths are then told as if that were 1 mm; what is saved tells that it is assumed. Undo takes it back."
       onClick={assumeOneMillimetre}
     >
       Assume 1 mm

@@ -61,6 +61,7 @@ fn sample() -> SessionFile {
         rulers: vec![Ruler { from: [0.0; 3], to: [3.0, 4.0, 0.0] }],
         fwhm_mm: Some(0.9),
         view: Some(view),
+        one_millimetre_assumed: false,
     };
     SessionFile { lines: vec![line], session }
 }
@@ -79,6 +80,42 @@ fn a_session_comes_back_to_the_bit() {
     let text = written(&sample());
     assert!(is_session(text.as_bytes()));
     assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), sample());
+}
+
+#[test]
+fn an_assumed_millimetre_comes_back_and_is_of_format_2() {
+    let mut file = sample();
+    file.session.one_millimetre_assumed = true;
+    let text = written(&file);
+    file.session.format = 2;
+    assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
+    // What says no more than the first format can is written in it, whichever it was read in.
+    file.session.one_millimetre_assumed = false;
+    assert_eq!(written(&file), written(&sample()));
+    let early = text.replace("\"format\":2", "\"format\":1");
+    assert!(refused(&early).contains("found an assumed millimetre in version 1; expected version 2"));
+}
+
+#[test]
+fn format_1_has_the_fields_that_it_always_had() {
+    let mut file = sample();
+    file.lines.clear();
+    file.session.vessels.clear();
+    file.session.doubtful.clear();
+    let fields = "{\"format\":1,\"software\":\"lumencut 0\",\"notice\":\"Lumencut is not a medical device.\",\
+        \"scan\":null,\"vessels\":[],\"doubtful\":[],\"stoppers\":[],\"bridge\":false,\"rulers\":[],\
+        \"fwhm_mm\":null,\"view\":null}";
+    let session = Session {
+        scan: None,
+        stoppers: vec![],
+        bridge: false,
+        rulers: vec![],
+        fwhm_mm: None,
+        view: None,
+        ..file.session
+    };
+    let bare = written(&SessionFile { lines: vec![], session });
+    assert!(bare.contains(&format!("\"{FIELD}\": {fields},\n")), "{bare}");
 }
 
 #[test]
@@ -111,7 +148,10 @@ fn damaged_sessions_are_refused_by_name() {
     let text = written(&sample());
     let cases = [
         (text[..text.len() / 2].to_owned(), "damaged JSON"),
-        (text.replace("\"format\":1", "\"format\":2"), "found version 2; expected version 1"),
+        (text.replace("\"format\":1", "\"format\":3"), "found version 3; expected version 1 or 2"),
+        (text.replace("\"format\":1", "\"format\":3"), "open it with a newer version of Lumencut"),
+        (text.replace("\"format\":1", "\"format\":1.5"), "found version 1.5"),
+        (text.replace("\"format\":1,", ""), "found no version"),
         (text.replace("\"bridge\":true", "\"bridge\":3"), "invalid type"),
         (text.replace("\"bridge\":true", "\"bridge\":true,\"patient\":\"x\""), "unknown field"),
         (text.replace("#00aaFF", "red"), "color of vessel 0"),

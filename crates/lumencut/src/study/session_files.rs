@@ -191,6 +191,21 @@ mod tests {
     }
 
     #[test]
+    fn an_assumed_millimetre_comes_back_and_is_said_only_where_it_is() {
+        let mut lines = Lines::default();
+        for is_assumed in [false, true] {
+            let mut session = said();
+            session["one_millimetre_assumed"] = json!(is_assumed);
+            let bytes = written(content(&mut lines, session), &lines).expect("a file");
+            let file = read_session(&bytes, "saved.mrk.json").expect("a session");
+            assert_eq!(file.session.format, 1 + u32::from(is_assumed));
+            let back = taken(file, &mut lines).expect("a session");
+            let expected = if is_assumed { json!(true) } else { Value::Null };
+            assert_eq!(back.session["one_millimetre_assumed"], expected);
+        }
+    }
+
+    #[test]
     fn what_does_not_go_together_is_refused() {
         let mut lines = Lines::default();
         let mut fewer = said();
