@@ -50,7 +50,7 @@ MARKS = {
 }
 
 
-def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None):
+def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None, **more):
     """Write a session file as the viewer does: markups with a field of their own."""
     write_centerlines(tree, path)
     vessels = [
@@ -76,7 +76,7 @@ def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None):
         "rulers": [],
         "fwhm_mm": fwhm,
         "view": view,
-    }
+    } | more
     content = json.loads(path.read_text()) | {"LumencutSession": session}
     path.write_text(json.dumps(content))
     return path
@@ -159,6 +159,15 @@ def test_measure_reckons_with_the_point_spread_that_was_given_in_the_viewer(tmp_
         result = run("measure", volume, session, "-o", tmp_path / "out.json", *words)
         assert result.exit_code == 0, result.output
         assert f"FWHM {expected:.2f} mm given" in result.output
+
+
+def test_a_session_with_an_assumed_millimetre_is_read_and_one_of_the_future_is_refused(branches, tmp_path):
+    path, tree = tmp_path / "saved.mrk.json", branches[2]
+    write_session(path, tree, hidden=(2,), format=2, one_millimetre_assumed=True)
+    assert read_session(path).hidden == (2,)
+    write_session(path, tree, format=3)
+    with pytest.raises(FormatError, match="found version 3; expected version 1 or 2.*newer version"):
+        read_session(path)
 
 
 def test_markups_of_others_are_no_sessions(branches, tmp_path):

@@ -1,5 +1,6 @@
 /** Files that are chosen: centerlines beside what is open, also where nothing tells their space. */
 import { expect, test } from '@playwright/test';
+import { button, choose, fileOf, rows, SESSION, saved } from './controls';
 import { Viewer } from './page';
 
 /** A line that lies in the phantom just as well where x and y are negated. */
@@ -67,6 +68,40 @@ test('a scan that states no distances gets mm by consent alone, and undo takes t
   await expect(assume).toBeVisible();
   await viewer.press('Control+y');
   await expect(scale).toBeVisible();
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('the millimetre that is assumed is kept in the session, and told with what was measured', async ({
+  browser,
+}) => {
+  const viewer = await Viewer.open(browser, '?device=cpu', { acceptDownloads: true });
+  await expect(button(viewer, 'Choose files')).toBeEnabled();
+  const line = fileOf('line.csv', Buffer.from('x,y,z,radius\n5,5,4,3\n5,5,14,3\n5,5,24,3\n'));
+  await choose(viewer, bar(), line);
+  await viewer.rest();
+  expect(JSON.parse(`${await saved(viewer, SESSION)}`).LumencutSession.format).toBe(1);
+  await button(viewer, 'Assume 1 mm').click();
+  const session = await saved(viewer, SESSION);
+  expect(JSON.parse(`${session}`).LumencutSession).toMatchObject({ format: 2, one_millimetre_assumed: true });
+  await viewer.page.reload();
+  await expect(button(viewer, 'Choose files')).toBeEnabled();
+  await choose(viewer, bar());
+  await viewer.rest();
+  await expect(button(viewer, 'Assume 1 mm')).toBeVisible();
+  await choose(viewer, fileOf('saved.mrk.json', session));
+  await viewer.rest();
+  await viewer.press('v');
+  await expect(rows(viewer).first().locator('.length')).toHaveText('20.0 mm');
+  await expect(button(viewer, 'Assume 1 mm')).toHaveCount(0);
+  await expect(button(viewer, 'Undo')).toBeDisabled();
+  await viewer.press('m');
+  await expect(viewer.page.getByTestId('section-numbers')).toContainText('mm', { timeout: 30_000 });
+  const words = '1 mm is assumed between voxels: the scan does not say how far they lie apart.';
+  const numbers = 'Numbers of measured vessels';
+  for (const file of [`${numbers} (CSV)`, `${numbers} (JSON)`, 'Report of the vessel (HTML)']) {
+    expect(`${await saved(viewer, file)}`).toContain(words);
+  }
   viewer.expectNoFault();
   await viewer.close();
 });

@@ -101,6 +101,7 @@ async function reported(engine: Asked, vessel: MeasuredVessel, length: number): 
     scan: null,
     saved: 'a day',
     has_units: true,
+    is_millimetre_assumed: false,
     has_orientation: true,
     window: [300, 700],
     settings: {},
@@ -143,8 +144,9 @@ describe.skipIf(!existsSync(python))('measuring is that of Python', () => {
     const measured: MeasuredVessel[] = vessels.map(({ line, name }, n) => {
       return { id: `${n}`, name, line, marks: NO_MARKS };
     });
-    expect(apart(fields(await engine.ask('profiles_csv', measured)), fields(expected.csv))).toBe('');
-    const json = await engine.ask('profiles_json', measured);
+    const asked = { vessels: measured, is_millimetre_assumed: false };
+    expect(apart(fields(await engine.ask('profiles_csv', asked)), fields(expected.csv))).toBe('');
+    const json = await engine.ask('profiles_json', asked);
     expect(apart(JSON.parse(json), JSON.parse(expected.json))).toBe('');
     expect(withoutNumbers(json)).toBe(withoutNumbers(expected.json));
     const { at, references } = expected.asked;

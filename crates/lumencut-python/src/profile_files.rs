@@ -58,6 +58,7 @@ pub fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
         profile: &profile.get().0,
         scan: &profile.get().1,
         grade: grade.as_ref().map(|grade| &grade.get().0),
+        is_millimetre_assumed: false,
     }
 }
 

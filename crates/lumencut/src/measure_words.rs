@@ -9,6 +9,10 @@ use lumencut_vessels::measure::wall_level::{CT_WALL, WallSource};
 use crate::flag_table::set_in;
 use crate::text::fixed;
 
+/// What is told wherever lengths are in mm because a reader took voxels for 1 mm apart.
+pub const MILLIMETRE_ASSUMED: &str =
+    "1 mm is assumed between voxels: the scan does not say how far they lie apart.";
+
 /// How readers call a method: `NASCET`, `ECST` or `area`.
 pub fn of_method(method: Method) -> String {
     match method {

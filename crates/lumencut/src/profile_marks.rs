@@ -6,7 +6,7 @@ use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
 use lumencut_vessels::measure::suggestions::Spot;
 
-use crate::measure_words::{of_doubts, of_stenosis};
+use crate::measure_words::{MILLIMETRE_ASSUMED, of_doubts, of_stenosis};
 use crate::scan_details::ScanDetails;
 
 /// What a reader marked on one vessel to have it graded. It may hold what another method than the chosen one needs: readers try
@@ -149,6 +149,15 @@ pub struct Measured<'a> {
     pub scan: &'a ScanDetails,
     /// What is told of the place that a reader marked, where one is marked.
     pub grade: Option<&'a Grade>,
+    /// Whether its lengths are in mm only because a reader took the voxels for 1 mm apart; every output tells so.
+    pub is_millimetre_assumed: bool,
+}
+
+impl Measured<'_> {
+    /// What is assumed of its lengths, in words.
+    pub fn assumed(&self) -> Option<&'static str> {
+        self.is_millimetre_assumed.then_some(MILLIMETRE_ASSUMED)
+    }
 }
 
 /// A place that somebody should look at.

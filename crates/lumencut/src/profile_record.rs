@@ -79,6 +79,8 @@ struct VesselRecord {
     profile: ProfileRecord,
     stenosis: Option<StenosisRecord>,
     not_graded: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    assumed: Option<&'static str>,
 }
 
 impl VesselRecord {
@@ -89,6 +91,7 @@ impl VesselRecord {
             profile: ProfileRecord::of(one.profile, one.scan),
             stenosis: one.grade.and_then(StenosisRecord::of),
             not_graded: one.grade.and_then(Grade::not_graded).map(str::to_owned),
+            assumed: one.assumed(),
         }
     }
 }

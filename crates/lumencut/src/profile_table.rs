@@ -74,20 +74,23 @@ pub fn vessels_csv(vessels: &[Measured]) -> String {
         .map(|one| {
             let name = one.name.clone().unwrap_or_default();
             let before = vec![("vessel", one.id.clone()), ("name", name)];
-            Block { before, profile: one.profile, scan: one.scan, behind: told(one.grade) }
+            Block { before, profile: one.profile, scan: one.scan, behind: told(one) }
         })
         .collect();
     csv_text(&blocks)
 }
 
-/// What is told of a marked place; empty where none is marked.
-fn told(grade: Option<&Grade>) -> Same {
+/// What is told of a marked place, empty where none is marked; and what is assumed of lengths, where something is.
+fn told(one: &Measured) -> Same {
+    let grade = one.grade;
     let stenosis = grade.and_then(Grade::stenosis);
-    vec![
+    let mut told = vec![
         ("stenosis", stenosis.map(of_stenosis).unwrap_or_default()),
         ("doubts", stenosis.map(|graded| of_doubts(&graded.doubts).join(" ")).unwrap_or_default()),
         ("not_graded", grade.and_then(Grade::not_graded).unwrap_or_default().to_owned()),
-    ]
+    ];
+    told.extend(one.assumed().map(|words| ("assumed", words.to_owned())));
+    told
 }
 
 fn csv_text(blocks: &[Block]) -> String {

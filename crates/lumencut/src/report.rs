@@ -36,7 +36,7 @@ pub struct Shown {
     pub scan: Option<String>,
     /// When the report was saved, in words.
     pub saved: Option<String>,
-    /// Whether the file states how far its voxels lie apart: lengths have no unit otherwise.
+    /// Whether the file states how far its voxels lie apart, or a reader assumed it: lengths have no unit otherwise.
     pub has_units: bool,
     /// Whether the file states where the patient's left is: angles of a C-arm are not told otherwise.
     pub has_orientation: bool,
@@ -123,10 +123,11 @@ fn name_of(measured: &Measured) -> String {
 fn page(shown: &Shown, vessel: &VesselPage) -> Result<String> {
     let (profile, places) = (vessel.measured.profile, places(&vessel.marks));
     let plot = Plot { profile, places: &places, strip: vessel.strip.as_ref(), has_units: shown.has_units };
-    let unitless = if shown.has_units { String::new() } else { paragraph("small", UNITLESS) };
+    let units = if shown.has_units { vessel.measured.assumed() } else { Some(UNITLESS) };
+    let units = units.map(|words| paragraph("small", words)).unwrap_or_default();
     Ok(format!(
         "<section>\n{}{}<figure class=\"plot\">\n{}<figcaption>Straightened CPR and diameter along the vessel, on \
-         one axis</figcaption>\n</figure>\n{}{}{unitless}{}</section>\n",
+         one axis</figcaption>\n</figure>\n{}{}{units}{}</section>\n",
         head(shown, vessel),
         top(shown, vessel)?,
         plot.svg()?,

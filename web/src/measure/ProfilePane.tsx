@@ -2,6 +2,7 @@
 import { useMemo, useRef, useState } from 'preact/hooks';
 import type { Pair, Profile } from '../core/messages';
 import { usePaneSize } from '../pane/pane-size';
+import { hasMillimetres } from '../state/millimetres';
 import * as store from '../state/store';
 import { axisAlong, chartLayout } from './chart-layout';
 import { currentPlaces, currentProfile, currentVessel } from './current';
@@ -63,7 +64,7 @@ interface ChartProps {
 }
 
 function Chart({ profile, size, x, lying }: ChartProps) {
-  const hasUnits = store.states.value.spacing;
+  const hasUnits = hasMillimetres.value;
   const [hovered, setHovered] = useState<number | null>(null);
   const layout = useMemo(() => chartLayout(profile, size), [profile, size[0], size[1]]);
   const drawn = useMemo(

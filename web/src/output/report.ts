@@ -6,6 +6,7 @@ import type { MeasuredVessel, Profile } from '../core/messages';
 import { currentMarks, currentProfile, currentVessel } from '../measure/current';
 import { notGradedWords } from '../measure/words';
 import { document_ } from '../state/history';
+import { hasMillimetres, isMillimetreAssumed } from '../state/millimetres';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
 import { fileName } from './file-names';
@@ -48,14 +49,14 @@ async function reportOf(vessel: MeasuredVessel, profile: Profile): Promise<strin
   for (const { at } of plan.places) {
     sections.push(await sectionPair({ vessel: number, line: vessel.line, side: plan.side }, profile, at));
   }
-  const { spacing: hasUnits, orientation } = store.states.value;
   const { stretch, secondStretch } = currentMarks.value ?? {};
   return engine.ask('measured_report', {
     vessel,
     scan: namedScan(),
     saved: new Date().toLocaleString('sv-SE', { dateStyle: 'short', timeStyle: 'short' }),
-    has_units: hasUnits,
-    has_orientation: orientation,
+    has_units: hasMillimetres.value,
+    is_millimetre_assumed: isMillimetreAssumed.value,
+    has_orientation: store.states.value.orientation,
     window: store.window_.value,
     settings: store.settings.value,
     view: { picture: await viewPicture(profile, plan.places), method: store.method.value },

@@ -5,6 +5,7 @@ import { Failure } from '../core/failure';
 import type { MeasuredVessel } from '../core/messages';
 import { marksOf } from '../measure/vessels';
 import { document_ } from '../state/history';
+import { isMillimetreAssumed } from '../state/millimetres';
 import { profiles } from '../state/profiles';
 import * as store from '../state/store';
 import { saveAs } from './pictures';
@@ -22,9 +23,10 @@ export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
       'press m to measure the picked one',
     );
   }
+  const asked = { vessels, is_millimetre_assumed: isMillimetreAssumed.value };
   const text = await (kind === 'csv'
-    ? engine.ask('profiles_csv', vessels)
-    : engine.ask('profiles_json', vessels));
+    ? engine.ask('profiles_csv', asked)
+    : engine.ask('profiles_json', asked));
   const type = kind === 'csv' ? 'text/csv' : 'application/json';
   saveAs(new Blob([text], { type }), studyFileName({ content: 'profile', ending: kind }));
 }

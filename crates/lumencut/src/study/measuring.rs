@@ -42,13 +42,18 @@ impl Study {
         self.profiles = Profiles::default();
     }
 
-    /// Sections of vessels as `lumencut measure -o x.csv` writes them.
+    /// Sections of vessels as `lumencut measure -o x.csv` writes them; with what is assumed of lengths, where it is.
     ///
     /// # Errors
     /// As [`Study::profile`]; `settings` for marks with another method or territory.
-    pub fn profiles_csv(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<String> {
+    pub fn profiles_csv(
+        &mut self,
+        vessels: &[VesselMessage],
+        is_millimetre_assumed: bool,
+        stop: Stop,
+    ) -> Result<String> {
         let graded = self.graded(vessels, stop)?;
-        Ok(vessels_csv(&self.rows(vessels, &graded)))
+        Ok(vessels_csv(&self.rows(vessels, &graded, is_millimetre_assumed)))
     }
 
     /// Vessels as `lumencut measure -o x.json` writes them. What was marked stands among the settings where it is one vessel, as
@@ -56,10 +61,15 @@ impl Study {
     ///
     /// # Errors
     /// As [`Study::profiles_csv`].
-    pub fn profiles_json(&mut self, vessels: &[VesselMessage], stop: Stop) -> Result<String> {
+    pub fn profiles_json(
+        &mut self,
+        vessels: &[VesselMessage],
+        is_millimetre_assumed: bool,
+        stop: Stop,
+    ) -> Result<String> {
         let graded = self.graded(vessels, stop)?;
         let asked = self.asked(vessels, &graded);
-        Ok(vessels_json(&asked, &self.rows(vessels, &graded)))
+        Ok(vessels_json(&asked, &self.rows(vessels, &graded, is_millimetre_assumed)))
     }
 
     /// What was asked for: what was marked among it where it is one vessel.
@@ -85,6 +95,7 @@ impl Study {
         &'a self,
         vessels: &[VesselMessage],
         graded: &'a [GradedVessel],
+        is_millimetre_assumed: bool,
     ) -> Vec<Measured<'a>> {
         let row = |(vessel, graded): (&VesselMessage, &'a GradedVessel)| Measured {
             id: vessel.id.clone(),
@@ -92,6 +103,7 @@ impl Study {
             profile: self.profiles.kept(graded.number),
             scan: self.content.scan(),
             grade: graded.grade.as_ref(),
+            is_millimetre_assumed,
         };
         vessels.iter().zip(graded).map(row).collect()
     }

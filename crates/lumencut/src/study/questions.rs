@@ -158,12 +158,12 @@ of_the_study {
         measured(study, line, asking)?.angle_between(first, second)?;
 
     /// The table that `lumencut measure -o x.csv` writes.
-    [Turn::First] profiles_csv(vessels: Vec<VesselMessage>) -> String =
-        study.profiles_csv(&vessels, asking.watch.stop)?;
+    [Turn::First] profiles_csv { vessels: Vec<VesselMessage>, is_millimetre_assumed: bool } -> String =
+        study.profiles_csv(&vessels, is_millimetre_assumed, asking.watch.stop)?;
 
     /// What `lumencut measure -o x.json` writes.
-    [Turn::First] profiles_json(vessels: Vec<VesselMessage>) -> String =
-        study.profiles_json(&vessels, asking.watch.stop)?;
+    [Turn::First] profiles_json { vessels: Vec<VesselMessage>, is_millimetre_assumed: bool } -> String =
+        study.profiles_json(&vessels, is_millimetre_assumed, asking.watch.stop)?;
 
     /// The pictures that the report of a vessel asks for.
     [Turn::First] report_plan(vessel: VesselMessage) -> crate::report::Plan =

@@ -21,8 +21,10 @@ pub struct ReportMessage {
     scan: Option<String>,
     /// When it was saved, in words.
     saved: String,
-    /// Whether the file of the scan states the sizes of its voxels.
+    /// Whether the file of the scan states the sizes of its voxels, or the reader took them for 1 mm.
     has_units: bool,
+    /// Whether it is the reader alone who says so.
+    is_millimetre_assumed: bool,
     /// Whether it states the sides of the patient.
     has_orientation: bool,
     /// Level and width.
@@ -91,7 +93,7 @@ impl Study {
         let marked = message.vessel.marks.marked()?;
         let lengths = Lengths { stretches: message.stretches.clone(), distances: message.distances.clone() };
         let pages: Vec<VesselPage> = self
-            .rows(vessels, &graded)
+            .rows(vessels, &graded, message.is_millimetre_assumed)
             .into_iter()
             .map(|measured| VesselPage {
                 marks: marked.places(measured.profile).iter().map(ReportMark::from).collect(),

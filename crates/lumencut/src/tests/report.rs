@@ -2,7 +2,10 @@ use lumencut_vessels::measure::flags::BRANCH;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
 
 use super::*;
+use crate::measure_words::MILLIMETRE_ASSUMED;
 use crate::profile_marks::{Grade, Marked};
+use crate::profile_record::vessels_json;
+use crate::profile_table::vessels_csv;
 use crate::scan_details::ScanDetails;
 use crate::tube::tube;
 
@@ -38,6 +41,7 @@ fn page_of<'a>(
             profile,
             scan: &ScanDetails::NOTHING,
             grade,
+            is_millimetre_assumed: false,
         },
         sections: vec!["QUJD".to_owned(); marks.len()],
         marks,
@@ -135,6 +139,26 @@ fn lengths_have_no_unit_where_the_file_states_no_spacing() {
     let explained = without.replace(EXPLAINED, "").replace(UNITLESS, "");
     let (_, body) = explained.split_once("<body>").expect("a page");
     assert!(!body.contains(" mm") && without.contains(UNITLESS) && !with.contains(UNITLESS));
+}
+
+#[test]
+fn an_assumed_millimetre_is_told_in_every_output_and_only_where_it_is() {
+    let profile = tube();
+    let outputs = |is_millimetre_assumed: bool| {
+        let mut page = page_of(&profile, "LAD", &marked(None, &[]), None);
+        page.measured.is_millimetre_assumed = is_millimetre_assumed;
+        let one = [page.measured.clone()];
+        [html(&shown(), &[page]).expect("a report"), vessels_json(&Asked::default(), &one), vessels_csv(&one)]
+    };
+    for (without, with) in outputs(false).iter().zip(&outputs(true)) {
+        assert!(!without.contains("assumed between voxels"));
+        assert!(with.contains(MILLIMETRE_ASSUMED));
+    }
+    let [report, json, table] = outputs(true);
+    assert!(report.contains("<th>shortest (mm)</th>") && !report.contains(UNITLESS));
+    assert!(json.contains(&format!("\"assumed\": \"{MILLIMETRE_ASSUMED}\"")));
+    assert!(table.lines().next().is_some_and(|names| names.ends_with(",not_graded,assumed")));
+    assert!(table.lines().skip(1).all(|line| line.ends_with(MILLIMETRE_ASSUMED)));
 }
 
 #[test]

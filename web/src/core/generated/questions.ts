@@ -498,8 +498,10 @@ export type ReportRequest = {
   readonly scan: string | null;
   /** When it was saved, in words. */
   readonly saved: string;
-  /** Whether the file of the scan states the sizes of its voxels. */
+  /** Whether the file of the scan states the sizes of its voxels, or the reader took them for 1 mm. */
   readonly has_units: boolean;
+  /** Whether it is the reader alone who says so. */
+  readonly is_millimetre_assumed: boolean;
   /** Whether it states the sides of the patient. */
   readonly has_orientation: boolean;
   /** Level and width. */
@@ -944,12 +946,18 @@ export type Questions = {
   };
   /** The table that `lumencut measure -o x.csv` writes. */
   readonly profiles_csv: {
-    readonly message: ReadonlyArray<MeasuredVessel>;
+    readonly message: {
+      readonly vessels: ReadonlyArray<MeasuredVessel>;
+      readonly is_millimetre_assumed: boolean;
+    };
     readonly answer: string;
   };
   /** What `lumencut measure -o x.json` writes. */
   readonly profiles_json: {
-    readonly message: ReadonlyArray<MeasuredVessel>;
+    readonly message: {
+      readonly vessels: ReadonlyArray<MeasuredVessel>;
+      readonly is_millimetre_assumed: boolean;
+    };
     readonly answer: string;
   };
   /** The pictures that the report of a vessel asks for. */

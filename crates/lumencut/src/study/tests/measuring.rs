@@ -346,7 +346,7 @@ fn json_names_what_was_asked_of_one_vessel() {
     study.profile(line, Some(FWHM), &go_on).expect("a profile");
     let read = |study: &mut Study, marked: Json| -> Json {
         let vessels = [vessel(study, 0, marked)];
-        serde_json::from_str(&study.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON")
+        serde_json::from_str(&study.profiles_json(&vessels, false, &go_on).expect("a text")).expect("JSON")
     };
     let whole = read(&mut study, json!({"at": 18.0, "references": [31.0], "group": "carotid"}));
     assert_eq!(
@@ -365,7 +365,7 @@ fn json_names_what_was_asked_of_one_vessel() {
 fn tables_have_a_line_for_each_section_of_each_vessel() {
     let mut study = opened("y_junction");
     let vessels = [0, 2].map(|number| vessel(&study, number, json!({"at": 10.0})));
-    let text = study.profiles_csv(&vessels, &go_on).expect("a table");
+    let text = study.profiles_csv(&vessels, false, &go_on).expect("a table");
     let counts = vessels.each_ref().map(|one| study.measured(one.line, &go_on).expect("a profile").len());
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 1 + counts[0] + counts[1]);
@@ -376,10 +376,10 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
     // Of several vessels no single place was asked for.
     let all: Json =
-        serde_json::from_str(&study.profiles_json(&vessels, &go_on).expect("a text")).expect("JSON");
+        serde_json::from_str(&study.profiles_json(&vessels, false, &go_on).expect("a text")).expect("JSON");
     assert!(all["settings"]["at_mm"].is_null());
     assert_eq!(all["vessels"].as_array().map(Vec::len), Some(2));
-    assert_eq!(study.profiles_csv(&[], &go_on).expect("a table"), "");
+    assert_eq!(study.profiles_csv(&[], false, &go_on).expect("a table"), "");
 }
 
 #[test]
@@ -388,11 +388,11 @@ fn numbers_are_told_with_how_their_scan_was_made() {
     let vessels = [vessel(&study, 0, json!({}))];
     study.content.held.as_mut().expect("a volume").scan =
         serde_json::from_value(json!({"kernel": "B30f", "phase": null})).expect("what a file states");
-    let text = study.profiles_json(&vessels, &go_on).expect("a text");
+    let text = study.profiles_json(&vessels, false, &go_on).expect("a text");
     let scan = &serde_json::from_str::<Json>(&text).expect("JSON")["vessels"][0]["scan"];
     assert_eq!((&scan["kernel"], &scan["series_number"]), (&json!("B30f"), &Json::Null));
     let words = study.report().expect("a report").volume.expect("a volume").scan;
     assert_eq!(words, "kernel B30f; series, phase, slice thickness not stated");
-    let table = study.profiles_csv(&vessels, &go_on).expect("a table");
+    let table = study.profiles_csv(&vessels, false, &go_on).expect("a table");
     assert!(table.lines().skip(1).all(|line| line.contains(",not stated,not stated,not stated,,B30f,")));
 }
