@@ -166,7 +166,7 @@ def test_a_session_with_an_assumed_millimetre_is_read_and_one_of_the_future_is_r
     write_session(path, tree, hidden=(2,), format=2, one_millimetre_assumed=True)
     assert read_session(path).hidden == (2,)
     write_session(path, tree, format=3)
-    with pytest.raises(FormatError, match="found version 3; expected version 1 or 2.*newer version"):
+    with pytest.raises(FormatError, match=r"found version 3; expected version 1 or 2.*newer version"):
         read_session(path)
 
 
