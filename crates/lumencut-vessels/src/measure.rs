@@ -43,6 +43,7 @@ pub mod suggestions;
 pub mod sums;
 pub mod terms;
 pub mod texture;
+pub mod told_by_tree;
 pub mod tree_walls;
 pub mod wall;
 pub mod wall_level;

@@ -9,7 +9,7 @@ use lumencut_core::volume::Volume;
 use lumencut_vessels::measure::measuring::{measure_under, told_by_tree};
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::tree_walls::ToldByTree;
+use lumencut_vessels::measure::told_by_tree::ToldByTree;
 use lumencut_vessels::measure::wall_level::WallRequest;
 
 /// A volume and the tree in it. Both decide what is measured: profiles that were kept are those of other ones no longer.

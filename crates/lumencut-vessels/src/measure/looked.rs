@@ -25,7 +25,8 @@ use super::scale::Scale;
 use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
 use super::slab::thickness;
 use super::texture::{Pairs, Texture};
-use super::tree_walls::{PooledWall, ToldByTree};
+use super::told_by_tree::ToldByTree;
+use super::tree_walls::{PooledWall, wall_beside};
 use super::wall::KnownWall;
 use super::wall_level::{WallSource, expected, is_below_lumen};
 use super::wall_pool::{is_apart, pooled, told_level};
@@ -273,7 +274,7 @@ impl Looked {
 
     /// The wall that other vessels let expect, where they told anything of it.
     fn wall_by_others(&self, told: &ToldByTree, tree: &[Vessel], vessel: &Vessel) -> Option<PooledWall> {
-        let by_others = told.wall_beside(tree, vessel, self.wall_source.expected()?)?;
+        let by_others = wall_beside(&told.walls, tree, vessel, self.wall_source.expected()?)?;
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
     }
 

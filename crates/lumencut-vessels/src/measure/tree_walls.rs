@@ -6,20 +6,10 @@
 
 use super::branches::shares_line;
 use super::pooled::Level;
-use super::profile::PointSpread;
 use lumencut_core::vessel_tree::Vessel;
 
 /// By how much vessels of a tree may differ from each other, as shares of the standard deviation that is expected beforehand.
 const APART: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
-
-/// What a tree tells of all that is measured along it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ToldByTree {
-    /// The point spread of its scan.
-    pub spread: PointSpread,
-    /// What its vessels tell of the level of their walls, those that tell something.
-    pub walls: Vec<ToldWall>,
-}
 
 /// What the sections of a vessel tell of the level of its wall, without what is expected beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,18 +29,20 @@ pub struct PooledWall {
     pub vessels: usize,
 }
 
-impl ToldByTree {
-    /// The level that the other vessels of the tree let expect of a vessel's wall, where any of them tells something: those that
-    /// share a part of its line are not asked, as they are of the same voxels.
-    pub fn wall_beside(&self, tree: &[Vessel], vessel: &Vessel, expected: Level) -> Option<PooledWall> {
-        let told: Vec<Level> = self
-            .walls
-            .iter()
-            .filter(|wall| tree.get(wall.vessel).is_some_and(|other| !shares_line(other, vessel)))
-            .map(|wall| wall.level)
-            .collect();
-        (!told.is_empty()).then(|| PooledWall { level: by_others(expected, &told), vessels: told.len() })
-    }
+/// The level that the other vessels of a tree let expect of a vessel's wall, where any of them tells something: those that share a
+/// part of its line are not asked, as they are of the same voxels.
+pub fn wall_beside(
+    walls: &[ToldWall],
+    tree: &[Vessel],
+    vessel: &Vessel,
+    expected: Level,
+) -> Option<PooledWall> {
+    let told: Vec<Level> = walls
+        .iter()
+        .filter(|wall| tree.get(wall.vessel).is_some_and(|other| !shares_line(other, vessel)))
+        .map(|wall| wall.level)
+        .collect();
+    (!told.is_empty()).then(|| PooledWall { level: by_others(expected, &told), vessels: told.len() })
 }
 
 /// The level of a wall that is expected, and its standard deviation, by what is expected beforehand and what others told.

@@ -1,5 +1,4 @@
 use super::*;
-use crate::measure::profile::Source;
 use glam::DVec3;
 
 const CT: Level = [45.0, 25.0];
@@ -50,12 +49,11 @@ fn vessels_on_the_same_line_are_not_asked() {
     // The second begins where the first one ends; a path leads through both of them.
     let tree = [vessel(0.0, 10.0), vessel(10.0, 20.0)];
     let path = Vessel::new((0..=20).map(|z| DVec3::new(0.0, 0.0, f64::from(z))).collect(), None).unwrap();
-    let spread = PointSpread { fwhm: 1.0, deviation: 0.0, source: Source::Given };
     let walls = [[30.0, 5.0], [60.0, 5.0]];
-    let walls = walls.into_iter().enumerate().map(|(vessel, level)| ToldWall { vessel, level }).collect();
-    let told = ToldByTree { spread, walls };
-    let of_first = told.wall_beside(&tree, &tree[0], CT).unwrap();
+    let told: Vec<ToldWall> =
+        walls.into_iter().enumerate().map(|(vessel, level)| ToldWall { vessel, level }).collect();
+    let of_first = wall_beside(&told, &tree, &tree[0], CT).unwrap();
     assert_eq!(of_first, PooledWall { level: by_others(CT, &[[60.0, 5.0]]), vessels: 1 });
-    assert_eq!(told.wall_beside(&tree, &path, CT), None);
-    assert_eq!(told.wall_beside(&tree, &vessel(30.0, 40.0), CT).unwrap().vessels, 2);
+    assert_eq!(wall_beside(&told, &tree, &path, CT), None);
+    assert_eq!(wall_beside(&told, &tree, &vessel(30.0, 40.0), CT).unwrap().vessels, 2);
 }
