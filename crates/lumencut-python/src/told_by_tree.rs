@@ -2,7 +2,6 @@
 
 use lumencut::measure::measuring;
 use lumencut::measure::request::MeasureRequest;
-use lumencut::measure::told_by_tree;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
@@ -14,7 +13,7 @@ use crate::wall_request::wall_request;
 
 /// The point spread of a scan, and the level of the walls in it.
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct ToldByTree(pub told_by_tree::ToldByTree);
+pub struct ToldByTree(pub lumencut::measure::told_by_tree::ToldByTree);
 
 /// What the vessels of a tree tell for all that is measured along them.
 #[pyfunction]
