@@ -110,6 +110,22 @@ describe('flags', () => {
   });
 });
 
+describe('the words of flags', () => {
+  const profile = madeProfile();
+  const words = profile.flag_table.map(({ word }) => word);
+  const flagged = { ...profile, flags: profile.flags.map(() => words) };
+
+  test('stand beside rows that have room for them', () => {
+    expect(chartLayout(flagged, [900, 500]).hasWords).toBe(true);
+  });
+
+  test('are left out where they would lie over each other', () => {
+    const { row, hasWords } = chartLayout(flagged, [900, 140]);
+    expect(row).toBeLessThan(9);
+    expect(hasWords).toBe(false);
+  });
+});
+
 describe('the lying vessel', () => {
   const size = [900, 260] as const;
 

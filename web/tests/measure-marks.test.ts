@@ -245,6 +245,8 @@ describe('what is marked at the section', () => {
   test('a reference comes to one on the other side, and takes the place of one on its own', () => {
     const both = marks({ at: 30, references: [15, 45] });
     expect(withReference(profile, marks({ at: 30, references: [15] }), 45).references).toEqual([15, 45]);
+    expect(withReference(profile, marks({ at: 30, references: [15] }), 15).references).toEqual([15]);
+    expect(withReference(profile, marks({ at: 30, references: [15] }), 20).references).toEqual([20]);
     expect(withReference(profile, both, 50).references).toEqual([15, 50]);
     expect(withReference(profile, both, 10).references).toEqual([10, 45]);
   });

@@ -15,9 +15,6 @@ const COLORS = {
   grid: '#ffffff1c',
 } as const;
 
-/** Rows of flags that are lower have no word beside them (CSS pixels): words would lie over each other. */
-const LEAST_WORDS = 9;
-
 /** A place as it is drawn in the chart. */
 export interface ChartMark {
   readonly kind: Kind;
@@ -140,7 +137,7 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
 
 /** A row for each flag that is set somewhere, under the line where the diameter is 0. */
 function Flags({ profile, layout }: ProfileChartProps) {
-  const { x, y, row } = layout;
+  const { x, y, row, hasWords } = layout;
   return (
     <g>
       {flagsIn(profile).map((flag, n) => {
@@ -164,7 +161,7 @@ function Flags({ profile, layout }: ProfileChartProps) {
               );
             })}
             <title>{`${flag.word}: ${flag.meaning}`}</title>
-            {row >= LEAST_WORDS && (
+            {hasWords && (
               <text x={x.end + 6} y={top + 0.5 * row + 4} fill={color} font-size={Math.min(11, row)}>
                 {flag.word}
               </text>

@@ -47,20 +47,20 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
       >
         Reference here
       </button>
-      <LengthButton isFull={isFull(marks)} />
+      <LengthButton hasRoom={!isFull(marks)} />
     </div>
   );
 }
 
 /** The first press begins a length at the section, the second one ends it where the section is by then. */
-function LengthButton({ isFull: hasNoRoom }: { readonly isFull: boolean }) {
+function LengthButton({ hasRoom }: { readonly hasRoom: boolean }) {
   const from = lengthFrom.value;
   if (from === null) {
-    const title = hasNoRoom
-      ? 'Two stretches are marked: remove one of them first'
-      : 'Then move the section to the other end';
+    const title = hasRoom
+      ? 'Then move the section to the other end'
+      : 'Two stretches are marked: remove one of them first';
     return (
-      <button type="button" class="small" disabled={hasNoRoom} title={title} onClick={beginLength}>
+      <button type="button" class="small" disabled={!hasRoom} title={title} onClick={beginLength}>
         Length from here
       </button>
     );

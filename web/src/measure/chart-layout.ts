@@ -13,6 +13,8 @@ const ABOVE = 38;
 const BELOW = 34;
 /** The height of a row of flags. */
 export const ROW = 12;
+/** Rows that are lower have no word beside them: words would lie over each other. */
+const LEAST_WORDS = 9;
 /** Rows never take more than this part of the height. */
 const MOST_ROWS = 0.45;
 
@@ -22,6 +24,8 @@ export interface ChartLayout {
   readonly y: Axis;
   /** The height of a row of flags, the first of which begins where the diameter is 0. */
   readonly row: number;
+  /** Whether there is room for a word beside each of these rows. */
+  readonly hasWords: boolean;
   /** Where the plot ends below the rows of flags. */
   readonly bottom: number;
 }
@@ -40,6 +44,7 @@ export function chartLayout(profile: Profile, size: Pair): ChartLayout {
     x: axisAlong(lengthOf(profile), size[0]),
     y: { low: 0, high: topOf(profile), start: bottom - rows * row, end: ABOVE },
     row,
+    hasWords: row >= LEAST_WORDS,
     bottom,
   };
 }

@@ -138,12 +138,11 @@ export function removed(marks: VesselMarks, place: Place): VesselMarks {
     : { ...marks, secondStretch: null };
 }
 
-/** The marks with a reference at a place: where there are two, it takes the place of the one on its side of the stenosis. */
+/** The marks with a reference at a place; one on the same side of the stenosis gives way to it. */
 export function withReference(profile: Profile, marks: VesselMarks, at: number): VesselMarks {
   const main = mainPlace(profile, marks)?.at ?? 0;
   const other = referenceSlots(marks, main)[at < main ? 1 : 0];
-  const kept = marks.references.length < 2 ? marks.references : other === null ? [] : [other];
-  return { ...marks, references: [...kept, at].sort((a, b) => a - b) };
+  return { ...marks, references: [at, ...(other === null ? [] : [other])].sort((a, b) => a - b) };
 }
 
 /** Whether no further stretch can be marked. */

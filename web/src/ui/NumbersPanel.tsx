@@ -1,14 +1,13 @@
 /** What was measured of the picked vessel, in numbers. */
-import { engine } from '../client/shared';
 import { moveTo } from '../link/along';
 import { currentProfile, currentVessel } from '../measure/current';
 import { PlacesTable } from '../measure/PlacesTable';
 import { RulersPart } from '../measure/RulersPart';
 import { StretchPart } from '../measure/StretchPart';
 import { mm, unitless } from '../measure/words';
-import { showBestView } from '../state/actions';
 import { giveFwhm } from '../state/profiles';
 import * as store from '../state/store';
+import { BestViewButton } from './BestViewButton';
 import { StenosisPart } from './StenosisPart';
 
 export function NumbersPanel() {
@@ -52,15 +51,7 @@ function VesselChoice() {
         </select>
         {vessel && <span>{mm(vessel.length, 1)}</span>}
       </label>
-      {vessel && (
-        <button
-          type="button"
-          title="From where most of the vessel is seen (f)"
-          onClick={() => void showBestView(engine)}
-        >
-          Best view
-        </button>
-      )}
+      {vessel && <BestViewButton />}
     </div>
   );
 }

@@ -8,7 +8,6 @@ import { pickedId, tree } from '../edit/shown';
 import { marked } from '../edit/tidying';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { placeCrossHair } from '../link/cross-hair';
-import { showBestView } from '../state/actions';
 import { nameOf } from '../state/changes';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
@@ -17,6 +16,7 @@ import { PALETTE } from '../state/palette';
 import { pickedPlace, pickedVessel, report } from '../state/store';
 import { lit } from '../state/tidy';
 import { active, tool } from '../state/tool';
+import { BestViewButton } from './BestViewButton';
 
 /** The id of the names that the fields of the rows offer. */
 export const NAMES_TO_OFFER = 'names-to-offer';
@@ -126,13 +126,7 @@ function Means({ vessel }: RowProps) {
   };
   return (
     <div class="buttons">
-      <button
-        type="button"
-        title="From where most of it is seen (f)"
-        onClick={() => void showBestView(engine)}
-      >
-        Best view
-      </button>
+      <BestViewButton />
       {vessel.clicks && (
         <button type="button" title="Add points at its end" onClick={goOn}>
           Go on

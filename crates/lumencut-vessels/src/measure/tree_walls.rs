@@ -1,8 +1,8 @@
 //! What the vessels of a tree tell of each other's walls: they are of one patient in one scan, so that their levels are alike, but
 //! not the same.
 //!
-//! The level of a vessel is that of the tree and by how much the vessel differs from it. How much of what is not known beforehand is
-//! the one and how much the other is not known either: several shares are tried, and count by how well the vessels agree with them.
+//! The level of a vessel is that of the tree plus a difference of its own. How large these differences are is not known: several
+//! standard deviations of them are tried, and each counts by how likely it makes what the vessels told.
 
 use super::branches::shares_line;
 use super::pooled::Level;

@@ -1,0 +1,15 @@
+/** Turns the view to where most of the picked vessel is seen. */
+import { engine } from '../client/shared';
+import { showBestView } from '../state/actions';
+
+export function BestViewButton() {
+  return (
+    <button
+      type="button"
+      title="From where most of the vessel is seen (f)"
+      onClick={() => void showBestView(engine)}
+    >
+      Best view
+    </button>
+  );
+}
