@@ -13,7 +13,8 @@ from PIL import Image
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, read_centerlines, read_volume
 from lumencut.centerline_writers import write_centerlines
 from lumencut.cli import main
-from lumencut.recipe import KEYWORD, read_recipe
+from lumencut.picture_text import KEYWORD
+from lumencut.recipe import read_recipe
 from scene_files import bent_line, write_volume
 
 SIZE = ("--size", "240x220")

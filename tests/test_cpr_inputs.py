@@ -104,9 +104,9 @@ def test_a_vessel_of_one_point_is_none():
 @pytest.mark.parametrize("points", [[1, 2, 3, 4], [[1, 2, 3, 4]], [["a", "b"]], [[np.nan, 0]]])
 def test_places_that_are_none(volume, points):
     made = cpr(volume, STRAIGHT)
-    with pytest.raises(CameraError, match="points of the CPR"):
+    with pytest.raises(CameraError, match="points of the reformation"):
         made.world_from_pixel(points)
-    with pytest.raises(CameraError, match="points of the CPR"):
+    with pytest.raises(CameraError, match="points of the reformation"):
         made.pixel_from_world([*points, [1]] if len(points) == 1 else points)
 
 
@@ -143,7 +143,7 @@ def test_defaults(volume):
     assert made.arc_length.shape == (made.size[1],)
     assert (
         repr(made)
-        == f"Reformation(projected, {made.size[0]} × {made.size[1]} pixels of {made.pixel_spacing:.4g} mm)"
+        == f"PlanarReformation(projected CPR, {made.size[0]} × {made.size[1]} pixels of {made.pixel_spacing:.4g} mm)"
     )
 
 

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from lumencut.measuring import CrossSection, cross_section, measure
     from lumencut.mends import Mend
     from lumencut.picking import brightest
-    from lumencut.planar_reformation import cpr
+    from lumencut.planar_reformation import PlanarReformation, cpr
     from lumencut.profile import Profile
     from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer, render
@@ -105,7 +105,7 @@ _HOME = {
     "measuring": ("CrossSection", "cross_section", "measure"),
     "mends": ("Mend",),
     "picking": ("brightest",),
-    "planar_reformation": ("cpr",),
+    "planar_reformation": ("PlanarReformation", "cpr"),
     "profile": ("Profile",),
     "reformation": ("Reformation",),
     "renderer": ("Renderer", "render"),
@@ -153,6 +153,7 @@ __all__ = [
     "Mend",
     "MissingPackageError",
     "Opacity",
+    "PlanarReformation",
     "Profile",
     "Reformation",
     "Renderer",

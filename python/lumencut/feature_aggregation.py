@@ -17,8 +17,7 @@ from lumencut._checks import choice, number
 from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.errors import CameraError, SettingsError
 from lumencut.frame import picture_as_png, save_picture
-from lumencut.planar_reformation import check_vessel, cpr_of
-from lumencut.reformation import Reformation
+from lumencut.planar_reformation import PlanarReformation, check_vessel, cpr_of
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
@@ -45,7 +44,7 @@ class FeatureAggregation:
 
     def __init__(
         self,
-        surface: Reformation,
+        surface: PlanarReformation,
         value: npt.NDArray[np.float32],
         radius: npt.NDArray[np.float64],
         angles: int,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any, Literal, TypeAlias
 
@@ -12,7 +13,8 @@ from lumencut import _lumencut
 from lumencut._checked_settings import checked
 from lumencut._checks import choice, number, numbers
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
-from lumencut.reformation import Reformation, radians
+from lumencut.reformation import Reformation
+from lumencut.reformation_recipe import ReformationRecipe
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.slab import Slab
@@ -26,6 +28,87 @@ MODES = ("projected", "stretched", "straightened")
 
 #: The patient's head.
 _HEAD = (0.0, 0.0, 1.0)
+
+
+#: What rows and columns of a CPR are.
+_AXES = {
+    "projected": "Down: height as it is seen. Across: through the vessel; distances are not true.",
+    "stretched": "Down: along the unrolled surface. Across: the lines through the vessel, in mm.",
+    "straightened": "Down: along the vessel, in mm. Across: through the vessel, in mm.",
+}
+
+
+class PlanarReformation(Reformation):
+    """One vessel as an image of its surroundings, made by :func:`lumencut.cpr`.
+
+    Rows run from the vessel's first point at the top to its last one (projected: from the highest point to
+    the lowest). The vessel lies in or about the middle column. No picture is mirrored. Where several points
+    of the vessel share a row (projected), its arc length is that of the first of them.
+
+    A pixel is folded, straightened and stretched, where lines across the vessel have met before they reach
+    it, so that the image runs backwards there, or shows what it shows nearer to the vessel in another row;
+    projected, where several points of the vessel share the row.
+
+    Every world point has a pixel. One that the image shows several times lies where it is nearest to the
+    vessel. One that it does not show lies, projected, where the viewer sees it; stretched, where the surface
+    of the image is nearest; straightened, in that of the sections through the point whose centre is nearest.
+
+    Attributes
+    ----------
+    mode : {"projected", "stretched", "straightened"}
+        How the vessel is laid out. Distances are true but for ``"projected"``.
+    angle : float
+        By how much the viewer has moved to the right (radians).
+    """
+
+    _core: _lumencut.Cpr
+
+    def __init__(
+        self, renderer: Renderer, core: _lumencut.Cpr, given: Settings, parameters: dict[str, Any]
+    ) -> None:
+        self.mode, self.angle = parameters["mode"], parameters["angle"]
+        recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters)
+        super().__init__(renderer, core, given, recipe, measurable=self.mode != "projected")
+
+    def rotated(self, angle: float | None = None, *, degrees: float | None = None) -> PlanarReformation:
+        """Return the same vessel seen from another side; renderer, volume and frames are used again.
+
+        Without a width of its own a projected or stretched image is as wide as the vessel from that side.
+
+        Parameters
+        ----------
+        angle : float
+            By how much more the viewer moves to the right (radians): around up as with
+            :meth:`Camera.rotated`, and around the vessel where it is straightened.
+        degrees : float
+            The angle in degrees, in the place of ``angle``.
+
+        Raises
+        ------
+        CameraError
+            For both angles or neither, or one that is no finite number.
+        """
+        if (angle is None) == (degrees is None):
+            found = "neither" if angle is None else "an angle in radians and one in degrees"
+            raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
+        turned = self.angle + radians("angle of the rotation", angle, degrees)
+        core = self._core.rotated(turned)
+        parameters = {**self.recipe.parameters, "angle": turned}
+        return PlanarReformation(self._renderer, core, self._given, parameters)
+
+    def _title(self) -> str:
+        """The mode with the angle."""
+        return f"{self.mode} {round(math.degrees(self.angle)) % 360}°"
+
+    def _edges(self) -> dict[str, str]:
+        """The sides of the patient that edges look to, as far as they do so in all rows."""
+        if self.mode == "straightened":
+            return {}
+        # Above the image it goes on straight, and no two points of the vessel share a row.
+        origin, *ends = self.world_from_pixel([[0, -2], [1, -2], [0, -1]])
+        right, down = np.array(ends) - origin
+        named = ("left", "right", "top", "bottom") if self.mode == "projected" else ("left", "right")
+        return {edge: letters for edge, letters in _lumencut.edge_letters(right, down) if edge in named}
 
 
 def cpr(
@@ -43,7 +126,7 @@ def cpr(
     *,
     degrees: float | None = None,
     normal: npt.ArrayLike | None = None,
-) -> Reformation:
+) -> PlanarReformation:
     """Return one vessel laid out as an image: Curved Planar Reformation (Kanitsar et al. 2002).
 
     A line is laid through each point of the vessel, and the lines become the rows of the image.
@@ -131,7 +214,7 @@ def cpr_of(
     smoothing: float = 0.0,
     settings: Settings | None = None,
     normal: npt.ArrayLike | None = None,
-) -> Reformation:
+) -> PlanarReformation:
     """Return the CPR of a vessel by a renderer, whose window it has; parameters are those of :func:`cpr`."""
     check_vessel(vessel)
     if not isinstance(settings, (Settings, type(None))):
@@ -158,7 +241,16 @@ def cpr_of(
     smooth = number(SettingsError, "smoothing of the centerline", smoothing)
     view, pixels = (upwards, turned, towards), (_width(width, volume), spacing)
     core = _lumencut.Cpr(vessel.points, smooth, mode, view, pixels)
-    return Reformation(renderer, core, given, mode, float(angle), spacing)
+    parameters = {
+        "mode": mode,
+        "width": pixels[0],
+        "pixel_spacing": spacing,
+        "angle": turned,
+        "up": upwards.tolist(),
+        "smoothing": smooth,
+        "normal": None if towards is None else towards.tolist(),
+    }
+    return PlanarReformation(renderer, core, given, parameters)
 
 
 def one_angle(angle: float, degrees: float | None) -> float:
@@ -202,3 +294,10 @@ def _thick(settings: Settings, slab: Slab | tuple[float, str] | float | None) ->
     if not slab.thickness > 0:
         raise SettingsError("slab thickness", f"{slab.thickness:g} mm", "a thickness above 0 mm, or no slab")
     return replace(settings, slab=slab)
+
+
+def radians(subject: str, angle: float | None, degrees: float | None) -> float:
+    """Return the one of two angles that is given, in radians."""
+    if degrees is not None:
+        return math.radians(number(CameraError, subject.replace("angle", "degrees"), degrees))
+    return number(CameraError, subject, angle)

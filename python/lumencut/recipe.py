@@ -8,7 +8,6 @@ the scan.
 from __future__ import annotations
 
 import json
-import struct
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
@@ -18,20 +17,15 @@ import numpy as np
 from lumencut import _lumencut
 from lumencut._files import checked_path
 from lumencut.camera import Camera
-from lumencut.errors import CameraError, FileError, FormatError, SettingsError
-from lumencut.focus import Focus
+from lumencut.errors import CameraError, FormatError, SettingsError
+from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
 from lumencut.settings import Settings
-from lumencut.slab import Slab
-from lumencut.transfer import TransferFunction
-from lumencut.window import Opacity, Window
 
-#: The keyword of the text, and the version of what it holds.
-KEYWORD, _FORMAT = "Lumencut", 1
+#: The version of what the text holds.
+_FORMAT = 1
 
 _EXPECTED = "a PNG picture that Lumencut wrote"
-_LONGEST = 100_000
 _PLACE = ("center", "direction", "right_axis", "up", "pixel_spacing")
-_CLASSES: dict[str, Any] = {"window": Window, "opacity": Opacity, "slab": Slab, "focus": Focus}
 
 
 @dataclass(frozen=True)
@@ -69,17 +63,11 @@ def _as_json(recipe: Recipe) -> dict[str, Any]:
         "format": _FORMAT,
         "version": _lumencut.__version__,
         "camera": {"size": list(camera.size), **place},
-        "settings": {name: _plain(getattr(settings, name)) for name in _lumencut.SETTINGS},
+        "settings": plain_settings(settings),
         "annotate": recipe.annotate,
         "vessel_names": recipe.vessel_names,
         "vessels": recipe.vessels,
     }
-
-
-def _plain(value: Any) -> Any:
-    """The value of a setting as JSON has it: windows, slabs and transfer functions by their fields."""
-    is_made = isinstance(value, (*_CLASSES.values(), TransferFunction))
-    return vars(value) if is_made else value
 
 
 def read_recipe(path: str | Path) -> Recipe:
@@ -93,9 +81,14 @@ def read_recipe(path: str | Path) -> Recipe:
         For a file that cannot be read.
     """
     place = checked_path(path, _EXPECTED)
-    text = _text(place)
+    text = text_of(place, _EXPECTED)
     try:
         content = json.loads(text, parse_constant=_refuse_constant)
+        if "reformation" in content:
+            found = f"a picture of a reformation ({str(content['reformation'])[:40]})"
+            raise FormatError(
+                str(place), found, _EXPECTED + " by render or turntable", "use the --like of its own command"
+            )
         version = content["format"]
         if version != _FORMAT or isinstance(version, bool):
             found = "a text of another version of Lumencut"
@@ -111,33 +104,6 @@ def read_recipe(path: str | Path) -> Recipe:
     raise FormatError(str(place), found, _EXPECTED, "give the options themselves")
 
 
-def _text(path: Path) -> str:
-    """The text in a PNG. Its pixels are not decoded; a file without its end is refused."""
-    from PIL.PngImagePlugin import PngImageFile
-
-    try:
-        with path.open("rb") as file:
-            picture = PngImageFile(file)
-            text = picture.info.get(KEYWORD)
-            picture.verify()
-    except OSError as error:
-        if error.errno is not None:
-            raise FileError(str(path), error.strerror or str(error), _EXPECTED) from None
-        text = _unreadable(path)
-    except (SyntaxError, ValueError, EOFError, struct.error, IndexError, KeyError, TypeError):
-        text = _unreadable(path)
-    if not isinstance(text, str):
-        found = "a picture without the text that says how it was rendered"
-        raise FormatError(str(path), found, _EXPECTED, "programs that change a picture may drop its text")
-    if len(text) > _LONGEST:
-        raise FormatError(str(path), f"a text of {len(text)} letters", f"at most {_LONGEST}")
-    return text
-
-
-def _unreadable(path: Path) -> NoReturn:
-    raise FormatError(str(path), "no PNG, or a damaged one", _EXPECTED, "copy it again") from None
-
-
 def _refuse_constant(_: str) -> NoReturn:
     raise ValueError("a number that is not finite")
 
@@ -149,7 +115,7 @@ def _recipe(content: dict[str, Any]) -> Recipe:
     vessels = content["vessels"]
     if not isinstance(vessels, int) or isinstance(vessels, bool) or vessels < 0:
         raise TypeError("an invalid number of vessels")
-    return Recipe(_camera(content["camera"]), _settings(content["settings"]), **flags, vessels=vessels)
+    return Recipe(_camera(content["camera"]), settings_of(content["settings"]), **flags, vessels=vessels)
 
 
 def _camera(content: dict[str, Any]) -> Camera:
@@ -160,19 +126,3 @@ def _camera(content: dict[str, Any]) -> Camera:
         if not np.allclose(stated[name], getattr(made, name), rtol=0, atol=1e-9):
             raise CameraError(name, "another vector", "a unit vector that goes with the others")
     return made._moved({**stated, "pixel_spacing": made.pixel_spacing})
-
-
-def _settings(content: dict[str, Any]) -> Settings:
-    if content.keys() != _lumencut.SETTINGS.keys():
-        raise KeyError("other settings than those of this version")
-    return Settings(**{name: _made(name, value) for name, value in content.items()})
-
-
-def _made(name: str, value: Any) -> Any:
-    """The value of a setting, made of its fields where it has some; `Settings` checks all others."""
-    kind = _lumencut.SETTINGS[name].kind
-    if not isinstance(value, dict):
-        return value
-    if kind == "transfer":
-        return TransferFunction(**value)
-    return _CLASSES[kind](**value)

@@ -12,8 +12,7 @@ import numpy.typing as npt
 from lumencut._checks import number, numbers
 from lumencut.errors import CameraError
 from lumencut.mends import told
-from lumencut.planar_reformation import check_vessel, cpr_of, one_angle
-from lumencut.reformation import Reformation
+from lumencut.planar_reformation import PlanarReformation, check_vessel, cpr_of, one_angle
 from lumencut.renderer import Renderer
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
@@ -39,7 +38,7 @@ class StraightenedVolume:
         side, j away from its viewer, k downwards.
     """
 
-    def __init__(self, volume: Volume, surface: Reformation) -> None:
+    def __init__(self, volume: Volume, surface: PlanarReformation) -> None:
         self.volume, self._core = volume, surface._core
 
     @property

@@ -11,6 +11,7 @@ mod errors;
 mod found_vessels;
 mod kept_profiles;
 mod labels;
+mod layout;
 mod line_edits;
 mod marked;
 mod mask_tracing;
@@ -48,6 +49,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     measuring::add_names(module)?;
     profile_files::add_names(module)?;
     module.add_class::<centerlines::CenterlineFile>()?;
+    module.add_class::<layout::Layout>()?;
     module.add_class::<cpr::Cpr>()?;
     module.add_class::<kept_profiles::KeptProfiles>()?;
     module.add_class::<measuring::Profile>()?;

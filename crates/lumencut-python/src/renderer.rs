@@ -16,6 +16,7 @@ use lumencut::math::lanes::FAR;
 use lumencut::method::Method;
 use lumencut::pipeline::{CpuRenderer, Request};
 use lumencut::progress::Progress;
+use lumencut::reformations::Layout as _;
 use lumencut::reformations::cr::CrParameters;
 use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
 use lumencut::stages::{Image, ImageSet};
@@ -27,6 +28,7 @@ use pyo3::types::PyDict;
 use crate::camera::CameraArgument;
 use crate::cpr::Cpr;
 use crate::errors::{exception, to_python, warn};
+use crate::layout::Layout;
 use crate::pool;
 use crate::settings::Checked;
 use crate::tree::{VesselArrays, tree};
@@ -170,18 +172,18 @@ impl Renderer {
         buffers(py, frame)
     }
 
-    /// The images that are asked for, by name, of a volume where the pixels of a CPR look. The picture is transparent
+    /// The images that are asked for, by name, of a volume where the pixels of a reformation look. The picture is transparent
     /// outside the volume.
     #[allow(clippy::needless_pass_by_value)]
     fn look<'py>(
         &self,
         py: Python<'py>,
         volume: VolumeArgument<'py>,
-        cpr: &Bound<'py, Cpr>,
+        layout: &Bound<'py, Layout>,
         settings: &Bound<'py, Checked>,
         images: Vec<String>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let (Cpr(cpr), Checked(settings)) = (cpr.get(), settings.get());
+        let (Layout(layout), Checked(settings)) = (layout.get(), settings.get());
         let images = image_set(&images)?;
         let borrowed = volume.borrow()?;
         let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());
@@ -191,7 +193,7 @@ impl Renderer {
             let request = Request { images, stop, ..Request::new(&camera, settings) };
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
-            let look = || pollster::block_on(backend.look(&volume, || places(cpr), &request));
+            let look = || pollster::block_on(backend.look(&volume, || places(&**layout), &request));
             pool::install(look)?.map_err(to_python)
         })?;
         say_that_the_cpu_goes_on(py, given_up)?;
@@ -222,7 +224,7 @@ impl Renderer {
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
             let mut given_up = None;
-            let look = |turned: &_| {
+            let look = |turned: &lumencut::reformations::cpr::Cpr| {
                 let (frame, error) = pollster::block_on(backend.look(&volume, || places(turned), &request))?;
                 given_up = given_up.take().or(error);
                 Ok(frame.value)
@@ -237,10 +239,10 @@ impl Renderer {
     }
 }
 
-/// A frame that knows where the pixels of a CPR look, and how long it took to find out.
-fn places(cpr: &lumencut::reformations::cpr::Cpr) -> lumencut::error::Result<Frame> {
+/// A frame that knows where the pixels of a reformation look, and how long it took to find out.
+fn places(layout: &dyn lumencut::reformations::Layout) -> lumencut::error::Result<Frame> {
     let start = Instant::now();
-    let mut frame = Frame::of(Geometry::Curved(cpr.curved()?));
+    let mut frame = Frame::of(Geometry::Curved(layout.curved()?));
     let milliseconds = start.elapsed().as_secs_f64() * 1e3;
     frame.timings.push(Timing { stage: "places", milliseconds });
     Ok(frame)

@@ -5,6 +5,7 @@
 use std::f64::consts::PI;
 
 use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 
 /// Which value of a half circle is shown.

@@ -17,7 +17,7 @@ from lumencut.cli.settings import look_options, settings_from
 from lumencut.cli.vessels import path_option, titled_vessels
 
 if TYPE_CHECKING:
-    from lumencut.reformation import Reformation
+    from lumencut.planar_reformation import PlanarReformation
     from lumencut.renderer import Renderer
     from lumencut.vessel import Vessel
     from lumencut.volume import Volume
@@ -150,7 +150,7 @@ def _check_count(vessels: list[tuple[str, Vessel]], output: Path, volume_out: Pa
         raise click.UsageError(f"{one} holds one vessel; found {len(vessels)}; {mend}")
 
 
-def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[str, Any]) -> Reformation:
+def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[str, Any]) -> PlanarReformation:
     """The image of one vessel, made, and a warning where it shows nothing."""
     import numpy as np
 
@@ -170,7 +170,7 @@ def _reformation(renderer: Renderer, vessel: Vessel, title: str, chosen: dict[st
     return made
 
 
-def _write(output: Path, made: list[Reformation], titles: list[str], *, annotate: bool) -> None:
+def _write(output: Path, made: list[PlanarReformation], titles: list[str], *, annotate: bool) -> None:
     """Write one vessel as it is, several as a contact sheet."""
     from lumencut.contact_sheet import contact_sheet
     from lumencut.frame import save_picture
@@ -182,7 +182,7 @@ def _write(output: Path, made: list[Reformation], titles: list[str], *, annotate
     save_picture(contact_sheet(pictures, titles), output)
 
 
-def _described(made: list[Reformation]) -> str:
+def _described(made: list[PlanarReformation]) -> str:
     """What was made, in words."""
     from lumencut.window import Window
 

@@ -24,6 +24,7 @@ pub use self::straightened::Straightened;
 use self::stretched::Stretched;
 use self::surface::Surface;
 pub use self::view::View;
+use super::layout::Layout;
 use crate::camera::{MAX_PIXEL_SPACING, MAX_PIXELS, MAX_SIZE};
 use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
@@ -121,11 +122,6 @@ impl Cpr {
         Self::laid_out(self.mode, view, Arc::clone(&self.path), straightened, self.width, self.pixel_spacing)
     }
 
-    /// Width and height in pixels.
-    pub fn size(&self) -> [usize; 2] {
-        self.size
-    }
-
     /// The space around the straightened vessel, where it is straightened.
     pub fn straightened(&self) -> Option<&Straightened> {
         self.straightened.as_ref()
@@ -143,12 +139,18 @@ impl Cpr {
     fn rows(&self) -> impl IndexedParallelIterator<Item = Row> {
         (0..self.size[1]).into_par_iter().map(|j| self.surface.row(j as f64 * self.pixel_spacing))
     }
+}
 
-    /// Where each pixel looks, and the direction in which a slab is thick there.
-    ///
-    /// # Errors
-    /// None for a layout that could be made.
-    pub fn curved(&self) -> Result<Curved> {
+impl Layout for Cpr {
+    fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    fn pixel_spacing(&self) -> f64 {
+        self.pixel_spacing
+    }
+
+    fn curved(&self) -> Result<Curved> {
         let (width, x) = (self.size[0], self.columns());
         let mut direction = vec![Vec3::ZERO; width * self.size[1]];
         let mut position = vec![DVec3::ZERO; width * self.size[1]];
@@ -161,28 +163,21 @@ impl Cpr {
         Curved::new(self.size, position, direction)
     }
 
-    /// The arc length of the vessel in each row (mm); that of the first of its points where several share the row.
-    pub fn arc_length(&self) -> Vec<f64> {
+    fn arc_length(&self) -> Vec<f64> {
         self.rows().map(|row| row.arc_length()).collect()
     }
 
-    /// Whether each pixel is folded, row by row: whether lines across the vessel meet before they reach it, or several of the
-    /// vessel's points share its row.
-    pub fn folded(&self) -> Vec<bool> {
+    fn folded(&self) -> Vec<bool> {
         let (x, spacing) = (self.columns(), self.pixel_spacing);
         let rows = (0..self.size[1]).into_par_iter();
         rows.flat_map(|j| self.surface.folded(j as f64 * spacing, &x)).collect()
     }
 
-    /// The world point (mm, LPS) at a place in the image, column and row, which may lie between pixels and beyond the image.
-    pub fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
+    fn world_from_pixel(&self, pixel: DVec2) -> DVec3 {
         self.surface.row(pixel.y * self.pixel_spacing).place(self.x(pixel.x))
     }
 
-    /// Where a world point lies in the image, column and row: where the image shows the point. One that it does not show lies
-    /// where the surface is nearest (projected: where the viewer sees it; straightened: in the section through the point
-    /// whose centre is nearest).
-    pub fn pixel_from_world(&self, point: DVec3) -> DVec2 {
+    fn pixel_from_world(&self, point: DVec3) -> DVec2 {
         let place = self.surface.image_from_world(point) / self.pixel_spacing;
         DVec2::new(place.x + (self.size[0] - 1) as f64 / 2.0, place.y)
     }

@@ -5,7 +5,9 @@ mod connections;
 pub mod cpr;
 pub mod cr;
 mod found;
+mod layout;
 pub mod mpcpr;
 
 pub use connections::Connections;
 pub use found::NO_VESSEL;
+pub use layout::Layout;

@@ -3,6 +3,7 @@
 use crate::feature_aggregation::Feature;
 use glam::{DVec2, DVec3};
 use lumencut_core::math::centerline_path::CenterlinePath;
+use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::{Cpr, CprMode, View};
 use lumencut_core::vessel_tree::Vessel;
 use serde::Deserialize;

@@ -4,6 +4,7 @@ use crate::feature_aggregation::{Feature, feature_aggregation};
 use lumencut_core::frame::Frame;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::pipeline::{self, Request};
+use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 use lumencut_core::stages::{Image, ImageSet};
 use serde::Serialize;

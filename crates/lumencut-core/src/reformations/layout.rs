@@ -1,0 +1,38 @@
+//! What every reformation that lays vessels out as an image has in common: a place in the world for each pixel, and the way
+//! between both.
+
+use glam::{DVec2, DVec3};
+
+use crate::error::Result;
+use crate::geometry::Curved;
+
+/// An image of which every pixel looks at a place of its own.
+///
+/// Places in the image are column and row, with fractions; the centre of the first pixel is (0, 0). World points are LPS, in mm.
+pub trait Layout: Send + Sync {
+    /// Width and height in pixels.
+    fn size(&self) -> [usize; 2];
+
+    /// The side of a pixel (mm).
+    fn pixel_spacing(&self) -> f64;
+
+    /// Where each pixel looks, and the direction in which a slab is thick there. Where nothing is shown the place is not finite.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Interrupted`] where finding the places takes long and the caller asks to stop.
+    fn curved(&self) -> Result<Curved>;
+
+    /// The arc length of the vessel (mm): one for each row where rows run along one vessel, else one for each pixel, NaN where
+    /// nothing is shown.
+    fn arc_length(&self) -> Vec<f64>;
+
+    /// Whether each pixel is folded, row by row: not to be trusted, because the image runs backwards there or shows what it
+    /// shows elsewhere too.
+    fn folded(&self) -> Vec<bool>;
+
+    /// The world point that a place in the image shows.
+    fn world_from_pixel(&self, pixel: DVec2) -> DVec3;
+
+    /// Where the image shows a world point.
+    fn pixel_from_world(&self, point: DVec3) -> DVec2;
+}

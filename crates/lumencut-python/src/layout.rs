@@ -1,0 +1,81 @@
+//! Reformations that lay vessels out as an image, as Python has them.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use lumencut::reformations;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::errors::to_python;
+use crate::pool;
+use crate::tree::points_of;
+
+/// Where the pixels of a reformation look; the base of those that know more.
+#[pyclass(frozen, subclass, module = "lumencut._lumencut")]
+pub struct Layout(pub Arc<dyn reformations::Layout>);
+
+#[pymethods]
+impl Layout {
+    /// Width and height in pixels.
+    #[getter]
+    fn size(&self) -> [usize; 2] {
+        self.0.size()
+    }
+
+    /// The side of a pixel (mm).
+    #[getter]
+    fn pixel_spacing(&self) -> f64 {
+        self.0.pixel_spacing()
+    }
+
+    /// The world point of each pixel (mm, LPS), shape (H, W, 3).
+    fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let curved = py.detach(|| pool::install(|| self.0.curved()))?.map_err(to_python)?;
+        let [width, height] = self.0.size();
+        numbers_of(py, curved.position()).reshape([height, width, 3])
+    }
+
+    /// The arc length of the vessel (mm), shape (H,) where rows run along one vessel, else (H * W,).
+    fn arc_length<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(PyArray1::from_vec(py, py.detach(|| pool::install(|| self.0.arc_length()))?))
+    }
+
+    /// Which pixels are folded, shape (H, W).
+    fn folded<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
+        let [width, height] = self.0.size();
+        PyArray1::from_vec(py, py.detach(|| pool::install(|| self.0.folded()))?).reshape([height, width])
+    }
+
+    /// The world points (n, 3) (mm, LPS) of places in the image (n, 2): column and row.
+    #[allow(clippy::needless_pass_by_value)]
+    fn world_from_pixel<'py>(
+        &self,
+        py: Python<'py>,
+        pixels: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let pixels: Vec<_> = pixels.as_array().rows().into_iter().map(|p| DVec2::new(p[0], p[1])).collect();
+        let world = |pixel: &DVec2| self.0.world_from_pixel(*pixel);
+        let points: Vec<_> = py.detach(|| pool::install(|| pixels.par_iter().map(world).collect()))?;
+        numbers_of(py, &points).reshape([points.len(), 3])
+    }
+
+    /// Where world points (n, 3) (mm, LPS) lie in the image, column and row, shape (n, 2).
+    #[allow(clippy::needless_pass_by_value)]
+    fn pixel_from_world<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = points_of(&points)?;
+        let pixel = |point: &DVec3| self.0.pixel_from_world(*point);
+        let pixels: Vec<_> = py.detach(|| pool::install(|| points.par_iter().map(pixel).collect()))?;
+        PyArray1::from_vec(py, pixels.iter().flat_map(DVec2::to_array).collect()).reshape([pixels.len(), 2])
+    }
+}
+
+/// The numbers of points, one after the other.
+pub fn numbers_of<'py>(py: Python<'py>, points: &[DVec3]) -> Bound<'py, PyArray1<f64>> {
+    PyArray1::from_vec(py, points.iter().flat_map(DVec3::to_array).collect())
+}

@@ -1,0 +1,98 @@
+"""The text that a PNG of Lumencut carries, and settings as its JSON has them."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import Any, NoReturn
+
+from lumencut import _lumencut
+from lumencut.errors import FileError, FormatError
+from lumencut.focus import Focus
+from lumencut.settings import Settings
+from lumencut.slab import Slab
+from lumencut.transfer import TransferFunction
+from lumencut.window import Opacity, Window
+
+#: The keyword of the text.
+KEYWORD = "Lumencut"
+
+_LONGEST = 100_000
+_CLASSES: dict[str, Any] = {"window": Window, "opacity": Opacity, "slab": Slab, "focus": Focus}
+
+
+def text_of(path: Path, expected: str) -> str:
+    """Return the text in a PNG. Its pixels are not decoded; a file without its end is refused.
+
+    Parameters
+    ----------
+    path : Path
+        The picture.
+    expected : str
+        What the caller expects, for errors.
+
+    Raises
+    ------
+    FormatError
+        For a file that is no whole PNG, or has no such text.
+    FileError
+        For a file that cannot be read.
+    """
+    from PIL.PngImagePlugin import PngImageFile
+
+    try:
+        with path.open("rb") as file:
+            picture = PngImageFile(file)
+            text = picture.info.get(KEYWORD)
+            picture.verify()
+    except OSError as error:
+        if error.errno is not None:
+            raise FileError(str(path), error.strerror or str(error), expected) from None
+        text = _unreadable(path, expected)
+    except (SyntaxError, ValueError, EOFError, struct.error, IndexError, KeyError, TypeError):
+        text = _unreadable(path, expected)
+    if not isinstance(text, str):
+        found = "a picture without the text that says how it was rendered"
+        raise FormatError(str(path), found, expected, "programs that change a picture may drop its text")
+    if len(text) > _LONGEST:
+        raise FormatError(str(path), f"a text of {len(text)} letters", f"at most {_LONGEST}")
+    return text
+
+
+def _unreadable(path: Path, expected: str) -> NoReturn:
+    raise FormatError(str(path), "no PNG, or a damaged one", expected, "copy it again") from None
+
+
+def plain_settings(settings: Settings) -> dict[str, Any]:
+    """Return settings as JSON has them: windows, slabs and transfer functions by their fields."""
+    return {name: _plain(getattr(settings, name)) for name in _lumencut.SETTINGS}
+
+
+def _plain(value: Any) -> Any:
+    is_made = isinstance(value, (*_CLASSES.values(), TransferFunction))
+    return vars(value) if is_made else value
+
+
+def settings_of(content: dict[str, Any]) -> Settings:
+    """Return the settings that JSON holds.
+
+    Raises
+    ------
+    KeyError
+        For other settings than those of this version.
+    TypeError, SettingsError
+        For values that are none of a setting.
+    """
+    if content.keys() != _lumencut.SETTINGS.keys():
+        raise KeyError("other settings than those of this version")
+    return Settings(**{name: _made(name, value) for name, value in content.items()})
+
+
+def _made(name: str, value: Any) -> Any:
+    """The value of a setting, made of its fields where it has some; `Settings` checks all others."""
+    kind = _lumencut.SETTINGS[name].kind
+    if not isinstance(value, dict):
+        return value
+    if kind == "transfer":
+        return TransferFunction(**value)
+    return _CLASSES[kind](**value)

@@ -1,0 +1,87 @@
+"""What a picture of a reformation says of itself: in words what its axes are, and how it was made.
+
+It names no file and no vessel, and takes over nothing that the files say of the patient or the scan.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from lumencut import _lumencut
+from lumencut._files import checked_path
+from lumencut.errors import FormatError, SettingsError
+from lumencut.picture_text import KEYWORD, plain_settings, settings_of, text_of
+from lumencut.settings import Settings
+
+#: The version of what the text holds.
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class ReformationRecipe:
+    """How the image of a reformation was made.
+
+    Attributes
+    ----------
+    name : str
+        What the reformation is called, such as ``"straightened CPR"``.
+    axes : str
+        What rows and columns are, in words.
+    parameters : dict
+        The parameters of the function that made it, by their names, as JSON holds them.
+    """
+
+    name: str
+    axes: str
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+
+def png_options(recipe: ReformationRecipe, settings: Settings) -> dict[str, Any]:
+    """Return what Pillow takes to write the recipe into a PNG."""
+    from PIL.PngImagePlugin import PngInfo
+
+    content = {
+        "format": _FORMAT,
+        "version": _lumencut.__version__,
+        "reformation": recipe.name,
+        "axes": recipe.axes,
+        "parameters": recipe.parameters,
+        "settings": plain_settings(settings),
+    }
+    info = PngInfo()
+    info.add_text("Software", f"Lumencut {_lumencut.__version__}")
+    info.add_text("Description", f"{recipe.name}. {recipe.axes}")
+    info.add_text(KEYWORD, json.dumps(content, allow_nan=False))
+    return {"pnginfo": info}
+
+
+def read_reformation_recipe(path: str | Path) -> tuple[ReformationRecipe, Settings]:
+    """Return how a picture of a reformation was made, and its settings.
+
+    Raises
+    ------
+    FormatError
+        For a file that is no whole PNG, was not written by Lumencut, or shows no reformation.
+    FileError
+        For a file that cannot be read.
+    """
+    expected = "a PNG picture of a reformation that Lumencut wrote"
+    place = checked_path(path, expected)
+    found = "a text that does not say how to make it"
+    try:
+        content = json.loads(text_of(place, expected))
+        if content.get("format") != _FORMAT:
+            found = "a text of another version of Lumencut"
+        elif "reformation" not in content:
+            found = "a picture of a view, which lumencut render --like takes"
+        else:
+            recipe = ReformationRecipe(content["reformation"], content["axes"], content["parameters"])
+            if isinstance(recipe.parameters, dict) and isinstance(recipe.name, str):
+                return recipe, settings_of(content["settings"])
+    except (SettingsError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        if isinstance(error, FormatError):
+            raise
+    raise FormatError(str(place), found, expected, "give the options themselves")
