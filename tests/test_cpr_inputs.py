@@ -141,10 +141,8 @@ def test_defaults(volume):
     assert made.value.shape == made.folded.shape == made.position.shape[:2] == made.size[::-1]
     assert (made.value.dtype, made.folded.dtype, made.position.dtype) == (np.float32, bool, np.float64)
     assert made.arc_length.shape == (made.size[1],)
-    assert (
-        repr(made)
-        == f"PlanarReformation(projected CPR, {made.size[0]} × {made.size[1]} pixels of {made.pixel_spacing:.4g} mm)"
-    )
+    pixels = f"{made.size[0]} × {made.size[1]} pixels of {made.pixel_spacing:.4g} mm"
+    assert repr(made) == f"PlanarReformation(projected CPR, {pixels})"
 
 
 def test_the_window_is_that_of_the_settings(volume):
